@@ -1,4 +1,5 @@
 #include "flightpaths/acmi_recording.h"
+
 #include "flightpaths/derived_motion.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
@@ -27,9 +28,8 @@ namespace octant::flightpaths {
 
 namespace {
 
-// Source: Tacview, "Technical Reference - ACMI flight recordings 2.2". A line is a time (#), the
-// end of an object (-), or an object's number and properties between commas; a backslash takes a
-// comma or a line's end for what it is.
+// Source: Tacview, "Technical Reference - ACMI flight recordings 2.2". A line is a time (#), the end of an object (-),
+// or an object's number and properties between commas; a backslash takes a comma or a line's end for what it is.
 
 /// Where an object is, as far as a tape has said: degrees and metres.
 struct AcmiSample {
@@ -63,18 +63,13 @@ struct Source {
     [[noreturn]] void refuse(std::string_view wanted, std::string_view got) const {
         constexpr std::size_t shown = 60;
         throw_error_at(
-            file,
-            line,
-            fmt::format(
-                "expected {}, got '{}'", wanted, printable(std::string(got.substr(0, shown)))));
+            file, line, fmt::format("expected {}, got '{}'", wanted, printable(std::string(got.substr(0, shown)))));
     }
 };
 
 double number_from(std::string_view text, const Source& at) {
     const auto value = finite_number(text);
-    if (!value) {
-        at.refuse("a number", text);
-    }
+    if (!value) { at.refuse("a number", text); }
     return *value;
 }
 
@@ -116,8 +111,7 @@ std::string plain(std::string_view text) {
 
 class Reader {
 public:
-    explicit Reader(const std::filesystem::path& file)
-        : file_(file) {}
+    explicit Reader(const std::filesystem::path& file) : file_(file) {}
 
     void take(std::string_view line, int number) {
         const Source at{file_, number};
@@ -152,21 +146,15 @@ private:
         const std::vector<std::string_view> fields = fields_of(line);
         const std::uint64_t id = id_from(fields.front(), at);
         if (id == 0) {
-            for (std::size_t i = 1; i < fields.size(); ++i) {
-                take_global(fields[i], at);
-            }
+            for (std::size_t i = 1; i < fields.size(); ++i) { take_global(fields[i], at); }
             return;
         }
         const auto [found, is_new] = now_.try_emplace(id, Present{objects_.size(), {}, false});
         if (is_new) {
-            if (objects_.size() == max_objects) {
-                at.refuse(fmt::format("at most {} objects", max_objects), line);
-            }
+            if (objects_.size() == max_objects) { at.refuse(fmt::format("at most {} objects", max_objects), line); }
             objects_.emplace_back();
         }
-        for (std::size_t i = 1; i < fields.size(); ++i) {
-            take_property(fields[i], found->second, at);
-        }
+        for (std::size_t i = 1; i < fields.size(); ++i) { take_property(fields[i], found->second, at); }
     }
 
     void take_global(std::string_view field, const Source& at) {
@@ -182,9 +170,7 @@ private:
     void take_property(std::string_view field, Present& present, const Source& at) {
         AcmiObject& object = objects_[present.object];
         const std::size_t equals = field.find('=');
-        if (equals == std::string_view::npos) {
-            return;
-        }
+        if (equals == std::string_view::npos) { return; }
         const std::string_view value = field.substr(equals + 1);
         const std::string_view name = field.substr(0, equals);
         if (name == "T") {
@@ -208,13 +194,8 @@ private:
             at.refuse("3, 5, 6 or 9 components after T=", text);
         }
         AcmiSample& place = present.place;
-        const std::array<double*, turned> targets{
-            &place.longitude_deg,
-            &place.latitude_deg,
-            &place.altitude_m,
-            &place.roll_deg,
-            &place.pitch_deg,
-            &place.heading_deg};
+        const std::array<double*, turned> targets{&place.longitude_deg, &place.latitude_deg, &place.altitude_m,
+            &place.roll_deg, &place.pitch_deg, &place.heading_deg};
         const std::size_t used = count >= turned ? turned : bare;
         for (std::size_t i = 0; i < used; ++i) {
             if (!parts[i].empty()) {
@@ -227,9 +208,7 @@ private:
         object.has_attitude = object.has_attitude || count >= turned;
         place.time_s = time_s_;
         if (present.has_place) {
-            if (++places_ > max_places) {
-                at.refuse(fmt::format("at most {} places", max_places), text);
-            }
+            if (++places_ > max_places) { at.refuse(fmt::format("at most {} places", max_places), text); }
             object.places.push_back(place);
         }
     }
@@ -248,21 +227,15 @@ void check_head(const std::vector<std::string_view>& lines, const std::filesyste
     constexpr std::string_view type = "FileType=text/acmi/tacview";
     constexpr std::string_view version = "FileVersion=2.";
     const std::string_view first = lines.empty() ? std::string_view() : lines.front();
-    if (first != type) {
-        Source{file, 1}.refuse(type, first);
-    }
+    if (first != type) { Source{file, 1}.refuse(type, first); }
     const std::string_view second = lines.size() < 2 ? std::string_view() : lines[1];
-    if (!second.starts_with(version)) {
-        Source{file, 2}.refuse("FileVersion=2.x", second);
-    }
+    if (!second.starts_with(version)) { Source{file, 2}.refuse("FileVersion=2.x", second); }
 }
 
 /// The objects of an ACMI text in the order in which they appear. Throws Error with file and line.
 std::vector<AcmiObject> parse_acmi_objects(std::string_view text, const std::filesystem::path& file) {
     constexpr std::string_view mark = "\xef\xbb\xbf";
-    if (text.starts_with(mark)) {
-        text.remove_prefix(mark.size());
-    }
+    if (text.starts_with(mark)) { text.remove_prefix(mark.size()); }
     const std::vector<std::string_view> lines = split_lines(text);
     check_head(lines, file);
     Reader reader(file);
@@ -277,9 +250,7 @@ std::vector<AcmiObject> parse_acmi_objects(std::string_view text, const std::fil
             continue;
         }
         broken.append(line);
-        if (!split_words(broken).empty()) {
-            reader.take(broken, begun_at);
-        }
+        if (!split_words(broken).empty()) { reader.take(broken, begun_at); }
         broken.clear();
     }
     return std::move(reader).objects();
@@ -312,8 +283,8 @@ bool is_on_earth(const AcmiSample& place) {
 
 /// In order of time, the last of those of one time, those on the earth alone.
 std::vector<AcmiSample> in_order(std::vector<AcmiSample> places, Omitted& omitted) {
-    omitted.samples += static_cast<long>(
-        std::erase_if(places, [](const AcmiSample& place) { return !is_on_earth(place); }));
+    omitted.samples +=
+        static_cast<long>(std::erase_if(places, [](const AcmiSample& place) { return !is_on_earth(place); }));
     std::ranges::stable_sort(places, {}, &AcmiSample::time_s);
     std::vector<AcmiSample> ordered;
     for (const AcmiSample& place : places) {
@@ -326,36 +297,27 @@ std::vector<AcmiSample> in_order(std::vector<AcmiSample> places, Omitted& omitte
     return ordered;
 }
 
-double span_s(const std::vector<AcmiSample>& places) {
-    return places.back().time_s - places.front().time_s;
-}
+double span_s(const std::vector<AcmiSample>& places) { return places.back().time_s - places.front().time_s; }
 
 sim::AircraftState state_of(const AcmiSample& taped, const EarthFrame& frame, double begin_s) {
     sim::AircraftState state;
     state.time_s = taped.time_s - begin_s;
     const FramePosition local = frame.place_of({taped.latitude_deg, taped.longitude_deg});
     state.position_m = glm::dvec3(local.east_north_m, taped.altitude_m);
-    state.body_to_world = body_to_world_from_euler(
-        {rad_from_deg(taped.heading_deg) + local.north_bearing_rad,
-         rad_from_deg(taped.pitch_deg),
-         rad_from_deg(taped.roll_deg)});
+    state.body_to_world = body_to_world_from_euler({rad_from_deg(taped.heading_deg) + local.north_bearing_rad,
+        rad_from_deg(taped.pitch_deg), rad_from_deg(taped.roll_deg)});
     return state;
 }
 
 /// Nothing where it is too far away or fewer than two samples are left.
-std::optional<sim::Trajectory> trajectory_of(
-    const std::vector<AcmiSample>& places,
-    bool has_attitude,
-    const EarthFrame& frame,
-    double begin_s,
-    Omitted& omitted) {
+std::optional<sim::Trajectory> trajectory_of(const std::vector<AcmiSample>& places, bool has_attitude,
+    const EarthFrame& frame, double begin_s, Omitted& omitted) {
     std::vector<sim::AircraftState> samples;
     for (const AcmiSample& place : places) {
         const sim::AircraftState state = state_of(place, frame, begin_s);
         const bool near = glm::length(glm::dvec2(state.position_m)) <= furthest_m;
-        const bool follows =
-            samples.empty() || glm::distance(samples.back().position_m, state.position_m) <=
-                                   fastest_mps * (state.time_s - samples.back().time_s);
+        const bool follows = samples.empty() || glm::distance(samples.back().position_m, state.position_m) <=
+                                                    fastest_mps * (state.time_s - samples.back().time_s);
         if (near && follows) {
             samples.push_back(state);
         } else {
@@ -367,9 +329,7 @@ std::optional<sim::Trajectory> trajectory_of(
         return std::nullopt;
     }
     fill_velocities(samples);
-    if (!has_attitude) {
-        fill_attitudes(samples);
-    }
+    if (!has_attitude) { fill_attitudes(samples); }
     fill_load_factors(samples);
     return sim::Trajectory(std::move(samples));
 }
@@ -377,9 +337,7 @@ std::optional<sim::Trajectory> trajectory_of(
 std::vector<std::string> notes_of(const Omitted& omitted, const std::filesystem::path& file) {
     std::vector<std::string> notes;
     const auto tell = [&](long count, std::string_view what) {
-        if (count > 0) {
-            notes.push_back(fmt::format("{}: left out {} {}", file.string(), count, what));
-        }
+        if (count > 0) { notes.push_back(fmt::format("{}: left out {} {}", file.string(), count, what)); }
     };
     tell(omitted.others, "objects that are no aircraft");
     tell(omitted.once, "aircraft that are seen at one time alone");
@@ -397,22 +355,17 @@ AcmiRecording parse_acmi(std::string_view text, const std::filesystem::path& fil
     const auto count = static_cast<int>(objects.size());
     std::erase_if(objects, [](const AcmiObject& object) { return !flies(object); });
     omitted.others = count - static_cast<int>(objects.size());
-    for (AcmiObject& object : objects) {
-        object.places = in_order(std::move(object.places), omitted);
-    }
-    omitted.once = static_cast<int>(
-        std::erase_if(objects, [](const AcmiObject& object) { return object.places.size() < 2; }));
+    for (AcmiObject& object : objects) { object.places = in_order(std::move(object.places), omitted); }
+    omitted.once =
+        static_cast<int>(std::erase_if(objects, [](const AcmiObject& object) { return object.places.size() < 2; }));
     if (objects.empty()) {
-        throw_error_in(
-            file, fmt::format("expected aircraft that move, got none among {} objects", count));
+        throw_error_in(file, fmt::format("expected aircraft that move, got none among {} objects", count));
     }
-    const auto longest = std::ranges::max_element(
-        objects, {}, [](const AcmiObject& object) { return span_s(object.places); });
+    const auto longest =
+        std::ranges::max_element(objects, {}, [](const AcmiObject& object) { return span_s(object.places); });
     std::rotate(objects.begin(), longest, longest + 1);
     double begin_s = objects.front().places.front().time_s;
-    for (const AcmiObject& object : objects) {
-        begin_s = std::min(begin_s, object.places.front().time_s);
-    }
+    for (const AcmiObject& object : objects) { begin_s = std::min(begin_s, object.places.front().time_s); }
     const AcmiSample& first = objects.front().places.front();
     AcmiRecording tape{{}, {first.latitude_deg, first.longitude_deg}, {}};
     const TransverseMercator frame(tape.origin);
@@ -421,11 +374,9 @@ AcmiRecording parse_acmi(std::string_view text, const std::filesystem::path& fil
             ++omitted.many;
             continue;
         }
-        auto trajectory =
-            trajectory_of(object.places, object.has_attitude, frame, begin_s, omitted);
+        auto trajectory = trajectory_of(object.places, object.has_attitude, frame, begin_s, omitted);
         if (trajectory) {
-            tape.aircraft.push_back(
-                {std::move(object.name), std::move(object.type), std::move(*trajectory)});
+            tape.aircraft.push_back({std::move(object.name), std::move(object.type), std::move(*trajectory)});
         } else if (tape.aircraft.empty()) {
             throw_error_in(file, "expected an aircraft that moves slower than 3,000 m/s, got none");
         }

@@ -14,13 +14,9 @@ namespace {
 
 /// Slope at time t of the parabola through three points of a member of the samples.
 glm::dvec3 slope(
-    const std::vector<sim::AircraftState>& samples,
-    std::size_t at,
-    glm::dvec3 sim::AircraftState::*member) {
+    const std::vector<sim::AircraftState>& samples, std::size_t at, glm::dvec3 sim::AircraftState::*member) {
     const std::size_t count = samples.size();
-    if (count == 2) {
-        return (samples[1].*member - samples[0].*member) / (samples[1].time_s - samples[0].time_s);
-    }
+    if (count == 2) { return (samples[1].*member - samples[0].*member) / (samples[1].time_s - samples[0].time_s); }
     const std::size_t middle = std::clamp<std::size_t>(at, 1, count - 2);
     const sim::AircraftState& a = samples[middle - 1];
     const sim::AircraftState& b = samples[middle];
@@ -36,8 +32,7 @@ glm::dvec3 slope(
 
 /// Acceleration that the aircraft feels: the change of its velocity without gravity.
 glm::dvec3 felt_mps2(const std::vector<sim::AircraftState>& samples, std::size_t at) {
-    return slope(samples, at, &sim::AircraftState::velocity_mps) +
-           glm::dvec3(0.0, 0.0, gravity_mps2);
+    return slope(samples, at, &sim::AircraftState::velocity_mps) + glm::dvec3(0.0, 0.0, gravity_mps2);
 }
 
 } // namespace
@@ -55,9 +50,7 @@ void fill_attitudes(std::vector<sim::AircraftState>& samples) {
     glm::dvec3 lift(0.0, 0.0, 1.0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const double speed_mps = glm::length(samples[i].velocity_mps);
-        if (speed_mps > 0.1) {
-            forward = samples[i].velocity_mps / speed_mps;
-        }
+        if (speed_mps > 0.1) { forward = samples[i].velocity_mps / speed_mps; }
         const glm::dvec3 felt = felt_mps2(samples, i);
         const glm::dvec3 across = felt - glm::dot(felt, forward) * forward;
         const glm::dvec3 kept = lift - glm::dot(lift, forward) * forward;
@@ -68,12 +61,10 @@ void fill_attitudes(std::vector<sim::AircraftState>& samples) {
         } else {
             // Turned onto the old lift direction within one sample: any direction across will do.
             const glm::dvec3 any = glm::cross(forward, glm::dvec3(1.0, 0.0, 0.0));
-            lift = glm::normalize(
-                glm::length(any) > 1e-6 ? any : glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
+            lift = glm::normalize(glm::length(any) > 1e-6 ? any : glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
         }
         const glm::dvec3 right = glm::cross(forward, lift);
-        samples[i].body_to_world =
-            glm::normalize(glm::quat_cast(glm::dmat3(forward, right, -lift)));
+        samples[i].body_to_world = glm::normalize(glm::quat_cast(glm::dmat3(forward, right, -lift)));
     }
 }
 

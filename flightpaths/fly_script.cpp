@@ -27,14 +27,9 @@ constexpr double climb_slack_mps = 0.05;
 class Flight {
 public:
     Flight(const PathScript& script, const sim::AircraftKind& kind, bool lenient)
-        : script_(script)
-        , limits_(kind.limits)
-        , lenient_(lenient)
-        , check_(script, kind, lenient, notes_)
-        , mass_(start()) {
-        for (const Leg& leg : script.legs) {
-            legs_.push_back(check_.checked(leg));
-        }
+        : script_(script), limits_(kind.limits), lenient_(lenient), check_(script, kind, lenient, notes_),
+          mass_(start()) {
+        for (const Leg& leg : script.legs) { legs_.push_back(check_.checked(leg)); }
     }
 
     FlownPath flown() {
@@ -42,17 +37,13 @@ public:
         const long last_step = (script_.samples - 1) * steps_a_sample;
         begin_leg(0, 0);
         for (long step = 0; step <= last_step; ++step) {
-            if (step % steps_a_sample == 0) {
-                samples_.push_back(sample(step));
-            }
+            if (step % steps_a_sample == 0) { samples_.push_back(sample(step)); }
             change_legs(step, last_step);
             take_step(step);
         }
         for (std::size_t leg = leg_ + 1; leg < legs_.size(); ++leg) {
-            notes_.push_back(fmt::format(
-                "{}:{}: the last sample comes before this leg",
-                script_.file.string(),
-                legs_[leg].line));
+            notes_.push_back(
+                fmt::format("{}:{}: the last sample comes before this leg", script_.file.string(), legs_[leg].line));
         }
         return {sim::Trajectory(std::move(samples_)), std::move(notes_), std::move(begins_)};
     }
@@ -61,23 +52,13 @@ private:
     PointMass start() {
         const LimitsCheck::Subject speed{script_.start_line, "starting speed", " m/s"};
         const double speed_mps = check_.at_least(
-            check_.at_most(script_.speed_mps, limits_.max_speed_mps, speed),
-            min_flown_speed_mps(limits_),
-            speed);
-        return point_mass_at(
-            {script_.east_m, script_.north_m, script_.height_m},
-            speed_mps,
-            script_.heading_rad,
-            0.0);
+            check_.at_most(script_.speed_mps, limits_.max_speed_mps, speed), min_flown_speed_mps(limits_), speed);
+        return point_mass_at({script_.east_m, script_.north_m, script_.height_m}, speed_mps, script_.heading_rad, 0.0);
     }
 
     sim::AircraftState sample(long step) const {
-        return {
-            sim::time_of_step(step),
-            mass_.position_m,
-            velocity_mps(mass_),
-            body_to_world(mass_, script_.angle_of_attack_rad_per_g * mass_.load_factor),
-            mass_.load_factor};
+        return {sim::time_of_step(step), mass_.position_m, velocity_mps(mass_),
+            body_to_world(mass_, script_.angle_of_attack_rad_per_g * mass_.load_factor), mass_.load_factor};
     }
 
     double since_s(long step) const { return sim::time_of_step(step - leg_step_); }
@@ -90,27 +71,17 @@ private:
         pilot_.emplace(now, mass_, limits_);
         clipped_climb_ = false;
         clipped_speed_ = false;
-        begins_.push_back(
-            {sim::time_of_step(step),
-             now.label.empty() ? std::string(word_of(now.kind)) : now.label});
+        begins_.push_back({sim::time_of_step(step), now.label.empty() ? std::string(word_of(now.kind)) : now.label});
     }
 
     void check_height(const Leg& leg) const {
-        if (!leg.to_height_m) {
-            return;
-        }
+        if (!leg.to_height_m) { return; }
         const bool up = leg.kind == LegKind::Climb;
         const double here_m = mass_.position_m.z;
         if (up ? *leg.to_height_m < here_m : *leg.to_height_m > here_m) {
-            throw_error_at(
-                script_.file,
-                leg.line,
-                fmt::format(
-                    "expected to_height {} the {:.1f} m where the {} begins, got {:.1f} m",
-                    up ? "above" : "below",
-                    here_m,
-                    word_of(leg.kind),
-                    *leg.to_height_m));
+            throw_error_at(script_.file, leg.line,
+                fmt::format("expected to_height {} the {:.1f} m where the {} begins, got {:.1f} m",
+                    up ? "above" : "below", here_m, word_of(leg.kind), *leg.to_height_m));
         }
     }
 
@@ -124,14 +95,9 @@ private:
                 ended_step_ = step;
                 const double rest_s = sim::time_of_step(last_step - step);
                 if (rest_s > held_on_s) {
-                    throw_error_at(
-                        script_.file,
-                        legs_[leg_].line,
-                        fmt::format(
-                            "expected legs for {:.2f} s ({} samples), got {:.2f} s",
-                            sim::time_of_step(last_step),
-                            script_.samples,
-                            sim::time_of_step(step)));
+                    throw_error_at(script_.file, legs_[leg_].line,
+                        fmt::format("expected legs for {:.2f} s ({} samples), got {:.2f} s",
+                            sim::time_of_step(last_step), script_.samples, sim::time_of_step(step)));
                 }
             }
             return;
@@ -139,14 +105,9 @@ private:
         const Leg& leg = legs_[leg_];
         const bool pulls = leg.kind == LegKind::Pull || leg.kind == LegKind::Push;
         if (pulls && since_s(step) > longest_pull_s) {
-            throw_error_at(
-                script_.file,
-                leg.line,
-                fmt::format(
-                    "expected a {} that reaches {:.1f} deg within {:.0f} s, got {:.1f} deg",
-                    word_of(leg.kind),
-                    deg_from_rad(*leg.climb_rad),
-                    longest_pull_s,
+            throw_error_at(script_.file, leg.line,
+                fmt::format("expected a {} that reaches {:.1f} deg within {:.0f} s, got {:.1f} deg", word_of(leg.kind),
+                    deg_from_rad(*leg.climb_rad), longest_pull_s,
                     deg_from_rad(euler_from_body_to_world(mass_.flight_to_world).pitch_rad)));
         }
     }
@@ -163,18 +124,13 @@ private:
         const double climb_mps = velocity_mps(mass_).z;
         const double sustained_mps = climb_mps + mass_.speed_mps * acceleration_mps2 / gravity_mps2;
         const double max_mps = limits_.climb_rate_mps;
-        if (sustained_mps <= max_mps + climb_slack_mps) {
-            return acceleration_mps2;
-        }
+        if (sustained_mps <= max_mps + climb_slack_mps) { return acceleration_mps2; }
         if (!lenient_ || !clipped_climb_) {
             // What the leg is heading for says more than the moment that passes the limit.
             const Leg& leg = legs_[leg_];
             const double aimed_mps =
                 sustained_mps - climb_mps + mass_.speed_mps * std::sin(leg.climb_rad.value_or(0.0));
-            check_.at_most(
-                std::max(sustained_mps, aimed_mps),
-                max_mps,
-                {leg.line, "sustained climb rate", " m/s"});
+            check_.at_most(std::max(sustained_mps, aimed_mps), max_mps, {leg.line, "sustained climb rate", " m/s"});
             clipped_climb_ = true;
         }
         return (max_mps - climb_mps) * gravity_mps2 / mass_.speed_mps;
@@ -185,9 +141,7 @@ private:
         const double max_mps = limits_.max_speed_mps;
         const double min_mps = min_flown_speed_mps(limits_);
         const double allowed_mps = std::clamp(next_mps, min_mps, max_mps);
-        if (std::abs(next_mps - allowed_mps) <= 1e-6) {
-            return acceleration_mps2;
-        }
+        if (std::abs(next_mps - allowed_mps) <= 1e-6) { return acceleration_mps2; }
         if (!lenient_ || !clipped_speed_) {
             const LimitsCheck::Subject speed{legs_[leg_].line, "speed", " m/s"};
             check_.at_least(check_.at_most(next_mps, max_mps, speed), min_mps, speed);

@@ -15,8 +15,8 @@ struct KnownLog {
     std::string_view name;
 };
 
-/// Names in small letters without blanks and underscores. Of several that a log has, the first one
-/// here is taken. Headings by a compass (G1000's HDG) are left out: they are not true ones.
+/// Names in small letters without blanks and underscores. Of several that a log has, the first one here is taken.
+/// Headings by a compass (G1000's HDG) are left out: they are not true ones.
 constexpr std::array known_names{
     KnownLog{LogQuantity::Time, "timestamp"},
     KnownLog{LogQuantity::Time, "time"},
@@ -97,8 +97,7 @@ const std::array known_units{
 
 std::string in_small_letters(std::string_view text) {
     std::string small(text);
-    std::ranges::transform(
-        small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return small;
 }
 
@@ -132,9 +131,8 @@ LogName name_of(std::string_view text) {
 }
 
 bool is_of_flightradar(const std::vector<LogName>& names) {
-    return std::ranges::any_of(names, [](const LogName& name) {
-        return name.plain == "position" || name.plain == "networktime";
-    });
+    return std::ranges::any_of(
+        names, [](const LogName& name) { return name.plain == "position" || name.plain == "networktime"; });
 }
 
 } // namespace
@@ -147,22 +145,16 @@ std::optional<LogColumns> log_columns(
     for (const KnownLog& known : known_names) {
         auto& column = columns.of[static_cast<std::size_t>(known.what)];
         const auto found = std::ranges::find(plain, known.name, &LogName::plain);
-        if (column || found == plain.end()) {
-            continue;
-        }
+        if (column || found == plain.end()) { continue; }
         const auto field = static_cast<std::size_t>(found - plain.begin());
         std::optional<double> factor = found->factor;
-        if (!factor && field < units.size()) {
-            factor = factor_of(units[field]);
-        }
+        if (!factor && field < units.size()) { factor = factor_of(units[field]); }
         column = {field, std::string(names[field]), factor.value_or(1.0), factor.has_value()};
     }
     const bool has_place =
         columns[LogQuantity::Position] || (columns[LogQuantity::Latitude] && columns[LogQuantity::Longitude]);
     auto& altitude = columns.of[static_cast<std::size_t>(LogQuantity::Altitude)];
-    if (!columns[LogQuantity::Time] || !has_place || !altitude) {
-        return std::nullopt;
-    }
+    if (!columns[LogQuantity::Time] || !has_place || !altitude) { return std::nullopt; }
     if (!altitude->has_unit && is_of_flightradar(plain)) {
         altitude->factor = m_from_ft(1.0);
         altitude->has_unit = true;

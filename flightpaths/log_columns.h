@@ -40,17 +40,14 @@ struct LogColumn {
 struct LogColumns {
     std::array<std::optional<LogColumn>, static_cast<std::size_t>(LogQuantity::Count)> of;
 
-    const std::optional<LogColumn>& operator[](LogQuantity what) const {
-        return of[static_cast<std::size_t>(what)];
-    }
+    const std::optional<LogColumn>& operator[](LogQuantity what) const { return of[static_cast<std::size_t>(what)]; }
 };
 
-/// Finds the columns of a flight by their names, of which many are known, whatever their case,
-/// blanks and underscores, and with a unit in brackets or at the end: "Altitude (ft)", "alt_m",
-/// "hMSL". `units`: a line of units beside the names; may be empty. Altitudes without a unit are
-/// feet beside Flightradar24's columns and metres else. Nothing where time, place or altitude is
-/// missing.
-std::optional<LogColumns>
-log_columns(const std::vector<std::string_view>& names, const std::vector<std::string_view>& units);
+/// Finds the columns of a flight by their names, of which many are known, whatever their case, blanks and underscores,
+/// and with a unit in brackets or at the end: "Altitude (ft)", "alt_m", "hMSL". `units`: a line of units beside the
+/// names; may be empty. Altitudes without a unit are feet beside Flightradar24's columns and metres else. Nothing where
+/// time, place or altitude is missing.
+std::optional<LogColumns> log_columns(
+    const std::vector<std::string_view>& names, const std::vector<std::string_view>& units);
 
 } // namespace octant::flightpaths

@@ -1,5 +1,5 @@
-// How each leg is flown. The rules are our own: a bank and a load factor to aim at, both followed
-// with a short lag and within the aircraft's rates.
+// How each leg is flown. The rules are our own: a bank and a load factor to aim at, both followed with a short lag and
+// within the aircraft's rates.
 
 #include "flightpaths/manoeuvre.h"
 
@@ -32,8 +32,7 @@ ManoeuvreTarget aim_of_pull(double right_g, double up_g) {
 
 ManoeuvreTarget weave_target(const Leg& leg, double since_s, double climb_rad) {
     const auto at = [&](double time_s) {
-        return aim_of_pull(
-            weave_g(leg.lateral_g, leg.period_s, time_s),
+        return aim_of_pull(weave_g(leg.lateral_g, leg.period_s, time_s),
             std::cos(climb_rad) + weave_g(leg.vertical_g, leg.vertical_period_s, time_s));
     };
     constexpr double ahead_s = 0.01;
@@ -45,9 +44,7 @@ ManoeuvreTarget weave_target(const Leg& leg, double since_s, double climb_rad) {
 }
 
 LegPilot::LegPilot(const Leg& leg, const PointMass& start, const sim::AircraftLimits& limits)
-    : leg_(leg)
-    , limits_(limits)
-    , start_height_m_(start.position_m.z) {
+    : leg_(leg), limits_(limits), start_height_m_(start.position_m.z) {
     const EulerAngles angles = euler_from_body_to_world(start.flight_to_world);
     start_climb_rad_ = angles.pitch_rad;
     last_track_rad_ = angles.heading_rad;
@@ -65,23 +62,18 @@ PointMassControls LegPilot::controls(const PointMass& now, double since_s) const
     const ManoeuvreTarget to = aim(now, since_s);
     PointMassControls controls;
     controls.roll_rate_radps = roll_rate(now, to);
-    const double aimed =
-        std::clamp(to.load_factor, limits_.min_load_factor, limits_.max_load_factor);
-    controls.load_factor_rate_gps = std::clamp(
-        to.load_factor_rate_gps + (aimed - now.load_factor) / load_factor_lag_s,
-        -limits_.load_factor_rate_gps,
-        limits_.load_factor_rate_gps);
-    const bool fast_enough = leg_.to_speed_mps && (leg_.acceleration_mps2 > 0.0) ==
-                                                      (now.speed_mps >= *leg_.to_speed_mps);
+    const double aimed = std::clamp(to.load_factor, limits_.min_load_factor, limits_.max_load_factor);
+    controls.load_factor_rate_gps = std::clamp(to.load_factor_rate_gps + (aimed - now.load_factor) / load_factor_lag_s,
+        -limits_.load_factor_rate_gps, limits_.load_factor_rate_gps);
+    const bool fast_enough =
+        leg_.to_speed_mps && (leg_.acceleration_mps2 > 0.0) == (now.speed_mps >= *leg_.to_speed_mps);
     controls.acceleration_mps2 = fast_enough ? 0.0 : leg_.acceleration_mps2;
     return controls;
 }
 
 bool LegPilot::done(const PointMass& now, double since_s) const {
     constexpr double rounding_s = 1e-9;
-    if (leg_.duration_s) {
-        return since_s >= *leg_.duration_s - rounding_s;
-    }
+    if (leg_.duration_s) { return since_s >= *leg_.duration_s - rounding_s; }
     if (leg_.to_height_m) {
         return *leg_.to_height_m >= start_height_m_ ? now.position_m.z >= *leg_.to_height_m
                                                     : now.position_m.z <= *leg_.to_height_m;
@@ -97,9 +89,7 @@ void LegPilot::count_turn(const PointMass& now) {
 
 ManoeuvreTarget LegPilot::aim(const PointMass& now, double since_s) const {
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
-    if (leg_.kind == LegKind::Jink) {
-        return weave_target(leg_, since_s, angles.pitch_rad);
-    }
+    if (leg_.kind == LegKind::Jink) { return weave_target(leg_, since_s, angles.pitch_rad); }
     ManoeuvreTarget aim;
     if (leg_.kind == LegKind::Pull || leg_.kind == LegKind::Push) {
         // Loaded only as far as the lift points where it should: the roll into it is unloaded.
@@ -110,8 +100,7 @@ ManoeuvreTarget LegPilot::aim(const PointMass& now, double since_s) const {
     }
     if (leg_.kind == LegKind::Turn) {
         const double bank =
-            leg_.bank_rad ? *leg_.bank_rad
-                          : std::acos(std::min(1.0, std::cos(hold_climb_rad_) / *leg_.load_factor));
+            leg_.bank_rad ? *leg_.bank_rad : std::acos(std::min(1.0, std::cos(hold_climb_rad_) / *leg_.load_factor));
         aim.bank_rad = leg_.to_the_left ? -bank : bank;
     }
     aim.load_factor = load_factor_to_hold_path(now, aim.bank_rad);
@@ -120,18 +109,14 @@ ManoeuvreTarget LegPilot::aim(const PointMass& now, double since_s) const {
 
 double LegPilot::load_factor_to_hold_path(const PointMass& now, double aim_bank_rad) const {
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
-    const double correction_g =
-        now.speed_mps / gravity_mps2 * (hold_climb_rad_ - angles.pitch_rad) / path_lag_s;
-    const double up_g = std::cos(angles.pitch_rad) +
-                        std::clamp(correction_g, -path_correction_g, path_correction_g);
+    const double correction_g = now.speed_mps / gravity_mps2 * (hold_climb_rad_ - angles.pitch_rad) / path_lag_s;
+    const double up_g = std::cos(angles.pitch_rad) + std::clamp(correction_g, -path_correction_g, path_correction_g);
     // Beyond about 80 degrees of bank lift does not hold the path: wait for the roll, unloaded.
     const double steepest_rad = std::max(rad_from_deg(80.0), std::abs(aim_bank_rad));
     ManoeuvreTarget rolling;
     rolling.bank_rad = aim_bank_rad;
     const double bank_soon_rad = angles.roll_rad + load_factor_lag_s * roll_rate(now, rolling);
-    if (std::abs(bank_soon_rad) > steepest_rad) {
-        return up_g;
-    }
+    if (std::abs(bank_soon_rad) > steepest_rad) { return up_g; }
     return up_g / std::cos(bank_soon_rad);
 }
 
@@ -139,19 +124,16 @@ double LegPilot::roll_rate(const PointMass& now, const ManoeuvreTarget& aim) con
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
     // A turn on a climbing path banks the flight axes by itself.
     const double by_turn_radps = track_rate_radps(now) * std::sin(angles.pitch_rad);
-    const double wanted_radps = aim.bank_rate_radps +
-                                wrapped_to_pi(aim.bank_rad - angles.roll_rad) / bank_lag_s -
-                                by_turn_radps;
+    const double wanted_radps =
+        aim.bank_rate_radps + wrapped_to_pi(aim.bank_rad - angles.roll_rad) / bank_lag_s - by_turn_radps;
     return std::clamp(wanted_radps, -roll_rate_limit_radps_, roll_rate_limit_radps_);
 }
 
 double LegPilot::climb_to_come_rad(const PointMass& now) const {
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
     const double rate_radps =
-        gravity_mps2 / now.speed_mps *
-        (now.load_factor * std::cos(angles.roll_rad) - std::cos(angles.pitch_rad));
-    const double unloading_s =
-        0.5 * std::abs(now.load_factor - 1.0) / limits_.load_factor_rate_gps + load_factor_lag_s;
+        gravity_mps2 / now.speed_mps * (now.load_factor * std::cos(angles.roll_rad) - std::cos(angles.pitch_rad));
+    const double unloading_s = 0.5 * std::abs(now.load_factor - 1.0) / limits_.load_factor_rate_gps + load_factor_lag_s;
     return rate_radps * unloading_s;
 }
 
@@ -163,12 +145,11 @@ bool LegPilot::reached_climb(const PointMass& now) const {
 }
 
 bool LegPilot::reached_heading(const PointMass& now) const {
-    // A turn rate of g tan(bank) / V while the bank goes down evenly: the turn still to come is the
-    // rate now times -ln(cos(bank)) / (tan(bank) * roll rate).
-    const double bank_rad = std::clamp(
-        std::abs(euler_from_body_to_world(now.flight_to_world).roll_rad), 1e-6, rad_from_deg(85.0));
-    const double roll_out_s =
-        -std::log(std::cos(bank_rad)) / (std::tan(bank_rad) * roll_rate_limit_radps_);
+    // A turn rate of g tan(bank) / V while the bank goes down evenly: the turn still to come is the rate now times
+    // -ln(cos(bank)) / (tan(bank) * roll rate).
+    const double bank_rad =
+        std::clamp(std::abs(euler_from_body_to_world(now.flight_to_world).roll_rad), 1e-6, rad_from_deg(85.0));
+    const double roll_out_s = -std::log(std::cos(bank_rad)) / (std::tan(bank_rad) * roll_rate_limit_radps_);
     const double side = leg_.to_the_left ? -1.0 : 1.0;
     const double to_come_rad = std::max(0.0, side * track_rate_radps(now)) * roll_out_s;
     return side * turned_rad_ + to_come_rad >= *leg_.heading_change_rad;

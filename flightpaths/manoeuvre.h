@@ -14,8 +14,8 @@ struct ManoeuvreTarget {
     double load_factor_rate_gps = 0.0;
 };
 
-/// The aim of a weave `since_s` after its start on a path at `climb_rad`. The weave grows evenly
-/// over its first period, which keeps it centred on the line it started from.
+/// The aim of a weave `since_s` after its start on a path at `climb_rad`. The weave grows evenly over its first period,
+/// which keeps it centred on the line it started from.
 ManoeuvreTarget weave_target(const Leg& leg, double since_s, double climb_rad);
 
 /// Flies one leg: turns what the leg asks for into controls that the aircraft can follow.
@@ -24,12 +24,12 @@ public:
     /// The leg must be within the limits (limits_check.h).
     LegPilot(const Leg& leg, const PointMass& start, const sim::AircraftLimits& limits);
 
-    /// Controls for the step that begins now. Roll rate and change of the load factor are within
-    /// the limits; the change of speed is what the leg asks for.
+    /// Controls for the step that begins now. Roll rate and change of the load factor are within the limits; the change
+    /// of speed is what the leg asks for.
     PointMassControls controls(const PointMass& now, double since_s) const;
 
-    /// True when the leg has reached its end. A pull, a push and a turn end a little early: what
-    /// is still to come while the aircraft unloads or rolls out is counted in.
+    /// True when the leg has reached its end. A pull, a push and a turn end a little early: what is still to come while
+    /// the aircraft unloads or rolls out is counted in.
     bool done(const PointMass& now, double since_s) const;
 
     /// To be called after every step, so that turns beyond 180 degrees are counted.

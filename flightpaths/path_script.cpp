@@ -42,18 +42,14 @@ constexpr NumberRange duration_s{0.05, longest_s};
 
 LegKind kind_from(const std::string& word) {
     for (const auto& [kind, name] : words) {
-        if (name == word) {
-            return kind;
-        }
+        if (name == word) { return kind; }
     }
     return LegKind::Straight;
 }
 
 void need_one_end(const TomlFields& fields, bool first, bool second, std::string_view both) {
     if (first == second) {
-        fields.refuse(
-            fields.line(),
-            fmt::format("expected either {}, got {}", both, first ? "both" : "neither"));
+        fields.refuse(fields.line(), fmt::format("expected either {}, got {}", both, first ? "both" : "neither"));
     }
 }
 
@@ -63,28 +59,19 @@ void read_slope(TomlFields& fields, Leg& leg) {
     leg.climb_rad = down ? -angle : angle;
     leg.duration_s = fields.number("duration", "s", duration_s);
     leg.to_height_m = fields.number("to_height", "m", height_m);
-    need_one_end(
-        fields,
-        leg.duration_s.has_value(),
-        leg.to_height_m.has_value(),
-        "duration_s or to_height_m (or _ft)");
+    need_one_end(fields, leg.duration_s.has_value(), leg.to_height_m.has_value(), "duration_s or to_height_m (or _ft)");
 }
 
 void read_turn(TomlFields& fields, Leg& leg) {
     leg.to_the_left = fields.required_word("side", {"left", "right"}) == "left";
     leg.bank_rad = fields.number("bank", "rad", {rad_from_deg(1.0), rad_from_deg(85.0)});
     leg.load_factor = fields.number("load_factor", "g", {1.001, load_factor_g.most});
-    need_one_end(
-        fields, leg.bank_rad.has_value(), leg.load_factor.has_value(), "bank_deg or load_factor_g");
+    need_one_end(fields, leg.bank_rad.has_value(), leg.load_factor.has_value(), "bank_deg or load_factor_g");
     leg.climb_rad = fields.number("climb", "rad", climb_rad).value_or(0.0);
     leg.duration_s = fields.number("duration", "s", duration_s);
-    leg.heading_change_rad =
-        fields.number("heading_change", "rad", {rad_from_deg(1.0), rad_from_deg(3600.0)});
+    leg.heading_change_rad = fields.number("heading_change", "rad", {rad_from_deg(1.0), rad_from_deg(3600.0)});
     need_one_end(
-        fields,
-        leg.duration_s.has_value(),
-        leg.heading_change_rad.has_value(),
-        "duration_s or heading_change_deg");
+        fields, leg.duration_s.has_value(), leg.heading_change_rad.has_value(), "duration_s or heading_change_deg");
 }
 
 void read_jink(TomlFields& fields, Leg& leg) {
@@ -94,8 +81,7 @@ void read_jink(TomlFields& fields, Leg& leg) {
     const auto vertical_g = fields.number("vertical", "g", weave_g);
     const auto vertical_period_s = fields.number("vertical_period", "s", period_s);
     if (vertical_g.has_value() != vertical_period_s.has_value()) {
-        fields.refuse(
-            fields.line(), "expected vertical_g and vertical_period_s together, got one of them");
+        fields.refuse(fields.line(), "expected vertical_g and vertical_period_s together, got one of them");
     }
     leg.vertical_g = vertical_g.value_or(0.0);
     leg.vertical_period_s = vertical_period_s.value_or(1.0);
@@ -103,8 +89,7 @@ void read_jink(TomlFields& fields, Leg& leg) {
 
 void read_pull(TomlFields& fields, Leg& leg) {
     const bool pull = leg.kind == LegKind::Pull;
-    const NumberRange bounds =
-        pull ? NumberRange{1.01, load_factor_g.most} : NumberRange{load_factor_g.least, 0.99};
+    const NumberRange bounds = pull ? NumberRange{1.01, load_factor_g.most} : NumberRange{load_factor_g.least, 0.99};
     leg.load_factor = fields.required_number("load_factor", "g", bounds);
     leg.climb_rad = fields.required_number("to_climb", "rad", climb_rad);
     leg.bank_rad = fields.number("bank", "rad", {-pi, pi}).value_or(0.0);
@@ -114,13 +99,12 @@ Leg read_leg(const std::filesystem::path& file, const toml::table& table) {
     TomlFields fields(file, table);
     Leg leg;
     leg.line = fields.line();
-    leg.kind = kind_from(fields.required_word(
-        "fly", {"straight", "hold", "climb", "dive", "turn", "jink", "pull", "push"}));
+    leg.kind =
+        kind_from(fields.required_word("fly", {"straight", "hold", "climb", "dive", "turn", "jink", "pull", "push"}));
     leg.label = fields.text("label").value_or("");
     leg.acceleration_mps2 = fields.number("acceleration", "mps2", {-50.0, 50.0}).value_or(0.0);
     leg.to_speed_mps = fields.number("to_speed", "mps", speed_mps);
-    leg.roll_rate_radps =
-        fields.number("roll_rate", "radps", {rad_from_deg(1.0), rad_from_deg(720.0)});
+    leg.roll_rate_radps = fields.number("roll_rate", "radps", {rad_from_deg(1.0), rad_from_deg(720.0)});
     if (leg.to_speed_mps && leg.acceleration_mps2 == 0.0) {
         fields.refuse(fields.line(), "expected acceleration_mps2 beside to_speed_mps, got none");
     }
@@ -171,9 +155,7 @@ toml::table parsed(const std::filesystem::path& file) {
 
 std::string_view word_of(LegKind kind) {
     for (const auto& [known, word] : words) {
-        if (known == kind) {
-            return word;
-        }
+        if (known == kind) { return word; }
     }
     return "";
 }
@@ -188,18 +170,13 @@ PathScript read_path_script(const std::filesystem::path& file) {
     script.title = fields.required_text("title");
     script.rate_hz = fields.required_integer("rate_hz", 1, sim::steps_per_second);
     if (sim::steps_per_second % script.rate_hz != 0) {
-        fields.refuse(
-            line_of(*root.get("rate_hz")),
-            fmt::format(
-                "expected a rate_hz that divides {}, got {}",
-                sim::steps_per_second,
-                script.rate_hz));
+        fields.refuse(line_of(*root.get("rate_hz")),
+            fmt::format("expected a rate_hz that divides {}, got {}", sim::steps_per_second, script.rate_hz));
     }
     script.samples = fields.required_integer("samples", 2, 200000);
     const double flown_s = static_cast<double>(script.samples - 1) / script.rate_hz;
     if (flown_s > longest_s) {
-        fields.refuse(
-            line_of(*root.get("samples")),
+        fields.refuse(line_of(*root.get("samples")),
             fmt::format("expected samples for at most {:.0f} s, got {:.0f} s", longest_s, flown_s));
     }
     script.min_clearance_m = fields.required_number("min_clearance", "m", {1.0, 40000.0});

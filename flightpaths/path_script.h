@@ -8,15 +8,13 @@
 
 namespace octant::flightpaths {
 
-/// What a leg flies; the words in a path file. The head of flightpaths/f15-pop-up.toml describes
-/// each with its keys.
+/// What a leg flies; the words in a path file. The head of flightpaths/f15-pop-up.toml describes each with its keys.
 enum class LegKind { Straight, Hold, Climb, Dive, Turn, Jink, Pull, Push };
 
 /// The word that names a kind of leg in a path file.
 std::string_view word_of(LegKind kind);
 
-/// One manoeuvre. Which members count depends on the kind; the reader has checked that those it
-/// needs are there.
+/// One manoeuvre. Which members count depends on the kind; the reader has checked that those it needs are there.
 struct Leg {
     LegKind kind = LegKind::Straight;
     /// Where the leg begins in its file.
@@ -74,9 +72,9 @@ struct PathScript {
     std::vector<Leg> legs;
 };
 
-/// Reads a path file (TOML). Throws Error "file:line: expected ..., got ..." for a file that is
-/// missing, not TOML, lacks a key, has an unknown or doubled key, a wrong type, a number that is
-/// not finite or out of its bounds, or no legs.
+/// Reads a path file (TOML). Throws Error "file:line: expected ..., got ..." for a file that is missing, not TOML,
+/// lacks a key, has an unknown or doubled key, a wrong type, a number that is not finite or out of its bounds, or no
+/// legs.
 PathScript read_path_script(const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

@@ -1,4 +1,5 @@
 #include "flightpaths/placement.h"
+
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
@@ -20,10 +21,9 @@
 
 namespace octant::flightpaths {
 
-// An upper envelope of the ground along a path. Our own method: running maximum, two sweeps that
-// limit the slope, then a moving mean taken twice. The mean at a step is taken over values none of
-// which is below the need at that step, so it cannot fall below it; and a moving mean keeps slopes
-// and bounds the curvature by (slope up + slope down) / window.
+// An upper envelope of the ground along a path. Our own method: running maximum, two sweeps that limit the slope, then
+// a moving mean taken twice. The mean at a step is taken over values none of which is below the need at that step, so
+// it cannot fall below it; and a moving mean keeps slopes and bounds the curvature by (slope up + slope down) / window.
 
 namespace {
 
@@ -45,27 +45,19 @@ std::vector<double> running_max(const std::vector<double>& values, std::size_t h
     std::size_t next = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         for (; next < std::min(values.size(), i + half + 1); ++next) {
-            while (!falling.empty() && values[falling.back()] <= values[next]) {
-                falling.pop_back();
-            }
+            while (!falling.empty() && values[falling.back()] <= values[next]) { falling.pop_back(); }
             falling.push_back(next);
         }
-        while (falling.front() + half < i) {
-            falling.pop_front();
-        }
+        while (falling.front() + half < i) { falling.pop_front(); }
         most[i] = values[falling.front()];
     }
     return most;
 }
 
 std::vector<double> running_min(std::vector<double> values, std::size_t half) {
-    for (double& value : values) {
-        value = -value;
-    }
+    for (double& value : values) { value = -value; }
     values = running_max(values, half);
-    for (double& value : values) {
-        value = -value;
-    }
+    for (double& value : values) { value = -value; }
     return values;
 }
 
@@ -78,12 +70,8 @@ std::vector<double> running_mean(const std::vector<double>& values, std::size_t 
     double sum = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         sum += values[i] - values.front();
-        if (i >= width) {
-            sum -= values[i - width] - values.front();
-        }
-        if (i + 1 >= width) {
-            means.push_back(values.front() + sum / static_cast<double>(width));
-        }
+        if (i >= width) { sum -= values[i - width] - values.front(); }
+        if (i + 1 >= width) { means.push_back(values.front() + sum / static_cast<double>(width)); }
     }
     return means;
 }
@@ -120,10 +108,8 @@ Slopes slopes_along(const sim::Trajectory& path, std::size_t steps, double climb
 Lift rounded_lift(const std::vector<double>& needed_m, const Slopes& slopes, std::size_t half) {
     // Two means reach 2 * half to either side; one more for the slopes at the ends.
     const std::size_t pad = 2 * half + 1;
-    const std::vector<double> envelope = slope_limited(
-        running_max(padded(needed_m, pad), 2 * half),
-        running_min(padded(slopes.up_m, pad), 2 * half),
-        running_min(padded(slopes.down_m, pad), 2 * half));
+    const std::vector<double> envelope = slope_limited(running_max(padded(needed_m, pad), 2 * half),
+        running_min(padded(slopes.up_m, pad), 2 * half), running_min(padded(slopes.down_m, pad), 2 * half));
     const std::vector<double> smooth = running_mean(running_mean(envelope, half), half);
     Lift lift;
     for (std::size_t i = 1; i + 1 < smooth.size(); ++i) {
@@ -162,8 +148,7 @@ sim::AircraftState lifted(const sim::AircraftState& state, const Lift& lift, dou
     const double before_mps = glm::length(state.velocity_mps);
     const double after_mps = glm::length(out.velocity_mps);
     if (before_mps > 0.1 && after_mps > 0.1) {
-        const glm::dquat turn =
-            glm::dquat(state.velocity_mps / before_mps, out.velocity_mps / after_mps);
+        const glm::dquat turn = glm::dquat(state.velocity_mps / before_mps, out.velocity_mps / after_mps);
         out.body_to_world = glm::normalize(turn * state.body_to_world);
     }
     const glm::dvec3 up = state.body_to_world * glm::dvec3(0.0, 0.0, -1.0);
@@ -171,30 +156,22 @@ sim::AircraftState lifted(const sim::AircraftState& state, const Lift& lift, dou
     return out;
 }
 
-double step_of(const sim::Trajectory& path, double time_s) {
-    return (time_s - path.start_s()) * sim::steps_per_second;
-}
+double step_of(const sim::Trajectory& path, double time_s) { return (time_s - path.start_s()) * sim::steps_per_second; }
 
 bool within(const sim::Trajectory& path, const Lift& lift, const sim::AircraftLimits& limits) {
     const double half_max = 0.5 * (1.0 + limits.max_load_factor);
     const double half_min = 0.5 * (1.0 + limits.min_load_factor);
     for (const sim::AircraftState& state : path.samples()) {
         const double own = state.load_factor;
-        const double most = std::min(
-            std::max(half_max, own + small_change_g), std::max(limits.max_load_factor, own));
-        const double least = std::max(
-            std::min(half_min, own - small_change_g), std::min(limits.min_load_factor, own));
+        const double most = std::min(std::max(half_max, own + small_change_g), std::max(limits.max_load_factor, own));
+        const double least = std::max(std::min(half_min, own - small_change_g), std::min(limits.min_load_factor, own));
         const double got = lifted(state, lift, step_of(path, state.time_s)).load_factor;
-        if (got > most + 1e-9 || got < least - 1e-9) {
-            return false;
-        }
+        if (got > most + 1e-9 || got < least - 1e-9) { return false; }
     }
     const double onset_mps3 = limits.load_factor_rate_gps * gravity_mps2;
     for (std::size_t i = 1; i < lift.acceleration_mps2.size(); ++i) {
         const double change = lift.acceleration_mps2[i] - lift.acceleration_mps2[i - 1];
-        if (std::abs(change) > onset_mps3 * sim::step_s) {
-            return false;
-        }
+        if (std::abs(change) > onset_mps3 * sim::step_s) { return false; }
     }
     return true;
 }
@@ -202,9 +179,7 @@ bool within(const sim::Trajectory& path, const Lift& lift, const sim::AircraftLi
 } // namespace
 
 std::vector<double> slope_limited(
-    std::vector<double> needed_m,
-    const std::vector<double>& up_m,
-    const std::vector<double>& down_m) {
+    std::vector<double> needed_m, const std::vector<double>& up_m, const std::vector<double>& down_m) {
     assert(needed_m.size() == up_m.size() && needed_m.size() == down_m.size());
     for (std::size_t i = needed_m.size() - 1; i > 0; --i) {
         needed_m[i - 1] = std::max(needed_m[i - 1], needed_m[i] - up_m[i - 1]);
@@ -216,9 +191,7 @@ std::vector<double> slope_limited(
 }
 
 RaisedPath raised_over_ground(
-    const sim::Trajectory& path,
-    const std::vector<double>& needed_m,
-    const sim::AircraftLimits& limits) {
+    const sim::Trajectory& path, const std::vector<double>& needed_m, const sim::AircraftLimits& limits) {
     assert(!needed_m.empty());
     const Slopes slopes = slopes_along(path, needed_m.size(), limits.climb_rate_mps);
     Lift lift = level_lift(needed_m);
@@ -258,19 +231,14 @@ std::vector<double> step_times(const sim::Trajectory& path) {
     return times_s;
 }
 
-std::vector<glm::dvec3>
-places_along(const sim::Trajectory& path, const std::vector<double>& times_s) {
+std::vector<glm::dvec3> places_along(const sim::Trajectory& path, const std::vector<double>& times_s) {
     std::vector<glm::dvec3> places_m;
     places_m.reserve(times_s.size());
-    for (const double time_s : times_s) {
-        places_m.push_back(path.state_at(time_s).position_m);
-    }
+    for (const double time_s : times_s) { places_m.push_back(path.state_at(time_s).position_m); }
     return places_m;
 }
 
-glm::dquat turn_by(double heading_rad) {
-    return glm::angleAxis(-heading_rad, glm::dvec3(0.0, 0.0, 1.0));
-}
+glm::dquat turn_by(double heading_rad) { return glm::angleAxis(-heading_rad, glm::dvec3(0.0, 0.0, 1.0)); }
 
 std::string where(double time_s, const glm::dvec3& place_m) {
     return fmt::format("t = {:.1f} s, x = {:.1f}, y = {:.1f} m", time_s, place_m.x, place_m.y);
@@ -299,26 +267,20 @@ GroundTrack ground_along(const std::vector<glm::dvec3>& places_m, const GroundHe
 
 /// Heights of the ground along a path; throws where it leaves the map.
 std::vector<double> heights_on_map(
-    const std::vector<double>& times_s,
-    const std::vector<glm::dvec3>& places_m,
-    const GroundHeight& ground) {
+    const std::vector<double>& times_s, const std::vector<glm::dvec3>& places_m, const GroundHeight& ground) {
     GroundTrack track = ground_along(places_m, ground);
     if (track.leaves_at) {
-        throw OutsideMapError(
-            "path leaves the map at " +
-            where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
+        throw OutsideMapError("path leaves the map at " + where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
     }
     return std::move(track.heights_m);
 }
 
-std::vector<glm::dvec3>
-turned(const std::vector<glm::dvec3>& places_m, double heading_rad, const glm::dvec2& origin_m) {
+std::vector<glm::dvec3> turned(
+    const std::vector<glm::dvec3>& places_m, double heading_rad, const glm::dvec2& origin_m) {
     const glm::dquat turn = turn_by(heading_rad);
     std::vector<glm::dvec3> out;
     out.reserve(places_m.size());
-    for (const glm::dvec3& place : places_m) {
-        out.push_back(turn * place + glm::dvec3(origin_m, 0.0));
-    }
+    for (const glm::dvec3& place : places_m) { out.push_back(turn * place + glm::dvec3(origin_m, 0.0)); }
     return out;
 }
 
@@ -328,23 +290,16 @@ struct Choice {
 };
 
 /// The heading of least height difference on the ground; nothing when every heading leaves the map.
-std::optional<Choice> min_relief(
-    const std::vector<glm::dvec3>& places_m,
-    const glm::dvec2& pivot_m,
-    const glm::dvec2& place_m,
-    const GroundHeight& ground) {
+std::optional<Choice> min_relief(const std::vector<glm::dvec3>& places_m, const glm::dvec2& pivot_m,
+    const glm::dvec2& place_m, const GroundHeight& ground) {
     std::optional<Choice> best;
     double best_relief_m = std::numeric_limits<double>::infinity();
     for (int candidate = 0; candidate < headings; ++candidate) {
         const double heading_rad = 2.0 * pi * candidate / headings;
-        const glm::dvec2 origin_m =
-            place_m - glm::dvec2(turn_by(heading_rad) * glm::dvec3(pivot_m, 0.0));
+        const glm::dvec2 origin_m = place_m - glm::dvec2(turn_by(heading_rad) * glm::dvec3(pivot_m, 0.0));
         const GroundTrack track = ground_along(turned(places_m, heading_rad, origin_m), ground);
-        if (track.leaves_at) {
-            continue;
-        }
-        const auto [low, high] =
-            std::minmax_element(track.heights_m.begin(), track.heights_m.end());
+        if (track.leaves_at) { continue; }
+        const auto [low, high] = std::minmax_element(track.heights_m.begin(), track.heights_m.end());
         if (*high - *low < best_relief_m - same_relief_m) {
             best_relief_m = *high - *low;
             best = Choice{heading_rad, origin_m};
@@ -363,26 +318,16 @@ glm::dvec2 middle_of(const std::vector<glm::dvec3>& places_m) {
     return glm::dvec2(0.5 * (low + high));
 }
 
-Choice chosen(
-    const std::vector<glm::dvec3>& places_m,
-    const std::vector<double>& times_s,
-    const PlacementOptions& placement,
-    const GroundHeight& ground) {
-    if (placement.heading_rad) {
-        return {wrapped_to_two_pi(*placement.heading_rad), placement.place_m};
-    }
+Choice chosen(const std::vector<glm::dvec3>& places_m, const std::vector<double>& times_s,
+    const PlacementOptions& placement, const GroundHeight& ground) {
+    if (placement.heading_rad) { return {wrapped_to_two_pi(*placement.heading_rad), placement.place_m}; }
     auto best = min_relief(places_m, glm::dvec2(0.0), placement.place_m, ground);
-    if (!best) {
-        best = min_relief(places_m, middle_of(places_m), placement.place_m, ground);
-    }
-    if (best) {
-        return *best;
-    }
+    if (!best) { best = min_relief(places_m, middle_of(places_m), placement.place_m, ground); }
+    if (best) { return *best; }
     const auto as_is = turned(places_m, 0.0, placement.place_m);
     const std::size_t at = ground_along(as_is, ground).leaves_at.value_or(0);
-    throw OutsideMapError(fmt::format(
-        "path leaves the map at every heading, with heading 0 at {}",
-        where(times_s[at], as_is[at])));
+    throw OutsideMapError(
+        fmt::format("path leaves the map at every heading, with heading 0 at {}", where(times_s[at], as_is[at])));
 }
 
 sim::Trajectory moved(const sim::Trajectory& path, const Choice& choice) {
@@ -398,9 +343,7 @@ sim::Trajectory moved(const sim::Trajectory& path, const Choice& choice) {
 
 sim::Trajectory raised(const sim::Trajectory& path, double by_m) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
-    for (sim::AircraftState& state : samples) {
-        state.position_m.z += by_m;
-    }
+    for (sim::AircraftState& state : samples) { state.position_m.z += by_m; }
     return sim::Trajectory(std::move(samples));
 }
 
@@ -409,52 +352,36 @@ struct Lowest {
     std::size_t step = 0;
 };
 
-Lowest
-lowest_of(const std::vector<glm::dvec3>& places_m, const std::vector<double>& ground_heights_m) {
+Lowest lowest_of(const std::vector<glm::dvec3>& places_m, const std::vector<double>& ground_heights_m) {
     Lowest lowest{places_m.front().z - ground_heights_m.front(), 0};
     for (std::size_t i = 1; i < places_m.size(); ++i) {
         const double clearance_m = places_m[i].z - ground_heights_m[i];
-        if (clearance_m < lowest.clearance_m) {
-            lowest = {clearance_m, i};
-        }
+        if (clearance_m < lowest.clearance_m) { lowest = {clearance_m, i}; }
     }
     return lowest;
 }
 
 /// Throws where a path meets the ground.
-void check_clear(
-    const std::vector<double>& times_s,
-    const std::vector<glm::dvec3>& places_m,
+void check_clear(const std::vector<double>& times_s, const std::vector<glm::dvec3>& places_m,
     const std::vector<double>& ground_heights_m) {
     const double clearance_m = lowest_of(places_m, ground_heights_m).clearance_m;
-    if (clearance_m > contact_m) {
-        return;
-    }
+    if (clearance_m > contact_m) { return; }
     std::size_t first = 0;
-    while (first + 1 < places_m.size() && places_m[first].z - ground_heights_m[first] > contact_m) {
-        ++first;
-    }
-    throw Error(fmt::format(
-        "path meets the ground at {}, and is {:.1f} m below it at its lowest",
-        where(times_s[first], places_m[first]),
-        std::max(0.0, -clearance_m)));
+    while (first + 1 < places_m.size() && places_m[first].z - ground_heights_m[first] > contact_m) { ++first; }
+    throw Error(fmt::format("path meets the ground at {}, and is {:.1f} m below it at its lowest",
+        where(times_s[first], places_m[first]), std::max(0.0, -clearance_m)));
 }
 
 double min_added_m(const sim::Trajectory& before, const sim::Trajectory& after) {
     double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < before.samples().size(); ++i) {
-        min_m =
-            std::min(min_m, after.samples()[i].position_m.z - before.samples()[i].position_m.z);
+        min_m = std::min(min_m, after.samples()[i].position_m.z - before.samples()[i].position_m.z);
     }
     return min_m;
 }
 
-RaisedPath following(
-    const sim::Trajectory& path,
-    const std::vector<glm::dvec3>& places_m,
-    const std::vector<double>& ground_heights_m,
-    double min_clearance_m,
-    const sim::AircraftLimits& limits) {
+RaisedPath following(const sim::Trajectory& path, const std::vector<glm::dvec3>& places_m,
+    const std::vector<double>& ground_heights_m, double min_clearance_m, const sim::AircraftLimits& limits) {
     // Heights of the path are heights over the ground, never less than the clearance.
     std::vector<double> needed_m;
     for (std::size_t i = 0; i < places_m.size(); ++i) {
@@ -475,17 +402,13 @@ void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& grou
     check_clear(times_s, places_m, heights_on_map(times_s, places_m, ground));
 }
 
-PlacedPath place_over_ground(
-    const sim::Trajectory& path,
-    const PlacementOptions& placement,
-    const GroundHeight& ground,
-    double min_clearance_m,
-    const std::optional<sim::AircraftLimits>& limits) {
+PlacedPath place_over_ground(const sim::Trajectory& path, const PlacementOptions& placement, const GroundHeight& ground,
+    double min_clearance_m, const std::optional<sim::AircraftLimits>& limits) {
     const std::vector<double> times_s = step_times(path);
     const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
     // A turn by 0 rounds attitudes once more and drops the signs of zeros.
-    const bool as_it_was = placement.mode == sim::HeightMode::Datum && choice.heading_rad == 0.0 &&
-                           choice.origin_m == glm::dvec2(0.0);
+    const bool as_it_was =
+        placement.mode == sim::HeightMode::Datum && choice.heading_rad == 0.0 && choice.origin_m == glm::dvec2(0.0);
     const sim::Trajectory over = as_it_was ? path : moved(path, choice);
     std::vector<glm::dvec3> places_m = places_along(over, times_s);
     const std::vector<double> ground_m = heights_on_map(times_s, places_m, ground);
@@ -500,8 +423,7 @@ PlacedPath place_over_ground(
     Lowest lowest = lowest_of(places_m, ground_m);
     const double missing_m = min_clearance_m - lowest.clearance_m;
     // Between samples a curve may dip a little below the envelope that the samples lie on.
-    if (placement.mode == sim::HeightMode::Clear ||
-        (placement.mode == sim::HeightMode::Follow && missing_m > 0.0)) {
+    if (placement.mode == sim::HeightMode::Clear || (placement.mode == sim::HeightMode::Follow && missing_m > 0.0)) {
         placed = raised(placed, missing_m);
         places_m = places_along(placed, times_s);
         lowest = lowest_of(places_m, ground_m);
@@ -510,18 +432,11 @@ PlacedPath place_over_ground(
     const double offset_m = min_added_m(over, placed);
     std::vector<std::string> notes;
     if (!follows) {
-        notes.push_back(fmt::format(
-            "the ground is too steep to follow within the aircraft's limits: the whole path is "
-            "lifted by {:.1f} m",
+        notes.push_back(fmt::format("the ground is too steep to follow within the aircraft's limits: the whole path is "
+                                    "lifted by {:.1f} m",
             offset_m));
     }
-    return {
-        std::move(placed),
-        offset_m,
-        choice.heading_rad,
-        choice.origin_m,
-        lowest.clearance_m,
-        times_s[lowest.step],
+    return {std::move(placed), offset_m, choice.heading_rad, choice.origin_m, lowest.clearance_m, times_s[lowest.step],
         std::move(notes)};
 }
 

@@ -1,7 +1,6 @@
-// Equations of motion of a point mass in coordinated flight: any text on flight mechanics, e.g.
-// Miele, Flight Mechanics I (1962), ch. 4, "flight in a moving vertical plane", here without thrust
-// and drag (their sum is the commanded change of speed).
-// Deviations: flight axes as a quaternion in place of path angle, track and bank.
+// Equations of motion of a point mass in coordinated flight: any text on flight mechanics, e.g. Miele, Flight Mechanics
+// I (1962), ch. 4, "flight in a moving vertical plane", here without thrust and drag (their sum is the commanded change
+// of speed). Deviations: flight axes as a quaternion in place of path angle, track and bank.
 
 #include "flightpaths/point_mass.h"
 
@@ -23,15 +22,11 @@ struct Rate {
 
 Rate rate_of(const PointMass& mass, const PointMassControls& controls) {
     // Gravity in flight axes; what of it is not along the velocity bends the path.
-    const glm::dvec3 gravity =
-        glm::conjugate(mass.flight_to_world) * glm::dvec3(0.0, 0.0, -gravity_mps2);
+    const glm::dvec3 gravity = glm::conjugate(mass.flight_to_world) * glm::dvec3(0.0, 0.0, -gravity_mps2);
     const double pitch_rate_radps = (mass.load_factor * gravity_mps2 - gravity.z) / mass.speed_mps;
     const double yaw_rate_radps = gravity.y / mass.speed_mps;
     const glm::dquat turn(0.0, controls.roll_rate_radps, pitch_rate_radps, yaw_rate_radps);
-    return {
-        velocity_mps(mass),
-        controls.acceleration_mps2,
-        0.5 * (mass.flight_to_world * turn),
+    return {velocity_mps(mass), controls.acceleration_mps2, 0.5 * (mass.flight_to_world * turn),
         controls.load_factor_rate_gps};
 }
 
@@ -48,8 +43,7 @@ Rate weighted(const Rate& a, const Rate& b, const Rate& c, const Rate& d) {
     const auto mean = [](const auto& w, const auto& x, const auto& y, const auto& z) {
         return (w + 2.0 * x + 2.0 * y + z) * (1.0 / 6.0);
     };
-    return {
-        mean(a.position_mps, b.position_mps, c.position_mps, d.position_mps),
+    return {mean(a.position_mps, b.position_mps, c.position_mps, d.position_mps),
         mean(a.speed_mps2, b.speed_mps2, c.speed_mps2, d.speed_mps2),
         mean(a.rotation, b.rotation, c.rotation, d.rotation),
         mean(a.load_factor_gps, b.load_factor_gps, c.load_factor_gps, d.load_factor_gps)};
@@ -58,11 +52,7 @@ Rate weighted(const Rate& a, const Rate& b, const Rate& c, const Rate& d) {
 } // namespace
 
 PointMass point_mass_at(
-    const glm::dvec3& position_m,
-    double speed_mps,
-    double track_rad,
-    double climb_rad,
-    double bank_rad) {
+    const glm::dvec3& position_m, double speed_mps, double track_rad, double climb_rad, double bank_rad) {
     return {position_m, speed_mps, body_to_world_from_euler({track_rad, climb_rad, bank_rad}), 1.0};
 }
 

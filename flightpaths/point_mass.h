@@ -5,9 +5,9 @@
 
 namespace octant::flightpaths {
 
-/// An aircraft as a point that lift pulls along its own up axis. The flight axes (x along the
-/// velocity, y right, z down, away from the lift) are a rotation and not two angles, so that a bank
-/// beyond 90 degrees or a climb through the vertical is no special case.
+/// An aircraft as a point that lift pulls along its own up axis. The flight axes (x along the velocity, y right, z
+/// down, away from the lift) are a rotation and not two angles, so that a bank beyond 90 degrees or a climb through the
+/// vertical is no special case.
 struct PointMass {
     /// World axes.
     glm::dvec3 position_m{0.0};
@@ -31,14 +31,10 @@ struct PointMassControls {
 
 /// Position, track (clockwise from north), path angle (up) and bank (right) as a point mass.
 PointMass point_mass_at(
-    const glm::dvec3& position_m,
-    double speed_mps,
-    double track_rad,
-    double climb_rad,
-    double bank_rad = 0.0);
+    const glm::dvec3& position_m, double speed_mps, double track_rad, double climb_rad, double bank_rad = 0.0);
 
-/// The point mass `step_s` later. Classical Runge-Kutta of fourth order; the aircraft never
-/// sideslips, so its side is turned into the path by what gravity pulls sideways.
+/// The point mass `step_s` later. Classical Runge-Kutta of fourth order; the aircraft never sideslips, so its side is
+/// turned into the path by what gravity pulls sideways.
 PointMass stepped(const PointMass& now, const PointMassControls& controls, double step_s);
 
 glm::dvec3 velocity_mps(const PointMass& mass);

@@ -1,4 +1,5 @@
 #include "flightpaths/recorded_track.h"
+
 #include "flightpaths/derived_motion.h"
 #include "flightpaths/log_columns.h"
 #include "flightpaths/track_columns.h"
@@ -71,24 +72,16 @@ struct LeftOut {
 
 /// How much was left out, behind `before`; empty when nothing was.
 std::string said_of(const LeftOut& left_out, std::string_view before = "") {
-    if (left_out.without_place + left_out.not_later + left_out.jumps == 0) {
-        return {};
-    }
-    return fmt::format(
-        "{}left out of the log: {} without time, place or height, {} of a moment that had been, "
-        "{} that only a jump leads to",
-        before,
-        left_out.without_place,
-        left_out.not_later,
-        left_out.jumps);
+    if (left_out.without_place + left_out.not_later + left_out.jumps == 0) { return {}; }
+    return fmt::format("{}left out of the log: {} without time, place or height, {} of a moment that had been, "
+                       "{} that only a jump leads to",
+        before, left_out.without_place, left_out.not_later, left_out.jumps);
 }
 
 /// Reads the lines one by one and keeps those that fit.
 class LogReader {
 public:
-    LogReader(const LogText& log, const LogColumns& columns)
-        : log_(log)
-        , columns_(columns) {}
+    LogReader(const LogText& log, const LogColumns& columns) : log_(log), columns_(columns) {}
 
     void read_line(std::size_t index) {
         line_ = log_.numbers.empty() ? static_cast<int>(index) + 1 : log_.numbers[index];
@@ -100,23 +93,16 @@ public:
             ++left_out_.without_place;
             return;
         }
-        if (!frame_) {
-            frame_.emplace(*place);
-        }
+        if (!frame_) { frame_.emplace(*place); }
         const FramePosition local = frame_->place_of(*place);
         sim::AircraftState state;
         state.time_s = *time_s;
         state.position_m = {local.east_north_m, *altitude_m};
         if (!(glm::length(state.position_m) <= max_track_distance_m)) {
-            throw_error_at(
-                log_.file,
-                line_,
-                fmt::format(
-                    "expected a place within {:.0f} km of the first", max_track_distance_m / 1000.0));
+            throw_error_at(log_.file, line_,
+                fmt::format("expected a place within {:.0f} km of the first", max_track_distance_m / 1000.0));
         }
-        if (!is_next(state)) {
-            return;
-        }
+        if (!is_next(state)) { return; }
         take_velocity(state, local.north_bearing_rad);
         take_angles(deg_from_rad(local.north_bearing_rad));
         samples_.push_back(state);
@@ -124,20 +110,12 @@ public:
 
     LoggedTrack track() && {
         if (samples_.size() < 2) {
-            throw_error_in(
-                log_.file,
-                fmt::format(
-                    "expected at least 2 samples with a place, got {}{}",
-                    samples_.size(),
-                    said_of(left_out_, "; ")));
+            throw_error_in(log_.file, fmt::format("expected at least 2 samples with a place, got {}{}", samples_.size(),
+                                          said_of(left_out_, "; ")));
         }
-        if (!has_velocities_) {
-            fill_velocities(samples_);
-        }
+        if (!has_velocities_) { fill_velocities(samples_); }
         fill_attitudes(samples_);
-        if (angles_.size() == samples_.size()) {
-            take_logged_angles();
-        }
+        if (angles_.size() == samples_.size()) { take_logged_angles(); }
         fill_load_factors(samples_);
         return {std::move(samples_), frame_->origin(), notes()};
     }
@@ -146,27 +124,18 @@ private:
     /// What a field holds; empty for none, and for what programs write where nothing is known.
     std::string_view field(LogQuantity what) const {
         const auto& column = columns_[what];
-        if (!column || column->field >= fields_.size()) {
-            return {};
-        }
+        if (!column || column->field >= fields_.size()) { return {}; }
         const std::string_view text = fields_[column->field];
-        const bool nothing =
-            text == "nan" || text == "NaN" || text == "null" || text == "None" || text == "-";
+        const bool nothing = text == "nan" || text == "NaN" || text == "null" || text == "None" || text == "-";
         return nothing ? std::string_view() : text;
     }
 
     std::optional<double> number(std::string_view text, LogQuantity what) const {
-        if (text.empty()) {
-            return std::nullopt;
-        }
+        if (text.empty()) { return std::nullopt; }
         const auto value = finite_number(text);
         if (!value) {
-            throw_error_at(
-                log_.file,
-                line_,
-                fmt::format(
-                    "expected a finite number in column {}, got \"{}\"",
-                    printable(columns_[what]->name),
+            throw_error_at(log_.file, line_,
+                fmt::format("expected a finite number in column {}, got \"{}\"", printable(columns_[what]->name),
                     printable(std::string(text))));
         }
         return value;
@@ -183,25 +152,18 @@ private:
         if (columns_[LogQuantity::Position]) {
             const auto parts = split_fields(field(LogQuantity::Position), ',');
             latitude_deg = number(parts.front(), LogQuantity::Position);
-            longitude_deg =
-                parts.size() == 2 ? number(parts.back(), LogQuantity::Position) : std::nullopt;
+            longitude_deg = parts.size() == 2 ? number(parts.back(), LogQuantity::Position) : std::nullopt;
         } else {
             latitude_deg = value(LogQuantity::Latitude);
             longitude_deg = value(LogQuantity::Longitude);
         }
         // Receivers without a fix write zeros.
-        if (!latitude_deg || !longitude_deg || (*latitude_deg == 0.0 && *longitude_deg == 0.0)) {
-            return std::nullopt;
-        }
+        if (!latitude_deg || !longitude_deg || (*latitude_deg == 0.0 && *longitude_deg == 0.0)) { return std::nullopt; }
         if (std::abs(*latitude_deg) > 90.0 || std::abs(*longitude_deg) > 360.0) {
-            throw_error_at(
-                log_.file,
-                line_,
-                fmt::format(
-                    "expected a latitude within 90 deg and a longitude within 360 deg, got {} and "
-                    "{}",
-                    *latitude_deg,
-                    *longitude_deg));
+            throw_error_at(log_.file, line_,
+                fmt::format("expected a latitude within 90 deg and a longitude within 360 deg, got {} and "
+                            "{}",
+                    *latitude_deg, *longitude_deg));
         }
         return GeoPosition{*latitude_deg, *longitude_deg};
     }
@@ -209,53 +171,37 @@ private:
     /// Seconds since the first line that has a time.
     std::optional<double> time() {
         const std::string_view text = field(LogQuantity::Time);
-        if (text.empty()) {
-            return std::nullopt;
-        }
+        if (text.empty()) { return std::nullopt; }
         const auto read = log_time(text);
         if (!read) {
-            throw_error_at(
-                log_.file,
-                line_,
-                fmt::format(
-                    "expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column {}, "
-                    "got \"{}\"",
-                    printable(columns_[LogQuantity::Time]->name),
-                    printable(std::string(text))));
+            throw_error_at(log_.file, line_,
+                fmt::format("expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column {}, "
+                            "got \"{}\"",
+                    printable(columns_[LogQuantity::Time]->name), printable(std::string(text))));
         }
         if (!first_time_s_) {
             first_time_s_ = read->seconds;
             time_factor_ = factor_of_times(read->seconds);
         }
         double since_s = (read->seconds - *first_time_s_) * time_factor_;
-        if (read->is_time_of_day) {
-            since_s += since_s < 0.0 ? day_s : 0.0;
-        }
+        if (read->is_time_of_day) { since_s += since_s < 0.0 ? day_s : 0.0; }
         return since_s;
     }
 
     /// Times since 1970 in thousandths or millionths of a second are known by their size.
     double factor_of_times(double first) const {
         const LogColumn& column = *columns_[LogQuantity::Time];
-        if (column.has_unit) {
-            return column.factor;
-        }
+        if (column.has_unit) { return column.factor; }
         return std::abs(first) > 1e14 ? 1e-6 : std::abs(first) > 1e11 ? 1e-3 : 1.0;
     }
 
     bool is_next(const sim::AircraftState& state) {
-        if (samples_.empty()) {
-            return true;
-        }
+        if (samples_.empty()) { return true; }
         const sim::AircraftState& last = samples_.back();
         if (!(state.time_s - samples_.front().time_s <= max_track_duration_s)) {
-            throw_error_at(
-                log_.file,
-                line_,
+            throw_error_at(log_.file, line_,
                 fmt::format(
-                    "expected a time within {:.0f} s of the first, got {:.3f} s",
-                    max_track_duration_s,
-                    state.time_s));
+                    "expected a time within {:.0f} s of the first, got {:.3f} s", max_track_duration_s, state.time_s));
         }
         if (!(state.time_s > last.time_s)) {
             ++left_out_.not_later;
@@ -293,12 +239,10 @@ private:
     void take_logged_angles() {
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             const LoggedAngles& logged = angles_[i];
-            const double flown_rad =
-                euler_from_body_to_world(samples_[i].body_to_world).heading_rad;
-            samples_[i].body_to_world = body_to_world_from_euler(
-                {logged.heading ? rad_from_deg(*logged.heading) : flown_rad,
-                 rad_from_deg(logged.pitch),
-                 rad_from_deg(logged.roll)});
+            const double flown_rad = euler_from_body_to_world(samples_[i].body_to_world).heading_rad;
+            samples_[i].body_to_world =
+                body_to_world_from_euler({logged.heading ? rad_from_deg(*logged.heading) : flown_rad,
+                    rad_from_deg(logged.pitch), rad_from_deg(logged.roll)});
         }
     }
 
@@ -306,14 +250,11 @@ private:
         const LogColumn& altitude = *columns_[LogQuantity::Altitude];
         std::vector<std::string> notes;
         if (!altitude.has_unit) {
-            notes.push_back(fmt::format(
-                "column {} names no unit: its heights are taken as metres (name it {}_ft for feet)",
-                printable(altitude.name),
-                printable(altitude.name)));
+            notes.push_back(
+                fmt::format("column {} names no unit: its heights are taken as metres (name it {}_ft for feet)",
+                    printable(altitude.name), printable(altitude.name)));
         }
-        if (std::string left_out = said_of(left_out_); !left_out.empty()) {
-            notes.push_back(std::move(left_out));
-        }
+        if (std::string left_out = said_of(left_out_); !left_out.empty()) { notes.push_back(std::move(left_out)); }
         return notes;
     }
 
@@ -332,28 +273,24 @@ private:
     LeftOut left_out_;
 };
 
-/// Reads another program's log of a flight (log_columns.h), whose lines are less regular than those
-/// of a recording: lines without time, place or height, of a moment that has been, or that only a
-/// jump faster than 3000 m/s leads to are left out and counted in the notes. Times begin at 0.
-/// Attitudes are the log's where it has roll and pitch in every line, with its true heading or else
-/// that of the motion; otherwise they are made from the motion. Throws Error with file and line for
-/// what is neither empty nor a number where there must be one, a place that is on no earth, more
+/// Reads another program's log of a flight (log_columns.h), whose lines are less regular than those of a recording:
+/// lines without time, place or height, of a moment that has been, or that only a jump faster than 3000 m/s leads to
+/// are left out and counted in the notes. Times begin at 0. Attitudes are the log's where it has roll and pitch in
+/// every line, with its true heading or else that of the motion; otherwise they are made from the motion. Throws Error
+/// with file and line for what is neither empty nor a number where there must be one, a place that is on no earth, more
 /// than a day, and fewer than 2 samples.
 LoggedTrack logged_track(const LogText& log, const LogColumns& columns) {
     LogReader reader(log, columns);
     for (std::size_t i = log.header_line + 1; i < log.lines.size(); ++i) {
         const bool is_empty = split_words(log.lines[i]).empty();
-        if (!is_empty && !log.lines[i].starts_with('#')) {
-            reader.read_line(i);
-        }
+        if (!is_empty && !log.lines[i].starts_with('#')) { reader.read_line(i); }
     }
     return std::move(reader).track();
 }
 
 /// A log of another kind of file as rows of text, which logged_track() reads.
 struct LogTable {
-    /// Names of the columns first, then a row a fix: "07:41:03,47.1,8.2,512". What a fix does not
-    /// tell is empty.
+    /// Names of the columns first, then a row a fix: "07:41:03,47.1,8.2,512". What a fix does not tell is empty.
     std::vector<std::string> rows;
     /// The line of the file that each row comes from, counted from 1.
     std::vector<int> line_numbers;
@@ -368,18 +305,14 @@ constexpr std::string_view log_table_columns = "time,latitude,longitude,altitude
 std::optional<int> number_radius(std::string_view record, std::size_t at, std::size_t count) {
     const std::string_view text = record.substr(at, count);
     const std::size_t sign = text.starts_with('-') ? 1 : 0;
-    if (!std::all_of(text.begin() + static_cast<std::ptrdiff_t>(sign), text.end(), is_digit)) {
-        return std::nullopt;
-    }
+    if (!std::all_of(text.begin() + static_cast<std::ptrdiff_t>(sign), text.end(), is_digit)) { return std::nullopt; }
     int value = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return fault == std::errc() && end == text.data() + text.size() ? std::optional(value)
-                                                                    : std::nullopt;
+    return fault == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 /// Degrees of an angle that is written as whole degrees and thousandths of minutes.
-std::optional<double>
-angle_deg(std::string_view record, std::size_t at, std::size_t degrees, std::string_view signs) {
+std::optional<double> angle_deg(std::string_view record, std::size_t at, std::size_t degrees, std::string_view signs) {
     const auto whole = number_radius(record, at, degrees);
     const auto thousandths = number_radius(record, at + degrees, 5);
     const char side = record[at + degrees + 5];
@@ -406,65 +339,43 @@ struct Fix {
 Fix fix_of(std::string_view record, int line) {
     Fix fix;
     fix.line = line;
-    if (!record.starts_with('B') || record.size() < fix_length) {
-        return fix;
-    }
+    if (!record.starts_with('B') || record.size() < fix_length) { return fix; }
     const auto latitude_deg = angle_deg(record, 7, 2, "NS");
     const auto longitude_deg = angle_deg(record, 15, 3, "EW");
-    if (!latitude_deg || !longitude_deg || !number_radius(record, 1, 6)) {
-        return fix;
-    }
+    if (!latitude_deg || !longitude_deg || !number_radius(record, 1, 6)) { return fix; }
     fix.clock = record.substr(1, 6);
     fix.latitude_deg = *latitude_deg;
     fix.longitude_deg = *longitude_deg;
     fix.pressure_m = number_radius(record, 25, 5);
     const auto receiver_m = number_radius(record, 30, 5);
-    if (record[24] == 'A' && receiver_m && *receiver_m != 0) {
-        fix.receiver_m = receiver_m;
-    }
+    if (record[24] == 'A' && receiver_m && *receiver_m != 0) { fix.receiver_m = receiver_m; }
     return fix;
 }
 
 std::string row_of(const Fix& fix, const std::optional<int>& height_m) {
-    if (fix.clock.empty()) {
-        return ",,,";
-    }
-    return fmt::format(
-        "{}:{}:{},{:.8f},{:.8f},{}",
-        fix.clock.substr(0, 2),
-        fix.clock.substr(2, 2),
-        fix.clock.substr(4, 2),
-        fix.latitude_deg,
-        fix.longitude_deg,
-        height_m ? fmt::format("{}", *height_m) : "");
+    if (fix.clock.empty()) { return ",,,"; }
+    return fmt::format("{}:{}:{},{:.8f},{:.8f},{}", fix.clock.substr(0, 2), fix.clock.substr(2, 2),
+        fix.clock.substr(4, 2), fix.latitude_deg, fix.longitude_deg, height_m ? fmt::format("{}", *height_m) : "");
 }
 
-/// True for the lines of a glider's flight recorder: the first that holds anything is the record of
-/// its maker (A) or of its head (H), and one is a fix.
+/// True for the lines of a glider's flight recorder: the first that holds anything is the record of its maker (A) or of
+/// its head (H), and one is a fix.
 bool is_igc(std::span<const std::string_view> lines) {
-    const auto first = std::ranges::find_if(
-        lines, [](std::string_view line) { return !split_words(line).empty(); });
-    const bool has_head = first != lines.end() &&
-                          (first->front() == 'A' || first->front() == 'H') &&
-                          first->find(',') == first->npos;
-    return has_head && std::ranges::any_of(lines, [](std::string_view line) {
-               return !fix_of(line, 0).clock.empty();
-           });
+    const auto first = std::ranges::find_if(lines, [](std::string_view line) { return !split_words(line).empty(); });
+    const bool has_head =
+        first != lines.end() && (first->front() == 'A' || first->front() == 'H') && first->find(',') == first->npos;
+    return has_head && std::ranges::any_of(lines, [](std::string_view line) { return !fix_of(line, 0).clock.empty(); });
 }
 
-/// The fixes (B records) of a flight recorder's file, as the FAI's "Technical Specification for
-/// GNSS Flight Recorders", appendix A, lays them out. Heights are those of the receiver where most
-/// fixes have one, else pressure altitudes; a fix without it has none. B records that are damaged
-/// are rows without a place.
+/// The fixes (B records) of a flight recorder's file, as the FAI's "Technical Specification for GNSS Flight Recorders",
+/// appendix A, lays them out. Heights are those of the receiver where most fixes have one, else pressure altitudes; a
+/// fix without it has none. B records that are damaged are rows without a place.
 LogTable igc_fixes(std::span<const std::string_view> lines) {
     std::vector<Fix> fixes;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (lines[i].starts_with('B')) {
-            fixes.push_back(fix_of(lines[i], static_cast<int>(i) + 1));
-        }
+        if (lines[i].starts_with('B')) { fixes.push_back(fix_of(lines[i], static_cast<int>(i) + 1)); }
     }
-    const auto with_receiver =
-        std::ranges::count_if(fixes, [](const Fix& fix) { return fix.receiver_m.has_value(); });
+    const auto with_receiver = std::ranges::count_if(fixes, [](const Fix& fix) { return fix.receiver_m.has_value(); });
     const bool by_receiver = 2 * static_cast<std::size_t>(with_receiver) > fixes.size();
     LogTable table;
     table.rows.emplace_back(log_table_columns);
@@ -500,8 +411,7 @@ std::string_view attribute(std::string_view tag, std::string_view name) {
         const bool is_value = quote != tag.npos && (tag[quote] == '"' || tag[quote] == '\'');
         if (is_whole && is_value) {
             const std::size_t end = tag.find(tag[quote], quote + 1);
-            return end == tag.npos ? std::string_view()
-                                   : as_field(tag.substr(quote + 1, end - quote - 1));
+            return end == tag.npos ? std::string_view() : as_field(tag.substr(quote + 1, end - quote - 1));
         }
     }
     return {};
@@ -511,9 +421,7 @@ std::string_view attribute(std::string_view tag, std::string_view name) {
 std::string_view element(std::string_view within, std::string_view name) {
     const std::string opening = fmt::format("<{}>", name);
     const std::size_t at = within.find(opening);
-    if (at == within.npos) {
-        return {};
-    }
+    if (at == within.npos) { return {}; }
     const std::string_view behind = within.substr(at + opening.size());
     return as_field(behind.substr(0, behind.find('<')));
 }
@@ -526,9 +434,9 @@ bool is_gpx(std::string_view text) {
     return first != start.npos && start[first] == '<' && start.find("<gpx") != start.npos;
 }
 
-/// The track points of a GPX file (topografix.com/GPX/1/1), of all its tracks and segments in their
-/// order; waypoints and routes have no times and are passed over. Throws Error with file and line
-/// for a comment or a track point without an end, and with the file where there is no track point.
+/// The track points of a GPX file (topografix.com/GPX/1/1), of all its tracks and segments in their order; waypoints
+/// and routes have no times and are passed over. Throws Error with file and line for a comment or a track point without
+/// an end, and with the file where there is no track point.
 LogTable gpx_points(const std::filesystem::path& file, std::string_view text) {
     LogTable table;
     table.rows.emplace_back(log_table_columns);
@@ -557,25 +465,20 @@ LogTable gpx_points(const std::filesystem::path& file, std::string_view text) {
             const bool is_bare = tag.ends_with('/');
             const std::size_t end = is_bare ? tag_end : end_of(at, point_end);
             const std::string_view within = text.substr(tag_end, end - tag_end);
-            table.rows.push_back(fmt::format(
-                "{},{},{},{}",
-                element(within, "time"),
-                attribute(tag, "lat"),
-                attribute(tag, "lon"),
-                element(within, "ele")));
+            table.rows.push_back(fmt::format("{},{},{},{}", element(within, "time"), attribute(tag, "lat"),
+                attribute(tag, "lon"), element(within, "ele")));
             table.line_numbers.push_back(line_at(at));
             at = end;
         }
     }
     if (table.rows.size() == 1) {
-        throw_error_in(
-            file, "expected track points (trkpt), got none: waypoints and routes have no times");
+        throw_error_in(file, "expected track points (trkpt), got none: waypoints and routes have no times");
     }
     return table;
 }
 
-/// The geodetic latitude of a place from its geocentric one, which is up to 0.19 degrees or 21 km
-/// less, and its height above the ellipsoid.
+/// The geodetic latitude of a place from its geocentric one, which is up to 0.19 degrees or 21 km less, and its height
+/// above the ellipsoid.
 double geodetic_from_geocentric_deg(double geocentric_deg, double height_m) {
     const double geocentric_rad = rad_from_deg(geocentric_deg);
     constexpr double e2 = wgs84.e2();
@@ -583,8 +486,7 @@ double geodetic_from_geocentric_deg(double geocentric_deg, double height_m) {
     for (int i = 0; i < 5; ++i) { // each step leaves less than a hundredth of the error
         const double sine = std::sin(geodetic_rad);
         const double normal_m = wgs84.semi_major_m / std::sqrt(1.0 - e2 * sine * sine);
-        geodetic_rad = std::atan2(
-            std::sin(geocentric_rad) * (normal_m + height_m),
+        geodetic_rad = std::atan2(std::sin(geocentric_rad) * (normal_m + height_m),
             std::cos(geocentric_rad) * (normal_m * (1.0 - e2) + height_m));
     }
     return deg_from_rad(geodetic_rad);
@@ -606,16 +508,12 @@ Row row_from(std::string_view line, const TrackHeader& header, const TrackLineLo
     Row row{};
     for (std::size_t i = 0; i < row.size(); ++i) {
         const TrackColumn& column = header.columns[i];
-        if (column.field < 0) {
-            continue;
-        }
+        if (column.field < 0) { continue; }
         const std::string_view text = fields[static_cast<std::size_t>(column.field)];
         const auto value = finite_number(text);
         if (!value) {
             at.refuse(fmt::format(
-                "expected a finite number in column {}, got \"{}\"",
-                column.name,
-                printable(std::string(text))));
+                "expected a finite number in column {}, got \"{}\"", column.name, printable(std::string(text))));
         }
         row[i] = *value;
     }
@@ -624,26 +522,19 @@ Row row_from(std::string_view line, const TrackHeader& header, const TrackLineLo
 
 /// A JSBSim row in the units and axes of our own columns.
 Row own_from_jsbsim(
-    Row row,
-    const TrackHeader& header,
-    std::optional<TransverseMercator>& frame,
-    const TrackLineLocation& at) {
+    Row row, const TrackHeader& header, std::optional<TransverseMercator>& frame, const TrackLineLocation& at) {
     if (std::abs(row[North]) > 90.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
-            "expected a latitude within 90 deg and a longitude within 360 deg, got {} and {}",
-            row[North],
-            row[East]));
+            "expected a latitude within 90 deg and a longitude within 360 deg, got {} and {}", row[North], row[East]));
     }
     if (header.columns[North].name == geocentric_latitude) {
         row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
     }
     const GeoPosition place{row[North], row[East]};
-    if (!frame) {
-        frame.emplace(place);
-    }
+    if (!frame) { frame.emplace(place); }
     const FramePosition local = frame->place_of(place);
-    const glm::dvec2 speed_mps = rotated_clockwise(
-        {m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_bearing_rad);
+    const glm::dvec2 speed_mps =
+        rotated_clockwise({m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_bearing_rad);
     row[North] = local.east_north_m.y;
     row[East] = local.east_north_m.x;
     row[Altitude] = m_from_ft(row[Altitude]);
@@ -656,16 +547,13 @@ Row own_from_jsbsim(
 
 glm::dquat attitude_from(const Row& row, bool as_quaternion, const TrackLineLocation& at) {
     if (!as_quaternion) {
-        return body_to_world_from_euler(
-            {rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
+        return body_to_world_from_euler({rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
     }
-    const glm::dquat attitude(
-        row[QuaternionW], row[QuaternionX], row[QuaternionY], row[QuaternionZ]);
+    const glm::dquat attitude(row[QuaternionW], row[QuaternionX], row[QuaternionY], row[QuaternionZ]);
     const double off = std::abs(glm::length(attitude) - 1.0);
     if (!(off <= off_unit)) {
         at.refuse(fmt::format(
-            "expected a unit quaternion q_w, q_x, q_y, q_z, got one of length {:.7g}",
-            glm::length(attitude)));
+            "expected a unit quaternion q_w, q_x, q_y, q_z, got one of length {:.7g}", glm::length(attitude)));
     }
     return off <= rounding ? attitude : glm::normalize(attitude);
 }
@@ -674,18 +562,13 @@ sim::AircraftState state_from(const Row& row, bool as_quaternion, const TrackLin
     sim::AircraftState state;
     state.time_s = row[Time];
     if (std::abs(state.time_s) > latest_s) {
-        at.refuse(fmt::format(
-            "expected a time from -{:.0f} s to {:.0f} s, got {:.10g} s",
-            latest_s,
-            latest_s,
-            state.time_s));
+        at.refuse(
+            fmt::format("expected a time from -{:.0f} s to {:.0f} s, got {:.10g} s", latest_s, latest_s, state.time_s));
     }
     state.position_m = {row[East], row[North], row[Altitude]};
     if (!(glm::length(state.position_m) <= max_track_distance_m)) {
-        at.refuse(fmt::format(
-            "expected a place within {:.0f} km of the origin, got {:.0f} km",
-            max_track_distance_m / 1000.0,
-            glm::length(state.position_m) / 1000.0));
+        at.refuse(fmt::format("expected a place within {:.0f} km of the origin, got {:.0f} km",
+            max_track_distance_m / 1000.0, glm::length(state.position_m) / 1000.0));
     }
     state.velocity_mps = {row[EastSpeed], row[NorthSpeed], row[UpSpeed]};
     state.body_to_world = attitude_from(row, as_quaternion, at);
@@ -698,56 +581,42 @@ void check_times(double first_s, double before_s, double now_s, const TrackLineL
         at.refuse(fmt::format("expected a time after {:.3f} s, got {:.3f} s", before_s, now_s));
     }
     if (!(now_s - first_s <= max_track_duration_s)) {
-        at.refuse(fmt::format(
-            "expected a time within {:.0f} s of the first, got {:.3f} s", max_track_duration_s, now_s));
+        at.refuse(
+            fmt::format("expected a time within {:.0f} s of the first, got {:.3f} s", max_track_duration_s, now_s));
     }
 }
 
-void check_speed(
-    const sim::AircraftState& before, const sim::AircraftState& now, const TrackLineLocation& at) {
+void check_speed(const sim::AircraftState& before, const sim::AircraftState& now, const TrackLineLocation& at) {
     const double speed_mps = std::max(
-        glm::length(now.velocity_mps),
-        glm::length(now.position_m - before.position_m) / (now.time_s - before.time_s));
+        glm::length(now.velocity_mps), glm::length(now.position_m - before.position_m) / (now.time_s - before.time_s));
     if (!(speed_mps <= max_track_speed_mps)) {
-        at.refuse(fmt::format(
-            "expected a speed of at most {:.0f} m/s, got {:.1f} m/s",
-            max_track_speed_mps,
-            speed_mps));
+        at.refuse(
+            fmt::format("expected a speed of at most {:.0f} m/s, got {:.1f} m/s", max_track_speed_mps, speed_mps));
     }
 }
 
 /// Whether a line holds nothing but, at most, a comment.
-bool is_empty(std::string_view line) {
-    return line.starts_with('#') || split_words(line).empty();
-}
+bool is_empty(std::string_view line) { return line.starts_with('#') || split_words(line).empty(); }
 
 std::size_t line_of_names(std::span<const std::string_view> lines) {
     return static_cast<std::size_t>(std::ranges::find_if_not(lines, is_empty) - lines.begin());
 }
 
-/// Whether a line names units below the names of columns: it holds something, and no number or
-/// time.
+/// Whether a line names units below the names of columns: it holds something, and no number or time.
 bool are_units(const std::vector<std::string_view>& fields) {
-    return !are_empty(fields) && std::ranges::none_of(fields, [](std::string_view field) {
-        return log_time(field).has_value();
-    });
+    return !are_empty(fields) &&
+           std::ranges::none_of(fields, [](std::string_view field) { return log_time(field).has_value(); });
 }
 
-/// The track that another program has logged, its units in a comment before the names or in a line
-/// behind them; nothing where the columns are ours or JSBSim's, or no flight's.
+/// The track that another program has logged, its units in a comment before the names or in a line behind them; nothing
+/// where the columns are ours or JSBSim's, or no flight's.
 std::optional<RecordedTrack> track_of_others(
-    const std::filesystem::path& file,
-    std::span<const std::string_view> lines,
-    std::size_t names_line) {
+    const std::filesystem::path& file, std::span<const std::string_view> lines, std::size_t names_line) {
     const char separator = separator_of(lines[names_line]);
     const auto names = unquoted_fields(lines[names_line], separator);
-    if (are_track_columns(names)) {
-        return std::nullopt;
-    }
+    if (are_track_columns(names)) { return std::nullopt; }
     std::vector<std::string_view> units;
-    if (names_line > 0) {
-        units = unquoted_fields(lines[names_line - 1], separator);
-    }
+    if (names_line > 0) { units = unquoted_fields(lines[names_line - 1], separator); }
     std::size_t header_line = names_line;
     if (names_line + 1 < lines.size()) {
         const auto below = unquoted_fields(lines[names_line + 1], separator);
@@ -757,12 +626,9 @@ std::optional<RecordedTrack> track_of_others(
         }
     }
     const auto columns = log_columns(names, units);
-    if (!columns) {
-        return std::nullopt;
-    }
+    if (!columns) { return std::nullopt; }
     LoggedTrack track = logged_track({file, lines, header_line, separator}, *columns);
-    return RecordedTrack{
-        sim::Trajectory(std::move(track.samples)), track.origin, std::move(track.notes)};
+    return RecordedTrack{sim::Trajectory(std::move(track.samples)), track.origin, std::move(track.notes)};
 }
 
 RecordedTrack track_of_table(const std::filesystem::path& file, LogTable table) {
@@ -778,36 +644,22 @@ RecordedTrack track_of_table(const std::filesystem::path& file, LogTable table) 
 
 RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     const std::string text = read_text_file(file);
-    if (is_gpx(text)) {
-        return track_of_table(file, gpx_points(file, text));
-    }
+    if (is_gpx(text)) { return track_of_table(file, gpx_points(file, text)); }
     auto lines = split_lines(text);
-    if (is_igc(lines)) {
-        return track_of_table(file, igc_fixes(lines));
-    }
-    if (!lines.empty() && lines.front().starts_with("\xef\xbb\xbf")) {
-        lines.front().remove_prefix(3);
-    }
+    if (is_igc(lines)) { return track_of_table(file, igc_fixes(lines)); }
+    if (!lines.empty() && lines.front().starts_with("\xef\xbb\xbf")) { lines.front().remove_prefix(3); }
     const std::size_t names = line_of_names(lines);
-    if (names == lines.size()) {
-        throw_error_at(file, 1, "expected a line of column names, got an empty one");
-    }
-    if (auto track = track_of_others(file, lines, names)) {
-        return std::move(*track);
-    }
+    if (names == lines.size()) { throw_error_at(file, 1, "expected a line of column names, got an empty one"); }
+    if (auto track = track_of_others(file, lines, names)) { return std::move(*track); }
     const TrackHeader header = track_header(lines[names], {file, static_cast<int>(names) + 1});
     const bool as_quaternion = header.has({QuaternionW});
     std::optional<TransverseMercator> frame;
     std::vector<sim::AircraftState> samples;
     for (std::size_t i = names + 1; i < lines.size(); ++i) {
-        if (is_empty(lines[i])) {
-            continue;
-        }
+        if (is_empty(lines[i])) { continue; }
         const TrackLineLocation at{file, static_cast<int>(i) + 1};
         Row row = row_from(lines[i], header, at);
-        if (header.is_jsbsim) {
-            row = own_from_jsbsim(row, header, frame, at);
-        }
+        if (header.is_jsbsim) { row = own_from_jsbsim(row, header, frame, at); }
         samples.push_back(state_from(row, as_quaternion, at));
         if (samples.size() > 1) {
             const sim::AircraftState& before = samples[samples.size() - 2];
@@ -818,19 +670,10 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     if (samples.size() < 2) {
         throw_error_in(file, fmt::format("expected at least 2 samples, got {}", samples.size()));
     }
-    if (!header.has({NorthSpeed, EastSpeed, UpSpeed})) {
-        fill_velocities(samples);
-    }
-    if (!as_quaternion && !header.has({Roll, Pitch, Yaw})) {
-        fill_attitudes(samples);
-    }
-    if (!header.has({LoadFactor})) {
-        fill_load_factors(samples);
-    }
-    return {
-        sim::Trajectory(std::move(samples)),
-        frame ? std::optional(frame->origin()) : std::nullopt,
-        {}};
+    if (!header.has({NorthSpeed, EastSpeed, UpSpeed})) { fill_velocities(samples); }
+    if (!as_quaternion && !header.has({Roll, Pitch, Yaw})) { fill_attitudes(samples); }
+    if (!header.has({LoadFactor})) { fill_load_factors(samples); }
+    return {sim::Trajectory(std::move(samples)), frame ? std::optional(frame->origin()) : std::nullopt, {}};
 }
 
 } // namespace octant::flightpaths

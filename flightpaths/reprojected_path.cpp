@@ -9,8 +9,7 @@ namespace octant::flightpaths {
 
 sim::Trajectory reprojected(const sim::Trajectory& path, const EarthFrame& from, const EarthFrame& to) {
     const glm::dvec2 origin_m = to.local_from_geo(from.origin());
-    const double stretch =
-        to.origin().ellipsoid.semi_major_m / from.origin().ellipsoid.semi_major_m;
+    const double stretch = to.origin().ellipsoid.semi_major_m / from.origin().ellipsoid.semi_major_m;
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
     for (sim::AircraftState& state : samples) {
         const GeoPosition place = from.geo_from_local(glm::dvec2(state.position_m));

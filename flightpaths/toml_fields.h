@@ -17,17 +17,17 @@ struct NumberRange {
     double most = 0.0;
 };
 
-/// The keys of one TOML table, taken one by one; what is left over at the end is refused. The unit
-/// of a number is the end of its key: speed_mps and speed_kt are two ways to say one thing. All
-/// numbers come back in SI units and radians. Every fault throws Error with the file and the line.
+/// The keys of one TOML table, taken one by one; what is left over at the end is refused. The unit of a number is the
+/// end of its key: speed_mps and speed_kt are two ways to say one thing. All numbers come back in SI units and radians.
+/// Every fault throws Error with the file and the line.
 class TomlFields {
 public:
     TomlFields(const std::filesystem::path& file, const toml::table& table);
 
     int line() const { return line_; }
 
-    /// `name` + "_" + one of the units that belong to `base_unit` ("m", "mps", "rad", "s", "g",
-    /// "mps2", "radps"), or `name` alone when `base_unit` is empty. Bounds are in the base unit.
+    /// `name` + "_" + one of the units that belong to `base_unit` ("m", "mps", "rad", "s", "g", "mps2", "radps"), or
+    /// `name` alone when `base_unit` is empty. Bounds are in the base unit.
     std::optional<double> number(std::string_view name, std::string_view base_unit, NumberRange bounds);
     double required_number(std::string_view name, std::string_view base_unit, NumberRange bounds);
     int required_integer(std::string_view name, int least, int most);

@@ -60,36 +60,28 @@ bool is_same_name(std::string_view a, std::string_view b) {
 }
 
 bool is_among(std::string_view name, const std::vector<std::string_view>& names) {
-    return std::ranges::any_of(
-        names, [&](std::string_view other) { return is_same_name(name, other); });
+    return std::ranges::any_of(names, [&](std::string_view other) { return is_same_name(name, other); });
 }
 
 /// Whether a column of each quantity up to the altitude is among the names.
 bool has_place(std::span<const Known> columns, const std::vector<std::string_view>& names) {
     std::array<bool, QuantityCount> has{};
-    for (const Known& known : columns) {
-        has[known.quantity] = has[known.quantity] || is_among(known.name, names);
-    }
+    for (const Known& known : columns) { has[known.quantity] = has[known.quantity] || is_among(known.name, names); }
     return has[Time] && has[North] && has[East] && has[Altitude];
 }
 
 /// Whether names are of these columns, as far as they go: the time and one more.
 bool are_of(std::span<const Known> columns, const std::vector<std::string_view>& names) {
-    const auto known = std::ranges::count_if(
-        columns, [&](const Known& column) { return is_among(column.name, names); });
+    const auto known =
+        std::ranges::count_if(columns, [&](const Known& column) { return is_among(column.name, names); });
     return known >= 2 && is_among(columns.front().name, names);
 }
 
-int field_of(
-    const std::vector<std::string_view>& names, std::string_view name, const TrackLineLocation& at) {
+int field_of(const std::vector<std::string_view>& names, std::string_view name, const TrackLineLocation& at) {
     int found = -1;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (!is_same_name(names[i], name)) {
-            continue;
-        }
-        if (found >= 0) {
-            at.refuse(fmt::format("expected one column {}, got two", name));
-        }
+        if (!is_same_name(names[i], name)) { continue; }
+        if (found >= 0) { at.refuse(fmt::format("expected one column {}, got two", name)); }
         found = static_cast<int>(i);
     }
     return found;
@@ -105,12 +97,11 @@ void need_columns(const TrackHeader& header, const TrackLineLocation& at) {
 
 /// Refuses a header that names some but not all four columns of the quaternion.
 void need_whole_quaternion(const TrackHeader& header, const TrackLineLocation& at) {
-    const bool any = header.has({QuaternionW}) || header.has({QuaternionX}) ||
-                     header.has({QuaternionY}) || header.has({QuaternionZ});
+    const bool any = header.has({QuaternionW}) || header.has({QuaternionX}) || header.has({QuaternionY}) ||
+                     header.has({QuaternionZ});
     for (const Known& known : own_columns) {
         if (any && known.quantity >= QuaternionW && !header.has({known.quantity})) {
-            at.refuse(fmt::format(
-                "expected all of the columns q_w, q_x, q_y, q_z, got no {}", known.name));
+            at.refuse(fmt::format("expected all of the columns q_w, q_x, q_y, q_z, got no {}", known.name));
         }
     }
 }
@@ -129,16 +120,13 @@ TrackHeader track_header(std::string_view line, const TrackLineLocation& at) {
     const bool own = are_of(own_columns, names);
     header.is_jsbsim = !own && are_of(jsbsim_columns, names);
     if (!own && !header.is_jsbsim) {
-        at.refuse(fmt::format(
-            "expected column names with a time, a place and an altitude among them (t_s, north_m, "
-            "east_m, alt_m or Time, Latitude, Longitude, Altitude), got {}",
+        at.refuse(fmt::format("expected column names with a time, a place and an altitude among them (t_s, north_m, "
+                              "east_m, alt_m or Time, Latitude, Longitude, Altitude), got {}",
             printable(std::string(line))));
     }
     for (const Known& known : columns_of(header)) {
         TrackColumn& column = header.columns[known.quantity];
-        if (column.field < 0) {
-            column = {field_of(names, known.name, at), known.name};
-        }
+        if (column.field < 0) { column = {field_of(names, known.name, at), known.name}; }
     }
     need_columns(header, at);
     need_whole_quaternion(header, at);

@@ -50,9 +50,7 @@ struct TrackHeader {
 
     bool has(std::initializer_list<TrackQuantity> quantities) const {
         for (const TrackQuantity quantity : quantities) {
-            if (columns[quantity].field < 0) {
-                return false;
-            }
+            if (columns[quantity].field < 0) { return false; }
         }
         return true;
     }
@@ -66,12 +64,11 @@ struct TrackLineLocation {
     [[noreturn]] void refuse(const std::string& what) const { throw_error_at(file, line, what); }
 };
 
-/// Whether these are names of columns as we or JSBSim write them, with a time and a place among
-/// them.
+/// Whether these are names of columns as we or JSBSim write them, with a time and a place among them.
 bool are_track_columns(const std::vector<std::string_view>& names);
 
-/// Finds the columns of a track in a line of their names, whatever their case. Throws Error for a
-/// missing or doubled column.
+/// Finds the columns of a track in a line of their names, whatever their case. Throws Error for a missing or doubled
+/// column.
 TrackHeader track_header(std::string_view line, const TrackLineLocation& at);
 
 } // namespace octant::flightpaths

@@ -8,9 +8,7 @@ namespace octant::flightpaths {
 
 char separator_of(std::string_view column_names) {
     const auto has = [&](char c) { return column_names.find(c) != std::string_view::npos; };
-    if (has('\t')) {
-        return '\t';
-    }
+    if (has('\t')) { return '\t'; }
     return has(';') && !has(',') ? ';' : ',';
 }
 
@@ -28,9 +26,7 @@ std::vector<std::string_view> unquoted_fields(std::string_view line, char separa
             field = field.substr(1, field.size() - 2);
         }
         fields.push_back(field);
-        if (end == std::string_view::npos) {
-            return fields;
-        }
+        if (end == std::string_view::npos) { return fields; }
         line.remove_prefix(end + 1);
     }
 }

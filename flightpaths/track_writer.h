@@ -10,19 +10,19 @@
 
 namespace octant::flightpaths {
 
-/// A flight as comma-separated text with the columns t_s, north_m, east_m, alt_m, roll_deg,
-/// pitch_deg, yaw_deg, tas_mps, n_g, v_north_mps, v_east_mps, v_up_mps. read_recorded_track gives
-/// the same states back within 1e-3 (m, m/s, rad, g).
+/// A flight as comma-separated text with the columns t_s, north_m, east_m, alt_m, roll_deg, pitch_deg, yaw_deg,
+/// tas_mps, n_g, v_north_mps, v_east_mps, v_up_mps. read_recorded_track gives the same states back within 1e-3 (m, m/s,
+/// rad, g).
 std::string track_csv(const sim::Trajectory& trajectory);
 
 /// The line of the names that it begins with, and that of a state.
 std::string track_csv_names();
 std::string track_csv_line(const sim::AircraftState& state);
 
-/// A flight as comma-separated text that repeats it: t_s, north_m, east_m, alt_m, v_north_mps,
-/// v_east_mps, v_up_mps, n_g, q_w, q_x, q_y, q_z, each number with as many digits as it takes.
-/// read_recorded_track gives the same states back to the last bit, if the reader takes them at all
-/// (two samples or more, unit attitudes, its limits of time, place and speed).
+/// A flight as comma-separated text that repeats it: t_s, north_m, east_m, alt_m, v_north_mps, v_east_mps, v_up_mps,
+/// n_g, q_w, q_x, q_y, q_z, each number with as many digits as it takes. read_recorded_track gives the same states back
+/// to the last bit, if the reader takes them at all (two samples or more, unit attitudes, its limits of time, place and
+/// speed).
 std::string exact_track_csv(const sim::Trajectory& trajectory);
 
 /// What a Tacview file says beside the motion.
@@ -37,8 +37,8 @@ struct AcmiHeader {
     std::vector<LegStart> bookmarks;
 };
 
-/// A flight as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat local
-/// map. The reference time is fixed, so that the same flight gives the same bytes.
+/// A flight as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat local map. The reference
+/// time is fixed, so that the same flight gives the same bytes.
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header);
 
 /// What it begins with, and what it says of a state, without bookmarks; more of the first one.

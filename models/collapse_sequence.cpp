@@ -31,34 +31,21 @@ TriangleMesh mesh_after(const CollapseSequence& sequence, std::size_t count) {
     std::vector<std::uint32_t> ancestors = parents_after(sequence, count);
     std::vector<std::uint32_t> places(ancestors.size(), none);
     for (std::size_t v = 0; v < ancestors.size(); ++v) {
-        if (ancestors[v] != none) {
-            continue;
-        }
+        if (ancestors[v] != none) { continue; }
         places[v] = static_cast<std::uint32_t>(mesh.vertices_m.size());
         const bool made = v >= originals;
-        mesh.vertices_m.push_back(
-            made ? sequence.collapses[v - originals].position_m : original.vertices_m[v]);
-        if (coloured) {
-            mesh.colours.push_back(
-                made ? sequence.collapses[v - originals].colour : original.colours[v]);
-        }
+        mesh.vertices_m.push_back(made ? sequence.collapses[v - originals].position_m : original.vertices_m[v]);
+        if (coloured) { mesh.colours.push_back(made ? sequence.collapses[v - originals].colour : original.colours[v]); }
     }
     for (std::size_t v = ancestors.size(); v-- > 0;) { // a parent's number is the larger one
-        ancestors[v] =
-            ancestors[v] == none ? static_cast<std::uint32_t>(v) : ancestors[ancestors[v]];
+        ancestors[v] = ancestors[v] == none ? static_cast<std::uint32_t>(v) : ancestors[ancestors[v]];
     }
     for (std::size_t t = 0; t < original.triangles.size(); ++t) {
         Triangle corners = original.triangles[t];
-        for (std::uint32_t& corner : corners) {
-            corner = places[ancestors[corner]];
-        }
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
-            continue;
-        }
+        for (std::uint32_t& corner : corners) { corner = places[ancestors[corner]]; }
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) { continue; }
         mesh.triangles.push_back(corners);
-        if (!original.triangle_materials.empty()) {
-            mesh.triangle_materials.push_back(original.triangle_materials[t]);
-        }
+        if (!original.triangle_materials.empty()) { mesh.triangle_materials.push_back(original.triangle_materials[t]); }
     }
     return mesh;
 }
@@ -68,8 +55,7 @@ std::size_t collapses_to_faces(const CollapseSequence& sequence, std::size_t fac
     std::size_t count = 0;
     while (left > faces && count < sequence.collapses.size()) {
         const Collapse& collapse = sequence.collapses[count];
-        left -= static_cast<std::size_t>(collapse.left != none) +
-                static_cast<std::size_t>(collapse.right != none);
+        left -= static_cast<std::size_t>(collapse.left != none) + static_cast<std::size_t>(collapse.right != none);
         ++count;
     }
     return count;

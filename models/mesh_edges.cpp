@@ -8,8 +8,8 @@
 namespace octant::models {
 
 std::vector<TriangleEdge> sorted_triangle_edges(std::span<const Triangle> triangles) {
-    // By the smaller vertex sides are dealt out into the places that belong to it, and only the few
-    // of each vertex are compared.
+    // By the smaller vertex sides are dealt out into the places that belong to it, and only the few of each vertex are
+    // compared.
     std::vector<std::uint32_t> ends; // of each smaller vertex's places, once all are dealt out
     const auto for_each_side = [&](const auto& take) {
         for (std::uint32_t t = 0; t < triangles.size(); ++t) {

@@ -10,14 +10,10 @@
 
 namespace octant::models {
 
-/// Things that are put together piece by piece (union-find); the smallest thing of a group names
-/// it.
+/// Things that are put together piece by piece (union-find); the smallest thing of a group names it.
 class DisjointSets {
 public:
-    explicit DisjointSets(std::size_t count)
-        : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), 0U);
-    }
+    explicit DisjointSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0U); }
 
     std::uint32_t group_of(std::uint32_t thing) {
         while (parents_[thing] != thing) {
@@ -53,8 +49,7 @@ struct TriangleEdge {
     bool operator==(const TriangleEdge&) const = default;
 };
 
-/// The sides of all triangles, sorted so that those of one edge stand together, in the order of
-/// their triangles.
+/// The sides of all triangles, sorted so that those of one edge stand together, in the order of their triangles.
 std::vector<TriangleEdge> sorted_triangle_edges(std::span<const Triangle> triangles);
 
 /// Calls `take(std::span<const Side>)` for each edge.
@@ -62,8 +57,8 @@ template <typename Take>
 void for_each_edge(std::span<const TriangleEdge> sides, Take&& take) {
     for (std::size_t first = 0; first < sides.size();) {
         std::size_t last = first + 1;
-        while (last < sides.size() && sides[last].least == sides[first].least &&
-               sides[last].most == sides[first].most) {
+        while (
+            last < sides.size() && sides[last].least == sides[first].least && sides[last].most == sides[first].most) {
             ++last;
         }
         take(sides.subspan(first, last - first));

@@ -12,15 +12,9 @@ namespace {
 
 /// The bits of a number below 2^21, each followed by two zeros.
 std::uint64_t spread_bits(std::uint64_t number) {
-    constexpr std::pair<int, std::uint64_t> steps[] = {
-        {32, 0x001f00000000ffffU},
-        {16, 0x001f0000ff0000ffU},
-        {8, 0x100f00f00f00f00fU},
-        {4, 0x10c30c30c30c30c3U},
-        {2, 0x1249249249249249U}};
-    for (const auto& [shift, mask] : steps) {
-        number = (number | number << shift) & mask;
-    }
+    constexpr std::pair<int, std::uint64_t> steps[] = {{32, 0x001f00000000ffffU}, {16, 0x001f0000ff0000ffU},
+        {8, 0x100f00f00f00f00fU}, {4, 0x10c30c30c30c30c3U}, {2, 0x1249249249249249U}};
+    for (const auto& [shift, mask] : steps) { number = (number | number << shift) & mask; }
     return number;
 }
 
@@ -36,8 +30,7 @@ std::vector<std::uint64_t> morton_places(const TriangleMesh& mesh) {
         std::uint64_t place = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const double share = (vertex_m[axis] - bounds.min_m[axis]) / longest_m;
-            const double cell =
-                share > 0.0 ? std::min(share, 1.0) * cells : 0.0; // Also if no number.
+            const double cell = share > 0.0 ? std::min(share, 1.0) * cells : 0.0; // Also if no number.
             place |= spread_bits(static_cast<std::uint64_t>(cell)) << axis;
         }
         places.push_back(place);
@@ -50,37 +43,27 @@ template <typename Key>
 std::vector<std::uint32_t> order_of(const std::vector<Key>& keys) {
     std::vector<std::pair<Key, std::uint32_t>> sorted;
     sorted.reserve(keys.size());
-    for (std::uint32_t i = 0; i < keys.size(); ++i) {
-        sorted.emplace_back(keys[i], i);
-    }
+    for (std::uint32_t i = 0; i < keys.size(); ++i) { sorted.emplace_back(keys[i], i); }
     std::ranges::sort(sorted);
     std::vector<std::uint32_t> order;
     order.reserve(keys.size());
-    for (const auto& [key, number] : sorted) {
-        order.push_back(number);
-    }
+    for (const auto& [key, number] : sorted) { order.push_back(number); }
     return order;
 }
 
 template <typename Item>
 void reorder(std::vector<Item>& items, const std::vector<std::uint32_t>& order) {
-    if (items.empty()) {
-        return;
-    }
+    if (items.empty()) { return; }
     std::vector<Item> sorted;
     sorted.reserve(items.size());
-    for (const std::uint32_t number : order) {
-        sorted.push_back(items[number]);
-    }
+    for (const std::uint32_t number : order) { sorted.push_back(items[number]); }
     items = std::move(sorted);
 }
 
 } // namespace
 
 BoundingBox bounds_of(const TriangleMesh& mesh) {
-    if (mesh.triangles.empty()) {
-        return {};
-    }
+    if (mesh.triangles.empty()) { return {}; }
     const glm::dvec3& first_m = mesh.vertices_m[mesh.triangles.front()[0]];
     BoundingBox bounds{first_m, first_m};
     for (const Triangle& triangle : mesh.triangles) {
@@ -102,15 +85,11 @@ void sort_spatially(TriangleMesh& mesh) {
     reorder(mesh.vertices_m, order);
     reorder(mesh.colours, order);
     std::vector<std::uint32_t> numbers(order.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-        numbers[order[i]] = i;
-    }
+    for (std::uint32_t i = 0; i < order.size(); ++i) { numbers[order[i]] = i; }
     std::vector<std::uint32_t> firsts;
     firsts.reserve(mesh.triangles.size());
     for (Triangle& triangle : mesh.triangles) {
-        for (std::uint32_t& corner : triangle) {
-            corner = numbers[corner];
-        }
+        for (std::uint32_t& corner : triangle) { corner = numbers[corner]; }
         firsts.push_back(*std::ranges::min_element(triangle));
     }
     const std::vector<std::uint32_t> triangles = order_of(firsts);
@@ -122,27 +101,22 @@ void sort_spatially(TriangleMesh& mesh) {
 
 glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle) {
     const glm::dvec3& first_m = mesh.vertices_m[triangle[0]];
-    return glm::cross(
-        mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
+    return glm::cross(mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
 }
 
-glm::dvec3
-normal_of(const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& degenerate_normal) {
+glm::dvec3 normal_of(const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& degenerate_normal) {
     const glm::dvec3 across = area_vector(mesh, triangle);
     const double length = glm::length(across);
     return length > 0.0 ? across / length : degenerate_normal;
 }
 
 glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle) {
-    return mesh.triangle_materials.empty()
-               ? Material().colour
-               : mesh.materials[mesh.triangle_materials[triangle]].colour;
+    return mesh.triangle_materials.empty() ? Material().colour
+                                           : mesh.materials[mesh.triangle_materials[triangle]].colour;
 }
 
 glm::vec3 mean_colour(const TriangleMesh& mesh, std::size_t triangle) {
-    if (mesh.colours.empty()) {
-        return material_colour(mesh, triangle);
-    }
+    if (mesh.colours.empty()) { return material_colour(mesh, triangle); }
     const Triangle& corners = mesh.triangles[triangle];
     return (mesh.colours[corners[0]] + mesh.colours[corners[1]] + mesh.colours[corners[2]]) / 3.0F;
 }

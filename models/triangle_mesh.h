@@ -19,26 +19,24 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// The colours of a triangle's corners, display values 0..1.
 using CornerColours = std::array<glm::vec3, 3>;
 
-/// A triangle mesh as files hold it, in the file's own axes and units (metres for aircraft).
-/// Corners share vertices; colours belong to vertices, normals and texture coordinates to corners,
-/// materials to triangles. Where texture coordinates or normals break along a seam, the corners of
-/// one vertex point to several of them.
+/// A triangle mesh as files hold it, in the file's own axes and units (metres for aircraft). Corners share vertices;
+/// colours belong to vertices, normals and texture coordinates to corners, materials to triangles. Where texture
+/// coordinates or normals break along a seam, the corners of one vertex point to several of them.
 struct TriangleMesh {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
     std::vector<glm::vec3> colours; ///< one a vertex, display values 0..1; empty = no colours
     std::vector<Triangle> triangles;
-    std::vector<glm::vec3> normals; ///< unit vectors that corner_normals points into; often empty
+    std::vector<glm::vec3> normals;       ///< unit vectors that corner_normals points into; often empty
     std::vector<Triangle> corner_normals; ///< one a triangle; empty where `normals` is
-    /// Places on the pictures of materials that corner_texture_coordinates points into: u to the
-    /// right and v up from a picture's lower left corner, 1 is its width or height; often empty.
+    /// Places on the pictures of materials that corner_texture_coordinates points into: u to the right and v up from a
+    /// picture's lower left corner, 1 is its width or height; often empty.
     std::vector<glm::vec2> texture_coordinates;
-    /// One a triangle, three times invalid_index for a triangle without; empty where
-    /// `texture_coordinates` is.
+    /// One a triangle, three times invalid_index for a triangle without; empty where `texture_coordinates` is.
     std::vector<Triangle> corner_texture_coordinates;
     std::vector<Material> materials;               ///< empty = none
     std::vector<std::uint32_t> triangle_materials; ///< one a triangle; empty where `materials` is
-    std::vector<std::string> notes; ///< what reading or repairing it found; often none
+    std::vector<std::string> notes;                ///< what reading or repairing it found; often none
 };
 
 /// Smallest and largest coordinates of the vertices that triangles use; both 0 without triangles.
@@ -52,8 +50,8 @@ BoundingBox bounds_of(const TriangleMesh& mesh);
 /// Length of the diagonal of bounds_of: what errors are given as fractions of.
 double diagonal_m(const TriangleMesh& mesh);
 
-/// Gives vertices and triangles new numbers, so that those that are near in space are near in
-/// memory (along a Morton curve). The surface stays the same.
+/// Gives vertices and triangles new numbers, so that those that are near in space are near in memory (along a Morton
+/// curve). The surface stays the same.
 void sort_spatially(TriangleMesh& mesh);
 
 /// Along a triangle's normal, as long as twice its area.
@@ -61,9 +59,7 @@ glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle);
 
 /// Unit normal of a triangle; `degenerate_normal` where it has none.
 glm::dvec3 normal_of(
-    const TriangleMesh& mesh,
-    const Triangle& triangle,
-    const glm::dvec3& degenerate_normal = glm::dvec3(0.0));
+    const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& degenerate_normal = glm::dvec3(0.0));
 
 /// Colour of a triangle's material, the plain one's where it has none.
 glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle);

@@ -1,4 +1,5 @@
 #include "sim/aircraft_kind.h"
+
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -7,9 +8,7 @@
 
 namespace octant::sim {
 
-std::span<const AircraftKind> aircraft_kinds() {
-    return aircraft_table;
-}
+std::span<const AircraftKind> aircraft_kinds() { return aircraft_table; }
 
 const AircraftKind* find_aircraft_kind(std::string_view name) {
     const auto found = std::ranges::find(aircraft_table, name, &AircraftKind::name);
@@ -17,9 +16,7 @@ const AircraftKind* find_aircraft_kind(std::string_view name) {
 }
 
 const AircraftKind& aircraft_kind(std::string_view name) {
-    if (const AircraftKind* kind = find_aircraft_kind(name)) {
-        return *kind;
-    }
+    if (const AircraftKind* kind = find_aircraft_kind(name)) { return *kind; }
     std::string names;
     for (const AircraftKind& kind : aircraft_table) {
         names += names.empty() ? "" : " or ";

@@ -16,8 +16,8 @@ struct AircraftState {
     glm::dquat body_to_world{1.0, 0.0, 0.0, 0.0};
     /// Lift over weight, in g.
     double load_factor = 1.0;
-    /// The change of speed along the path, smoothed over about a second; with climb, drag and
-    /// weight it says how much thrust the motion needs (flight_models.h).
+    /// The change of speed along the path, smoothed over about a second; with climb, drag and weight it says how much
+    /// thrust the motion needs (flight_models.h).
     double speed_rate_mps2 = 0.0;
 };
 

@@ -13,8 +13,8 @@ struct Air {
     double temperature_ratio = 0.0;
 };
 
-/// Air of a height above datum, taken as geopotential height above sea level. Heights below -2 km
-/// and above 80 km get the air of those.
+/// Air of a height above datum, taken as geopotential height above sea level. Heights below -2 km and above 80 km get
+/// the air of those.
 Air standard_air(double height_m);
 
 } // namespace octant::sim

@@ -8,10 +8,9 @@
 // - Dry thrust over thrust with reheat: the tables of an engine of that family in Nguyen et al.,
 //   NASA TP-1538 (1979), printed in Stevens and Lewis, Aircraft Control and Simulation, app. A.
 //   From sea level to 20,000 ft it falls from 0.57 .. 0.63 at rest to 0.47 .. 0.49 at Mach 0.8.
-// Deviations: angle and size of the most lift, zero-lift and wave drag are chosen so that a stall
-// at about 115 kt, the published 800 kt (M 1.2) low down, the climb of the 50,000 ft/min class and
-// M 2 at height come out roughly. Lift does not depend on the Mach number. Idle gives no net
-// thrust.
+// Deviations: angle and size of the most lift, zero-lift and wave drag are chosen so that a stall at about 115 kt, the
+// published 800 kt (M 1.2) low down, the climb of the 50,000 ft/min class and M 2 at height come out roughly. Lift does
+// not depend on the Mach number. Idle gives no net thrust.
 
 #include "sim/fixed_wing_aero.h"
 
@@ -40,9 +39,7 @@ double zero_lift_drag(double mach) {
 }
 
 /// Dry thrust over thrust with reheat.
-double dry_share(double mach) {
-    return std::clamp(0.62 - 0.18 * mach, 0.35, 0.62);
-}
+double dry_share(double mach) { return std::clamp(0.62 - 0.18 * mach, 0.35, 0.62); }
 
 double full_thrust_n(double mach, const Air& air) {
     const double ram = 1.0 + 0.2 * mach * mach;
@@ -73,8 +70,7 @@ double alpha_for_lift(double coefficient) {
     const double alpha_rad =
         size <= lift_slope * linear_alpha_rad
             ? size / lift_slope
-            : stall_alpha_rad -
-                  std::sqrt((max_lift_coefficient - size) * 2.0 * bend_rad / lift_slope);
+            : stall_alpha_rad - std::sqrt((max_lift_coefficient - size) * 2.0 * bend_rad / lift_slope);
     return std::copysign(alpha_rad, coefficient);
 }
 
@@ -88,15 +84,12 @@ double drag_coefficient(double alpha_rad, double beta_rad, double mach) {
     return zero_lift_drag(mach) + attached + broken * (plate - attached) + aside * aside;
 }
 
-double side_coefficient(double beta_rad) {
-    return -side_slope * std::sin(beta_rad) * std::cos(beta_rad);
-}
+double side_coefficient(double beta_rad) { return -side_slope * std::sin(beta_rad) * std::cos(beta_rad); }
 
 double thrust_n(double lever, double mach, const Air& air) {
     const double dry = dry_share(mach);
-    const double share = lever <= dry_lever
-                             ? dry * lever / dry_lever
-                             : dry + (1.0 - dry) * (lever - dry_lever) / (1.0 - dry_lever);
+    const double share =
+        lever <= dry_lever ? dry * lever / dry_lever : dry + (1.0 - dry) * (lever - dry_lever) / (1.0 - dry_lever);
     return share * full_thrust_n(mach, air);
 }
 
@@ -104,12 +97,9 @@ double lever_for_thrust(double newtons, double mach, const Air& air) {
     const double full_n = full_thrust_n(mach, air);
     const double dry = dry_share(mach);
     const double share = full_n > 0.0 ? std::clamp(newtons / full_n, 0.0, 1.0) : 1.0;
-    return share <= dry ? share / dry * dry_lever
-                        : dry_lever + (share - dry) / (1.0 - dry) * (1.0 - dry_lever);
+    return share <= dry ? share / dry * dry_lever : dry_lever + (share - dry) / (1.0 - dry) * (1.0 - dry_lever);
 }
 
-double reheat_from_lever(double lever) {
-    return std::clamp((lever - dry_lever) / (1.0 - dry_lever), 0.0, 1.0);
-}
+double reheat_from_lever(double lever) { return std::clamp((lever - dry_lever) / (1.0 - dry_lever), 0.0, 1.0); }
 
 } // namespace octant::sim::f15

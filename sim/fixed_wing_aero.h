@@ -12,11 +12,9 @@ inline constexpr double wing_m2 = 56.5;
 inline constexpr double lift_slope = 4.0;
 inline constexpr double linear_alpha_rad = rad_from_deg(12.0);
 inline constexpr double stall_alpha_rad = rad_from_deg(28.0);
-inline constexpr double max_lift_coefficient =
-    0.5 * lift_slope * (linear_alpha_rad + stall_alpha_rad);
+inline constexpr double max_lift_coefficient = 0.5 * lift_slope * (linear_alpha_rad + stall_alpha_rad);
 
-/// Lift over dynamic pressure and wing area, for any angle of attack in (-pi, pi]: positive to the
-/// side of the canopy.
+/// Lift over dynamic pressure and wing area, for any angle of attack in (-pi, pi]: positive to the side of the canopy.
 double lift_coefficient(double alpha_rad);
 
 /// Angle of attack below the stall that gives this lift. |lift| <= max_lift_coefficient.

@@ -1,10 +1,8 @@
-// A point mass under lift, drag, side force, thrust and gravity, with an attitude that a control
-// augmentation system turns: any text on flight mechanics, e.g. Stengel, Flight Dynamics (2004).
-// Steps by the midpoint rule. Load-factor and roll-rate limits: sim/aircraft_kind.cpp; sources
-// of the forces: sim/fixed_wing_aero.cpp.
-// Deviations: no moments of inertia. The attitude turns with the velocity, and about it with the
-// lags below, chosen for a fighter that handles well.
-// Less than full_authority_mps of airspeed leaves the tail less and less to turn with.
+// A point mass under lift, drag, side force, thrust and gravity, with an attitude that a control augmentation system
+// turns: any text on flight mechanics, e.g. Stengel, Flight Dynamics (2004). Steps by the midpoint rule. Load-factor
+// and roll-rate limits: sim/aircraft_kind.cpp; sources of the forces: sim/fixed_wing_aero.cpp. Deviations: no moments
+// of inertia. The attitude turns with the velocity, and about it with the lags below, chosen for a fighter that handles
+// well. Less than full_authority_mps of airspeed leaves the tail less and less to turn with.
 
 #include "sim/fixed_wing_flight.h"
 
@@ -36,8 +34,8 @@ constexpr double incidence_lag_s = 0.8;
 constexpr double attitude_lag_s = 0.1;
 constexpr double fastest_pitch_radps = 1.2;
 constexpr double full_rudder_rad = rad_from_deg(6.0);
-/// Angle of attack that asking for a tenth more than the wing has adds, and its most, with the
-/// stick centred and all the way back.
+/// Angle of attack that asking for a tenth more than the wing has adds, and its most, with the stick centred and all
+/// the way back.
 constexpr double beyond_stall_rad = rad_from_deg(4.0);
 constexpr double centred_beyond_rad = rad_from_deg(4.0);
 constexpr double pulled_beyond_rad = rad_from_deg(12.0);
@@ -60,8 +58,7 @@ const glm::dvec3 body_right(0.0, 1.0, 0.0);
 const glm::dvec3 body_down(0.0, 0.0, 1.0);
 
 double authority(double speed_mps) {
-    return std::clamp(
-        (speed_mps - no_authority_mps) / (full_authority_mps - no_authority_mps), 0.0, 1.0);
+    return std::clamp((speed_mps - no_authority_mps) / (full_authority_mps - no_authority_mps), 0.0, 1.0);
 }
 
 /// The lift at a lift coefficient of 1.
@@ -79,16 +76,13 @@ Trim level_trim(double speed_mps, const Air& air) {
     const double scale_n = lift_scale_n(air, speed_mps);
     const double mach = speed_mps / air.speed_of_sound_mps;
     Trim trim;
-    if (!(scale_n > 0.0)) {
-        return trim;
-    }
+    if (!(scale_n > 0.0)) { return trim; }
     double thrust_n = 0.0;
     for (int i = 0; i < 60; ++i) {
         const double lift_n = weight_n - thrust_n * std::sin(trim.alpha_rad);
-        trim.alpha_rad = f15::alpha_for_lift(
-            std::clamp(lift_n / scale_n, -f15::max_lift_coefficient, f15::max_lift_coefficient));
-        thrust_n =
-            scale_n * f15::drag_coefficient(trim.alpha_rad, 0.0, mach) / std::cos(trim.alpha_rad);
+        trim.alpha_rad =
+            f15::alpha_for_lift(std::clamp(lift_n / scale_n, -f15::max_lift_coefficient, f15::max_lift_coefficient));
+        thrust_n = scale_n * f15::drag_coefficient(trim.alpha_rad, 0.0, mach) / std::cos(trim.alpha_rad);
     }
     trim.lever = f15::lever_for_thrust(thrust_n, mach, air);
     return trim;
@@ -96,24 +90,19 @@ Trim level_trim(double speed_mps, const Air& air) {
 
 } // namespace
 
-AircraftState
-trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
+AircraftState trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
     assert(speed_mps >= 0.0);
     const Trim trim = level_trim(speed_mps, standard_air(position_m.z));
     return level_state(position_m, heading_rad, trim.alpha_rad, speed_mps);
 }
 
 FixedWingFlight::FixedWingFlight(const AircraftLimits& limits, const AircraftState& start)
-    : limits_(limits)
-    , state_(start)
-    , clock_(start.time_s)
-    , air_(standard_air(start.position_m.z)) {
+    : limits_(limits), state_(start), clock_(start.time_s), air_(standard_air(start.position_m.z)) {
     flow_ = flow(start.velocity_mps, start.body_to_world, 0.0);
     trim_throttle_ = level_trim(flow_.speed_mps, air_).lever;
     lever_ = trim_throttle_;
     flow_ = flow(start.velocity_mps, start.body_to_world, 0.0);
-    commanded_load_factor_ =
-        std::clamp(start.load_factor, limits_.min_load_factor, limits_.max_load_factor);
+    commanded_load_factor_ = std::clamp(start.load_factor, limits_.min_load_factor, limits_.max_load_factor);
     commanded_alpha_rad_ = alpha_for_load_factor(commanded_load_factor_, flow_.speed_mps, 0.0);
     warnings_ = {}; // nothing has been flown yet
     if (flow_.speed_mps > full_authority_mps) {
@@ -147,21 +136,20 @@ FixedWingFlight::Flow FixedWingFlight::flow(
     const double scale_n = lift_scale_n(air_, flow.speed_mps);
     const double alpha_rad = flow.alpha_rad + incidence_rad;
     flow.thrust_lift_n = glm::dot(thrust_n, lifting);
-    const double lift_n = std::clamp(
-        scale_n * f15::lift_coefficient(alpha_rad),
-        limits_.min_load_factor * weight_n - flow.thrust_lift_n,
-        limits_.max_load_factor * weight_n - flow.thrust_lift_n);
+    const double lift_n =
+        std::clamp(scale_n * f15::lift_coefficient(alpha_rad), limits_.min_load_factor * weight_n - flow.thrust_lift_n,
+            limits_.max_load_factor * weight_n - flow.thrust_lift_n);
     const double drag_n = scale_n * f15::drag_coefficient(alpha_rad, flow.beta_rad, mach);
     const double side_n = scale_n * f15::side_coefficient(flow.beta_rad);
     flow.load_factor = (lift_n + flow.thrust_lift_n) / weight_n;
-    flow.acceleration_mps2 = (lift_n * lifting - drag_n * flow.along +
-                              side_n * glm::cross(flow.along, lifting) + thrust_n + gravity_n) /
-                             f15::mass_kg;
+    flow.acceleration_mps2 =
+        (lift_n * lifting - drag_n * flow.along + side_n * glm::cross(flow.along, lifting) + thrust_n + gravity_n) /
+        f15::mass_kg;
     return flow;
 }
 
-/// Angle of attack, with incidence, that gives a load factor: beyond the stall when the wing has
-/// not that much. Sets the warning of a stall.
+/// Angle of attack, with incidence, that gives a load factor: beyond the stall when the wing has not that much. Sets
+/// the warning of a stall.
 double FixedWingFlight::alpha_for_load_factor(double load_factor, double speed_mps, double pull) {
     const double scale_n = std::max(1.0, lift_scale_n(air_, speed_mps));
     const double wanted = (load_factor * weight_n - flow_.thrust_lift_n) / scale_n;
@@ -169,38 +157,32 @@ double FixedWingFlight::alpha_for_load_factor(double load_factor, double speed_m
     warnings_.stalled = share > 1.0;
     double alpha_rad = f15::alpha_for_lift(wanted);
     if (warnings_.stalled) {
-        const double max_rad =
-            centred_beyond_rad + (pulled_beyond_rad - centred_beyond_rad) * std::abs(pull);
+        const double max_rad = centred_beyond_rad + (pulled_beyond_rad - centred_beyond_rad) * std::abs(pull);
         const double beyond_rad = std::min(max_rad, (share - 1.0) * 10.0 * beyond_stall_rad);
         alpha_rad += std::copysign(beyond_rad, wanted);
     }
     return alpha_rad * authority(speed_mps);
 }
 
-/// Rate of the attitude in world axes: with the velocity, about it as the pilot rolls, and towards
-/// the asked angles of attack and sideslip. `share` of the step has passed.
+/// Rate of the attitude in world axes: with the velocity, about it as the pilot rolls, and towards the asked angles of
+/// attack and sideslip. `share` of the step has passed.
 glm::dvec3 FixedWingFlight::turn_radps(
     const Flow& flow, const glm::dquat& attitude, const PitchStep& pitching, double share) const {
     const double held = authority(flow.speed_mps);
-    if (held == 0.0) {
-        return glm::dvec3(0.0);
-    }
+    if (held == 0.0) { return glm::dvec3(0.0); }
     const glm::dvec3 with_path = glm::cross(flow.along, flow.acceleration_mps2) / flow.speed_mps;
     const double asked_rad = pitching.from_rad + share * (pitching.to_rad - pitching.from_rad);
-    const double incidence_rad = pitching.incidence_from_rad +
-                                 share * (pitching.incidence_to_rad - pitching.incidence_from_rad);
-    const double course_radps = (pitching.to_rad - pitching.from_rad -
-                                 (pitching.incidence_to_rad - pitching.incidence_from_rad)) /
-                                step_s;
+    const double incidence_rad =
+        pitching.incidence_from_rad + share * (pitching.incidence_to_rad - pitching.incidence_from_rad);
+    const double course_radps =
+        (pitching.to_rad - pitching.from_rad - (pitching.incidence_to_rad - pitching.incidence_from_rad)) / step_s;
     const double error_rad = wrapped_to_pi(asked_rad - incidence_rad - flow.alpha_rad);
-    const double pitch_radps = std::clamp(
-        course_radps + error_rad / attitude_lag_s, -fastest_pitch_radps, fastest_pitch_radps);
+    const double pitch_radps =
+        std::clamp(course_radps + error_rad / attitude_lag_s, -fastest_pitch_radps, fastest_pitch_radps);
     const double yaw_radps = std::clamp(
-        (flow.beta_rad - commanded_sideslip_rad_) / attitude_lag_s,
-        -fastest_pitch_radps,
-        fastest_pitch_radps);
+        (flow.beta_rad - commanded_sideslip_rad_) / attitude_lag_s, -fastest_pitch_radps, fastest_pitch_radps);
     return held * (with_path + roll_radps_ * flow.along + pitch_radps * (attitude * body_right) +
-                   yaw_radps * (attitude * body_down));
+                      yaw_radps * (attitude * body_down));
 }
 
 /// The load factor at which the wing stalls.
@@ -212,18 +194,15 @@ bool FixedWingFlight::is_safe(double climb_rad) const {
     return std::abs(climb_rad) < level_again_rad && max_load_factor() > safe_load_factor;
 }
 
-/// The load factor of a centred stick after a stall: it brings the climb angle to one at which the
-/// aircraft gathers the speed it lacks, and to level flight once it has that.
+/// The load factor of a centred stick after a stall: it brings the climb angle to one at which the aircraft gathers the
+/// speed it lacks, and to level flight once it has that.
 double FixedWingFlight::recovery_load_factor(double climb_rad, double centred) const {
     const double most = max_load_factor();
-    const double wanted_rad =
-        -std::clamp((safe_load_factor - most) * dive_rad_per_g, 0.0, steepest_recovery_rad);
+    const double wanted_rad = -std::clamp((safe_load_factor - most) * dive_rad_per_g, 0.0, steepest_recovery_rad);
     const double up = -glm::dot(state_.body_to_world * body_down, glm::dvec3(0.0, 0.0, 1.0));
-    if (up < min_upright) {
-        return centred;
-    }
-    const double turning_radps = std::clamp(
-        (wanted_rad - climb_rad) / recovery_lag_s, -fastest_recovery_radps, fastest_recovery_radps);
+    if (up < min_upright) { return centred; }
+    const double turning_radps =
+        std::clamp((wanted_rad - climb_rad) / recovery_lag_s, -fastest_recovery_radps, fastest_recovery_radps);
     const double wanted = centred + flow_.speed_mps * turning_radps / gravity_mps2 / up;
     return std::clamp(wanted, 0.3, std::max(centred, recovery_share * most));
 }
@@ -235,40 +214,29 @@ void FixedWingFlight::set_commands(const PilotControls& controls) {
     const double level = std::hypot(velocity.x, velocity.y);
     const double climb_rad = std::atan2(velocity.z, level);
     double centred = speed_mps > no_authority_mps ? level / speed_mps : 1.0;
-    is_recovering_stall_ = warnings_.stalled ||
-                (is_recovering_stall_ && std::abs(controls.pitch) < moved_stick && !is_safe(climb_rad));
-    if (is_recovering_stall_ && !warnings_.stalled) {
-        centred = recovery_load_factor(climb_rad, centred);
-    }
-    const double range = controls.pitch >= 0.0 ? limits_.max_load_factor - centred
-                                               : centred - limits_.min_load_factor;
+    is_recovering_stall_ =
+        warnings_.stalled || (is_recovering_stall_ && std::abs(controls.pitch) < moved_stick && !is_safe(climb_rad));
+    if (is_recovering_stall_ && !warnings_.stalled) { centred = recovery_load_factor(climb_rad, centred); }
+    const double range = controls.pitch >= 0.0 ? limits_.max_load_factor - centred : centred - limits_.min_load_factor;
     commanded_load_factor_ = first_order_lag(
-        commanded_load_factor_,
-        centred + controls.pitch * range,
-        load_factor_lag_s,
-        limits_.load_factor_rate_gps);
+        commanded_load_factor_, centred + controls.pitch * range, load_factor_lag_s, limits_.load_factor_rate_gps);
     const double max_roll_radps =
         limits_.roll_rate_radps * std::min(1.0, speed_mps / full_roll_mps) *
-        (1.0 -
-         0.7 * smooth_step(rad_from_deg(15.0), f15::stall_alpha_rad, std::abs(flow_.alpha_rad)));
+        (1.0 - 0.7 * smooth_step(rad_from_deg(15.0), f15::stall_alpha_rad, std::abs(flow_.alpha_rad)));
     roll_radps_ = first_order_lag(roll_radps_, controls.roll * max_roll_radps, roll_lag_s);
     roll_radps_ = std::clamp(roll_radps_, -max_roll_radps, max_roll_radps);
     commanded_sideslip_rad_ = first_order_lag(commanded_sideslip_rad_, -controls.yaw * full_rudder_rad, rudder_lag_s);
     warnings_.is_at_limit = commanded_load_factor_ > limits_.max_load_factor - 0.02 ||
-                           commanded_load_factor_ < limits_.min_load_factor + 0.02 ||
-                           std::abs(roll_radps_) > 0.99 * max_roll_radps ||
-                           speed_mps > limits_.max_speed_mps;
+                            commanded_load_factor_ < limits_.min_load_factor + 0.02 ||
+                            std::abs(roll_radps_) > 0.99 * max_roll_radps || speed_mps > limits_.max_speed_mps;
 }
 
 void FixedWingFlight::move(const PitchStep& pitching) {
     const glm::dvec3 velocity = state_.velocity_mps;
     const glm::dquat attitude = state_.body_to_world;
     const double half_s = 0.5 * step_s;
-    const glm::dquat half_turned =
-        turned(attitude, turn_radps(flow_, attitude, pitching, 0.0), half_s);
-    const Flow half = flow(
-        velocity + half_s * flow_.acceleration_mps2,
-        half_turned,
+    const glm::dquat half_turned = turned(attitude, turn_radps(flow_, attitude, pitching, 0.0), half_s);
+    const Flow half = flow(velocity + half_s * flow_.acceleration_mps2, half_turned,
         0.5 * (pitching.incidence_from_rad + pitching.incidence_to_rad));
     state_.velocity_mps = velocity + step_s * half.acceleration_mps2;
     state_.position_m += half_s * (velocity + state_.velocity_mps);
@@ -278,8 +246,7 @@ void FixedWingFlight::move(const PitchStep& pitching) {
 void FixedWingFlight::step(const PilotControls& controls) {
     const PilotControls asked = clean(controls);
     set_commands(asked);
-    const double coming_mps =
-        std::max(0.0, flow_.speed_mps + step_s * glm::dot(flow_.along, flow_.acceleration_mps2));
+    const double coming_mps = std::max(0.0, flow_.speed_mps + step_s * glm::dot(flow_.along, flow_.acceleration_mps2));
     PitchStep pitching;
     pitching.from_rad = commanded_alpha_rad_;
     pitching.to_rad = alpha_for_load_factor(commanded_load_factor_, coming_mps, asked.pitch);

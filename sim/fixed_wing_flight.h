@@ -7,11 +7,10 @@
 
 namespace octant::sim {
 
-/// The F-15 by hand. The stick asks for load factor and roll rate, as a control augmentation system
-/// has it: centred it keeps the climb angle (cos of it, in g), so that in a bank the pilot pulls.
-/// After a stall it is stable in pitch until the pilot pulls or pushes: centred, it lets the nose
-/// down to gather speed and brings it up to level flight at that speed. The rudder asks for
-/// sideslip.
+/// The F-15 by hand. The stick asks for load factor and roll rate, as a control augmentation system has it: centred it
+/// keeps the climb angle (cos of it, in g), so that in a bank the pilot pulls. After a stall it is stable in pitch
+/// until the pilot pulls or pushes: centred, it lets the nose down to gather speed and brings it up to level flight at
+/// that speed. The rudder asks for sideslip.
 class FixedWingFlight final : public PilotedFlight {
 public:
     FixedWingFlight(const AircraftLimits& limits, const AircraftState& start);
@@ -47,10 +46,8 @@ private:
         double incidence_to_rad = 0.0;
     };
 
-    Flow
-    flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude, double incidence_rad) const;
-    glm::dvec3 turn_radps(
-        const Flow& flow, const glm::dquat& attitude, const PitchStep& pitching, double share) const;
+    Flow flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude, double incidence_rad) const;
+    glm::dvec3 turn_radps(const Flow& flow, const glm::dquat& attitude, const PitchStep& pitching, double share) const;
     void set_commands(const PilotControls& controls);
     double max_load_factor() const;
     bool is_safe(double climb_rad) const;
@@ -81,7 +78,6 @@ private:
 };
 
 /// See trimmed_state in flight_models.h.
-AircraftState
-trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps);
+AircraftState trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps);
 
 } // namespace octant::sim

@@ -11,21 +11,14 @@ namespace octant::sim {
 
 namespace {
 
-double within(double value, double low, double high) {
-    return std::isnan(value) ? 0.0 : std::clamp(value, low, high);
-}
+double within(double value, double low, double high) { return std::isnan(value) ? 0.0 : std::clamp(value, low, high); }
 
-double share_of_step(double time_constant_s) {
-    return -std::expm1(-step_s / time_constant_s);
-}
+double share_of_step(double time_constant_s) { return -std::expm1(-step_s / time_constant_s); }
 
 } // namespace
 
 PilotControls clean(const PilotControls& controls) {
-    return {
-        within(controls.pitch, -1.0, 1.0),
-        within(controls.roll, -1.0, 1.0),
-        within(controls.yaw, -1.0, 1.0),
+    return {within(controls.pitch, -1.0, 1.0), within(controls.roll, -1.0, 1.0), within(controls.yaw, -1.0, 1.0),
         within(controls.throttle, 0.0, 1.0)};
 }
 
@@ -46,15 +39,12 @@ double smooth_step(double low, double high, double value) {
 glm::dquat turned(const glm::dquat& attitude, const glm::dvec3& world_radps, double time_s) {
     const double rate_radps = glm::length(world_radps);
     const double half_rad = 0.5 * rate_radps * time_s;
-    if (!(half_rad > 0.0)) {
-        return attitude;
-    }
+    if (!(half_rad > 0.0)) { return attitude; }
     const glm::dvec3 axis = world_radps * (std::sin(half_rad) / rate_radps);
     return glm::normalize(glm::dquat(std::cos(half_rad), axis.x, axis.y, axis.z) * attitude);
 }
 
-AircraftState
-level_state(const glm::dvec3& position_m, double heading_rad, double pitch_rad, double speed_mps) {
+AircraftState level_state(const glm::dvec3& position_m, double heading_rad, double pitch_rad, double speed_mps) {
     AircraftState state;
     state.position_m = position_m;
     state.velocity_mps = speed_mps * direction_from_heading(heading_rad);
@@ -62,8 +52,7 @@ level_state(const glm::dvec3& position_m, double heading_rad, double pitch_rad, 
     return state;
 }
 
-StepClock::StepClock(double start_s)
-    : start_s_(start_s) {
+StepClock::StepClock(double start_s) : start_s_(start_s) {
     const long step = std::abs(start_s) < 1e7 ? step_at(start_s) : 0;
     if (time_of_step(step) == start_s) {
         first_step_ = step;

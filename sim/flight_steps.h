@@ -24,11 +24,9 @@ double smooth_step(double low, double high, double value);
 glm::dquat turned(const glm::dquat& attitude, const glm::dvec3& world_radps, double time_s);
 
 /// Level and unaccelerated at a place, the nose that far above the horizon.
-AircraftState
-level_state(const glm::dvec3& position_m, double heading_rad, double pitch_rad, double speed_mps);
+AircraftState level_state(const glm::dvec3& position_m, double heading_rad, double pitch_rad, double speed_mps);
 
-/// Times of the steps after a start: start plus steps, and where the start is the time of a step,
-/// exactly time_of_step.
+/// Times of the steps after a start: start plus steps, and where the start is the time of a step, exactly time_of_step.
 class StepClock {
 public:
     explicit StepClock(double start_s);

@@ -1,9 +1,8 @@
-// A point mass under rotor thrust, drag and gravity, with the attitude command and the turn
-// coordination in forward flight that ADS-33E-PRF describes. Steps by the midpoint rule. Limits:
-// sim/aircraft_kind.cpp; sources of the thrust: sim/rotor.cpp. Drag areas are chosen: 0.45 m2 (5
-// ft2) ahead, as is usual for a clean light helicopter, aside and below from the size of the body.
-// Deviations: the thrust stands along the mast, so that disc and body tilt alike; no moments of
-// inertia; no ground effect.
+// A point mass under rotor thrust, drag and gravity, with the attitude command and the turn coordination in forward
+// flight that ADS-33E-PRF describes. Steps by the midpoint rule. Limits: sim/aircraft_kind.cpp; sources of the thrust:
+// sim/rotor.cpp. Drag areas are chosen: 0.45 m2 (5 ft2) ahead, as is usual for a clean light helicopter, aside and
+// below from the size of the body. Deviations: the thrust stands along the mast, so that disc and body tilt alike; no
+// moments of inertia; no ground effect.
 
 #include "sim/helicopter_flight.h"
 
@@ -84,29 +83,23 @@ double sideslip_rad(const glm::dvec3& velocity_mps, double heading_rad) {
 
 } // namespace
 
-AircraftState
-trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
+AircraftState trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
     assert(speed_mps >= 0.0);
     const Trim trim = level_trim(speed_mps, standard_air(position_m.z));
     return level_state(position_m, heading_rad, trim.pitch_rad, speed_mps);
 }
 
 HelicopterFlight::HelicopterFlight(const AircraftLimits& limits, const AircraftState& start)
-    : limits_(limits)
-    , state_(start)
-    , clock_(start.time_s)
-    , air_(standard_air(start.position_m.z)) {
+    : limits_(limits), state_(start), clock_(start.time_s), air_(standard_air(start.position_m.z)) {
     const double level_mps = std::hypot(start.velocity_mps.x, start.velocity_mps.y);
     const Trim trim = level_trim(level_mps, air_);
     const double c = std::cos(trim.pitch_rad);
     const double s = std::sin(trim.pitch_rad);
     md500::RotorFlow level{-level_mps * s, level_mps * c, 0.0};
     for (int i = 0; i < 200; ++i) {
-        level.induced_mps +=
-            0.5 * (md500::steady_induced_mps(trim.thrust_n, level, air_) - level.induced_mps);
+        level.induced_mps += 0.5 * (md500::steady_induced_mps(trim.thrust_n, level, air_) - level.induced_mps);
     }
-    trim_collective_ =
-        std::clamp(md500::collective_for_thrust(trim.thrust_n, level, air_), 0.0, 1.0);
+    trim_collective_ = std::clamp(md500::collective_for_thrust(trim.thrust_n, level, air_), 0.0, 1.0);
     update_downwash();
     flow_ = flow(start.velocity_mps, start.body_to_world);
 }
@@ -120,48 +113,39 @@ void HelicopterFlight::update_downwash() {
     const double thrust_n = std::clamp(along_n + drag.z, 0.0, limits_.max_load_factor * weight_n);
     md500::RotorFlow rotor{-body_mps.z, std::hypot(body_mps.x, body_mps.y), 0.0};
     for (int i = 0; i < 200; ++i) {
-        rotor.induced_mps +=
-            0.5 * (md500::steady_induced_mps(thrust_n, rotor, air_) - rotor.induced_mps);
+        rotor.induced_mps += 0.5 * (md500::steady_induced_mps(thrust_n, rotor, air_) - rotor.induced_mps);
     }
     induced_mps_ = rotor.induced_mps;
     collective_ = std::clamp(md500::collective_for_thrust(thrust_n, rotor, air_), 0.0, 1.0);
 }
 
-HelicopterFlight::Flow
-HelicopterFlight::flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude) const {
+HelicopterFlight::Flow HelicopterFlight::flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude) const {
     const glm::dvec3 body_mps = glm::conjugate(attitude) * velocity_mps;
     Flow flow;
     flow.rotor = {-body_mps.z, std::hypot(body_mps.x, body_mps.y), induced_mps_};
     const double blades_n = md500::blade_thrust_n(collective_, flow.rotor, air_);
-    const double max_n =
-        std::min(md500::max_powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * weight_n);
+    const double max_n = std::min(md500::max_powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * weight_n);
     flow.thrust_n = std::clamp(blades_n, 0.0, max_n);
     flow.is_thrust_limited = blades_n > max_n;
     const glm::dvec3 force_n = drag_n(body_mps, air_) + flow.thrust_n * body_up;
     flow.load_factor = std::hypot(force_n.x, force_n.z) / weight_n;
-    flow.acceleration_mps2 =
-        attitude * force_n / md500::mass_kg + glm::dvec3(0.0, 0.0, -gravity_mps2);
+    flow.acceleration_mps2 = attitude * force_n / md500::mass_kg + glm::dvec3(0.0, 0.0, -gravity_mps2);
     return flow;
 }
 
 double HelicopterFlight::commanded_pitch_rad(const PilotControls& controls, double heading_rad) {
     const glm::dvec3& velocity = state_.velocity_mps;
     const double forward_mps = glm::dot(velocity, direction_from_heading(heading_rad));
-    const double centred_rad = level_trim(forward_mps, air_).pitch_rad *
-                               smooth_step(still_mps, moving_mps, std::abs(forward_mps));
+    const double centred_rad =
+        level_trim(forward_mps, air_).pitch_rad * smooth_step(still_mps, moving_mps, std::abs(forward_mps));
     // Near the never-exceed speed the nose goes down less and less, above it up.
     const double speed_mps = glm::length(velocity);
     const double left = (limits_.max_speed_mps - speed_mps) / speed_margin_mps;
-    const double range_rad =
-        controls.pitch < 0.0 ? pitch_range_rad * std::clamp(left, 0.0, 1.0) : pitch_range_rad;
+    const double range_rad = controls.pitch < 0.0 ? pitch_range_rad * std::clamp(left, 0.0, 1.0) : pitch_range_rad;
     const double above_mps = std::max(0.0, speed_mps - limits_.max_speed_mps);
     warnings_.is_at_limit = above_mps > 0.0 || (controls.pitch < 0.0 && left < 1.0);
-    const double pull_up_rad =
-        forward_mps > 0.0 ? std::min(max_pull_up_rad, pull_up_rad_per_mps * above_mps) : 0.0;
-    return std::clamp(
-        centred_rad + controls.pitch * range_rad + pull_up_rad,
-        -steepest_pitch_rad,
-        steepest_pitch_rad);
+    const double pull_up_rad = forward_mps > 0.0 ? std::min(max_pull_up_rad, pull_up_rad_per_mps * above_mps) : 0.0;
+    return std::clamp(centred_rad + controls.pitch * range_rad + pull_up_rad, -steepest_pitch_rad, steepest_pitch_rad);
 }
 
 double HelicopterFlight::commanded_yaw_radps(const PilotControls& controls, double heading_rad) const {
@@ -169,13 +153,9 @@ double HelicopterFlight::commanded_yaw_radps(const PilotControls& controls, doub
     const glm::dvec3& acceleration = flow_.acceleration_mps2;
     const double level2 = velocity.x * velocity.x + velocity.y * velocity.y;
     const double share = smooth_step(slow_mps, fast_mps, std::sqrt(level2));
-    if (share == 0.0) {
-        return controls.yaw * pedal_yaw_radps;
-    }
-    const double course_radps =
-        (velocity.y * acceleration.x - velocity.x * acceleration.y) / level2;
-    const double error_rad =
-        wrapped_to_pi(sideslip_rad(velocity, heading_rad) + controls.yaw * pedal_sideslip_rad);
+    if (share == 0.0) { return controls.yaw * pedal_yaw_radps; }
+    const double course_radps = (velocity.y * acceleration.x - velocity.x * acceleration.y) / level2;
+    const double error_rad = wrapped_to_pi(sideslip_rad(velocity, heading_rad) + controls.yaw * pedal_sideslip_rad);
     const double coordinated_radps = course_radps + error_rad / sideslip_lag_s;
     return controls.yaw * pedal_yaw_radps * (1.0 - share) + coordinated_radps * share;
 }
@@ -187,35 +167,27 @@ glm::dvec3 HelicopterFlight::turn_radps(const PilotControls& controls) {
     const double roll_error_rad = wrapped_to_pi(controls.roll * limits_.bank_rad - angles.roll_rad);
     EulerAngles& rates = angle_rates_radps_;
     const auto towards = [](double rate, double error_rad, double fastest_radps) {
-        return first_order_lag(
-            rate,
-            std::clamp(error_rad / attitude_lag_s, -fastest_radps, fastest_radps),
-            rate_lag_s);
+        return first_order_lag(rate, std::clamp(error_rad / attitude_lag_s, -fastest_radps, fastest_radps), rate_lag_s);
     };
     rates.pitch_rad = towards(rates.pitch_rad, pitch_error_rad, fastest_pitch_radps);
     rates.roll_rad = towards(rates.roll_rad, roll_error_rad, limits_.roll_rate_radps);
-    rates.heading_rad = first_order_lag(
-        rates.heading_rad,
-        std::clamp(
-            commanded_yaw_radps(controls, angles.heading_rad), -fastest_yaw_radps, fastest_yaw_radps),
+    rates.heading_rad = first_order_lag(rates.heading_rad,
+        std::clamp(commanded_yaw_radps(controls, angles.heading_rad), -fastest_yaw_radps, fastest_yaw_radps),
         rate_lag_s);
-    warnings_.is_at_limit = warnings_.is_at_limit ||
-                           std::abs(angles.roll_rad) > 0.99 * limits_.bank_rad ||
-                           std::abs(rates.roll_rad) > 0.99 * limits_.roll_rate_radps;
+    warnings_.is_at_limit = warnings_.is_at_limit || std::abs(angles.roll_rad) > 0.99 * limits_.bank_rad ||
+                            std::abs(rates.roll_rad) > 0.99 * limits_.roll_rate_radps;
     // Heading about the world's down, pitch about the level right, roll about the nose.
     const glm::dvec3 ahead = direction_from_heading(angles.heading_rad);
     const glm::dvec3 right(ahead.y, -ahead.x, 0.0);
     const glm::dvec3 nose = state_.body_to_world * glm::dvec3(1.0, 0.0, 0.0);
-    return rates.heading_rad * glm::dvec3(0.0, 0.0, -1.0) + rates.pitch_rad * right +
-           rates.roll_rad * nose;
+    return rates.heading_rad * glm::dvec3(0.0, 0.0, -1.0) + rates.pitch_rad * right + rates.roll_rad * nose;
 }
 
 void HelicopterFlight::move(const glm::dvec3& turn_radps) {
     const double half_s = 0.5 * step_s;
     const glm::dvec3 velocity = state_.velocity_mps;
-    const Flow half = flow(
-        velocity + half_s * flow_.acceleration_mps2,
-        turned(state_.body_to_world, turn_radps, half_s));
+    const Flow half =
+        flow(velocity + half_s * flow_.acceleration_mps2, turned(state_.body_to_world, turn_radps, half_s));
     state_.velocity_mps = velocity + step_s * half.acceleration_mps2;
     state_.position_m += half_s * (velocity + state_.velocity_mps);
     state_.body_to_world = turned(state_.body_to_world, turn_radps, step_s);
@@ -225,8 +197,8 @@ void HelicopterFlight::step(const PilotControls& controls) {
     const PilotControls asked = clean(controls);
     move(turn_radps(asked));
     collective_ = first_order_lag(collective_, asked.throttle, collective_lag_s);
-    induced_mps_ = first_order_lag(
-        induced_mps_, md500::steady_induced_mps(flow_.thrust_n, flow_.rotor, air_), downwash_lag_s);
+    induced_mps_ =
+        first_order_lag(induced_mps_, md500::steady_induced_mps(flow_.thrust_n, flow_.rotor, air_), downwash_lag_s);
     air_ = standard_air(state_.position_m.z);
     flow_ = flow(state_.velocity_mps, state_.body_to_world);
     warnings_.is_at_limit = warnings_.is_at_limit || flow_.is_thrust_limited;

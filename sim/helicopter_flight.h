@@ -9,9 +9,9 @@
 
 namespace octant::sim {
 
-/// The 500MD by hand. The cyclic asks for pitch and bank, centred for wings level and the pitch
-/// that holds the speed (below a walking pace, that stops it); the throttle is the collective. The
-/// pedals turn on the spot when slow and ask for sideslip in forward flight.
+/// The 500MD by hand. The cyclic asks for pitch and bank, centred for wings level and the pitch that holds the speed
+/// (below a walking pace, that stops it); the throttle is the collective. The pedals turn on the spot when slow and ask
+/// for sideslip in forward flight.
 class HelicopterFlight final : public PilotedFlight {
 public:
     HelicopterFlight(const AircraftLimits& limits, const AircraftState& start);
@@ -56,7 +56,6 @@ private:
 };
 
 /// See trimmed_state in flight_models.h.
-AircraftState
-trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps);
+AircraftState trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps);
 
 } // namespace octant::sim

@@ -32,9 +32,7 @@ constexpr double collective_per_mps = 0.04;
 constexpr double min_power_mps = mps_from_kt(60.0);
 constexpr double speeding_up_pitch = 0.5;
 
-double bank_rad(const AircraftState& state) {
-    return euler_from_body_to_world(state.body_to_world).roll_rad;
-}
+double bank_rad(const AircraftState& state) { return euler_from_body_to_world(state.body_to_world).roll_rad; }
 
 double climb_angle_rad(const AircraftState& state) {
     const glm::dvec3& v = state.velocity_mps;
@@ -44,16 +42,12 @@ double climb_angle_rad(const AircraftState& state) {
 } // namespace
 
 LevellingAutopilot::LevellingAutopilot(const AircraftKind& kind, const AircraftState& start)
-    : kind_(kind)
-    , speed_mps_(std::clamp(
-          glm::length(start.velocity_mps),
-          kind.min_handover_speed_mps,
-          std::max(kind.min_handover_speed_mps, 0.9 * kind.limits.max_speed_mps))) {}
+    : kind_(kind), speed_mps_(std::clamp(glm::length(start.velocity_mps), kind.min_handover_speed_mps,
+                       std::max(kind.min_handover_speed_mps, 0.9 * kind.limits.max_speed_mps))) {}
 
 /// What holds height and speed in level flight at that height.
 double LevellingAutopilot::trim_throttle(const AircraftState& state, double speed_mps) const {
-    return make_piloted_flight(kind_, trimmed_state(kind_, state.position_m, 0.0, speed_mps))
-        ->trim_throttle();
+    return make_piloted_flight(kind_, trimmed_state(kind_, state.position_m, 0.0, speed_mps))->trim_throttle();
 }
 
 PilotControls LevellingAutopilot::fixed_wing(const AircraftState& state) const {
@@ -63,8 +57,7 @@ PilotControls LevellingAutopilot::fixed_wing(const AircraftState& state) const {
     const AircraftLimits& limits = kind_.limits;
     PilotControls controls;
     controls.roll = std::clamp(-bank / (roll_out_s * limits.roll_rate_radps), -1.0, 1.0);
-    controls.throttle =
-        trim_throttle(state, speed_mps_) + throttle_per_mps * (speed_mps_ - speed_mps);
+    controls.throttle = trim_throttle(state, speed_mps_) + throttle_per_mps * (speed_mps_ - speed_mps);
     const double slow = std::max(0.0, 1.0 - speed_mps / kind_.min_handover_speed_mps);
     const double wanted_climb = std::max(diving_rad, 4.0 * slow * diving_rad);
     const double turning_radps =
@@ -78,38 +71,29 @@ PilotControls LevellingAutopilot::fixed_wing(const AircraftState& state) const {
     const double fast = speed_mps / limits.min_speed_mps;
     const double most = std::clamp(fast * fast, gentlest_load_factor, hardest_load_factor);
     load_factor = std::clamp(load_factor, gentlest_load_factor, most);
-    const double range = load_factor > centred ? limits.max_load_factor - centred
-                                               : centred - limits.min_load_factor;
+    const double range = load_factor > centred ? limits.max_load_factor - centred : centred - limits.min_load_factor;
     controls.pitch = std::clamp((load_factor - centred) / range, -1.0, 1.0);
     return controls;
 }
 
-/// Its centred cyclic levels it; the collective stops its climb. Where that is not enough to stop
-/// it sinking, as in a hover high up, it gathers speed, at which a rotor needs less power.
+/// Its centred cyclic levels it; the collective stops its climb. Where that is not enough to stop it sinking, as in a
+/// hover high up, it gathers speed, at which a rotor needs less power.
 PilotControls LevellingAutopilot::helicopter(const AircraftState& state) const {
     const double speed_mps = std::hypot(state.velocity_mps.x, state.velocity_mps.y);
     PilotControls controls;
     controls.throttle = trim_throttle(state, speed_mps) - collective_per_mps * state.velocity_mps.z;
-    if (speed_mps < min_power_mps) {
-        controls.pitch = -std::clamp(controls.throttle - 1.0, 0.0, speeding_up_pitch);
-    }
+    if (speed_mps < min_power_mps) { controls.pitch = -std::clamp(controls.throttle - 1.0, 0.0, speeding_up_pitch); }
     return controls;
 }
 
 PilotControls LevellingAutopilot::controls(const AircraftState& state) {
-    PilotControls controls =
-        kind_.flight_model == FlightModel::Helicopter ? helicopter(state) : fixed_wing(state);
+    PilotControls controls = kind_.flight_model == FlightModel::Helicopter ? helicopter(state) : fixed_wing(state);
     controls.throttle = std::clamp(controls.throttle, 0.0, 1.0);
-    const bool is_level =
-        std::abs(bank_rad(state)) < level_rad && std::abs(state.velocity_mps.z) < level_climb_mps;
+    const bool is_level = std::abs(bank_rad(state)) < level_rad && std::abs(state.velocity_mps.z) < level_climb_mps;
     level_steps_ = is_level ? level_steps_ + 1 : 0;
-    return is_done()
-               ? PilotControls{.throttle = trim_throttle(state, glm::length(state.velocity_mps))}
-               : controls;
+    return is_done() ? PilotControls{.throttle = trim_throttle(state, glm::length(state.velocity_mps))} : controls;
 }
 
-bool LevellingAutopilot::is_done() const {
-    return level_steps_ >= level_for_steps;
-}
+bool LevellingAutopilot::is_done() const { return level_steps_ >= level_for_steps; }
 
 } // namespace octant::sim

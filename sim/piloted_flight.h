@@ -4,8 +4,8 @@
 
 namespace octant::sim {
 
-/// What a pilot asks of the aircraft. F-15: stick, rudder, throttle. 500MD: cyclic, pedals,
-/// collective. Values outside their range are clamped, not-a-numbers count as 0.
+/// What a pilot asks of the aircraft. F-15: stick, rudder, throttle. 500MD: cyclic, pedals, collective. Values outside
+/// their range are clamped, not-a-numbers count as 0.
 struct PilotControls {
     /// From -1, pushed, to 1, pulled.
     double pitch = 0.0;
@@ -25,8 +25,8 @@ struct FlightWarnings {
     bool is_at_limit = false;
 };
 
-/// An aircraft flown by hand: a point mass with attitude, in fixed steps of sim::step_s. The same
-/// start and controls give the same states to the last bit.
+/// An aircraft flown by hand: a point mass with attitude, in fixed steps of sim::step_s. The same start and controls
+/// give the same states to the last bit.
 class PilotedFlight {
 public:
     PilotedFlight() = default;

@@ -6,9 +6,9 @@
 //   369D, not read in a source.
 // - Thrust by blade elements, downwash by Glauert's momentum theory, induced and profile power: any
 //   text on rotors, e.g. Leishman, Principles of Helicopter Aerodynamics, chapters 2, 3 and 5.
-// Deviations: untwisted blades whose pitch is that at three quarters of the radius; lowest
-// collective is no pitch, so that the rotor cannot do work on the aircraft then. Rotor speed never
-// changes. No vortex ring. Power losses are chosen so that the published climb and speed come out.
+// Deviations: untwisted blades whose pitch is that at three quarters of the radius; lowest collective is no pitch, so
+// that the rotor cannot do work on the aircraft then. Rotor speed never changes. No vortex ring. Power losses are
+// chosen so that the published climb and speed come out.
 
 #include "sim/rotor.h"
 
@@ -54,24 +54,20 @@ double profile_w(double in_plane_mps, const Air& air) {
 
 double blade_thrust_n(double collective, const RotorFlow& flow, const Air& air) {
     const double inflow = (flow.axial_mps + flow.induced_mps) / tip_mps;
-    return thrust_scale_n(air) *
-           (collective * max_pitch_rad * pitch_share(flow.in_plane_mps) - 0.5 * inflow);
+    return thrust_scale_n(air) * (collective * max_pitch_rad * pitch_share(flow.in_plane_mps) - 0.5 * inflow);
 }
 
 double collective_for_thrust(double newtons, const RotorFlow& flow, const Air& air) {
     const double inflow = (flow.axial_mps + flow.induced_mps) / tip_mps;
-    return (newtons / thrust_scale_n(air) + 0.5 * inflow) /
-           (max_pitch_rad * pitch_share(flow.in_plane_mps));
+    return (newtons / thrust_scale_n(air) + 0.5 * inflow) / (max_pitch_rad * pitch_share(flow.in_plane_mps));
 }
 
 double max_powered_thrust_n(const RotorFlow& flow, const Air& air) {
     const double power_w =
-        rotor_share *
-        std::min(shaft_w, engine_w * air.density_kgpm3 / standard_air(0.0).density_kgpm3);
+        rotor_share * std::min(shaft_w, engine_w * air.density_kgpm3 / standard_air(0.0).density_kgpm3);
     const double per_newton_mps = induced_loss * flow.induced_mps + flow.axial_mps;
     const double left_w = std::max(0.0, power_w - profile_w(flow.in_plane_mps, air));
-    return per_newton_mps > 1e-3 ? left_w / per_newton_mps
-                                 : std::numeric_limits<double>::infinity();
+    return per_newton_mps > 1e-3 ? left_w / per_newton_mps : std::numeric_limits<double>::infinity();
 }
 
 double steady_induced_mps(double newtons, const RotorFlow& flow, const Air& air) {

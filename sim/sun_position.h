@@ -13,9 +13,8 @@ struct SunPosition {
     double elevation_deg = 0.0;
 };
 
-/// Returns the sun's position to about a degree. `day` counts from 1 at the beginning of the year;
-/// `solar_hour` runs from 0 to 24, and the sun is highest at 12. At the poles, and with the sun
-/// overhead, the azimuth is arbitrary.
+/// Returns the sun's position to about a degree. `day` counts from 1 at the beginning of the year; `solar_hour` runs
+/// from 0 to 24, and the sun is highest at 12. At the poles, and with the sun overhead, the azimuth is arbitrary.
 SunPosition sun_position(double latitude_deg, double day, double solar_hour);
 
 /// A day of the Gregorian calendar, and a minute of it by the sun's own time.

@@ -7,18 +7,18 @@
 
 namespace octant::sim {
 
-/// The state at a time between two samples, time_s of `a` before that of `b`: position along the
-/// cubic Hermite curve through both positions and velocities, attitude turned at a constant rate.
+/// The state at a time between two samples, time_s of `a` before that of `b`: position along the cubic Hermite curve
+/// through both positions and velocities, attitude turned at a constant rate.
 AircraftState state_between(const AircraftState& a, const AircraftState& b, double time_s);
 
 /// A flight as samples in time order with a state for every time between them.
 ///
-/// Positions run along cubic Hermite curves through the samples' positions and velocities, so
-/// position and velocity are continuous; attitudes turn at a constant rate between samples (slerp).
+/// Positions run along cubic Hermite curves through the samples' positions and velocities, so position and velocity are
+/// continuous; attitudes turn at a constant rate between samples (slerp).
 class Trajectory {
 public:
-    /// At least one sample, times strictly increasing (asserted; readers check before). Fills in
-    /// the samples' speed_rate_mps2 from their velocities.
+    /// At least one sample, times strictly increasing (asserted; readers check before). Fills in the samples'
+    /// speed_rate_mps2 from their velocities.
     explicit Trajectory(std::vector<AircraftState> samples);
 
     std::span<const AircraftState> samples() const { return samples_; }
@@ -27,8 +27,8 @@ public:
 
     double end_s() const { return samples_.back().time_s; }
 
-    /// State at `time_s`; before the start the first sample and after the end the last one as it
-    /// is, with its own time and velocity. O(log samples).
+    /// State at `time_s`; before the start the first sample and after the end the last one as it is, with its own time
+    /// and velocity. O(log samples).
     AircraftState state_at(double time_s) const;
 
 private:

@@ -31,16 +31,14 @@ PolygonModel empty_model(const std::string& name) {
 
 /// Adds a polygon of the newest part.
 void add(PolygonModel& model, const std::vector<std::uint32_t>& corners) {
-    model.polygons.push_back(
-        {.first_corner = static_cast<std::uint32_t>(model.corner_vertices.size()),
-         .corner_count = static_cast<std::uint32_t>(corners.size()),
-         .part = static_cast<std::uint32_t>(model.parts.size() - 1)});
+    model.polygons.push_back({.first_corner = static_cast<std::uint32_t>(model.corner_vertices.size()),
+        .corner_count = static_cast<std::uint32_t>(corners.size()),
+        .part = static_cast<std::uint32_t>(model.parts.size() - 1)});
     model.corner_vertices.insert(model.corner_vertices.end(), corners.begin(), corners.end());
 }
 
-/// A convex solid between two polygons with as many corners each, as a part of its own.
-/// `base_m` runs counter-clockwise seen from `top_m`, which lies over it; a top of one point makes
-/// a pyramid.
+/// A convex solid between two polygons with as many corners each, as a part of its own. `base_m` runs counter-clockwise
+/// seen from `top_m`, which lies over it; a top of one point makes a pyramid.
 void add_prism(PolygonModel& model, const Points& base_m, const Points& top_m) {
     model.parts.push_back("body" + std::to_string(model.parts.size()));
     const auto first = static_cast<std::uint32_t>(model.vertices_m.size());
@@ -60,15 +58,12 @@ void add_prism(PolygonModel& model, const Points& base_m, const Points& top_m) {
         }
     }
     add(model, under);
-    if (top_m.size() > 1) {
-        add(model, over);
-    }
+    if (top_m.size() > 1) { add(model, over); }
 }
 
 void add_box(PolygonModel& model, const glm::dvec3& least, const glm::dvec3& most) {
     const auto level = [&](double z) {
-        return Points{
-            {least.x, least.y, z}, {most.x, least.y, z}, {most.x, most.y, z}, {least.x, most.y, z}};
+        return Points{{least.x, least.y, z}, {most.x, least.y, z}, {most.x, most.y, z}, {least.x, most.y, z}};
     };
     add_prism(model, level(least.z), level(most.z));
 }
@@ -89,14 +84,11 @@ Body body_of_kind(int kind, RandomGenerator& dice) {
     Body body;
     for (int i = 0; i < corners; ++i) {
         const double angle_rad = 2.0 * pi * (i + 0.5) / corners;
-        const glm::dvec3 corner(
-            across_m * std::cos(angle_rad), along_m * std::sin(angle_rad), -half_height_m);
+        const glm::dvec3 corner(across_m * std::cos(angle_rad), along_m * std::sin(angle_rad), -half_height_m);
         body.base_m.push_back(corner);
         body.top_m.emplace_back(corner.x, corner.y, half_height_m);
     }
-    if (kind == 1) {
-        body.top_m = {{0.1, 0.1, half_height_m}};
-    }
+    if (kind == 1) { body.top_m = {{0.1, 0.1, half_height_m}}; }
     body.radius_m = std::hypot(std::max(across_m, along_m), half_height_m);
     return body;
 }
@@ -107,9 +99,7 @@ glm::dquat random_attitude(RandomGenerator& dice) {
 }
 
 void turn(Points& points, const glm::dquat& attitude) {
-    for (glm::dvec3& point : points) {
-        point = attitude * point;
-    }
+    for (glm::dvec3& point : points) { point = attitude * point; }
 }
 
 /// Where a body lies, with what is needed to keep others off it.
@@ -131,8 +121,7 @@ Placed shape_of(const Body& body) {
         shape.normals.push_back(models::polygons::normal_of(alone, i));
         const auto corners = alone.corners(i);
         for (std::size_t j = 0; j < corners.size(); ++j) {
-            const glm::dvec3 edge =
-                alone.vertices_m[corners[(j + 1) % corners.size()]] - alone.vertices_m[corners[j]];
+            const glm::dvec3 edge = alone.vertices_m[corners[(j + 1) % corners.size()]] - alone.vertices_m[corners[j]];
             shape.edges.push_back(glm::normalize(edge));
         }
     }
@@ -143,27 +132,19 @@ Placed shape_of(const Body& body) {
 double gap_along(const Placed& a, const Placed& b, const glm::dvec3& direction) {
     double max_a = -1e9;
     double min_b = 1e9;
-    for (const glm::dvec3& point : a.points) {
-        max_a = std::max(max_a, glm::dot(point + a.middle, direction));
-    }
-    for (const glm::dvec3& point : b.points) {
-        min_b = std::min(min_b, glm::dot(point + b.middle, direction));
-    }
+    for (const glm::dvec3& point : a.points) { max_a = std::max(max_a, glm::dot(point + a.middle, direction)); }
+    for (const glm::dvec3& point : b.points) { min_b = std::min(min_b, glm::dot(point + b.middle, direction)); }
     return min_b - max_a;
 }
 
 /// By separating axes: the normals of both, and edges of one across edges of the other.
 bool apart(const Placed& a, const Placed& b) {
     constexpr double min_gap_m = 0.02;
-    if (glm::distance(a.middle, b.middle) > a.radius_m + b.radius_m + min_gap_m) {
-        return true;
-    }
+    if (glm::distance(a.middle, b.middle) > a.radius_m + b.radius_m + min_gap_m) { return true; }
     const auto parts = [&](const glm::dvec3& n) {
         return gap_along(a, b, n) > min_gap_m || gap_along(b, a, n) > min_gap_m;
     };
-    if (std::ranges::any_of(a.normals, parts) || std::ranges::any_of(b.normals, parts)) {
-        return true;
-    }
+    if (std::ranges::any_of(a.normals, parts) || std::ranges::any_of(b.normals, parts)) { return true; }
     return std::ranges::any_of(a.edges, [&](const glm::dvec3& edge) {
         return std::ranges::any_of(b.edges, [&](const glm::dvec3& other) {
             const glm::dvec3 n = glm::cross(edge, other);
@@ -178,8 +159,7 @@ void place(Placed& shape, const std::vector<Placed>& others, RandomGenerator& di
     const glm::dvec3 direction = dice.direction();
     double distance_m = 0.0;
     for (const Placed& other : others) {
-        distance_m =
-            std::max(distance_m, glm::length(other.middle) + other.radius_m + 2.0 * shape.radius_m);
+        distance_m = std::max(distance_m, glm::length(other.middle) + other.radius_m + 2.0 * shape.radius_m);
     }
     shape.middle = direction * distance_m;
     while (distance_m > step_m) {
@@ -197,42 +177,21 @@ void place(Placed& shape, const std::vector<Placed>& others, RandomGenerator& di
 PolygonModel u_channel() {
     PolygonModel model = empty_model("u_channel");
     model.parts.emplace_back("channel");
-    // y and z of the outline, counter-clockwise seen from +x; points 8 and 9 lie under the inner
-    // walls.
-    const std::array<glm::dvec2, 10> outline{
-        {{-1.5, 1},
-         {-1.5, -1},
-         {-0.5, -1},
-         {-0.5, 0.5},
-         {0.5, 0.5},
-         {0.5, -1},
-         {1.5, -1},
-         {1.5, 1},
-         {0.5, 1},
-         {-0.5, 1}}};
+    // y and z of the outline, counter-clockwise seen from +x; points 8 and 9 lie under the inner walls.
+    const std::array<glm::dvec2, 10> outline{{{-1.5, 1}, {-1.5, -1}, {-0.5, -1}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, -1},
+        {1.5, -1}, {1.5, 1}, {0.5, 1}, {-0.5, 1}}};
     for (const double x : {-2.0, 2.0}) {
-        for (const glm::dvec2& point : outline) {
-            model.vertices_m.emplace_back(x, point.x, point.y);
-        }
+        for (const glm::dvec2& point : outline) { model.vertices_m.emplace_back(x, point.x, point.y); }
     }
-    const auto side = [&](std::uint32_t from, std::uint32_t to) {
-        add(model, {from, to, to + 10, from + 10});
-    };
-    for (const auto& [from, to] : {std::pair{0U, 1U}, {1U, 2U}, {2U, 3U}, {3U, 4U}}) {
-        side(from, to);
-    }
-    for (const auto& [from, to] : {std::pair{4U, 5U}, {5U, 6U}, {6U, 7U}}) {
-        side(from, to);
-    }
+    const auto side = [&](std::uint32_t from, std::uint32_t to) { add(model, {from, to, to + 10, from + 10}); };
+    for (const auto& [from, to] : {std::pair{0U, 1U}, {1U, 2U}, {2U, 3U}, {3U, 4U}}) { side(from, to); }
+    for (const auto& [from, to] : {std::pair{4U, 5U}, {5U, 6U}, {6U, 7U}}) { side(from, to); }
     add(model, {7, 8, 9, 0, 10, 19, 18, 17});
-    const std::array<std::vector<std::uint32_t>, 3> ends{
-        {{0, 9, 3, 2, 1}, {9, 8, 4, 3}, {8, 7, 6, 5, 4}}};
+    const std::array<std::vector<std::uint32_t>, 3> ends{{{0, 9, 3, 2, 1}, {9, 8, 4, 3}, {8, 7, 6, 5, 4}}};
     for (const std::vector<std::uint32_t>& end : ends) {
         add(model, end);
         std::vector<std::uint32_t> opposite(end.rbegin(), end.rend());
-        for (std::uint32_t& vertex : opposite) {
-            vertex += 10;
-        }
+        for (std::uint32_t& vertex : opposite) { vertex += 10; }
         add(model, opposite);
     }
     return model;
@@ -259,10 +218,8 @@ PolygonModel three_bars() {
     const glm::dvec3 inward = glm::cross(towards_eye, along);
     for (int bar = 0; bar < 3; ++bar) {
         for (const auto& [t, aside] : {std::pair{-5, -2}, {5, -2}, {5, -1}, {-5, -1}}) {
-            const glm::dvec3 p =
-                along * (1.0 * t) + inward * (1.0 * aside) + towards_eye * (0.1 * t);
-            const std::array<glm::dvec3, 3> turns{
-                p, glm::dvec3(p.y, p.z, p.x), glm::dvec3(p.z, p.x, p.y)};
+            const glm::dvec3 p = along * (1.0 * t) + inward * (1.0 * aside) + towards_eye * (0.1 * t);
+            const std::array<glm::dvec3, 3> turns{p, glm::dvec3(p.y, p.z, p.x), glm::dvec3(p.z, p.x, p.y)};
             model.vertices_m.push_back(turns[static_cast<std::size_t>(bar)]);
         }
         model.parts.push_back("bar" + std::to_string(bar));
@@ -279,8 +236,7 @@ PolygonModel three_bars() {
 PolygonModel fig_14(bool both_sides) {
     PolygonModel model = empty_model("fig_14");
     model.parts.emplace_back("rectangle");
-    model.vertices_m = {
-        {-2, -1, 0}, {2, -1, 0}, {2, 1, 0}, {-2, 1, 0}, {-1, 0.5, -1}, {0, -0.5, 2}, {1, 0.5, -1}};
+    model.vertices_m = {{-2, -1, 0}, {2, -1, 0}, {2, 1, 0}, {-2, 1, 0}, {-1, 0.5, -1}, {0, -0.5, 2}, {1, 0.5, -1}};
     add(model, {0, 1, 2, 3});
     model.parts.emplace_back("triangle");
     add(model, {4, 5, 6});
@@ -296,9 +252,7 @@ PolygonModel torus(int quads) {
     int around = quads;
     for (int i = 3; i <= quads / 3; ++i) {
         const auto strain = [&](int n) { return std::abs(std::log(1.0 * n * n / quads / 1.6)); };
-        if (quads % i == 0 && strain(i) < strain(around)) {
-            around = i;
-        }
+        if (quads % i == 0 && strain(i) < strain(around)) { around = i; }
     }
     return models::procedural::torus(around, quads / around);
 }
@@ -315,9 +269,7 @@ PolygonModel pile(std::uint64_t seed, int bodies) {
         Placed shape = shape_of(body);
         place(shape, placed, dice);
         for (Points* points : {&body.base_m, &body.top_m}) {
-            for (glm::dvec3& point : *points) {
-                point += shape.middle;
-            }
+            for (glm::dvec3& point : *points) { point += shape.middle; }
         }
         add_prism(model, body.base_m, body.top_m);
         placed.push_back(std::move(shape));
@@ -325,8 +277,6 @@ PolygonModel pile(std::uint64_t seed, int bodies) {
     return model;
 }
 
-PolygonModel big_pile() {
-    return pile(1989, 174);
-}
+PolygonModel big_pile() { return pile(1989, 174); }
 
 } // namespace octant::tests

@@ -6,8 +6,7 @@
 namespace octant::tests {
 
 /// Rough ground of whole metres, the same for the same seed.
-inline std::vector<float>
-rough_heights(int columns, int rows, unsigned seed = 1, int range_m = 900) {
+inline std::vector<float> rough_heights(int columns, int rows, unsigned seed = 1, int range_m = 900) {
     std::vector<float> heights_m;
     std::uint32_t state = seed;
     for (int row = 0; row < rows; ++row) {

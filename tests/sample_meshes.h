@@ -18,8 +18,8 @@ models::TriangleMesh tetrahedron();
 /// What is wrong with a mesh's indices and lists; empty for a sound one.
 std::string index_fault(const models::TriangleMesh& mesh);
 
-/// Why a mesh is no oriented manifold (perhaps with boundary); empty when it is one. Slow and
-/// simple: apart from the code that makes manifolds.
+/// Why a mesh is no oriented manifold (perhaps with boundary); empty when it is one. Slow and simple: apart from the
+/// code that makes manifolds.
 std::string manifold_fault(const models::TriangleMesh& mesh);
 
 } // namespace octant::tests

@@ -33,14 +33,11 @@ int print_error(const std::string& line) {
 /// Does what the command line asks for; the exit code.
 int run(int argc, char** argv) {
     using namespace octant::ui;
-    const commands::Program program =
-        commands::octant_program({window::view_command(), window::listen_command()});
+    const commands::Program program = commands::octant_program({window::view_command(), window::listen_command()});
     int code = 0;
     try {
         commands::parse_command_line(program, argc, argv)();
-    } catch (const commands::CheckFailed&) {
-        code = exit_check_failed;
-    } catch (const base::StoppedBySignal&) {
+    } catch (const commands::CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
         return code; // which the signal replaces
     }
     for (const std::string& line : octant::visuals::groundfile::tile_damage_messages()) {
@@ -48,8 +45,7 @@ int run(int argc, char** argv) {
         code = exit_check_failed;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        return print_error(
-            fmt::format("results cannot be written to standard output: {}", std::strerror(errno)));
+        return print_error(fmt::format("results cannot be written to standard output: {}", std::strerror(errno)));
     }
     return code;
 }
@@ -70,7 +66,5 @@ int main(int argc, char** argv) {
         return exit_invalid_input;
     } catch (const std::filesystem::filesystem_error& fault) {
         return print_error(fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
-    } catch (const std::exception& fault) {
-        return print_error(fault.what());
-    }
+    } catch (const std::exception& fault) { return print_error(fault.what()); }
 }

@@ -15,8 +15,7 @@ using Outline = std::vector<glm::dvec3>;
 /// Corners nearer than this are one.
 inline constexpr double coincident_distance_m = 1e-6;
 
-/// Along the normal of the side from which the corners run counter-clockwise; as long as the area,
-/// square metres.
+/// Along the normal of the side from which the corners run counter-clockwise; as long as the area, square metres.
 glm::dvec3 area_vector(const Outline& corners);
 
 /// Whether there is more than a line or a point.

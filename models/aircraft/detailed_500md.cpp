@@ -1,8 +1,7 @@
-// Hughes 500MD Defender by stations: s = metres aft of the nose, r = to the right, u = above the
-// skids' base. The origin, on the mast axis, lies at s = 1.95, u = 1.20, as in 500md.obj, which
-// names the sources of the main dimensions (length 7.1, hub 2.7 up, rotor 8.05 with five blades of
-// 0.171, tail rotor 1.4, body by stations, skids, T-tail). Doors, windows and the rotor's fairing
-// by photographs (general knowledge of the type).
+// Hughes 500MD Defender by stations: s = metres aft of the nose, r = to the right, u = above the skids' base. The
+// origin, on the mast axis, lies at s = 1.95, u = 1.20, as in 500md.obj, which names the sources of the main dimensions
+// (length 7.1, hub 2.7 up, rotor 8.05 with five blades of 0.171, tail rotor 1.4, body by stations, skids, T-tail).
+// Doors, windows and the rotor's fairing by photographs (general knowledge of the type).
 //
 // The planes that part it: s = 3.7 (boom behind the body), s = 6.45 (tail behind the boom), u
 // = 2.10 (fairing and rotor above the body), the body's own lower sides (legs outside).
@@ -43,50 +42,27 @@ Stencil on_side(const std::vector<glm::dvec2>& corners_su, double side) {
 }
 
 PaintedSolid body() {
-    const std::array<Section, 9> sections{
-        stations.section(0.0, 0.10, 1.10, 0.86),
-        stations.section(0.22, 0.38, 1.44, 0.60),
-        stations.section(0.75, 0.66, 1.88, 0.38, 0.1, 0.05),
-        stations.section(1.35, 0.76, roof_u, 0.29, 0.25, 0.12),
-        stations.section(2.0, 0.78, roof_u, 0.27, 0.26, 0.15),
-        stations.section(2.7, 0.72, roof_u, 0.33, 0.24, 0.12),
-        stations.section(3.15, 0.56, 2.02, 0.62, 0.14, 0.06),
-        stations.section(3.45, 0.38, 1.94, 0.98, 0.05, 0.02),
-        stations.section(3.7, 0.20, 1.84, 1.42)};
+    const std::array<Section, 9> sections{stations.section(0.0, 0.10, 1.10, 0.86),
+        stations.section(0.22, 0.38, 1.44, 0.60), stations.section(0.75, 0.66, 1.88, 0.38, 0.1, 0.05),
+        stations.section(1.35, 0.76, roof_u, 0.29, 0.25, 0.12), stations.section(2.0, 0.78, roof_u, 0.27, 0.26, 0.15),
+        stations.section(2.7, 0.72, roof_u, 0.33, 0.24, 0.12), stations.section(3.15, 0.56, 2.02, 0.62, 0.14, 0.06),
+        stations.section(3.45, 0.38, 1.94, 0.98, 0.05, 0.02), stations.section(3.7, 0.20, 1.84, 1.42)};
     PaintedSolid solid = lofted(sections, body_sides, "olive");
     solid.push_back(section_cap(sections.front(), body_sides, true, "olive"));
     solid.push_back(section_cap(sections.back(), body_sides, false, "olive"));
     // The bubble, then its posts; windows of the doors.
     paint(
-        solid,
-        {{{{1.0, 0.0, 0.0}, -(1.95 - 1.22)},
-          {{-0.45, 0.0, -0.893}, -(0.893 * -0.48 + 0.45 * -1.2)}}},
-        "glass");
+        solid, {{{{1.0, 0.0, 0.0}, -(1.95 - 1.22)}, {{-0.45, 0.0, -0.893}, -(0.893 * -0.48 + 0.45 * -1.2)}}}, "glass");
     for (const double side : {1.0, -1.0}) {
-        paint(
-            solid,
-            on_side({{1.34, 1.06}, {1.34, 1.86}, {1.98, 1.90}, {1.98, 1.06}}, side),
-            "glass");
-        paint(
-            solid,
-            on_side({{2.10, 1.16}, {2.10, 1.90}, {2.62, 1.86}, {2.62, 1.20}}, side),
-            "glass");
+        paint(solid, on_side({{1.34, 1.06}, {1.34, 1.86}, {1.98, 1.90}, {1.98, 1.06}}, side), "glass");
+        paint(solid, on_side({{2.10, 1.16}, {2.10, 1.90}, {2.62, 1.86}, {2.62, 1.20}}, side), "glass");
         for (const double s : {1.28, 2.04, 2.70}) { // edges of the doors
-            paint(
-                solid,
+            paint(solid,
                 on_side(
-                    {{s, 0.52},
-                     {s + stations.panel_line_m, 0.52},
-                     {s + stations.panel_line_m, 1.98},
-                     {s, 1.98}},
-                    side),
+                    {{s, 0.52}, {s + stations.panel_line_m, 0.52}, {s + stations.panel_line_m, 1.98}, {s, 1.98}}, side),
                 "line");
         }
-        paint_roundel(
-            solid,
-            {{1.95 - 3.08, 1.20 - 1.28}, 0.17, {0.0, -1.0}, 1, side * right},
-            "insignia",
-            "star");
+        paint_roundel(solid, {{1.95 - 3.08, 1.20 - 1.28}, 0.17, {0.0, -1.0}, 1, side * right}, "insignia", "star");
     }
     paint(solid, {{{{1.0, 0.0, 0.0}, -(1.95 - 1.22)}, {right, 0.02}, {-right, 0.02}}}, "olive");
     stations.ring_line(solid, 3.15);
@@ -116,9 +92,8 @@ void add_fairing(ModelBuilder& model) {
     bevel({0.0, -1.0, 0.55}, at(0.0, 0.13, 2.44));
     bevel({0.0, 1.0, 0.55}, at(0.0, -0.13, 2.44));
     std::erase_if(solid, [](const PaintedFace& face) { // it stands on the roof
-        return std::ranges::all_of(face.corners_m, [](const glm::dvec3& corner) {
-            return corner.z > 1.20 - roof_u - 1e-6;
-        });
+        return std::ranges::all_of(
+            face.corners_m, [](const glm::dvec3& corner) { return corner.z > 1.20 - roof_u - 1e-6; });
     });
     stations.ring_line(solid, 2.1);
     model.add("fairing", solid);
@@ -128,13 +103,10 @@ void add_fairing(ModelBuilder& model) {
 
 void add_tail(ModelBuilder& model) {
     const std::array<Section, 2> boom{
-        stations.section(3.7, 0.17, 1.82, 1.46, 0.0, 0.0),
-        stations.section(6.45, 0.09, 1.72, 1.52, 0.0, 0.0)};
+        stations.section(3.7, 0.17, 1.82, 1.46, 0.0, 0.0), stations.section(6.45, 0.09, 1.72, 1.52, 0.0, 0.0)};
     PaintedSolid tube = lofted(boom, 12, "olive");
     tube.push_back(section_cap(boom[1], 12, false, "olive"));
-    for (const double s : {4.4, 5.4, 6.1}) {
-        stations.ring_line(tube, s);
-    }
+    for (const double s : {4.4, 5.4, 6.1}) { stations.ring_line(tube, s); }
     paint(tube, stripe(at(5.85, 0.0, 0.0), {1.0, 0.0, 0.0}, 0.12), "yellow");
     model.add("boom", tube);
     model.add("tail_gear", box_between(at(6.34, -0.20, 1.56), at(6.44, -0.11, 1.68), "black"));
@@ -146,11 +118,8 @@ void add_tail(ModelBuilder& model) {
     upper.tip_chord_m = 0.46;
     upper.half_thickness_m = 0.04 * right;
     PaintedSolid fin = wing_solid(upper, "olive", "olive");
-    const std::array<glm::dvec2, 4> panel{
-        {{1.95 - 6.60, 1.20 - 2.06},
-         {1.95 - 6.95, 1.20 - 2.06},
-         {1.95 - 6.95, 1.20 - 2.14},
-         {1.95 - 6.60, 1.20 - 2.14}}};
+    const std::array<glm::dvec2, 4> panel{{{1.95 - 6.60, 1.20 - 2.06}, {1.95 - 6.95, 1.20 - 2.06},
+        {1.95 - 6.95, 1.20 - 2.14}, {1.95 - 6.60, 1.20 - 2.14}}};
     for (const double side : {1.0, -1.0}) {
         Stencil number = outline(panel, 1);
         number.facing = side * right;
@@ -181,24 +150,16 @@ void add_tail(ModelBuilder& model) {
 }
 
 /// A bar with four sides between two places; `wide` and `tall` reach from its middle to its sides.
-PaintedSolid
-bar(const glm::dvec3& from_m,
-    const glm::dvec3& to_m,
-    const glm::dvec3& wide,
-    const glm::dvec3& tall,
+PaintedSolid bar(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& wide, const glm::dvec3& tall,
     const std::string& material) {
     const std::array<glm::dvec3, 4> offsets{wide + tall, wide - tall, -wide - tall, -wide + tall};
     PaintedSolid solid;
     const glm::dvec3 middle = 0.5 * (from_m + to_m);
     const auto add = [&](std::vector<glm::dvec3> corners) {
         glm::dvec3 centre(0.0);
-        for (const glm::dvec3& corner : corners) {
-            centre += corner / static_cast<double>(corners.size());
-        }
+        for (const glm::dvec3& corner : corners) { centre += corner / static_cast<double>(corners.size()); }
         const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        if (glm::dot(normal, centre - middle) < 0.0) {
-            std::ranges::reverse(corners);
-        }
+        if (glm::dot(normal, centre - middle) < 0.0) { std::ranges::reverse(corners); }
         solid.push_back({std::move(corners), material});
     };
     for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -212,21 +173,15 @@ bar(const glm::dvec3& from_m,
 }
 
 void add_skids(ModelBuilder& model) {
-    PaintedSolid skid =
-        bar(at(0.25, 1.06, 0.05), at(2.72, 1.06, 0.05), 0.04 * right, 0.04 * up, "black");
+    PaintedSolid skid = bar(at(0.25, 1.06, 0.05), at(2.72, 1.06, 0.05), 0.04 * right, 0.04 * up, "black");
     model.add_mirrored("skid", skid);
     const glm::dvec3 across = glm::normalize(glm::dvec3(-0.5, 0.0, -1.0));
-    PaintedSolid toe =
-        bar(at(0.02, 1.06, 0.19), at(0.25, 1.06, 0.05), 0.04 * right, 0.04 * across, "black");
+    PaintedSolid toe = bar(at(0.02, 1.06, 0.19), at(0.25, 1.06, 0.05), 0.04 * right, 0.04 * across, "black");
     cut_off(toe, {{1.0, 0.0, 0.0}, -(1.95 - 0.25)}, "black");
     model.add_mirrored("skid", toe);
     for (const double s : {1.05, 2.25}) {
-        PaintedSolid leg =
-            bar(at(s, 0.40, 0.46),
-                at(s, 1.06, 0.05),
-                glm::dvec3(0.08, 0.0, 0.0),
-                0.035 * glm::normalize(glm::dvec3(0.0, 0.41, -0.66)),
-                "olive");
+        PaintedSolid leg = bar(at(s, 0.40, 0.46), at(s, 1.06, 0.05), glm::dvec3(0.08, 0.0, 0.0),
+            0.035 * glm::normalize(glm::dvec3(0.0, 0.41, -0.66)), "olive");
         cut_off(leg, {up, 1.20 - 0.092}, "olive");
         // Outside the body's lower side: its plane at 45 degrees.
         const glm::dvec3 out = glm::normalize(glm::dvec3(0.0, 1.0, 1.0));
@@ -236,21 +191,12 @@ void add_skids(ModelBuilder& model) {
 }
 
 void add_materials(ModelBuilder& model) {
-    const std::vector<std::pair<std::string, glm::vec3>> materials{
-        {"olive", {0.33F, 0.36F, 0.22F}},
-        {"line", {0.22F, 0.24F, 0.15F}},
-        {"glass", {0.32F, 0.42F, 0.47F}},
-        {"cabin", {0.13F, 0.14F, 0.13F}},
-        {"suit", {0.27F, 0.30F, 0.20F}},
-        {"helmet", {0.58F, 0.59F, 0.55F}},
-        {"black", {0.14F, 0.14F, 0.15F}},
-        {"blade", {0.22F, 0.22F, 0.23F}},
-        {"yellow", {0.78F, 0.62F, 0.15F}},
-        {"insignia", {0.14F, 0.16F, 0.20F}},
+    const std::vector<std::pair<std::string, glm::vec3>> materials{{"olive", {0.33F, 0.36F, 0.22F}},
+        {"line", {0.22F, 0.24F, 0.15F}}, {"glass", {0.32F, 0.42F, 0.47F}}, {"cabin", {0.13F, 0.14F, 0.13F}},
+        {"suit", {0.27F, 0.30F, 0.20F}}, {"helmet", {0.58F, 0.59F, 0.55F}}, {"black", {0.14F, 0.14F, 0.15F}},
+        {"blade", {0.22F, 0.22F, 0.23F}}, {"yellow", {0.78F, 0.62F, 0.15F}}, {"insignia", {0.14F, 0.16F, 0.20F}},
         {"star", {0.70F, 0.71F, 0.66F}}};
-    for (const auto& [name, colour] : materials) {
-        model.add_material(name, colour);
-    }
+    for (const auto& [name, colour] : materials) { model.add_material(name, colour); }
 }
 
 } // namespace

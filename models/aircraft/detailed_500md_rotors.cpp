@@ -20,10 +20,7 @@ using namespace md500;
 
 /// Two opposite faces in one plane.
 void add_plate(
-    PaintedSolid& solid,
-    std::vector<glm::dvec3> corners,
-    const std::string& top,
-    const std::string& bottom) {
+    PaintedSolid& solid, std::vector<glm::dvec3> corners, const std::string& top, const std::string& bottom) {
     solid.push_back({corners, top});
     std::ranges::reverse(corners);
     solid.push_back({std::move(corners), bottom});
@@ -40,20 +37,12 @@ void add_main_rotor(ModelBuilder& model) {
         const double angle_rad = 2.0 * pi * blade / blades;
         const glm::dvec3 out(std::cos(angle_rad), std::sin(angle_rad), 0.0);
         const glm::dvec3 side(-out.y, out.x, 0.0);
-        const auto strip = [&](double from_m,
-                               double to_m,
-                               double half_from_m,
-                               double half_to_m,
-                               const std::string& top,
+        const auto strip = [&](double from_m, double to_m, double half_from_m, double half_to_m, const std::string& top,
                                const std::string& bottom) {
-            add_plate(
-                rotor,
-                {middle + from_m * out + half_from_m * side,
-                 middle + from_m * out - half_from_m * side,
-                 middle + to_m * out - half_to_m * side,
-                 middle + to_m * out + half_to_m * side},
-                top,
-                bottom);
+            add_plate(rotor,
+                {middle + from_m * out + half_from_m * side, middle + from_m * out - half_from_m * side,
+                    middle + to_m * out - half_to_m * side, middle + to_m * out + half_to_m * side},
+                top, bottom);
         };
         strip(hub_m, 0.7, 0.04, half_chord_m, "black", "black");
         strip(0.7, 3.72, half_chord_m, half_chord_m, "blade", "black");
@@ -80,14 +69,10 @@ void add_tail_rotor(ModelBuilder& model) {
     for (const double side : {1.0, -1.0}) {
         const glm::dvec3 out = side * up;
         const auto strip = [&](double from_m, double to_m, const std::string& material) {
-            add_plate(
-                tail_rotor,
-                {tail + from_m * out + 0.06 * chord,
-                 tail + from_m * out - 0.06 * chord,
-                 tail + to_m * out - 0.06 * chord,
-                 tail + to_m * out + 0.06 * chord},
-                material,
-                material);
+            add_plate(tail_rotor,
+                {tail + from_m * out + 0.06 * chord, tail + from_m * out - 0.06 * chord,
+                    tail + to_m * out - 0.06 * chord, tail + to_m * out + 0.06 * chord},
+                material, material);
         };
         strip(0.06, 0.58, "blade");
         strip(0.58, 0.70, "yellow");

@@ -1,12 +1,11 @@
-// F-15C Eagle by stations: s = metres aft of the nose tip, r = to the right, u = above the
-// wing-level reference line. The origin lies at s = 10.40, u = 0.11, as in f15.obj, which names the
-// sources of the main dimensions (length 19.43, span 13.05, fin tips 3.40 up, sweep, chords,
-// canopy, intake lips, nozzles, stabilators). Beside them: 2-degree cant of the fins, nozzle exit
-// of about 1 m, boundary layer gap of the intakes, by photographs (general knowledge of the type).
+// F-15C Eagle by stations: s = metres aft of the nose tip, r = to the right, u = above the wing-level reference line.
+// The origin lies at s = 10.40, u = 0.11, as in f15.obj, which names the sources of the main dimensions (length 19.43,
+// span 13.05, fin tips 3.40 up, sweep, chords, canopy, intake lips, nozzles, stabilators). Beside them: 2-degree cant
+// of the fins, nozzle exit of about 1 m, boundary layer gap of the intakes, by photographs (general knowledge of the
+// type).
 //
-// The planes that part it: the deck u = 0.36 (canopy, spine and fins above), r = 1.73 (wings, booms
-// and stabilators outside), s = 8.2 (forebody and intakes ahead), s = 17.2 (nozzles behind), r =
-// 0.74 between forebody and intakes.
+// The planes that part it: the deck u = 0.36 (canopy, spine and fins above), r = 1.73 (wings, booms and stabilators
+// outside), s = 8.2 (forebody and intakes ahead), s = 17.2 (nozzles behind), r = 0.74 between forebody and intakes.
 
 #include "models/aircraft/detailed_aircraft.h"
 #include "models/aircraft/detailed_f15_frame.h"
@@ -37,26 +36,16 @@ Section hood(double s, double half, double rise, double flat = 0.0) {
 }
 
 PaintedSolid forebody() {
-    const std::array<Section, 6> sections{
-        stations.section(0.0, 0.0, -0.43, -0.43),
-        stations.section(0.55, 0.2, -0.24, -0.60, 0.02, 0.02),
-        stations.section(1.6, 0.44, 0.02, -0.79, 0.08, 0.06),
-        stations.section(3.2, 0.62, deck_u, -0.92, 0.34, 0.14),
-        stations.section(4.9, 0.69, deck_u, -0.95, 0.57, 0.2),
+    const std::array<Section, 6> sections{stations.section(0.0, 0.0, -0.43, -0.43),
+        stations.section(0.55, 0.2, -0.24, -0.60, 0.02, 0.02), stations.section(1.6, 0.44, 0.02, -0.79, 0.08, 0.06),
+        stations.section(3.2, 0.62, deck_u, -0.92, 0.34, 0.14), stations.section(4.9, 0.69, deck_u, -0.95, 0.57, 0.2),
         stations.section(8.2, 0.72, deck_u, -0.95, 0.60, 0.3)};
     PaintedSolid solid = lofted(sections, body_sides, "grey");
     paint(solid, {{{{1.0, 0.0, 0.0}, -(10.40 - 1.55)}}}, "radome");
-    for (const double s : {1.55, 2.5, 3.15, 4.9, 6.4}) {
-        stations.ring_line(solid, s);
-    }
+    for (const double s : {1.55, 2.5, 3.15, 4.9, 6.4}) { stations.ring_line(solid, s); }
     // The tub under the canopy, the gun's and the nose gear's panels, the national marking.
-    const std::array<glm::dvec2, 6> tub{
-        {{10.4 - 3.8, -0.2},
-         {10.4 - 3.8, 0.2},
-         {10.4 - 4.5, 0.4},
-         {10.4 - 7.2, 0.4},
-         {10.4 - 7.2, -0.4},
-         {10.4 - 4.5, -0.4}}};
+    const std::array<glm::dvec2, 6> tub{{{10.4 - 3.8, -0.2}, {10.4 - 3.8, 0.2}, {10.4 - 4.5, 0.4}, {10.4 - 7.2, 0.4},
+        {10.4 - 7.2, -0.4}, {10.4 - 4.5, -0.4}}};
     Stencil inside = outline(tub, 2);
     inside.facing = up;
     inside.min_cosine = 0.9;
@@ -68,24 +57,18 @@ PaintedSolid forebody() {
     gear.min_cosine = 0.9;
     paint(solid, gear, "panel");
     for (const double side : {1.0, -1.0}) {
-        paint_roundel(
-            solid, {{10.4 - 3.95, 0.25}, 0.24, {0.0, -1.0}, 1, side * right}, "insignia", "white");
+        paint_roundel(solid, {{10.4 - 3.95, 0.25}, 0.24, {0.0, -1.0}, 1, side * right}, "insignia", "white");
     }
     return solid;
 }
 
 PaintedSolid canopy() {
-    const std::array<Section, 5> sections{
-        hood(3.35, 0.10, 0.02),
-        hood(4.35, 0.46, 0.62, 0.06),
-        hood(5.2, 0.53, 0.84, 0.06),
-        hood(6.3, 0.53, 0.80, 0.06),
-        hood(7.3, 0.47, 0.56, 0.06)};
+    const std::array<Section, 5> sections{hood(3.35, 0.10, 0.02), hood(4.35, 0.46, 0.62, 0.06),
+        hood(5.2, 0.53, 0.84, 0.06), hood(6.3, 0.53, 0.80, 0.06), hood(7.3, 0.47, 0.56, 0.06)};
     PaintedSolid solid = lofted(sections, body_sides, "glass");
     std::erase_if(solid, [](const PaintedFace& face) { // the underside lies on the deck
-        return std::ranges::all_of(face.corners_m, [](const glm::dvec3& corner) {
-            return corner.z > 0.11 - deck_u - 1e-6;
-        });
+        return std::ranges::all_of(
+            face.corners_m, [](const glm::dvec3& corner) { return corner.z > 0.11 - deck_u - 1e-6; });
     });
     paint(solid, stripe(at(4.35, 0.0, 0.0), {1.0, 0.0, 0.12}, 0.09), "frame");
     paint(solid, stripe(at(7.24, 0.0, 0.0), {1.0, 0.0, 0.0}, 0.12), "frame");
@@ -100,10 +83,8 @@ void add_cockpit(ModelBuilder& model) {
     cut_off(hood_box, {slope, -glm::dot(slope, at(4.62, 0.0, 0.72))}, "tub");
     model.add("cockpit", hood_box);
     model.add("cockpit", box_between(at(4.86, -0.21, deck_u), at(5.2, 0.21, 0.80), "suit"));
-    const std::array<Section, 4> helmet{
-        stations.section(4.90, 0.06, 0.99, 0.88),
-        stations.section(4.96, 0.12, 1.07, 0.82),
-        stations.section(5.10, 0.13, 1.09, 0.82),
+    const std::array<Section, 4> helmet{stations.section(4.90, 0.06, 0.99, 0.88),
+        stations.section(4.96, 0.12, 1.07, 0.82), stations.section(5.10, 0.13, 1.09, 0.82),
         stations.section(5.18, 0.09, 1.05, 0.84)};
     PaintedSolid head = lofted(helmet, 8, "helmet");
     head.push_back(section_cap(helmet.front(), 8, true, "tub"));
@@ -114,47 +95,36 @@ void add_cockpit(ModelBuilder& model) {
 }
 
 void add_spine(ModelBuilder& model) {
-    const std::array<std::array<Section, 2>, 2> pieces{
-        {{hood(7.3, 0.47, 0.56, 0.06), hood(9.6, 0.42, 0.26, 0.06)},
-         {hood(9.6, 0.42, 0.26, 0.06), hood(14.0, 0.22, 0.03, 0.03)}}};
+    const std::array<std::array<Section, 2>, 2> pieces{{{hood(7.3, 0.47, 0.56, 0.06), hood(9.6, 0.42, 0.26, 0.06)},
+        {hood(9.6, 0.42, 0.26, 0.06), hood(14.0, 0.22, 0.03, 0.03)}}};
     for (const auto& piece : pieces) {
         PaintedSolid solid = lofted(piece, body_sides, "grey");
         std::erase_if(solid, [](const PaintedFace& face) {
-            return std::ranges::all_of(face.corners_m, [](const glm::dvec3& corner) {
-                return corner.z > 0.11 - deck_u - 1e-6;
-            });
+            return std::ranges::all_of(
+                face.corners_m, [](const glm::dvec3& corner) { return corner.z > 0.11 - deck_u - 1e-6; });
         });
-        for (const double s : {8.4, 10.8}) {
-            stations.ring_line(solid, s);
-        }
+        for (const double s : {8.4, 10.8}) { stations.ring_line(solid, s); }
         model.add("spine", solid);
     }
 }
 
 PaintedSolid body() {
-    const std::array<Section, 5> sections{
-        stations.section(8.2, 1.50, deck_u, -0.95, 1.2, 0.4),
+    const std::array<Section, 5> sections{stations.section(8.2, 1.50, deck_u, -0.95, 1.2, 0.4),
         stations.section(9.6, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
         stations.section(14.4, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
-        stations.section(16.2, 1.66, deck_u, -0.86, 1.2, 0.3),
-        stations.section(17.2, 1.50, 0.30, -0.74, 0.9, 0.2)};
+        stations.section(16.2, 1.66, deck_u, -0.86, 1.2, 0.3), stations.section(17.2, 1.50, 0.30, -0.74, 0.9, 0.2)};
     PaintedSolid solid = lofted(sections, body_sides, "grey");
     solid.push_back(section_cap(sections.front(), body_sides, true, "panel"));
     solid.push_back(section_cap(sections.back(), body_sides, false, "metal"));
-    for (const double s : {10.1, 12.2, 14.4, 16.2}) {
-        stations.ring_line(solid, s);
-    }
+    for (const double s : {10.1, 12.2, 14.4, 16.2}) { stations.ring_line(solid, s); }
     paint(solid, {{{{-1.0, 0.0, 0.0}, 10.40 - 16.2 - 0.02}}}, "metal"); // bare around the engines
     for (const double side : {1.0, -1.0}) {
         Stencil seam = stripe(at(0.0, side * 0.72, 0.0), right, stations.panel_line_m);
         seam.facing = up;
         seam.min_cosine = 0.7;
         paint(solid, seam, "line");
-        const std::array<glm::dvec2, 4> bay{
-            {{10.4 - 10.4, side * 0.85},
-             {10.4 - 10.4, side * 1.35},
-             {10.4 - 12.0, side * 1.35},
-             {10.4 - 12.0, side * 0.85}}};
+        const std::array<glm::dvec2, 4> bay{{{10.4 - 10.4, side * 0.85}, {10.4 - 10.4, side * 1.35},
+            {10.4 - 12.0, side * 1.35}, {10.4 - 12.0, side * 0.85}}};
         Stencil gear = outline(bay, 2);
         gear.facing = down;
         gear.min_cosine = 0.9;
@@ -233,21 +203,15 @@ void add_wings(ModelBuilder& model) {
 }
 
 void add_materials(ModelBuilder& model) {
-    const std::vector<std::pair<std::string, glm::vec3>> materials{
-        {"radome", {0.45F, 0.47F, 0.50F}},   {"grey", {0.55F, 0.58F, 0.62F}},
-        {"line", {0.42F, 0.44F, 0.48F}},     {"panel", {0.50F, 0.53F, 0.57F}},
-        {"tub", {0.09F, 0.10F, 0.11F}},      {"suit", {0.30F, 0.33F, 0.26F}},
-        {"helmet", {0.62F, 0.63F, 0.62F}},   {"seat", {0.16F, 0.16F, 0.17F}},
-        {"glass", {0.34F, 0.46F, 0.56F}},    {"frame", {0.47F, 0.50F, 0.54F}},
-        {"lip", {0.50F, 0.53F, 0.57F}},      {"dark", {0.06F, 0.06F, 0.07F}},
-        {"metal", {0.30F, 0.29F, 0.28F}},    {"hot", {0.15F, 0.13F, 0.12F}},
-        {"burner", {0.10F, 0.08F, 0.08F}},   {"wing", {0.60F, 0.63F, 0.67F}},
-        {"under", {0.54F, 0.57F, 0.61F}},    {"fin", {0.57F, 0.60F, 0.65F}},
-        {"band", {0.20F, 0.30F, 0.52F}},     {"code", {0.25F, 0.27F, 0.30F}},
-        {"insignia", {0.17F, 0.22F, 0.36F}}, {"white", {0.82F, 0.84F, 0.86F}}};
-    for (const auto& [name, colour] : materials) {
-        model.add_material(name, colour);
-    }
+    const std::vector<std::pair<std::string, glm::vec3>> materials{{"radome", {0.45F, 0.47F, 0.50F}},
+        {"grey", {0.55F, 0.58F, 0.62F}}, {"line", {0.42F, 0.44F, 0.48F}}, {"panel", {0.50F, 0.53F, 0.57F}},
+        {"tub", {0.09F, 0.10F, 0.11F}}, {"suit", {0.30F, 0.33F, 0.26F}}, {"helmet", {0.62F, 0.63F, 0.62F}},
+        {"seat", {0.16F, 0.16F, 0.17F}}, {"glass", {0.34F, 0.46F, 0.56F}}, {"frame", {0.47F, 0.50F, 0.54F}},
+        {"lip", {0.50F, 0.53F, 0.57F}}, {"dark", {0.06F, 0.06F, 0.07F}}, {"metal", {0.30F, 0.29F, 0.28F}},
+        {"hot", {0.15F, 0.13F, 0.12F}}, {"burner", {0.10F, 0.08F, 0.08F}}, {"wing", {0.60F, 0.63F, 0.67F}},
+        {"under", {0.54F, 0.57F, 0.61F}}, {"fin", {0.57F, 0.60F, 0.65F}}, {"band", {0.20F, 0.30F, 0.52F}},
+        {"code", {0.25F, 0.27F, 0.30F}}, {"insignia", {0.17F, 0.22F, 0.36F}}, {"white", {0.82F, 0.84F, 0.86F}}};
+    for (const auto& [name, colour] : materials) { model.add_material(name, colour); }
 }
 
 } // namespace

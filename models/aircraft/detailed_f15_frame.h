@@ -8,16 +8,13 @@
 
 namespace octant::models::aircraft::f15 {
 
-// What the parts of the detailed F-15 share: the planes between them, its stations and heights
-// (detailed_f15.cpp).
+// What the parts of the detailed F-15 share: the planes between them, its stations and heights (detailed_f15.cpp).
 
 inline constexpr double deck_u = 0.36;
 inline constexpr double side_r = 1.73;
 inline constexpr Stations stations{10.40, 0.11, 0.03};
 
-inline glm::dvec3 at(double s, double r, double u) {
-    return stations.at(s, r, u);
-}
+inline glm::dvec3 at(double s, double r, double u) { return stations.at(s, r, u); }
 
 /// Booms, stabilators and fins.
 void add_tail(ModelBuilder& model);

@@ -50,18 +50,13 @@ void add_tail(ModelBuilder& model) {
     const glm::dvec3 hinge = (fin.tip_m - glm::dvec3(0.72 * fin.tip_chord_m, 0.0, 0.0)) -
                              (fin.root_m - glm::dvec3(0.72 * fin.root_chord_m, 0.0, 0.0));
     Stencil rudder = stripe(
-        fin.root_m - glm::dvec3(0.72 * fin.root_chord_m, 0.0, 0.0),
-        {hinge.z, 0.0, -hinge.x},
-        stations.panel_line_m);
+        fin.root_m - glm::dvec3(0.72 * fin.root_chord_m, 0.0, 0.0), {hinge.z, 0.0, -hinge.x}, stations.panel_line_m);
     paint(upright, rudder, "line");
     for (int letter = 0; letter < 2; ++letter) { // the wing's code, two letters F
         const double s = 16.45 + 0.34 * letter;
         const auto bar = [&](double s0, double s1, double u0, double u1) {
             const std::array<glm::dvec2, 4> corners{
-                {{10.4 - s0, 0.11 - u0},
-                 {10.4 - s1, 0.11 - u0},
-                 {10.4 - s1, 0.11 - u1},
-                 {10.4 - s0, 0.11 - u1}}};
+                {{10.4 - s0, 0.11 - u0}, {10.4 - s1, 0.11 - u0}, {10.4 - s1, 0.11 - u1}, {10.4 - s0, 0.11 - u1}}};
             Stencil stencil = outline(corners, 1);
             stencil.facing = right;
             paint(upright, stencil, "code");
@@ -76,8 +71,7 @@ void add_tail(ModelBuilder& model) {
 PaintedSolid nozzle() {
     constexpr int sides = 16;
     constexpr double r = 0.76;
-    const std::array<Section, 3> outer{
-        pipe(17.2, r, 0.60), pipe(18.0, r, 0.60), pipe(18.8, r, 0.48)};
+    const std::array<Section, 3> outer{pipe(17.2, r, 0.60), pipe(18.0, r, 0.60), pipe(18.8, r, 0.48)};
     PaintedSolid solid = lofted(outer, sides, "metal");
     paint(solid, stripe(at(18.0, 0.0, 0.0), {1.0, 0.0, 0.0}, 0.05), "dark");
     const std::array<Section, 2> inner{pipe(17.75, r, 0.40), pipe(18.8, r, 0.45)};
@@ -91,8 +85,7 @@ PaintedSolid nozzle() {
     for (std::size_t i = 0; i < wide.corners_m.size(); ++i) {
         const std::size_t next = (i + 1) % wide.corners_m.size();
         solid.push_back(
-            {{wide.corners_m[i], wide.corners_m[next], narrow.corners_m[next], narrow.corners_m[i]},
-             "metal"});
+            {{wide.corners_m[i], wide.corners_m[next], narrow.corners_m[next], narrow.corners_m[i]}, "metal"});
     }
     return solid;
 }

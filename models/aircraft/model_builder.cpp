@@ -11,9 +11,7 @@
 
 namespace octant::models::aircraft {
 
-ModelBuilder::ModelBuilder(std::string name) {
-    model_.name = std::move(name);
-}
+ModelBuilder::ModelBuilder(std::string name) { model_.name = std::move(name); }
 
 void ModelBuilder::add_material(const std::string& name, const glm::vec3& colour) {
     model_.materials.push_back({name, colour});
@@ -22,21 +20,16 @@ void ModelBuilder::add_material(const std::string& name, const glm::vec3& colour
 std::uint32_t ModelBuilder::vertex_at(const glm::dvec3& at_m) {
     constexpr double grid_m = 1e-10; // what the file keeps
     const glm::dvec3 kept = glm::round(at_m / grid_m) * grid_m + glm::dvec3(0.0);
-    const auto found = std::ranges::find_if(model_.vertices_m, [&](const glm::dvec3& other) {
-        return glm::distance(other, kept) < coincident_distance_m;
-    });
-    if (found != model_.vertices_m.end()) {
-        return static_cast<std::uint32_t>(found - model_.vertices_m.begin());
-    }
+    const auto found = std::ranges::find_if(
+        model_.vertices_m, [&](const glm::dvec3& other) { return glm::distance(other, kept) < coincident_distance_m; });
+    if (found != model_.vertices_m.end()) { return static_cast<std::uint32_t>(found - model_.vertices_m.begin()); }
     model_.vertices_m.push_back(kept);
     return static_cast<std::uint32_t>(model_.vertices_m.size() - 1);
 }
 
 std::uint32_t ModelBuilder::part_of(const std::string& name) {
     const auto found = std::ranges::find(model_.parts, name);
-    if (found != model_.parts.end()) {
-        return static_cast<std::uint32_t>(found - model_.parts.begin());
-    }
+    if (found != model_.parts.end()) { return static_cast<std::uint32_t>(found - model_.parts.begin()); }
     model_.parts.push_back(name);
     return static_cast<std::uint32_t>(model_.parts.size() - 1);
 }
@@ -48,13 +41,9 @@ void ModelBuilder::add(const std::string& part, const PaintedSolid& solid) {
         std::vector<std::uint32_t> corners;
         for (const glm::dvec3& corner : face.corners_m) {
             const std::uint32_t vertex = vertex_at(corner);
-            if (std::ranges::find(corners, vertex) == corners.end()) {
-                corners.push_back(vertex);
-            }
+            if (std::ranges::find(corners, vertex) == corners.end()) { corners.push_back(vertex); }
         }
-        if (corners.size() < 3) {
-            continue;
-        }
+        if (corners.size() < 3) { continue; }
         outlines_.push_back(std::move(corners));
         polygons::Polygon polygon;
         polygon.material = static_cast<std::uint32_t>(material - model_.materials.begin());
@@ -94,9 +83,7 @@ polygons::PolygonModel ModelBuilder::finish() {
             }
             std::ranges::sort(between);
             whole.push_back(outline[k]);
-            for (const auto& [share, vertex] : between) {
-                whole.push_back(vertex);
-            }
+            for (const auto& [share, vertex] : between) { whole.push_back(vertex); }
         }
         model_.polygons[i].first_corner = static_cast<std::uint32_t>(model_.corner_vertices.size());
         model_.polygons[i].corner_count = static_cast<std::uint32_t>(whole.size());

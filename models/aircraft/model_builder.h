@@ -27,8 +27,8 @@ public:
     /// The part added under that name turns.
     void add_pivot(const std::string& part, const polygons::Pivot& pivot);
 
-    /// Corners in one place become one vertex, and each polygon has the vertices that lie on its
-    /// sides, so that no cracks show.
+    /// Corners in one place become one vertex, and each polygon has the vertices that lie on its sides, so that no
+    /// cracks show.
     polygons::PolygonModel finish();
 
 private:

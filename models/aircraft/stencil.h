@@ -12,8 +12,8 @@
 
 namespace octant::models::aircraft {
 
-/// Where to paint: what lies in front of all planes, on faces that are turned towards `facing` (by
-/// at least `min_cosine`; a zero vector: all).
+/// Where to paint: what lies in front of all planes, on faces that are turned towards `facing` (by at least
+/// `min_cosine`; a zero vector: all).
 struct Stencil {
     std::vector<Plane> planes;
     glm::dvec3 facing{0.0};
@@ -26,8 +26,8 @@ void paint(PaintedSolid& solid, const Stencil& stencil, const std::string& mater
 /// A line of that width along the plane through a point.
 Stencil stripe(const glm::dvec3& point_m, const glm::dvec3& across, double width_m);
 
-/// A convex outline that is seen along an axis of the body (0 = x, 1 = y, 2 = z), given by the two
-/// other coordinates in their order, either way round.
+/// A convex outline that is seen along an axis of the body (0 = x, 1 = y, 2 = z), given by the two other coordinates in
+/// their order, either way round.
 Stencil outline(std::span<const glm::dvec2> corners_m, int axis);
 
 /// A star in a disc, seen along an axis as by outline.
@@ -39,7 +39,6 @@ struct Roundel {
     glm::dvec3 facing{0.0};
 };
 
-void paint_roundel(
-    PaintedSolid& solid, const Roundel& roundel, const std::string& disc, const std::string& star);
+void paint_roundel(PaintedSolid& solid, const Roundel& roundel, const std::string& disc, const std::string& star);
 
 } // namespace octant::models::aircraft

@@ -11,9 +11,8 @@
 #include <gdalwarper.h>
 #include <ogr_srs_api.h>
 
-// GDAL's functions that this room calls. The library is opened by the first call: with all that it
-// depends on it takes longer to load than the rest of the program. A function that is needed gets a
-// line here and nothing else.
+// GDAL's functions that this room calls. The library is opened by the first call: with all that it depends on it takes
+// longer to load than the rest of the program. A function that is needed gets a line here and nothing else.
 namespace octant::models::heights {
 
 extern constinit LazyLibrary gdal_library;

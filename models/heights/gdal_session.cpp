@@ -26,38 +26,21 @@ void CPL_STDCALL hear_nothing(CPLErr /*severity*/, CPLErrorNum /*number*/, const
 
 /// All drivers but those that speak to other computers.
 void register_drivers() {
-    constexpr std::array<const char*, 14> remote = {
-        "WMS",
-        "WCS",
-        "WMTS",
-        "HTTP",
-        "DAAS",
-        "EEDA",
-        "EEDAI",
-        "PLMOSAIC",
-        "PLSCENES",
-        "NGW",
-        "OGCAPI",
-        "STACTA",
-        "STACIT",
-        "PostGISRaster"};
+    constexpr std::array<const char*, 14> remote = {"WMS", "WCS", "WMTS", "HTTP", "DAAS", "EEDA", "EEDAI", "PLMOSAIC",
+        "PLSCENES", "NGW", "OGCAPI", "STACTA", "STACIT", "PostGISRaster"};
     CPLSetErrorHandlerEx(&hear_nothing, nullptr);
     GDALAllRegister();
     for (const char* const name : remote) {
-        if (const GDALDriverH driver = GDALGetDriverByName(name)) {
-            GDALDeregisterDriver(driver);
-        }
+        if (const GDALDriverH driver = GDALGetDriverByName(name)) { GDALDeregisterDriver(driver); }
     }
     OSRSetPROJEnableNetwork(0);
 }
 
-/// Stops HDF5, which netCDF is built on, from printing each error that its callers provoke and
-/// handle. HDF5 holds this setting per thread. Does nothing in a GDAL without HDF5.
+/// Stops HDF5, which netCDF is built on, from printing each error that its callers provoke and handle. HDF5 holds this
+/// setting per thread. Does nothing in a GDAL without HDF5.
 void silence_hdf5() {
     thread_local bool is_silent = false;
-    if (is_silent) {
-        return;
-    }
+    if (is_silent) { return; }
     is_silent = true;
     constexpr std::int64_t default_stack = 0;
     using SetAuto = int(std::int64_t stack, void* function, void* data);
@@ -83,14 +66,11 @@ void CPL_STDCALL hear(CPLErr severity, CPLErrorNum /*number*/, const char* text)
 
 } // namespace
 
-void throw_unreadable(
-    const std::filesystem::path& file, std::string_view expected, const std::string& got) {
+void throw_unreadable(const std::filesystem::path& file, std::string_view expected, const std::string& got) {
     throw_error_in(file, fmt::format("expected {} that GDAL can read, got {}", expected, got));
 }
 
-void DatasetDeleter::operator()(void* dataset) const {
-    GDALClose(dataset);
-}
+void DatasetDeleter::operator()(void* dataset) const { GDALClose(dataset); }
 
 GdalSession::GdalSession() {
     CPLPushErrorHandlerEx(&hear, this);
@@ -106,25 +86,17 @@ GdalSession::~GdalSession() {
 }
 
 void GdalSession::note_error(const char* text) {
-    if (first_error_.empty()) {
-        first_error_ = text;
-    }
+    if (first_error_.empty()) { first_error_ = text; }
 }
 
-void GdalSession::note_warning(const char* text) {
-    add_text(warnings_, text);
-}
+void GdalSession::note_warning(const char* text) { add_text(warnings_, text); }
 
-bool GdalSession::is_unknown_format() const {
-    return first_error_.find("not recognized as") != std::string::npos;
-}
+bool GdalSession::is_unknown_format() const { return first_error_.find("not recognized as") != std::string::npos; }
 
 std::string GdalSession::reason(const std::filesystem::path& path) const {
     std::string text = first_error_;
     for (const std::string& name : {path.string(), path.filename().string()}) {
-        if (!name.empty()) {
-            erase_all(text, name);
-        }
+        if (!name.empty()) { erase_all(text, name); }
     }
     const std::size_t start = text.find_first_not_of(" `'\",:;");
     text.erase(0, start);

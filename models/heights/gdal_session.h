@@ -8,12 +8,11 @@
 
 namespace octant::models::heights {
 
-/// While one lives, GDAL on this thread keeps off the network and remembers the first error and the
-/// warnings it meets. GDAL begins no threads of its own then, so that each warning belongs to the
-/// session whose work it is about. Neither GDAL nor a library below it (HDF5, PROJ, libpng,
-/// libtiff) prints on any thread. Side files of maps (.aux.xml) are read; none is written, because
-/// datasets are opened for reading only, nothing is set in them and no statistics or histograms are
-/// asked for. Not to be nested.
+/// While one lives, GDAL on this thread keeps off the network and remembers the first error and the warnings it meets.
+/// GDAL begins no threads of its own then, so that each warning belongs to the session whose work it is about. Neither
+/// GDAL nor a library below it (HDF5, PROJ, libpng, libtiff) prints on any thread. Side files of maps (.aux.xml) are
+/// read; none is written, because datasets are opened for reading only, nothing is set in them and no statistics or
+/// histograms are asked for. Not to be nested.
 class GdalSession {
 public:
     GdalSession();
@@ -31,8 +30,7 @@ public:
     /// Starts over: what went wrong so far was harmless.
     void forget() { first_error_.clear(); }
 
-    /// GDAL's first error as one printable piece without the file's path; "no reason given" when
-    /// there was none.
+    /// GDAL's first error as one printable piece without the file's path; "no reason given" when there was none.
     std::string reason(const std::filesystem::path& path) const;
 
     /// What GDAL warned of: each text once, one printable line, at most `max_warnings` of them.

@@ -11,16 +11,16 @@
 
 namespace octant::models::heights {
 
-/// Metres of a unit by its meaning: case, plurals, punctuation and words behind it ("m above mean
-/// sea level") do not matter. Nothing for what is no known length.
+/// Metres of a unit by its meaning: case, plurals, punctuation and words behind it ("m above mean sea level") do not
+/// matter. Nothing for what is no known length.
 std::optional<double> metres_from_unit(std::string_view unit);
 
 /// The band of a raster that holds heights, and what its raw numbers mean.
 struct HeightBand {
-    Dataset decoded;      ///< of heights that are coded in colours; else null
-    int number = 1;       ///< of the raster, or of `decoded`
-    void* band = nullptr; ///< GDALRasterBandH
-    void* mask = nullptr; ///< GDALRasterBandH whose zeros are samples without data; null: none
+    Dataset decoded;               ///< of heights that are coded in colours; else null
+    int number = 1;                ///< of the raster, or of `decoded`
+    void* band = nullptr;          ///< GDALRasterBandH
+    void* mask = nullptr;          ///< GDALRasterBandH whose zeros are samples without data; null: none
     std::optional<double> no_data; ///< as the file declares it
     double scale_m = 1.0;
     double offset_m = 0.0;
@@ -28,19 +28,18 @@ struct HeightBand {
     std::vector<MapNote> notes;
 };
 
-/// Whether a band's name says that it holds heights of the ground, and not their error, their
-/// slope, or heights of trees.
+/// Whether a band's name says that it holds heights of the ground, and not their error, their slope, or heights of
+/// trees.
 bool is_height_band_name(std::string_view name);
 
 /// The raw number that a GDALRasterBandH declares for no data.
 std::optional<double> declared_no_data(void* band);
 
-/// Chooses the band of heights: the one that the options name; else that of a raster with one;
-/// heights that are coded in colours by the rules of Terrarium or Mapbox; the first band whose name
-/// says elevation, height or the like; the first one that does not say error, slope or the like. A
-/// note tells of the others unless the first band is the only one that says heights. Throws Error
-/// for pictures, complex numbers, units that are no lengths, and bands that are not there.
-HeightBand
-height_band_of(const std::filesystem::path& file, void* dataset, const ImportOptions& options);
+/// Chooses the band of heights: the one that the options name; else that of a raster with one; heights that are coded
+/// in colours by the rules of Terrarium or Mapbox; the first band whose name says elevation, height or the like; the
+/// first one that does not say error, slope or the like. A note tells of the others unless the first band is the only
+/// one that says heights. Throws Error for pictures, complex numbers, units that are no lengths, and bands that are not
+/// there.
+HeightBand height_band_of(const std::filesystem::path& file, void* dataset, const ImportOptions& options);
 
 } // namespace octant::models::heights

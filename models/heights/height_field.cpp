@@ -12,15 +12,11 @@
 namespace octant::models::heights {
 
 HeightField::HeightField(int columns, int rows, double spacing_m, std::vector<float> heights_m)
-    : columns_(columns)
-    , rows_(rows)
-    , spacing_m_(spacing_m)
-    , heights_m_(std::move(heights_m)) {
+    : columns_(columns), rows_(rows), spacing_m_(spacing_m), heights_m_(std::move(heights_m)) {
     assert(columns >= 2 && rows >= 2);
     assert(spacing_m > 0.0 && std::isfinite(spacing_m));
     assert(heights_m_.size() == static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    assert(std::all_of(
-        heights_m_.begin(), heights_m_.end(), [](float height) { return std::isfinite(height); }));
+    assert(std::all_of(heights_m_.begin(), heights_m_.end(), [](float height) { return std::isfinite(height); }));
     const auto [lowest, highest] = std::minmax_element(heights_m_.begin(), heights_m_.end());
     lowest_m_ = *lowest;
     highest_m_ = *highest;
@@ -28,10 +24,7 @@ HeightField::HeightField(int columns, int rows, double spacing_m, std::vector<fl
 
 glm::dvec3 HeightField::sample_m(int column, int row) const {
     const glm::dvec2 half = half_extent_m();
-    return {
-        column * spacing_m_ - half.x,
-        row * spacing_m_ - half.y,
-        static_cast<double>(height_m(column, row))};
+    return {column * spacing_m_ - half.x, row * spacing_m_ - half.y, static_cast<double>(height_m(column, row))};
 }
 
 glm::dvec2 HeightField::half_extent_m() const {
@@ -48,12 +41,9 @@ glm::vec3 HeightField::normal_at_sample(int column, int row) const {
     const int south = std::max(row - 1, 0);
     const int north = std::min(row + 1, rows_ - 1);
     const double rise_east = static_cast<double>(height_m(east, row)) - height_m(west, row);
-    const double rise_north =
-        static_cast<double>(height_m(column, north)) - height_m(column, south);
+    const double rise_north = static_cast<double>(height_m(column, north)) - height_m(column, south);
     const glm::dvec3 normal(
-        -rise_east / ((east - west) * spacing_m_),
-        -rise_north / ((north - south) * spacing_m_),
-        1.0);
+        -rise_east / ((east - west) * spacing_m_), -rise_north / ((north - south) * spacing_m_), 1.0);
     return glm::vec3(glm::normalize(normal));
 }
 

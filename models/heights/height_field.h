@@ -37,12 +37,12 @@ struct HeightDeviation {
     std::int64_t places = 0;
 };
 
-/// Ground heights on a square grid. World: x east, y north, z up, metres, origin at the field's
-/// centre at datum. Column 0 is the west edge, row 0 the south edge.
+/// Ground heights on a square grid. World: x east, y north, z up, metres, origin at the field's centre at datum. Column
+/// 0 is the west edge, row 0 the south edge.
 class HeightField {
 public:
-    /// `heights_m` row after row from the south, columns * rows finite values (asserted); at least
-    /// 2 x 2 samples; spacing above zero.
+    /// `heights_m` row after row from the south, columns * rows finite values (asserted); at least 2 x 2 samples;
+    /// spacing above zero.
     HeightField(int columns, int rows, double spacing_m, std::vector<float> heights_m);
 
     int columns() const { return columns_; }
@@ -53,9 +53,8 @@ public:
 
     /// Height of a sample. Column and row are within the grid (asserted).
     float height_m(int column, int row) const {
-        return heights_m_
-            [static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-             static_cast<std::size_t>(column)];
+        return heights_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                          static_cast<std::size_t>(column)];
     }
 
     /// World position of a sample.
@@ -74,11 +73,11 @@ public:
 
     float highest_m() const { return highest_m_; }
 
-    std::string name;                ///< built-in name or file name, for reports
-    std::optional<GeoPosition> place;   ///< of its centre; nothing for made ground
+    std::string name;                       ///< built-in name or file name, for reports
+    std::optional<GeoPosition> place;       ///< of its centre; nothing for made ground
     std::optional<CoordinateSystem> system; ///< nothing for ground without a place in any
-    long filled_voids = 0;           ///< samples without data that were filled in on reading
-    std::vector<MapNote> notes;      ///< of the files it was read from
+    long filled_voids = 0;                  ///< samples without data that were filled in on reading
+    std::vector<MapNote> notes;             ///< of the files it was read from
 
 private:
     int columns_;

@@ -60,12 +60,7 @@ void set_system(GDALDatasetH dataset, const HeightField& field) {
 void set_frame(GDALDatasetH dataset, const HeightField& field) {
     const double spacing_m = field.spacing_m();
     std::array<double, 6> transform = {
-        -0.5 * field.columns() * spacing_m,
-        spacing_m,
-        0.0,
-        0.5 * field.rows() * spacing_m,
-        0.0,
-        -spacing_m};
+        -0.5 * field.columns() * spacing_m, spacing_m, 0.0, 0.5 * field.rows() * spacing_m, 0.0, -spacing_m};
     GDALSetGeoTransform(dataset, transform.data());
     set_system(dataset, field);
     // A declared value for missing data, and one that no height equals, keeps -9999 a height.
@@ -83,11 +78,9 @@ bool write_lines(GDALDatasetH dataset, const HeightField& field) {
             line[static_cast<std::size_t>(column)] = field.height_m(column, row);
         }
         const int y = field.rows() - 1 - row;
-        const CPLErr result = GDALRasterIO(
-            band, GF_Write, 0, y, columns, 1, line.data(), columns, 1, GDT_Float32, 0, 0);
-        if (result != CE_None) {
-            return false;
-        }
+        const CPLErr result =
+            GDALRasterIO(band, GF_Write, 0, y, columns, 1, line.data(), columns, 1, GDT_Float32, 0, 0);
+        if (result != CE_None) { return false; }
     }
     return true;
 }
@@ -101,13 +94,7 @@ void write_height_field(const std::filesystem::path& path, const HeightField& fi
     options = CSLSetNameValue(options, "PREDICTOR", "3");
     options = CSLSetNameValue(options, "BIGTIFF", "IF_SAFER");
     Dataset dataset(GDALCreate(
-        GDALGetDriverByName("GTiff"),
-        memory.name(),
-        field.columns(),
-        field.rows(),
-        1,
-        GDT_Float32,
-        options));
+        GDALGetDriverByName("GTiff"), memory.name(), field.columns(), field.rows(), 1, GDT_Float32, options));
     CSLDestroy(options);
     bool written = dataset != nullptr;
     if (written) {
@@ -115,9 +102,7 @@ void write_height_field(const std::filesystem::path& path, const HeightField& fi
         written = write_lines(dataset.get(), field);
         dataset.reset();
     }
-    if (!written || gdal.failed()) {
-        throw_error_in(path, "cannot be written: " + gdal.reason(memory.name()));
-    }
+    if (!written || gdal.failed()) { throw_error_in(path, "cannot be written: " + gdal.reason(memory.name())); }
     write_file(path, memory.bytes());
 }
 

@@ -24,8 +24,7 @@ HeightField field_from(const std::vector<path>& files, const ImportOptions& opti
     HeightGrid grid;
     grid.columns = source.columns();
     grid.rows = source.rows();
-    grid.heights_m.resize(
-        static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+    grid.heights_m.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
     source.read(0, grid.heights_m);
     const long voids = fill_voids(grid);
     if (static_cast<std::size_t>(voids) == grid.heights_m.size()) {

@@ -15,15 +15,15 @@
 
 namespace octant::models::heights {
 
-/// A file of heights, open to be read piece by piece: its band of heights and how raw numbers
-/// become metres. Row 0 is the south and column 0 the west, where it is upright.
+/// A file of heights, open to be read piece by piece: its band of heights and how raw numbers become metres. Row 0 is
+/// the south and column 0 the west, where it is upright.
 struct HeightRaster {
-    std::vector<Dataset> datasets; ///< the file's; behind it what was made of it, which owns `band`
-    void* band = nullptr;          ///< GDALRasterBandH
-    void* mask = nullptr;          ///< GDALRasterBandH that is 0 where there is no data; null: none
-    std::optional<double> no_data; ///< raw number, as the file declares it
+    std::vector<Dataset> datasets;        ///< the file's; behind it what was made of it, which owns `band`
+    void* band = nullptr;                 ///< GDALRasterBandH
+    void* mask = nullptr;                 ///< GDALRasterBandH that is 0 where there is no data; null: none
+    std::optional<double> no_data;        ///< raw number, as the file declares it
     std::vector<double> user_void_values; ///< raw numbers, as the options have them
-    TextVoids text_voids;            ///< of a text grid
+    TextVoids text_voids;                 ///< of a text grid
     /// Found by the first read that meets a doubtful number, from all samples.
     mutable std::optional<UndeclaredVoids> undeclared;
     double scale_m = 1.0;
@@ -31,13 +31,13 @@ struct HeightRaster {
     bool declares_unit = false; ///< of heights
     int columns = 0;
     int rows = 0;
-    bool rows_run_west = false;         ///< its lines run westward
-    bool first_row_is_south = false;        ///< its first line is the southernmost
-    bool has_integer_metres = false;      ///< its numbers are metres that fit 16 bits
-    std::vector<MapNote> notes;     ///< what a person should be told of the file
+    bool rows_run_west = false;       ///< its lines run westward
+    bool first_row_is_south = false;  ///< its first line is the southernmost
+    bool has_integer_metres = false;  ///< its numbers are metres that fit 16 bits
+    std::vector<MapNote> notes;       ///< what a person should be told of the file
     std::optional<GridTransform> map; ///< nothing for a file without georeference
-    Ellipsoid ellipsoid;            ///< of its system; WGS 84 without one
-    SpatialReference system;               ///< null where lengths are metres without a place on the earth
+    Ellipsoid ellipsoid;              ///< of its system; WGS 84 without one
+    SpatialReference system;          ///< null where lengths are metres without a place on the earth
 };
 
 /// A rectangle of a grid.
@@ -54,52 +54,32 @@ inline constexpr std::int16_t void_height_m = std::numeric_limits<std::int16_t>:
 /// Throws Error unless both are from 2 to max_import_samples.
 void check_import_size(const std::filesystem::path& file, int columns, int rows);
 
-/// Throws Error unless the height is within the bounds of import_options.h for this body. The
-/// error names the options that can help: --void with the raw number, and --height-scale unless the
-/// file names the unit of its heights.
-void check_height(
-    const std::filesystem::path& file,
-    double height_m,
-    double raw,
-    bool declares_unit,
+/// Throws Error unless the height is within the bounds of import_options.h for this body. The error names the options
+/// that can help: --void with the raw number, and --height-scale unless the file names the unit of its heights.
+void check_height(const std::filesystem::path& file, double height_m, double raw, bool declares_unit,
     const Ellipsoid& ellipsoid = {});
 
-/// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size,
-/// which is not checked.
-HeightRaster open_height_raster(
-    const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
+/// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size, which is not checked.
+HeightRaster open_height_raster(const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
 
 /// What a person should be told of a raster; complete once all heights have been read.
 std::vector<MapNote> notes_of(const std::filesystem::path& file, const HeightRaster& raster);
 
-/// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error
-/// as read_height_field.
-void read_heights(
-    const std::filesystem::path& file,
-    const HeightRaster& raster,
-    const GridWindow& window,
-    std::span<float> heights_m,
-    const GdalSession& gdal);
+/// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error as
+/// read_height_field.
+void read_heights(const std::filesystem::path& file, const HeightRaster& raster, const GridWindow& window,
+    std::span<float> heights_m, const GdalSession& gdal);
 
-/// The numbers that the file stores for a window, row after row from the south; NaN where there is
-/// no data by the file's word or the options'. Throws Error as read_height_field.
-void read_raw(
-    const std::filesystem::path& file,
-    const HeightRaster& raster,
-    const GridWindow& window,
-    std::span<double> raw,
-    const GdalSession& gdal);
+/// The numbers that the file stores for a window, row after row from the south; NaN where there is no data by the
+/// file's word or the options'. Throws Error as read_height_field.
+void read_raw(const std::filesystem::path& file, const HeightRaster& raster, const GridWindow& window,
+    std::span<double> raw, const GdalSession& gdal);
 
-/// Whether a number that a file stores is one that --void names by `mark`: the same but for the
-/// rounding of floats.
+/// Whether a number that a file stores is one that --void names by `mark`: the same but for the rounding of floats.
 bool is_same_raw(double raw, double mark);
 
 /// As read_heights, for a raster of whole metres (asserted); void_height_m without data.
-void read_integer_metres(
-    const std::filesystem::path& file,
-    const HeightRaster& raster,
-    const GridWindow& window,
-    std::span<std::int16_t> heights_m,
-    const GdalSession& gdal);
+void read_integer_metres(const std::filesystem::path& file, const HeightRaster& raster, const GridWindow& window,
+    std::span<std::int16_t> heights_m, const GdalSession& gdal);
 
 } // namespace octant::models::heights

@@ -1,4 +1,5 @@
 #include "models/heights/height_source.h"
+
 #include "models/heights/gdal_functions.h"
 #include "models/heights/height_grid.h"
 #include "models/heights/height_raster.h"
@@ -27,15 +28,13 @@
 
 namespace octant::models::heights {
 
-/// Heights of grids at the samples of another lattice: bilinear between each grid's samples, the
-/// first grid that has data there counts. A source sample that is higher than all eight around it
-/// keeps its height at the nearest sample of the lattice, so that summits do not sink.
+/// Heights of grids at the samples of another lattice: bilinear between each grid's samples, the first grid that has
+/// data there counts. A source sample that is higher than all eight around it keeps its height at the nearest sample of
+/// the lattice, so that summits do not sink.
 class Resampler {
 public:
     /// The grids look from the lattice's frame. Both must outlive the resampler.
-    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice)
-        : grids_(grids)
-        , lattice_(lattice) {}
+    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice) : grids_(grids), lattice_(lattice) {}
 
     /// Rows from `first_row` on, as many as fill the span; NaN without data. Throws Error.
     void read(int first_row, std::span<float> heights_m, const GdalSession& gdal);
@@ -67,16 +66,15 @@ private:
 namespace {
 
 constexpr int block_edge = 256;
-/// Between places so many samples apart source coordinates run linearly: at 100 m spacing the error
-/// is 0.05 m, far below a sample.
+/// Between places so many samples apart source coordinates run linearly: at 100 m spacing the error is 0.05 m, far
+/// below a sample.
 constexpr int place_step = 16;
 /// How far beyond a grid's rim a place may lie by rounding, in cells.
 constexpr double rim = 0.02;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 double mixed(const std::vector<double>& at, std::size_t low, std::size_t high, double u, double v) {
-    return (at[low] * (1.0 - u) + at[low + 1] * u) * (1.0 - v) +
-           (at[high] * (1.0 - u) + at[high + 1] * u) * v;
+    return (at[low] * (1.0 - u) + at[low + 1] * u) * (1.0 - v) + (at[high] * (1.0 - u) + at[high + 1] * u) * v;
 }
 
 } // namespace
@@ -87,32 +85,22 @@ void Resampler::read(int first_row, std::span<float> heights_m, const GdalSessio
     std::fill(heights_m.begin(), heights_m.end(), no_height);
     for (int row = 0; row < count; row += block_edge) {
         for (int column = 0; column < lattice_.columns; column += block_edge) {
-            const Block block{
-                column,
-                std::min(block_edge, lattice_.columns - column),
-                first_row + row,
+            const Block block{column, std::min(block_edge, lattice_.columns - column), first_row + row,
                 std::min(block_edge, count - row)};
-            block_m_.assign(
-                static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows),
-                no_height);
+            block_m_.assign(static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows), no_height);
             for (const SourceGrid& grid : grids_) {
                 locate_samples(grid, block);
                 const GridWindow window = window_of(grid);
                 if (window.columns > 0 && window.rows > 0) {
-                    source_m_.resize(
-                        static_cast<std::size_t>(window.columns) *
-                        static_cast<std::size_t>(window.rows));
+                    source_m_.resize(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows));
                     grid.read(window, source_m_, gdal);
                     sample(block, window);
                 }
             }
             for (int r = 0; r < block.rows; ++r) {
-                std::copy_n(
-                    block_m_.begin() + std::ptrdiff_t{r} * block.columns,
-                    block.columns,
-                    heights_m.begin() + static_cast<std::ptrdiff_t>(
-                                            static_cast<std::size_t>(row + r) * width +
-                                            static_cast<std::size_t>(column)));
+                std::copy_n(block_m_.begin() + std::ptrdiff_t{r} * block.columns, block.columns,
+                    heights_m.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row + r) * width +
+                                                                    static_cast<std::size_t>(column)));
             }
         }
     }
@@ -132,11 +120,8 @@ void Resampler::locate_samples(const SourceGrid& grid, const Block& block) {
     }
     grid.grid_from_frame(x, y);
     half_step_ = 0.5 *
-                 glm::dvec2(
-                     std::hypot(x[1] - x[0], y[1] - y[0]),
-                     std::hypot(
-                         x[static_cast<std::size_t>(across)] - x[0],
-                         y[static_cast<std::size_t>(across)] - y[0])) /
+                 glm::dvec2(std::hypot(x[1] - x[0], y[1] - y[0]), std::hypot(x[static_cast<std::size_t>(across)] - x[0],
+                                                                      y[static_cast<std::size_t>(across)] - y[0])) /
                  static_cast<double>(place_step);
     x_.clear();
     y_.clear();
@@ -150,8 +135,7 @@ void Resampler::locate_samples(const SourceGrid& grid, const Block& block) {
             const double u = static_cast<double>(c % place_step) / place_step;
             const double column = mixed(x, low, high, u, v);
             const double row = mixed(y, low, high, u, v);
-            const bool inside = column >= -rim && column <= last_column + rim && row >= -rim &&
-                                row <= last_row + rim;
+            const bool inside = column >= -rim && column <= last_column + rim && row >= -rim && row <= last_row + rim;
             x_.push_back(inside ? std::clamp(column, 0.0, last_column) : std::nan(""));
             y_.push_back(inside ? std::clamp(row, 0.0, last_row) : std::nan(""));
         }
@@ -172,23 +156,16 @@ GridWindow Resampler::window_of(const SourceGrid& grid) const {
             north = std::max(north, y_[i]);
         }
     }
-    if (west > east) {
-        return {};
-    }
+    if (west > east) { return {}; }
     constexpr int beside = 2; // for the neighbours of summits
     const int first_column = std::max(0, static_cast<int>(west) - beside);
     const int first_row = std::max(0, static_cast<int>(south) - beside);
-    return {
-        first_column,
-        std::min(grid.columns(), static_cast<int>(east) + beside + 2) - first_column,
-        first_row,
+    return {first_column, std::min(grid.columns(), static_cast<int>(east) + beside + 2) - first_column, first_row,
         std::min(grid.rows(), static_cast<int>(north) + beside + 2) - first_row};
 }
 
 void Resampler::sample(const Block& block, const GridWindow& window) {
-    for (std::size_t i = 0;
-         i < static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows);
-         ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows); ++i) {
         if (std::isnan(block_m_[i]) && !std::isnan(x_[i])) {
             const double column = x_[i] - window.first_column;
             const double row = y_[i] - window.first_row;
@@ -199,8 +176,7 @@ void Resampler::sample(const Block& block, const GridWindow& window) {
     }
 }
 
-/// The bilinear height; of the samples that are known where they have half of the weight or more,
-/// else NaN.
+/// The bilinear height; of the samples that are known where they have half of the weight or more, else NaN.
 float Resampler::surface_m(const GridWindow& window, double column, double row) const {
     const int c = std::min(static_cast<int>(column), std::max(window.columns - 2, 0));
     const int r = std::min(static_cast<int>(row), std::max(window.rows - 2, 0));
@@ -212,11 +188,9 @@ float Resampler::surface_m(const GridWindow& window, double column, double row) 
         for (int i = 0; i < 2; ++i) {
             const double weight = (i == 0 ? 1.0 - u : u) * (j == 0 ? 1.0 - v : v);
             if (weight > 1e-6) {
-                const auto height_m =
-                    static_cast<double>(source_m_
-                                            [static_cast<std::size_t>(r + j) *
-                                                 static_cast<std::size_t>(window.columns) +
-                                             static_cast<std::size_t>(c + i)]);
+                const auto height_m = static_cast<double>(
+                    source_m_[static_cast<std::size_t>(r + j) * static_cast<std::size_t>(window.columns) +
+                              static_cast<std::size_t>(c + i)]);
                 sum += std::isnan(height_m) ? 0.0 : weight * height_m;
                 known += std::isnan(height_m) ? 0.0 : weight;
             }
@@ -225,27 +199,24 @@ float Resampler::surface_m(const GridWindow& window, double column, double row) 
     return known >= 0.5 ? static_cast<float>(sum / known) : no_height;
 }
 
-/// The height of the source sample to which this place is the nearest of the lattice, if that one
-/// is higher than all around it; else the lowest number.
+/// The height of the source sample to which this place is the nearest of the lattice, if that one is higher than all
+/// around it; else the lowest number.
 float Resampler::summit_m(const GridWindow& window, double column, double row) const {
     constexpr float none = std::numeric_limits<float>::lowest();
     const int c = static_cast<int>(std::lround(column));
     const int r = static_cast<int>(std::lround(row));
-    if (c < 1 || r < 1 || c + 1 >= window.columns || r + 1 >= window.rows ||
-        std::abs(column - c) > half_step_.x || std::abs(row - r) > half_step_.y) {
+    if (c < 1 || r < 1 || c + 1 >= window.columns || r + 1 >= window.rows || std::abs(column - c) > half_step_.x ||
+        std::abs(row - r) > half_step_.y) {
         return none;
     }
     const auto at = [&](int x, int y) {
-        return source_m_
-            [static_cast<std::size_t>(y) * static_cast<std::size_t>(window.columns) +
-             static_cast<std::size_t>(x)];
+        return source_m_[static_cast<std::size_t>(y) * static_cast<std::size_t>(window.columns) +
+                         static_cast<std::size_t>(x)];
     };
     const float own = at(c, r);
     for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
-            if ((i != 0 || j != 0) && !(at(c + i, r + j) < own)) {
-                return none;
-            }
+            if ((i != 0 || j != 0) && !(at(c + i, r + j) < own)) { return none; }
         }
     }
     return own;
@@ -253,20 +224,17 @@ float Resampler::summit_m(const GridWindow& window, double column, double row) c
 
 namespace {
 
-// Source: Netpbm, pgm(5), "Plain PGM": P2, width, height, largest value, then values from the top
-// left, separated by white space; '#' starts a comment that runs to the end of its line.
-// Deviations: none.
+// Source: Netpbm, pgm(5), "Plain PGM": P2, width, height, largest value, then values from the top left, separated by
+// white space; '#' starts a comment that runs to the end of its line. Deviations: none.
 
-/// Grey values of a plain PGM. Throws Error "path:line: expected ..., got ..."; `check_size` is
-/// called with width and height before any value is read and may throw too.
-HeightGrid
-read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size);
+/// Grey values of a plain PGM. Throws Error "path:line: expected ..., got ..."; `check_size` is called with width and
+/// height before any value is read and may throw too.
+HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size);
 
 /// Hands out the words of a text one after another and knows their line.
 class Words {
 public:
-    explicit Words(std::string_view text)
-        : text_(text) {}
+    explicit Words(std::string_view text) : text_(text) {}
 
     int line() const { return line_; }
 
@@ -281,9 +249,7 @@ public:
             }
         }
         const std::size_t start = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '#') {
-            ++at_;
-        }
+        while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '#') { ++at_; }
         return text_.substr(start, at_ - start);
     }
 
@@ -295,19 +261,14 @@ private:
     int line_ = 1;
 };
 
-long number_between(
-    const std::filesystem::path& path, Words& words, long lowest, long highest, const char* what) {
+long number_between(const std::filesystem::path& path, Words& words, long lowest, long highest, const char* what) {
     const std::string_view word = words.next();
-    if (word.empty()) {
-        throw_error_at(path, words.line(), fmt::format("expected {}, got the end of the file", what));
-    }
+    if (word.empty()) { throw_error_at(path, words.line(), fmt::format("expected {}, got the end of the file", what)); }
     const auto number = whole_number(word);
     if (!number || *number < lowest || *number > highest) {
         const std::string got = printable(std::string(word));
         throw_error_at(
-            path,
-            words.line(),
-            fmt::format("expected {} from {} to {}, got '{}'", what, lowest, highest, got));
+            path, words.line(), fmt::format("expected {} from {} to {}, got '{}'", what, lowest, highest, got));
     }
     return *number;
 }
@@ -319,12 +280,10 @@ bool is_plain_pgm(const std::filesystem::path& path) {
     char second = 0;
     char third = 0;
     in.get(first).get(second).get(third);
-    return in && first == 'P' && second == '2' &&
-           (third == '#' || third == ' ' || (third >= '\t' && third <= '\r'));
+    return in && first == 'P' && second == '2' && (third == '#' || third == ' ' || (third >= '\t' && third <= '\r'));
 }
 
-HeightGrid
-read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size) {
+HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size) {
     constexpr std::size_t largest_bytes = std::size_t{4} << 30;
     constexpr long largest_side = 1'000'000'000;
     const std::string text = read_text_file(path, largest_bytes);
@@ -338,8 +297,7 @@ read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, 
     const std::size_t columns = static_cast<std::size_t>(grid.columns);
     const std::size_t count = columns * static_cast<std::size_t>(grid.rows);
     if (count > text.size()) {
-        throw_error_in(
-            path, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
+        throw_error_in(path, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
     }
     grid.heights_m.resize(count);
     for (int row = grid.rows - 1; row >= 0; --row) {
@@ -354,20 +312,15 @@ read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, 
 using std::filesystem::path;
 
 /// A plain PGM's heights in metres; adds a note of voids that it does not declare.
-HeightGrid
-plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
-    HeightGrid grid = read_plain_pgm(
-        file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
+HeightGrid plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
+    HeightGrid grid = read_plain_pgm(file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
     const double unit_m = options.height_scale.value_or(1.0);
     const std::vector<double>& given = options.voids.values;
-    const auto is_given = [&given](float raw) {
-        return std::ranges::find(given, static_cast<double>(raw)) != given.end();
-    };
+    const auto is_given = [&given](
+                              float raw) { return std::ranges::find(given, static_cast<double>(raw)) != given.end(); };
     VoidDetector survey(lowest_import_m, highest_import_m, 65536.0);
     for (const float raw : grid.heights_m) {
-        if (!is_given(raw)) {
-            survey.add(static_cast<double>(raw), static_cast<double>(raw) * unit_m);
-        }
+        if (!is_given(raw)) { survey.add(static_cast<double>(raw), static_cast<double>(raw) * unit_m); }
     }
     const UndeclaredVoids voids = options.voids.only ? UndeclaredVoids() : survey.result();
     for (float& height : grid.heights_m) {
@@ -379,25 +332,19 @@ plain_heights(const path& file, const ImportOptions& options, std::vector<MapNot
             height = static_cast<float>(raw * unit_m);
         }
     }
-    if (!voids.note.empty()) {
-        notes.push_back({fmt::format("{}: {}", file.filename().string(), voids.note)});
-    }
+    if (!voids.note.empty()) { notes.push_back({fmt::format("{}: {}", file.filename().string(), voids.note)}); }
     return grid;
 }
 
-std::vector<SourceGrid>
-open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
+std::vector<SourceGrid> open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
     std::vector<SourceGrid> grids;
     for (const path& file : files) {
         SourcePiece piece{file, open_height_raster(file, options, gdal)};
         if (files.size() > 1 && !piece.raster.map) {
             throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
-        const bool taken =
-            std::ranges::any_of(grids, [&piece](SourceGrid& grid) { return grid.take(piece); });
-        if (!taken) {
-            grids.emplace_back(std::move(piece));
-        }
+        const bool taken = std::ranges::any_of(grids, [&piece](SourceGrid& grid) { return grid.take(piece); });
+        if (!taken) { grids.emplace_back(std::move(piece)); }
     }
     return grids;
 }
@@ -450,9 +397,7 @@ struct HeightSource::Content {
 void HeightSource::Content::open(const ImportOptions& options) {
     for (const path& file : files) {
         check_local_file(file);
-        if (!is_plain_pgm(file)) {
-            continue;
-        }
+        if (!is_plain_pgm(file)) { continue; }
         if (files.size() > 1) {
             throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
@@ -469,9 +414,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
     }
     lattice = target_grid_for(files.front(), grids);
     spacing_m = lattice.step * lattice.unit_m;
-    if (!lattice.is_source) {
-        resampler.emplace(grids, lattice);
-    }
+    if (!lattice.is_source) { resampler.emplace(grids, lattice); }
     find_place();
     gdal->forget(); // a system without a place on the earth is no fault
 }
@@ -480,13 +423,8 @@ void HeightSource::Content::open(const ImportOptions& options) {
 void HeightSource::Content::take_picture(int columns, int rows, double spacing) {
     const auto fits = [](int n) { return n >= 2 && n <= largest_samples; };
     if (!fits(columns) || !fits(rows)) {
-        throw_error_in(
-            files.front(),
-            fmt::format(
-                "expected 2 x 2 to {0} x {0} samples, got {1} x {2}",
-                static_cast<int>(largest_samples),
-                columns,
-                rows));
+        throw_error_in(files.front(), fmt::format("expected 2 x 2 to {0} x {0} samples, got {1} x {2}",
+                                          static_cast<int>(largest_samples), columns, rows));
     }
     lattice.columns = columns;
     lattice.rows = rows;
@@ -496,17 +434,12 @@ void HeightSource::Content::take_picture(int columns, int rows, double spacing) 
 }
 
 void HeightSource::Content::find_place() {
-    if (!lattice.frame) {
-        return;
-    }
+    if (!lattice.frame) { return; }
     system = lattice.system();
     const SpatialReference globe = geographic_coordinate_system(ellipsoid_of(system->wkt));
     const Transformation to_globe = between(lattice.frame.get(), globe.get());
-    const auto middle =
-        to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
-    if (middle && std::abs(middle->y) <= 90.0) {
-        place = GeoPosition{middle->y, middle->x, ellipsoid_of(system->wkt)};
-    }
+    const auto middle = to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
+    if (middle && std::abs(middle->y) <= 90.0) { place = GeoPosition{middle->y, middle->x, ellipsoid_of(system->wkt)}; }
 }
 
 std::string HeightSource::Content::name() const {
@@ -526,8 +459,7 @@ std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
     if (place) {
         const SpatialReference globe = geographic_coordinate_system(place->ellipsoid);
         const glm::dvec2 centre(system->centre_x, system->centre_y);
-        const auto there =
-            moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
+        const auto there = moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
         geo = there ? fmt::format("{:.5f}, {:.5f}, ", there->y, there->x) : "";
     }
     return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
@@ -538,21 +470,17 @@ template <typename Do>
 void HeightSource::Content::for_each_row(const Do& act) const {
     for (const SourceGrid& grid : grids) {
         for (const SourcePiece& piece : grid.pieces()) {
-            for (int y = 0; y < piece.raster.rows; ++y) {
-                act(piece, GridWindow{0, piece.raster.columns, y, 1});
-            }
+            for (int y = 0; y < piece.raster.rows; ++y) { act(piece, GridWindow{0, piece.raster.columns, y, 1}); }
         }
     }
 }
 
 /// Samples of the files at most `radius` columns and rows away from one of the lattice.
-std::vector<StoredSample>
-HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) const {
+std::vector<StoredSample> HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) const {
     std::vector<StoredSample> samples;
     if (whole) {
         const glm::ivec2 first = glm::max(column_row - radius, 0);
-        const glm::ivec2 last =
-            glm::min(column_row + radius, glm::ivec2(whole->columns, whole->rows) - 1);
+        const glm::ivec2 last = glm::min(column_row + radius, glm::ivec2(whole->columns, whole->rows) - 1);
         for (int row = first.y; row <= last.y; ++row) {
             for (int column = first.x; column <= last.x; ++column) {
                 const float height_m = whole->at(column, row);
@@ -572,18 +500,14 @@ HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) co
             const glm::ivec2 size(piece.raster.columns, piece.raster.rows);
             const glm::ivec2 first = glm::max(centre - radius - corner, 0);
             const glm::ivec2 count = glm::min(centre + radius + 1 - corner, size) - first;
-            if (count.x <= 0 || count.y <= 0) {
-                continue;
-            }
+            if (count.x <= 0 || count.y <= 0) { continue; }
             const GridWindow window{first.x, count.x, first.y, count.y};
             const auto n = static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
             std::vector<double> raw(n);
             std::vector<float> heights_m(n);
             read_raw(piece.file, piece.raster, window, raw, *gdal);
             read_heights(piece.file, piece.raster, window, heights_m, *gdal);
-            for (std::size_t i = 0; i < n; ++i) {
-                samples.push_back({raw[i], heights_m[i]});
-            }
+            for (std::size_t i = 0; i < n; ++i) { samples.push_back({raw[i], heights_m[i]}); }
         }
     }
     std::erase_if(samples, [](const StoredSample& each) { return std::isnan(each.height_m); });
@@ -610,13 +534,11 @@ std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) 
 /// How many samples of the files have one of these numbers. Reads all of them.
 std::int64_t HeightSource::Content::count_of(std::span<const double> numbers) const {
     const auto is_one = [numbers](double raw) {
-        return std::ranges::any_of(
-            numbers, [raw](double number) { return is_same_raw(raw, number); });
+        return std::ranges::any_of(numbers, [raw](double number) { return is_same_raw(raw, number); });
     };
     std::int64_t samples = 0;
     if (whole) {
-        return std::ranges::count_if(
-            whole->heights_m, [&](float height_m) { return is_one(whole_raw(height_m)); });
+        return std::ranges::count_if(whole->heights_m, [&](float height_m) { return is_one(whole_raw(height_m)); });
     }
     for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
         std::vector<double> raw(static_cast<std::size_t>(row.columns));
@@ -641,30 +563,20 @@ std::string HeightSource::Content::cure_of(std::span<const StoredSample> samples
         return fmt::format("its {} different numbers are too many for --void", numbers.size());
     }
     const std::int64_t count = count_of(numbers);
-    return fmt::format(
-        "--void {} treats every sample of {} as missing ({} in all)",
-        fmt::join(texts, ","),
-        numbers.size() == 1 ? "that value" : "these values",
-        count);
+    return fmt::format("--void {} treats every sample of {} as missing ({} in all)", fmt::join(texts, ","),
+        numbers.size() == 1 ? "that value" : "these values", count);
 }
 
 void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
     constexpr std::size_t max_told = 3;
     constexpr std::size_t min_steep = 30; // so many are rather a wrong width of cells
     std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
-    std::ranges::stable_sort(found, [](const Spike& a, const Spike& b) {
-        return std::abs(a.above_m) > std::abs(b.above_m);
-    });
+    std::ranges::stable_sort(
+        found, [](const Spike& a, const Spike& b) { return std::abs(a.above_m) > std::abs(b.above_m); });
     if (found.size() >= min_steep && !lattice.frame) {
-        MapNote note{fmt::format(
-            "{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
-            name(),
-            spikes->count(),
-            spacing_m,
-            has_map() ? "" : ": --terrain-spacing says how wide they are")};
-        for (const Spike& spike : found) {
-            note.places_m.push_back(metres_of({spike.column, spike.row}));
-        }
+        MapNote note{fmt::format("{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
+            name(), spikes->count(), spacing_m, has_map() ? "" : ": --terrain-spacing says how wide they are")};
+        for (const Spike& spike : found) { note.places_m.push_back(metres_of({spike.column, spike.row})); }
         notes.push_back(std::move(note));
         return;
     }
@@ -677,23 +589,15 @@ void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
         }
         const std::vector<StoredSample> samples = samples_of(spike);
         notes.push_back(
-            {fmt::format(
-                 "{}: {} {:.6g} m, {:.0f} m {} all {} neighbours, at {}; {}",
-                 name(),
-                 samples.size() == 1 ? "one sample is"
-                                     : fmt::format("{} samples are up to", samples.size()),
-                 samples.empty() ? spike.height_m : samples.front().height_m,
-                 std::abs(spike.above_m),
-                 spike.above_m > 0.0F ? "above" : "below",
-                 samples.size() == 1 ? "its" : "their",
-                 words_of(at_m),
+            {fmt::format("{}: {} {:.6g} m, {:.0f} m {} all {} neighbours, at {}; {}", name(),
+                 samples.size() == 1 ? "one sample is" : fmt::format("{} samples are up to", samples.size()),
+                 samples.empty() ? spike.height_m : samples.front().height_m, std::abs(spike.above_m),
+                 spike.above_m > 0.0F ? "above" : "below", samples.size() == 1 ? "its" : "their", words_of(at_m),
                  cure_of(samples)),
-             {at_m}});
+                {at_m}});
     }
     if (found.size() > max_told) {
-        notes.back().text = fmt::format(
-            "{}; {} more such places are marked in --picture",
-            notes.back().text,
+        notes.back().text = fmt::format("{}; {} more such places are marked in --picture", notes.back().text,
             spikes->count() - static_cast<std::int64_t>(max_told));
     }
 }
@@ -704,18 +608,13 @@ void HeightSource::Content::add_seams(std::vector<MapNote>& notes) const {
         MapNote note;
         for (glm::dvec2 at : seam.column_row) {
             seam.grid->frame_from_grid({&at.x, 1}, {&at.y, 1});
-            note.places_m.push_back(
-                metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
+            note.places_m.push_back(metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
         }
-        note.text = fmt::format(
-            "{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
-            "slope "
-            "on both sides, at {}. To avoid the step, load only one of the two files",
-            seam.a->file.filename().string(),
-            seam.b->file.filename().string(),
-            std::abs(seam.rise_m),
-            std::abs(seam.step_m),
-            words_of(note.places_m[note.places_m.size() / 2]));
+        note.text = fmt::format("{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
+                                "slope "
+                                "on both sides, at {}. To avoid the step, load only one of the two files",
+            seam.a->file.filename().string(), seam.b->file.filename().string(), std::abs(seam.rise_m),
+            std::abs(seam.step_m), words_of(note.places_m[note.places_m.size() / 2]));
         notes.push_back(std::move(note));
     }
 }
@@ -730,29 +629,17 @@ HeightSource::HeightSource(std::vector<path> files, const ImportOptions& options
 
 HeightSource::~HeightSource() = default;
 
-int HeightSource::columns() const {
-    return content_->lattice.columns;
-}
+int HeightSource::columns() const { return content_->lattice.columns; }
 
-int HeightSource::rows() const {
-    return content_->lattice.rows;
-}
+int HeightSource::rows() const { return content_->lattice.rows; }
 
-double HeightSource::spacing_m() const {
-    return content_->spacing_m;
-}
+double HeightSource::spacing_m() const { return content_->spacing_m; }
 
-std::optional<GeoPosition> HeightSource::place() const {
-    return content_->place;
-}
+std::optional<GeoPosition> HeightSource::place() const { return content_->place; }
 
-std::optional<CoordinateSystem> HeightSource::system() const {
-    return content_->system;
-}
+std::optional<CoordinateSystem> HeightSource::system() const { return content_->system; }
 
-std::string HeightSource::name() const {
-    return content_->name();
-}
+std::string HeightSource::name() const { return content_->name(); }
 
 std::string HeightSource::system_name() const {
     const SpatialReferenceHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
@@ -760,9 +647,7 @@ std::string HeightSource::system_name() const {
     return name == nullptr ? "" : printable(name);
 }
 
-glm::dvec2 HeightSource::cell_m() const {
-    return content_->lattice.cell_m;
-}
+glm::dvec2 HeightSource::cell_m() const { return content_->lattice.cell_m; }
 
 std::vector<MapNote> HeightSource::notes() const {
     std::vector<MapNote> notes = content_->whole_notes;
@@ -788,14 +673,12 @@ std::vector<MapNote> HeightSource::notes() const {
 std::int64_t HeightSource::count_voids() const {
     std::int64_t voids = 0;
     if (content_->whole) {
-        return std::ranges::count_if(
-            content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
+        return std::ranges::count_if(content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
     }
     content_->for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
         std::vector<float> heights_m(static_cast<std::size_t>(row.columns));
         read_heights(piece.file, piece.raster, row, heights_m, *content_->gdal);
-        voids +=
-            std::ranges::count_if(heights_m, [](float height_m) { return std::isnan(height_m); });
+        voids += std::ranges::count_if(heights_m, [](float height_m) { return std::isnan(height_m); });
     });
     return voids;
 }
@@ -804,9 +687,7 @@ bool HeightSource::has_integer_metres() const {
     return keeps_source_samples() && !content_->whole && content_->grids.front().has_integer_metres();
 }
 
-bool HeightSource::keeps_source_samples() const {
-    return content_->lattice.is_source;
-}
+bool HeightSource::keeps_source_samples() const { return content_->lattice.is_source; }
 
 std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
     assert(!content_->grids.empty() && content_->grids.front().map());
@@ -814,9 +695,7 @@ std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
 }
 
 std::optional<HeightDeviation> HeightSource::deviation_of(const GroundAt& ground) const {
-    if (content_->grids.empty() || !content_->grids.front().map()) {
-        return std::nullopt;
-    }
+    if (content_->grids.empty() || !content_->grids.front().map()) { return std::nullopt; }
     return deviation_from_source(content_->grids, content_->lattice, ground, *content_->gdal);
 }
 
@@ -824,10 +703,7 @@ void HeightSource::Content::read(int first_row, std::span<float> heights_m) {
     const auto width = static_cast<std::size_t>(lattice.columns);
     if (whole) {
         const std::size_t first = static_cast<std::size_t>(first_row) * width;
-        std::copy_n(
-            whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first),
-            heights_m.size(),
-            heights_m.begin());
+        std::copy_n(whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first), heights_m.size(), heights_m.begin());
     } else if (resampler) {
         resampler->read(first_row, heights_m, *gdal);
     } else {
@@ -850,8 +726,7 @@ void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
     for (int i = 0; i < count; ++i) {
         const auto metres = heights_m.subspan(static_cast<std::size_t>(i) * width, width);
         std::ranges::transform(metres, row.begin(), [](std::int16_t height_m) {
-            return height_m == void_height_m ? std::numeric_limits<float>::quiet_NaN()
-                                           : static_cast<float>(height_m);
+            return height_m == void_height_m ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height_m);
         });
         content_->spikes->take(first_row + i, row);
     }

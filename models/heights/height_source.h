@@ -14,14 +14,13 @@
 
 namespace octant::models::heights {
 
-/// Heights of one or several rasters that form one ground, read in bands of rows: none is held as a
-/// whole. Row 0 is the south, column 0 the west. For one thread, on which no other GDAL session
-/// lives.
+/// Heights of one or several rasters that form one ground, read in bands of rows: none is held as a whole. Row 0 is the
+/// south, column 0 the west. For one thread, on which no other GDAL session lives.
 ///
-/// Any raster that GDAL reads will do, and rasters of several systems, resolutions and places
-/// beside each other: target_lattice.h tells which ground they make and where it has their own
-/// samples. Where files overlap, the first named that has data counts; gaps between them are
-/// without data. Several files each know their place. A plain PGM is read as a whole.
+/// Any raster that GDAL reads will do, and rasters of several systems, resolutions and places beside each other:
+/// target_lattice.h tells which ground they make and where it has their own samples. Where files overlap, the first
+/// named that has data counts; gaps between them are without data. Several files each know their place. A plain PGM is
+/// read as a whole.
 class HeightSource {
 public:
     static constexpr int largest_samples = 65536; ///< of width and of height
@@ -49,8 +48,8 @@ public:
     /// East and north sides of the finest file's cells at its middle, metres.
     glm::dvec2 cell_m() const;
 
-    /// What a person should be told of the files, in their order. What depends on heights is
-    /// complete once all of them have been read.
+    /// What a person should be told of the files, in their order. What depends on heights is complete once all of them
+    /// have been read.
     std::vector<MapNote> notes() const;
 
     /// Samples of the files that are without data. Reads all of them. Throws Error.
@@ -62,16 +61,16 @@ public:
     /// Whether all samples are the files' own, none computed between them.
     bool keeps_source_samples() const;
 
-    /// The files' bilinear height at a place in metres east and north of the ground's centre;
-    /// nothing where there is none. Not for files without georeference. Throws Error.
+    /// The files' bilinear height at a place in metres east and north of the ground's centre; nothing where there is
+    /// none. Not for files without georeference. Throws Error.
     std::optional<double> height_at(double x_m, double y_m) const;
 
-    /// How far some ground on these samples lies from the files; nothing for files without
-    /// georeference, whose samples are the ground's. Throws Error.
+    /// How far some ground on these samples lies from the files; nothing for files without georeference, whose samples
+    /// are the ground's. Throws Error.
     std::optional<HeightDeviation> deviation_of(const GroundAt& ground) const;
 
-    /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south,
-    /// NaN without data. Throws Error (damaged file, heights not believed).
+    /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south, NaN without data.
+    /// Throws Error (damaged file, heights not believed).
     void read(int first_row, std::span<float> heights_m);
 
     /// Whole metres, where has_integer_metres() (asserted); void_height_m (height_raster.h) without data.

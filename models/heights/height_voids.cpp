@@ -1,8 +1,8 @@
-// Source: membrane (Laplace) interpolation by a coarse-to-fine cascade: heights are averaged to
-// half the resolution until no void is left ("pull"), voids then take the coarser level's height
-// ("push", after Gortler et al., The Lumigraph, 1996, section 3.4) and are relaxed by Gauss-Seidel.
-// Deviations: a fixed number of sweeps a level instead of a residual, so that cost and result are
-// the same everywhere; the rim of the map takes part with the neighbours it has.
+// Source: membrane (Laplace) interpolation by a coarse-to-fine cascade: heights are averaged to half the resolution
+// until no void is left ("pull"), voids then take the coarser level's height ("push", after Gortler et al., The
+// Lumigraph, 1996, section 3.4) and are relaxed by Gauss-Seidel. Deviations: a fixed number of sweeps a level instead
+// of a residual, so that cost and result are the same everywhere; the rim of the map takes part with the neighbours it
+// has.
 #include "models/heights/height_voids.h"
 
 #include <algorithm>
@@ -20,9 +20,7 @@ constexpr float void_height = std::numeric_limits<float>::quiet_NaN();
 std::vector<std::size_t> voids_of(const HeightGrid& grid) {
     std::vector<std::size_t> voids;
     for (std::size_t i = 0; i < grid.heights_m.size(); ++i) {
-        if (std::isnan(grid.heights_m[i])) {
-            voids.push_back(i);
-        }
+        if (std::isnan(grid.heights_m[i])) { voids.push_back(i); }
     }
     return voids;
 }
@@ -47,8 +45,7 @@ HeightGrid halved(const HeightGrid& grid) {
     HeightGrid half;
     half.columns = (grid.columns + 1) / 2;
     half.rows = (grid.rows + 1) / 2;
-    half.heights_m.reserve(
-        static_cast<std::size_t>(half.columns) * static_cast<std::size_t>(half.rows));
+    half.heights_m.reserve(static_cast<std::size_t>(half.columns) * static_cast<std::size_t>(half.rows));
     for (int row = 0; row < grid.rows; row += 2) {
         for (int column = 0; column < grid.columns; column += 2) {
             half.heights_m.push_back(block_mean(grid, column, row));
@@ -76,16 +73,13 @@ void relax(HeightGrid& grid, const std::vector<std::size_t>& voids) {
     const auto columns = static_cast<std::size_t>(grid.columns);
     for (int sweep = 0; sweep < sweeps_a_level; ++sweep) {
         for (const std::size_t i : voids) {
-            grid.heights_m[i] = mean_of_neighbours(
-                grid, static_cast<int>(i % columns), static_cast<int>(i / columns));
+            grid.heights_m[i] = mean_of_neighbours(grid, static_cast<int>(i % columns), static_cast<int>(i / columns));
         }
     }
 }
 
 float from_coarser(const HeightGrid& coarse, int column, int row) {
-    if (coarse.columns < 2 || coarse.rows < 2) {
-        return coarse.at(column / 2, row / 2);
-    }
+    if (coarse.columns < 2 || coarse.rows < 2) { return coarse.at(column / 2, row / 2); }
     return interpolated(coarse, (column - 0.5) / 2.0, (row - 0.5) / 2.0);
 }
 
@@ -102,9 +96,7 @@ void fill(HeightGrid& grid, const std::vector<std::size_t>& voids, const Guess& 
 
 long fill_voids(HeightGrid& grid) {
     const std::vector<std::size_t> voids = voids_of(grid);
-    if (voids.empty() || voids.size() == grid.heights_m.size()) {
-        return static_cast<long>(voids.size());
-    }
+    if (voids.empty() || voids.size() == grid.heights_m.size()) { return static_cast<long>(voids.size()); }
     HeightGrid coarse = halved(grid);
     fill_voids(coarse);
     fill(grid, voids, [&coarse](int column, int row) { return from_coarser(coarse, column, row); });

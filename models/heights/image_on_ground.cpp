@@ -31,50 +31,35 @@ struct DestroyOptions {
 };
 
 [[noreturn]] void error_unplaced(const Image& image, const GdalSession& gdal) {
-    throw Error(fmt::format(
-        "{}: expected an image that can be brought into the ground's coordinate system, got {}",
-        image.name,
-        gdal.reason(image.name)));
+    throw Error(fmt::format("{}: expected an image that can be brought into the ground's coordinate system, got {}",
+        image.name, gdal.reason(image.name)));
 }
 
 /// The image's own memory as a data set of GDAL. The image must outlive it.
 Dataset dataset_of(Image& image) {
-    Dataset dataset(GDALCreate(
-        GDALGetDriverByName("MEM"), "", image.width, image.height, 0, GDT_Byte, nullptr));
+    Dataset dataset(GDALCreate(GDALGetDriverByName("MEM"), "", image.width, image.height, 0, GDT_Byte, nullptr));
     for (int part = 0; part < 4; ++part) {
         const std::string memory = fmt::format(
-            "DATAPOINTER={}",
-            reinterpret_cast<std::uintptr_t>(image.rgba.data()) +
-                static_cast<std::uintptr_t>(part));
+            "DATAPOINTER={}", reinterpret_cast<std::uintptr_t>(image.rgba.data()) + static_cast<std::uintptr_t>(part));
         const std::string line = fmt::format("LINEOFFSET={}", std::int64_t{4} * image.width);
-        std::array<char*, 4> options = {
-            const_cast<char*>(memory.c_str()),
-            const_cast<char*>("PIXELOFFSET=4"),
-            const_cast<char*>(line.c_str()),
-            nullptr};
+        std::array<char*, 4> options = {const_cast<char*>(memory.c_str()), const_cast<char*>("PIXELOFFSET=4"),
+            const_cast<char*>(line.c_str()), nullptr};
         GDALAddBand(dataset.get(), GDT_Byte, options.data());
     }
     GDALSetGeoTransform(dataset.get(), image.transform.data());
-    if (!image.wkt.empty()) {
-        GDALSetProjection(dataset.get(), image.wkt.c_str());
-    }
+    if (!image.wkt.empty()) { GDALSetProjection(dataset.get(), image.wkt.c_str()); }
     return dataset;
 }
 
 /// Metres a pixel of the image about covers in the system.
 double pixel_m(const Image& image, const Dataset& source, const CoordinateSystem& system) {
-    const Transformer transformer(GDALCreateGenImgProjTransformer(
-        source.get(), image.wkt.c_str(), nullptr, system.wkt.c_str(), FALSE, 0.0, 0));
+    const Transformer transformer(
+        GDALCreateGenImgProjTransformer(source.get(), image.wkt.c_str(), nullptr, system.wkt.c_str(), FALSE, 0.0, 0));
     std::array<double, 6> transform{};
     int width = 0;
     int height = 0;
-    const bool known = transformer && GDALSuggestedWarpOutput(
-                                          source.get(),
-                                          GDALGenImgProjTransform,
-                                          transformer.get(),
-                                          transform.data(),
-                                          &width,
-                                          &height) == CE_None;
+    const bool known = transformer && GDALSuggestedWarpOutput(source.get(), GDALGenImgProjTransform, transformer.get(),
+                                          transform.data(), &width, &height) == CE_None;
     return known ? transform[1] * system.unit_m : 0.0;
 }
 
@@ -84,28 +69,19 @@ Image empty_over(const GroundArea& ground, const CoordinateSystem& system, int w
     Image image;
     image.width = width;
     image.height = height;
-    image.rgba.assign(
-        std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    image.rgba.assign(std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
     image.wkt = system.wkt;
     image.transform = {
-        system.centre_x - half.x,
-        2.0 * half.x / width,
-        0.0,
-        system.centre_y + half.y,
-        0.0,
-        -2.0 * half.y / height};
+        system.centre_x - half.x, 2.0 * half.x / width, 0.0, system.centre_y + half.y, 0.0, -2.0 * half.y / height};
     return image;
 }
 
 void warp(const Image& image, const Dataset& from, Image& to, const GdalSession& gdal) {
     const Dataset target = dataset_of(to);
-    const Transformer exact(GDALCreateGenImgProjTransformer(
-        from.get(), image.wkt.c_str(), target.get(), to.wkt.c_str(), FALSE, 0.0, 0));
-    if (!exact) {
-        error_unplaced(image, gdal);
-    }
-    const Transformer near(
-        GDALCreateApproxTransformer(GDALGenImgProjTransform, exact.get(), max_error_px));
+    const Transformer exact(
+        GDALCreateGenImgProjTransformer(from.get(), image.wkt.c_str(), target.get(), to.wkt.c_str(), FALSE, 0.0, 0));
+    if (!exact) { error_unplaced(image, gdal); }
+    const Transformer near(GDALCreateApproxTransformer(GDALGenImgProjTransform, exact.get(), max_error_px));
     const std::unique_ptr<GDALWarpOptions, DestroyOptions> options(GDALCreateWarpOptions());
     options->hSrcDS = from.get();
     options->hDstDS = target.get();
@@ -121,35 +97,25 @@ void warp(const Image& image, const Dataset& from, Image& to, const GdalSession&
     options->pTransformerArg = near.get();
     const std::unique_ptr<void, void (*)(void*)> operation(
         GDALCreateWarpOperation(options.get()), [](void* o) { GDALDestroyWarpOperation(o); });
-    const bool warped =
-        operation && GDALChunkAndWarpImage(operation.get(), 0, 0, to.width, to.height) == CE_None;
+    const bool warped = operation && GDALChunkAndWarpImage(operation.get(), 0, 0, to.width, to.height) == CE_None;
     GDALFlushCache(target.get());
-    if (!warped || gdal.failed()) {
-        error_unplaced(image, gdal);
-    }
+    if (!warped || gdal.failed()) { error_unplaced(image, gdal); }
 }
 
 /// Says how much of the ground the image leaves bare. Throws Error when it is all.
 void note_cover(Image& laid, const Image& image, const GroundArea& ground) {
     std::size_t covered = 0;
-    for (std::size_t at = 3; at < laid.rgba.size(); at += 4) {
-        covered += laid.rgba[at] > 0 ? 1U : 0U;
-    }
+    for (std::size_t at = 3; at < laid.rgba.size(); at += 4) { covered += laid.rgba[at] > 0 ? 1U : 0U; }
     const std::size_t pixels = laid.rgba.size() / 4;
     if (covered == 0) {
         throw Error(fmt::format(
-            "{}: expected an image of the ground of {}, got one that lies elsewhere",
-            image.name,
-            ground.name));
+            "{}: expected an image of the ground of {}, got one that lies elsewhere", image.name, ground.name));
     }
     laid.note = image.note;
     if (covered < pixels) {
         const double percent = 100.0 * static_cast<double>(covered) / static_cast<double>(pixels);
-        laid.note += fmt::format(
-            "{}{}: covers {:.3g} % of the ground",
-            laid.note.empty() ? "" : "; ",
-            image.name,
-            percent);
+        laid.note +=
+            fmt::format("{}{}: covers {:.3g} % of the ground", laid.note.empty() ? "" : "; ", image.name, percent);
     }
 }
 
@@ -162,28 +128,20 @@ GroundArea area_of(const HeightField& field) {
 Image resampled_to_ground(Image image, const GroundArea& ground, int largest_px) {
     const bool placed = !image.wkt.empty();
     if (placed && !ground.system) {
-        throw Error(fmt::format(
-            "{}: expected an image without a coordinate system over ground without one ({}), got "
-            "one with",
-            image.name,
-            ground.name));
+        throw Error(fmt::format("{}: expected an image without a coordinate system over ground without one ({}), got "
+                                "one with",
+            image.name, ground.name));
     }
-    if (!placed && image.width <= largest_px && image.height <= largest_px) {
-        return image;
-    }
+    if (!placed && image.width <= largest_px && image.height <= largest_px) { return image; }
     GdalSession gdal;
     const CoordinateSystem system = placed ? *ground.system : CoordinateSystem{};
     const glm::dvec2 extent_m = 2.0 * ground.half_extent_m;
-    if (!placed) {
-        image.transform = empty_over(ground, system, image.width, image.height).transform;
-    }
+    if (!placed) { image.transform = empty_over(ground, system, image.width, image.height).transform; }
     const Dataset source = dataset_of(image);
     glm::dvec2 size(image.width, image.height);
     if (placed) {
         const double own_m = pixel_m(image, source, system);
-        if (!(own_m > 0.0)) {
-            error_unplaced(image, gdal);
-        }
+        if (!(own_m > 0.0)) { error_unplaced(image, gdal); }
         size = extent_m / std::min(own_m, ground.spacing_m);
     }
     const auto limited = [largest_px](double side) {

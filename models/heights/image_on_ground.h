@@ -20,14 +20,12 @@ struct GroundArea {
 
 GroundArea area_of(const HeightField& field);
 
-/// The image laid over the ground: reaches from edge to edge of it, north up, alpha 0 where
-/// it has nothing. A placed image is brought into the ground's coordinate system (bilinear, to an
-/// eighth of a pixel); its pixels keep about their size but are no larger than the ground's
-/// spacing. One without a place is stretched over the ground as it is. At most `largest_px` a side.
-/// `note` says where the image leaves ground uncovered.
+/// The image laid over the ground: reaches from edge to edge of it, north up, alpha 0 where it has nothing. A placed
+/// image is brought into the ground's coordinate system (bilinear, to an eighth of a pixel); its pixels keep about
+/// their size but are no larger than the ground's spacing. One without a place is stretched over the ground as it is.
+/// At most `largest_px` a side. `note` says where the image leaves ground uncovered.
 ///
-/// Throws Error for a placed image over ground without a coordinate system, and for one that lies
-/// elsewhere.
+/// Throws Error for a placed image over ground without a coordinate system, and for one that lies elsewhere.
 Image resampled_to_ground(Image image, const GroundArea& ground, int largest_px);
 
 } // namespace octant::models::heights

@@ -24,9 +24,7 @@ SpatialReference counted(OGRSpatialReferenceH system) {
 
 SpatialReference reference_from_proj(const std::string& text) {
     SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
-    if (OSRImportFromProj4(reference.get(), text.c_str()) != OGRERR_NONE) {
-        return nullptr;
-    }
+    if (OSRImportFromProj4(reference.get(), text.c_str()) != OGRERR_NONE) { return nullptr; }
     OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
 }
@@ -41,16 +39,14 @@ glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg, const Ell
     const double across_m = equator_m / root;
     const double along_m = equator_m * (1.0 - e2) / (root * root * root);
     const double east_deg = std::remainder(to_deg.x - from_deg.x, 360.0);
-    return {
-        east_deg * rad * across_m * std::cos(latitude), (to_deg.y - from_deg.y) * rad * along_m};
+    return {east_deg * rad * across_m * std::cos(latitude), (to_deg.y - from_deg.y) * rad * along_m};
 }
 
 /// How PROJ is told of an ellipsoid.
 std::string proj_text(const Ellipsoid& ellipsoid) {
     return ellipsoid.is_earth()
                ? "+datum=WGS84"
-               : fmt::format(
-                     "+a={:.17g} +b={:.17g}", ellipsoid.semi_major_m, ellipsoid.semi_minor_m());
+               : fmt::format("+a={:.17g} +b={:.17g}", ellipsoid.semi_major_m, ellipsoid.semi_minor_m());
 }
 
 } // namespace
@@ -59,9 +55,7 @@ void TransformationDeleter::operator()(void* transformation) const {
     OCTDestroyCoordinateTransformation(transformation);
 }
 
-glm::dvec2 GridTransform::steps() const {
-    return {std::hypot(x_column, y_column), std::hypot(x_row, y_row)};
-}
+glm::dvec2 GridTransform::steps() const { return {std::hypot(x_column, y_column), std::hypot(x_row, y_row)}; }
 
 GridTransform GridTransform::inverse() const {
     const double area = x_column * y_row - x_row * y_column;
@@ -87,16 +81,12 @@ Ellipsoid ellipsoid_of(const std::string& wkt) {
     std::size_t at = wkt.find("SPHEROID[");
     at = at == std::string::npos ? wkt.find("ELLIPSOID[") : at;
     at = at == std::string::npos ? at : wkt.find("\",", at);
-    if (at == std::string::npos) {
-        return {};
-    }
+    if (at == std::string::npos) { return {}; }
     Ellipsoid named{0.0, 0.0};
     double inverse_flattening = 0.0; // of a sphere
     const char* const end = wkt.data() + wkt.size();
     const auto major = std::from_chars(wkt.data() + at + 2, end, named.semi_major_m);
-    if (major.ptr < end) {
-        std::from_chars(major.ptr + 1, end, inverse_flattening);
-    }
+    if (major.ptr < end) { std::from_chars(major.ptr + 1, end, inverse_flattening); }
     named.flattening = inverse_flattening > 1.0 ? 1.0 / inverse_flattening : 0.0;
     constexpr double smallest_m = 1000.0;
     constexpr double largest_m = 1e9;
@@ -112,9 +102,8 @@ SpatialReference coordinate_system_from_name(const std::string& name) {
     const bool is_address = name.find("://") != std::string::npos;
     SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
     if (is_address || OSRSetFromUserInput(reference.get(), name.c_str()) != OGRERR_NONE) {
-        throw Error(fmt::format(
-            "--terrain-system: expected a coordinate system such as EPSG:4326, got '{}'",
-            printable(name)));
+        throw Error(
+            fmt::format("--terrain-system: expected a coordinate system such as EPSG:4326, got '{}'", printable(name)));
     }
     OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
@@ -122,9 +111,7 @@ SpatialReference coordinate_system_from_name(const std::string& name) {
 
 SpatialReference coordinate_system_of(const CoordinateSystem& system) {
     SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
-    if (OSRSetFromUserInput(reference.get(), system.wkt.c_str()) != OGRERR_NONE) {
-        return nullptr;
-    }
+    if (OSRSetFromUserInput(reference.get(), system.wkt.c_str()) != OGRERR_NONE) { return nullptr; }
     OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
 }
@@ -134,11 +121,9 @@ SpatialReference spatial_reference_of(SpatialReferenceHandle system) {
 }
 
 SpatialReference local_coordinate_system(const GeoPosition& place) {
-    return reference_from_proj(fmt::format(
-        "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
-        place.latitude_deg,
-        place.longitude_deg,
-        proj_text(place.ellipsoid)));
+    return reference_from_proj(
+        fmt::format("+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
+            place.latitude_deg, place.longitude_deg, proj_text(place.ellipsoid)));
 }
 
 Transformation between(SpatialReferenceHandle from, SpatialReferenceHandle to) {
@@ -146,12 +131,9 @@ Transformation between(SpatialReferenceHandle from, SpatialReferenceHandle to) {
 }
 
 void transform_points(const Transformation& by, std::span<double> x, std::span<double> y) {
-    if (!by || x.empty()) {
-        return;
-    }
+    if (!by || x.empty()) { return; }
     std::vector<int> worked(x.size(), 0);
-    OCTTransformEx(
-        by.get(), static_cast<int>(x.size()), x.data(), y.data(), nullptr, worked.data());
+    OCTTransformEx(by.get(), static_cast<int>(x.size()), x.data(), y.data(), nullptr, worked.data());
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (worked[i] == 0 || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
             x[i] = no_number;
@@ -165,39 +147,32 @@ std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point) {
     return std::isnan(point.x) ? std::nullopt : std::optional(point);
 }
 
-std::optional<ProjectionDistortion>
-distortion_at_corners(const CoordinateSystem& system, const glm::dvec2& half_extent_m) {
+std::optional<ProjectionDistortion> distortion_at_corners(
+    const CoordinateSystem& system, const glm::dvec2& half_extent_m) {
     const GdalSession gdal;
     const SpatialReference own = coordinate_system_of(system);
-    if (!own) {
-        return std::nullopt;
-    }
+    if (!own) { return std::nullopt; }
     const Ellipsoid ellipsoid = ellipsoid_of(wkt_of(own.get()));
     const SpatialReference globe = geographic_coordinate_system(ellipsoid);
     const Transformation to_globe = between(own.get(), globe.get());
-    if (!to_globe) {
-        return std::nullopt;
-    }
+    if (!to_globe) { return std::nullopt; }
     constexpr double step_m = 50.0;
     ProjectionDistortion worst;
     for (const double side : {-1.0, 1.0}) {
         for (const double end : {-1.0, 1.0}) {
-            const glm::dvec2 corner = glm::dvec2(system.centre_x, system.centre_y) +
-                                      glm::dvec2(side, end) * half_extent_m / system.unit_m;
+            const glm::dvec2 corner =
+                glm::dvec2(system.centre_x, system.centre_y) + glm::dvec2(side, end) * half_extent_m / system.unit_m;
             const auto at = moved(to_globe, corner);
             const auto east = moved(to_globe, corner + glm::dvec2(step_m / system.unit_m, 0.0));
             const auto north = moved(to_globe, corner + glm::dvec2(0.0, step_m / system.unit_m));
-            if (!at || !east || !north) {
-                return std::nullopt;
-            }
+            if (!at || !east || !north) { return std::nullopt; }
             for (const auto& to : {*east, *north}) {
                 const glm::dvec2 way = way_m(*at, to, ellipsoid);
-                worst.scale_percent = std::max(
-                    worst.scale_percent, 100.0 * std::abs(step_m / std::hypot(way.x, way.y) - 1.0));
+                worst.scale_percent =
+                    std::max(worst.scale_percent, 100.0 * std::abs(step_m / std::hypot(way.x, way.y) - 1.0));
             }
             const glm::dvec2 up = way_m(*at, *north, ellipsoid);
-            worst.turn_deg = std::max(
-                worst.turn_deg, std::abs(std::atan2(up.x, up.y)) * 180.0 / std::numbers::pi);
+            worst.turn_deg = std::max(worst.turn_deg, std::abs(std::atan2(up.x, up.y)) * 180.0 / std::numbers::pi);
         }
     }
     return worst;

@@ -25,8 +25,8 @@ using SpatialReferenceHandle = void*;
 /// A counted OGRSpatialReferenceH of our own.
 using SpatialReference = std::shared_ptr<void>;
 
-/// Where a grid's sample of a column and row lies in its coordinate system, in the system's units:
-/// x = x0 + x_column * column + x_row * row, and y alike.
+/// Where a grid's sample of a column and row lies in its coordinate system, in the system's units: x = x0 + x_column *
+/// column + x_row * row, and y alike.
 struct GridTransform {
     double x0 = 0.0;
     double x_column = 1.0;
@@ -52,8 +52,8 @@ struct GridTransform {
 /// A system as well-known text; empty when it cannot be written.
 std::string wkt_of(SpatialReferenceHandle system);
 
-/// The ellipsoid that a system counts latitudes on, from its text; WGS 84 for every system of the
-/// earth and for one that names no ellipsoid.
+/// The ellipsoid that a system counts latitudes on, from its text; WGS 84 for every system of the earth and for one
+/// that names no ellipsoid.
 Ellipsoid ellipsoid_of(const std::string& wkt);
 
 /// An ellipsoid's latitude and longitude in degrees, longitude first.
@@ -71,15 +71,15 @@ SpatialReference coordinate_system_of(const CoordinateSystem& system);
 /// A copy of a system that lives as long as it is wanted.
 SpatialReference spatial_reference_of(SpatialReferenceHandle system);
 
-/// The transverse Mercator projection of scale 1 that touches a place: x is east and y is
-/// north of it, in metres. Null where there is none.
+/// The transverse Mercator projection of scale 1 that touches a place: x is east and y is north of it, in metres. Null
+/// where there is none.
 SpatialReference local_coordinate_system(const GeoPosition& place);
 
 /// Null when one system cannot be brought to the other.
 Transformation between(SpatialReferenceHandle from, SpatialReferenceHandle to);
 
-/// Moves points, each x and y in their place; those that cannot be moved become NaN. Does nothing
-/// with a null transformation.
+/// Moves points, each x and y in their place; those that cannot be moved become NaN. Does nothing with a null
+/// transformation.
 void transform_points(const Transformation& by, std::span<double> x, std::span<double> y);
 
 /// Nothing when the point cannot be moved.
@@ -91,9 +91,9 @@ struct ProjectionDistortion {
     double turn_deg = 0.0;      ///< how far its north lies off true north, at most
 };
 
-/// At the four corners of a field that lies so in a system. Nothing where the system does not know
-/// its place on the earth.
-std::optional<ProjectionDistortion>
-distortion_at_corners(const CoordinateSystem& system, const glm::dvec2& half_extent_m);
+/// At the four corners of a field that lies so in a system. Nothing where the system does not know its place on the
+/// earth.
+std::optional<ProjectionDistortion> distortion_at_corners(
+    const CoordinateSystem& system, const glm::dvec2& half_extent_m);
 
 } // namespace octant::models::heights

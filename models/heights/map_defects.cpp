@@ -27,10 +27,7 @@ constexpr int min_ring = 3; ///< samples of a ring with heights, at least
 } // namespace
 
 SpikeFinder::SpikeFinder(int columns, int rows, double spacing_m)
-    : columns_(columns)
-    , rows_(rows)
-    , relief_m_{}
-    , band_(static_cast<std::size_t>(columns) * (2 * reach + 1)) {
+    : columns_(columns), rows_(rows), relief_m_{}, band_(static_cast<std::size_t>(columns) * (2 * reach + 1)) {
     for (int k = 1; k <= reach; ++k) {
         const double sure = k > sharp_reach ? wide_factor : 1.0;
         relief_m_[static_cast<std::size_t>(k)] =
@@ -52,17 +49,12 @@ void SpikeFinder::take(int first_row, std::span<const float> heights_m) {
     const auto width = static_cast<std::size_t>(columns_);
     for (; !heights_m.empty(); heights_m = heights_m.subspan(width)) {
         const auto line = static_cast<std::size_t>(end_row_ % (2 * reach + 1));
-        std::copy_n(
-            heights_m.begin(), width, band_.begin() + static_cast<std::ptrdiff_t>(line * width));
+        std::copy_n(heights_m.begin(), width, band_.begin() + static_cast<std::ptrdiff_t>(line * width));
         ++end_row_;
-        if (end_row_ - begin_row_ > reach) {
-            check_row_of_samples(end_row_ - 1 - reach);
-        }
+        if (end_row_ - begin_row_ > reach) { check_row_of_samples(end_row_ - 1 - reach); }
     }
     if (end_row_ == rows_) {
-        for (int row = std::max(begin_row_, rows_ - reach); row < rows_; ++row) {
-            check_row_of_samples(row);
-        }
+        for (int row = std::max(begin_row_, rows_ - reach); row < rows_; ++row) { check_row_of_samples(row); }
     }
 }
 
@@ -70,17 +62,14 @@ void SpikeFinder::check_row_of_samples(int row) {
     // Quick: few samples differ so much from others of their row, and lie beyond both neighbours.
     const float min_m = pit_share * relief_m_[1];
     const auto width = static_cast<std::size_t>(columns_);
-    const auto line =
-        std::span(band_).subspan(static_cast<std::size_t>(row % (2 * reach + 1)) * width, width);
+    const auto line = std::span(band_).subspan(static_cast<std::size_t>(row % (2 * reach + 1)) * width, width);
     for (std::size_t x = 0; x < width; ++x) {
         const float height_m = line[x];
         const float west_m = line[x == 0 ? 1 : x - 1];
         const float east_m = line[x + 1 < width ? x + 1 : x - 1];
         const float far_m = line[x < reach ? std::min(x + reach, width - 1) : x - reach];
-        const bool is_alike =
-            std::abs(height_m - west_m) <= min_m && std::abs(height_m - far_m) <= min_m;
-        const bool is_between =
-            (west_m < height_m && height_m < east_m) || (west_m > height_m && height_m > east_m);
+        const bool is_alike = std::abs(height_m - west_m) <= min_m && std::abs(height_m - far_m) <= min_m;
+        const bool is_between = (west_m < height_m && height_m < east_m) || (west_m > height_m && height_m > east_m);
         if (!is_alike && !is_between && !std::isnan(height_m)) { // neighbours may be voids
             check_sample(static_cast<int>(x), row);
         }
@@ -89,8 +78,7 @@ void SpikeFinder::check_row_of_samples(int row) {
 
 void SpikeFinder::add(const Spike& spike) {
     for (Spike& known : found_) {
-        const int apart =
-            std::max(std::abs(known.column - spike.column), std::abs(known.row - spike.row));
+        const int apart = std::max(std::abs(known.column - spike.column), std::abs(known.row - spike.row));
         if (apart < reach && std::signbit(known.above_m) == std::signbit(spike.above_m)) {
             const bool is_further = std::abs(spike.above_m) > std::abs(known.above_m);
             const int radius = std::max({known.radius, spike.radius, apart});
@@ -100,9 +88,7 @@ void SpikeFinder::add(const Spike& spike) {
         }
     }
     ++count_;
-    if (found_.size() < max_listed_spikes) {
-        found_.push_back(spike);
-    }
+    if (found_.size() < max_listed_spikes) { found_.push_back(spike); }
 }
 
 void SpikeFinder::check_sample(int column, int row) {
@@ -129,13 +115,10 @@ void SpikeFinder::check_sample(int column, int row) {
             look(column - k, row - i);
         }
         // One sample of a wider spike stands for all of it.
-        if (k == 1 && height_m < highest_m && height_m > lowest_m) {
-            return;
-        }
+        if (k == 1 && height_m < highest_m && height_m > lowest_m) { return; }
         const bool is_spike = height_m > highest_m;
         const float gap_m = is_spike ? height_m - highest_m : lowest_m - height_m;
-        const float min_m =
-            relief_m_[static_cast<std::size_t>(k)] * (is_spike ? 1.0F : pit_share);
+        const float min_m = relief_m_[static_cast<std::size_t>(k)] * (is_spike ? 1.0F : pit_share);
         if (known >= std::max<double>(min_ring, ring_share * within) && gap_m > min_m) {
             add({column, row, height_m, is_spike ? gap_m : -gap_m, k - 1});
             return;
@@ -165,10 +148,7 @@ struct Side {
 std::array<Side, 4> sides_of(const SourcePiece& piece) {
     const int east = piece.raster.columns - 1;
     const int north = piece.raster.rows - 1;
-    return {
-        Side{0, 0, 0, 1, north + 1, -1, 0},
-        Side{east, 0, 0, 1, north + 1, 1, 0},
-        Side{0, 0, 1, 0, east + 1, 0, -1},
+    return {Side{0, 0, 0, 1, north + 1, -1, 0}, Side{east, 0, 0, 1, north + 1, 1, 0}, Side{0, 0, 1, 0, east + 1, 0, -1},
         Side{0, north, 1, 0, east + 1, 0, 1}};
 }
 
@@ -192,8 +172,7 @@ Placed placed(const SourceGrid& grid, const SourcePiece& piece) {
         }
     }
     const glm::dvec2 cells(piece.raster.columns - 1, piece.raster.rows - 1);
-    const glm::dvec2 border =
-        result.around.size() * (0.02 + static_cast<double>(depth + 1) / cells);
+    const glm::dvec2 border = result.around.size() * (0.02 + static_cast<double>(depth + 1) / cells);
     result.around.least -= border;
     result.around.most += border;
     return result;
@@ -207,11 +186,9 @@ bool may_meet(const Placed& a, const Placed& b) {
 /// Heights of files at single places.
 class Reader {
 public:
-    explicit Reader(const GdalSession& gdal)
-        : gdal_(gdal) {}
+    explicit Reader(const GdalSession& gdal) : gdal_(gdal) {}
 
-    /// Bilinear at a column and row of the piece, its own height at a sample; nothing outside it
-    /// and beside voids.
+    /// Bilinear at a column and row of the piece, its own height at a sample; nothing outside it and beside voids.
     std::optional<double> at(const SourcePiece& piece, const glm::dvec2& column_row) const {
         constexpr double at_sample = 1e-3;
         const glm::dvec2 low = glm::floor(column_row + at_sample);
@@ -225,14 +202,10 @@ public:
         std::array<float, 4> heights_m = {};
         const auto samples = static_cast<std::size_t>(count.x * count.y);
         read_heights(
-            piece.file,
-            piece.raster,
-            {first.x, count.x, first.y, count.y},
-            std::span(heights_m).first(samples),
-            gdal_);
+            piece.file, piece.raster, {first.x, count.x, first.y, count.y}, std::span(heights_m).first(samples), gdal_);
         const auto sample = [&](int x, int y) {
-            return static_cast<double>(heights_m.at(static_cast<std::size_t>(
-                std::min(y, count.y - 1) * count.x + std::min(x, count.x - 1))));
+            return static_cast<double>(
+                heights_m.at(static_cast<std::size_t>(std::min(y, count.y - 1) * count.x + std::min(x, count.x - 1))));
         };
         const double south = glm::mix(sample(0, 0), sample(1, 0), share.x);
         const double north = glm::mix(sample(0, 1), sample(1, 1), share.x);
@@ -252,8 +225,8 @@ std::optional<glm::dvec2> on_piece(const Placed& from, const Placed& to, glm::dv
         to.grid->grid_from_frame({&at.x, 1}, {&at.y, 1});
     }
     at -= begin;
-    const bool inside = at.x >= 0.0 && at.y >= 0.0 && at.x <= to.piece->raster.columns - 1.0 &&
-                        at.y <= to.piece->raster.rows - 1.0;
+    const bool inside =
+        at.x >= 0.0 && at.y >= 0.0 && at.x <= to.piece->raster.columns - 1.0 && at.y <= to.piece->raster.rows - 1.0;
     return inside ? std::optional(at) : std::nullopt;
 }
 
@@ -263,13 +236,11 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-/// The standard error of the median of normally distributed values, by their median distance from
-/// it, which outliers do not change.
+/// The standard error of the median of normally distributed values, by their median distance from it, which outliers do
+/// not change.
 double error_of_median(std::vector<double> values, double median) {
     constexpr double error_of_mean_distance = 1.2533 * 1.4826;
-    for (double& value : values) {
-        value = std::abs(value - median);
-    }
+    for (double& value : values) { value = std::abs(value - median); }
     const double root = std::sqrt(static_cast<double>(values.size()));
     return error_of_mean_distance * median_of(std::move(values)) / root;
 }
@@ -281,31 +252,26 @@ struct Measured {
     std::vector<glm::dvec2> column_row;
 };
 
-/// Whether the side of `a` is seen at a point: what lies behind it belongs to `b` alone, or `a`
-/// comes first.
+/// Whether the side of `a` is seen at a point: what lies behind it belongs to `b` alone, or `a` comes first.
 bool is_seen(const Placed& a, const Placed& b, bool a_is_first, const glm::dvec2& edge) {
     return a_is_first || !on_piece(a, b, edge);
 }
 
-Measured
-measured(const Placed& a, const Placed& b, const Side& side, bool a_is_first, const Reader& read) {
+Measured measured(const Placed& a, const Placed& b, const Side& side, bool a_is_first, const Reader& read) {
     Measured found;
     const int points = std::min(side.samples, max_points);
     for (int i = 0; i < points; ++i) {
         const int along = points == 1 ? 0 : (side.samples - 1) * i / (points - 1);
-        const glm::dvec2 edge(
-            side.column + along * side.along_column, side.row + along * side.along_row);
+        const glm::dvec2 edge(side.column + along * side.along_column, side.row + along * side.along_row);
         const glm::dvec2 out(side.out_column, side.out_row);
         const glm::dvec2 begin(a.piece->column, a.piece->row);
         std::array<double, 2 * depth> heights_m = {};
         bool is_known = on_piece(a, b, begin + edge + static_cast<double>(depth) * out) &&
-                        on_piece(a, b, begin + edge + out) &&
-                        is_seen(a, b, a_is_first, begin + edge);
+                        on_piece(a, b, begin + edge + out) && is_seen(a, b, a_is_first, begin + edge);
         for (int j = 0; is_known && j < 2 * depth; ++j) {
             const glm::dvec2 at = edge + static_cast<double>(j - depth + 1) * out;
             const auto there = j < depth ? std::optional(at) : on_piece(a, b, begin + at);
-            const auto height_m =
-                there ? read.at(j < depth ? *a.piece : *b.piece, *there) : std::nullopt;
+            const auto height_m = there ? read.at(j < depth ? *a.piece : *b.piece, *there) : std::nullopt;
             is_known = height_m.has_value();
             heights_m.at(static_cast<std::size_t>(j)) = height_m.value_or(0.0);
         }
@@ -321,31 +287,23 @@ measured(const Placed& a, const Placed& b, const Side& side, bool a_is_first, co
 
 /// Nothing where the ground runs on smoothly enough. `cell_m`: of the finer ground.
 std::optional<SeamStep> step_of(const Placed& a, const Placed& b, Measured at, double cell_m) {
-    if (at.steps_m.size() < min_points) {
-        return std::nullopt;
-    }
+    if (at.steps_m.size() < min_points) { return std::nullopt; }
     constexpr double sure = 6.0; // standard errors
     const double step_m = median_of(at.steps_m);
     const double min_m = std::max(1.0, 0.01 * cell_m);
-    if (std::abs(step_m) < std::max(min_m, sure * error_of_median(at.steps_m, step_m))) {
-        return std::nullopt;
-    }
-    return SeamStep{
-        a.piece, b.piece, median_of(at.rises_m), step_m, std::move(at.column_row), a.grid};
+    if (std::abs(step_m) < std::max(min_m, sure * error_of_median(at.steps_m, step_m))) { return std::nullopt; }
+    return SeamStep{a.piece, b.piece, median_of(at.rises_m), step_m, std::move(at.column_row), a.grid};
 }
 
 } // namespace
 
-std::vector<SeamStep>
-steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSession& gdal) {
+std::vector<SeamStep> steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSession& gdal) {
     if (grids.size() == 1 && grids.front().pieces().size() == 1) {
         return {}; // which may have no place
     }
     std::vector<Placed> pieces; // in their order
     for (const SourceGrid& grid : grids) {
-        for (const SourcePiece& piece : grid.pieces()) {
-            pieces.push_back(placed(grid, piece));
-        }
+        for (const SourcePiece& piece : grid.pieces()) { pieces.push_back(placed(grid, piece)); }
     }
     const Reader read(gdal);
     std::vector<SeamStep> found;
@@ -353,17 +311,12 @@ steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSe
         for (std::size_t j = 0; j < pieces.size(); ++j) {
             const Placed& a = pieces[i];
             const Placed& b = pieces[j];
-            if (i == j || !may_meet(a, b)) {
-                continue;
-            }
+            if (i == j || !may_meet(a, b)) { continue; }
             for (const Side& side : sides_of(*a.piece)) {
                 auto step = step_of(a, b, measured(a, b, side, i < j, read), cell_m);
-                const bool is_known = std::ranges::any_of(found, [&](const SeamStep& each) {
-                    return each.a == b.piece && each.b == a.piece;
-                });
-                if (step && !is_known) {
-                    found.push_back(std::move(*step));
-                }
+                const bool is_known = std::ranges::any_of(
+                    found, [&](const SeamStep& each) { return each.a == b.piece && each.b == a.piece; });
+                if (step && !is_known) { found.push_back(std::move(*step)); }
             }
         }
     }

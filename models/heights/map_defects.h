@@ -19,13 +19,12 @@ struct Spike {
     int radius = 0;       ///< its other samples are at most so many columns and rows away
 };
 
-/// Finds spikes and pits while the rows of a ground are read from the south to the north. A sample
-/// counts if it exceeds everything in a ring of samples around it, 1 to 8 samples away, by more
-/// than the relief that the earth's steepest single peaks have over that distance: 20 m * (distance
-/// / 1 m)^0.58, which is 144 m at 30 m and 1,100 m at 1 km; by three times that for rings of 5
-/// samples and more, and by 60 % for pits. That it is beyond all samples in a ring tells it from
-/// the rim of a cliff. At the map's border the ring is the part within the map; 60 % of that must
-/// have heights. Samples of one sign that lie closer together than 8 samples are one spike.
+/// Finds spikes and pits while the rows of a ground are read from the south to the north. A sample counts if it exceeds
+/// everything in a ring of samples around it, 1 to 8 samples away, by more than the relief that the earth's steepest
+/// single peaks have over that distance: 20 m * (distance / 1 m)^0.58, which is 144 m at 30 m and 1,100 m at 1 km; by
+/// three times that for rings of 5 samples and more, and by 60 % for pits. That it is beyond all samples in a ring
+/// tells it from the rim of a cliff. At the map's border the ring is the part within the map; 60 % of that must have
+/// heights. Samples of one sign that lie closer together than 8 samples are one spike.
 class SpikeFinder {
 public:
     /// The longest list that is kept; more spikes are only counted.
@@ -33,8 +32,8 @@ public:
 
     SpikeFinder(int columns, int rows, double spacing_m);
 
-    /// Rows from `first_row` on, row after row, NaN without data. Rows that do not follow those
-    /// taken before begin a new search.
+    /// Rows from `first_row` on, row after row, NaN without data. Rows that do not follow those taken before begin a
+    /// new search.
     void take(int first_row, std::span<const float> heights_m);
 
     /// By row and column of the first sample that was found of each.
@@ -55,7 +54,7 @@ private:
     std::array<float, reach + 1> relief_m_; ///< by distance in samples
     int begin_row_ = 0;                     ///< of the search
     int end_row_ = 0;                       ///< after the last row taken
-    std::vector<float> band_; ///< the last 2 * reach + 1 rows, each at its row modulo that
+    std::vector<float> band_;               ///< the last 2 * reach + 1 rows, each at its row modulo that
     std::vector<Spike> found_;
     std::int64_t count_ = 0;
 };
@@ -71,13 +70,11 @@ struct SeamStep {
     const SourceGrid* grid = nullptr;
 };
 
-/// The seams between files at which heights step. The step is measured at up to 1,024 points of a
-/// seam between the outermost samples of both files, less the mean slope beside them. A seam counts
-/// if the median of it is at least 1 m, 1 % of a cell and six times its standard error: rugged
-/// ground has large steps of both signs, whose median is small. The grids look from one frame and
-/// are in the order in which they count where they overlap. `cell_m`: side of the finest cells.
-/// Throws Error for what cannot be read.
-std::vector<SeamStep>
-steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSession& gdal);
+/// The seams between files at which heights step. The step is measured at up to 1,024 points of a seam between the
+/// outermost samples of both files, less the mean slope beside them. A seam counts if the median of it is at least 1 m,
+/// 1 % of a cell and six times its standard error: rugged ground has large steps of both signs, whose median is small.
+/// The grids look from one frame and are in the order in which they count where they overlap. `cell_m`: side of the
+/// finest cells. Throws Error for what cannot be read.
+std::vector<SeamStep> steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSession& gdal);
 
 } // namespace octant::models::heights

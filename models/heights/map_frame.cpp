@@ -17,9 +17,7 @@ constexpr double furthest_m = 1.0e6;
 
 } // namespace
 
-MapFrame::MapFrame(const CoordinateSystem& system, const GeoPosition& middle)
-    : system_(system)
-    , about_(middle) {
+MapFrame::MapFrame(const CoordinateSystem& system, const GeoPosition& middle) : system_(system), about_(middle) {
     const GdalSession gdal;
     const SpatialReference own = coordinate_system_of(system);
     const SpatialReference globe = geographic_coordinate_system(middle.ellipsoid);
@@ -31,9 +29,7 @@ MapFrame::MapFrame(const CoordinateSystem& system, const GeoPosition& middle)
 
 glm::dvec2 MapFrame::local_from_geo(const GeoPosition& place) const {
     const glm::dvec2 about_m = about_.local_from_geo(place);
-    if (!from_globe_ || !(glm::length(about_m) <= furthest_m)) {
-        return about_m;
-    }
+    if (!from_globe_ || !(glm::length(about_m) <= furthest_m)) { return about_m; }
     const GdalSession gdal;
     const auto at = moved(from_globe_, {place.longitude_deg, place.latitude_deg});
     const glm::dvec2 centre(system_.centre_x, system_.centre_y);
@@ -49,14 +45,10 @@ GeoPosition MapFrame::geo_from_local(const glm::dvec2& east_north_m) const {
               : about_.geo_from_local(east_north_m);
 }
 
-std::shared_ptr<const EarthFrame>
-frame_of_ground(const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place) {
-    if (!place) {
-        return nullptr;
-    }
-    if (!system) {
-        return std::make_shared<TransverseMercator>(*place);
-    }
+std::shared_ptr<const EarthFrame> frame_of_ground(
+    const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place) {
+    if (!place) { return nullptr; }
+    if (!system) { return std::make_shared<TransverseMercator>(*place); }
     return std::make_shared<MapFrame>(*system, *place);
 }
 

@@ -38,16 +38,14 @@ std::string driver_of(const std::string& file) {
 
 /// The rasters among some files, sorted, without pictures where there is anything else.
 std::vector<path> rasters_among(std::vector<std::string> files) {
-    constexpr std::array<std::string_view, 7> picture_drivers = {
-        "PNG", "JPEG", "GIF", "BMP", "PDF", "WEBP", "SVG"};
+    constexpr std::array<std::string_view, 7> picture_drivers = {"PNG", "JPEG", "GIF", "BMP", "PDF", "WEBP", "SVG"};
     std::ranges::sort(files);
     std::vector<path> heights;
     std::vector<path> pictures;
     for (const std::string& file : files) {
         const std::string driver = driver_of(file);
         if (!driver.empty()) {
-            const bool is_picture =
-                std::ranges::find(picture_drivers, driver) != picture_drivers.end();
+            const bool is_picture = std::ranges::find(picture_drivers, driver) != picture_drivers.end();
             (is_picture ? pictures : heights).emplace_back(file);
         }
     }
@@ -60,11 +58,8 @@ std::vector<path> in_folder(const std::string& folder) {
     }
     std::vector<std::string> files;
     std::error_code code;
-    for (std::filesystem::recursive_directory_iterator at(folder, code), end; !code && at != end;
-         at.increment(code)) {
-        if (at->is_regular_file(code)) {
-            files.push_back(at->path().string());
-        }
+    for (std::filesystem::recursive_directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+        if (at->is_regular_file(code)) { files.push_back(at->path().string()); }
     }
     return rasters_among(std::move(files));
 }
@@ -72,28 +67,19 @@ std::vector<path> in_folder(const std::string& folder) {
 /// What GDAL puts before the name of an archive; empty for other files.
 std::string archive_prefix(const std::string& name) {
     const auto ends = [&name](std::string_view end) {
-        return name.size() > end.size() &&
-               EQUAL(name.c_str() + name.size() - end.size(), end.data());
+        return name.size() > end.size() && EQUAL(name.c_str() + name.size() - end.size(), end.data());
     };
-    if (ends(".zip")) {
-        return "/vsizip/";
-    }
-    if (ends(".tar") || ends(".tgz") || ends(".tar.gz")) {
-        return "/vsitar/";
-    }
+    if (ends(".zip")) { return "/vsizip/"; }
+    if (ends(".tar") || ends(".tgz") || ends(".tar.gz")) { return "/vsitar/"; }
     return ends(".gz") ? "/vsigzip/" : "";
 }
 
 std::vector<path> in_archive(const std::string& name, const std::string& prefix) {
     const std::string inside = prefix + std::filesystem::absolute(name).string();
-    if (prefix == "/vsigzip/") {
-        return rasters_among({inside});
-    }
+    if (prefix == "/vsigzip/") { return rasters_among({inside}); }
     std::vector<std::string> files;
     char** const list = VSIReadDirRecursive(inside.c_str());
-    for (int i = 0; i < CSLCount(list); ++i) {
-        files.push_back(inside + "/" + list[i]);
-    }
+    for (int i = 0; i < CSLCount(list); ++i) { files.push_back(inside + "/" + list[i]); }
     CSLDestroy(list);
     return rasters_among(std::move(files));
 }
@@ -110,9 +96,7 @@ std::vector<path> matching(const std::string& pattern) {
 
 } // namespace
 
-bool is_many(const std::string& name) {
-    return is_pattern(name) || is_folder(name) || is_subdataset_name(name);
-}
+bool is_many(const std::string& name) { return is_pattern(name) || is_folder(name) || is_subdataset_name(name); }
 
 std::vector<path> map_inputs(const std::vector<std::string>& names) {
     const GdalSession gdal;
@@ -128,9 +112,7 @@ std::vector<path> map_inputs(const std::vector<std::string>& names) {
             check_local_file(name);
             some = in_archive(name, prefix);
         }
-        if (some.empty()) {
-            throw_error_in(name, "expected maps of heights that GDAL reads, found none");
-        }
+        if (some.empty()) { throw_error_in(name, "expected maps of heights that GDAL reads, found none"); }
         files.insert(files.end(), some.begin(), some.end());
     }
     return files;

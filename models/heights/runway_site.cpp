@@ -31,17 +31,15 @@ bool lies_within(const RunwayStrip& strip, const glm::dvec2& half_extent_m) {
     for (const double along_m : {-level_margin_m, strip.length_m + level_margin_m}) {
         for (const double left_m : {-beside_m, beside_m}) {
             const glm::dvec2 corner = glm::abs(strip.place({along_m, left_m}));
-            if (corner.x > half_extent_m.x || corner.y > half_extent_m.y) {
-                return false;
-            }
+            if (corner.x > half_extent_m.x || corner.y > half_extent_m.y) { return false; }
         }
     }
     return true;
 }
 
-/// Lays the strip, which lies within the field, into the plane that is nearest to the ground:
-/// least squares of height over the way along, then lifted until cutting and heaping up are alike.
-/// Returns about the earthwork on the runway and beside it.
+/// Lays the strip, which lies within the field, into the plane that is nearest to the ground: least squares of height
+/// over the way along, then lifted until cutting and heaping up are alike. Returns about the earthwork on the runway
+/// and beside it.
 double fit(RunwayStrip& strip, const HeightField& field) {
     constexpr int stations = 31;
     const double beside_m = 0.5 * strip.width_m + level_margin_m;
@@ -90,11 +88,8 @@ double min_earthwork_m(const RunwayStrip& strip, const HeightField& field) {
 }
 
 /// The farthest that a sample is moved; nothing where the runway would touch water.
-std::optional<double>
-earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) {
-    if (strip.height_m <= water_m || strip.height_m + strip.rise * strip.length_m <= water_m) {
-        return std::nullopt;
-    }
+std::optional<double> earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) {
+    if (strip.height_m <= water_m || strip.height_m + strip.rise * strip.length_m <= water_m) { return std::nullopt; }
     const int stride = std::max(static_cast<int>(finest_m / field.spacing_m()), 1);
     const SampleBox box = samples_around(strip, field, reach_m(field));
     double max_m = 0.0;
@@ -102,9 +97,7 @@ earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) 
         for (int column = box.first.x; column <= box.last.x; column += stride) {
             const glm::dvec3 at_m = field.sample_m(column, row);
             const glm::dvec2 place_m(at_m);
-            if (at_m.z <= water_m && strip.distance_m(place_m) <= level_margin_m) {
-                return std::nullopt;
-            }
+            if (at_m.z <= water_m && strip.distance_m(place_m) <= level_margin_m) { return std::nullopt; }
             const double level_m = levelled_m(strip, field.spacing_m(), place_m, at_m.z);
             max_m = std::max(max_m, std::abs(level_m - at_m.z));
         }
@@ -115,9 +108,7 @@ earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) 
 /// The best site so far, and by what it is the best.
 class Search {
 public:
-    Search(const HeightField& field, const RunwayRequest& wish)
-        : field_(field)
-        , wish_(wish) {}
+    Search(const HeightField& field, const RunwayRequest& wish) : field_(field), wish_(wish) {}
 
     /// `apart`: what way and turn count for.
     void look_at(RunwayStrip strip, double apart) {
@@ -140,9 +131,7 @@ public:
 
 private:
     /// Too much is worse than any way and turn.
-    static double cost_of(double earthwork_m) {
-        return earthwork_m + (earthwork_m > max_earthwork_m ? 1000.0 : 0.0);
-    }
+    static double cost_of(double earthwork_m) { return earthwork_m + (earthwork_m > max_earthwork_m ? 1000.0 : 0.0); }
 
     const HeightField& field_;
     const RunwayRequest& wish_;
@@ -171,9 +160,7 @@ std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
         for (int east = 0; east <= steps.x; ++east) {
             const glm::dvec2 at_m = from_m + place_step_m * glm::dvec2(east, north);
             double away_m = std::numeric_limits<double>::infinity();
-            for (const glm::dvec2& place_m : path_m) {
-                away_m = std::min(away_m, glm::distance(place_m, at_m));
-            }
+            for (const glm::dvec2& place_m : path_m) { away_m = std::min(away_m, glm::distance(place_m, at_m)); }
             if (away_m <= runway_search_radius_m) {
                 const double begin_m = glm::distance(path_m.front(), at_m);
                 middles.push_back({at_m, away_m / from_path_per_m + begin_m / from_begin_per_m});
@@ -186,9 +173,7 @@ std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
 
 void look_around(const RunwayRequest& wish, Search& search) {
     for (const Middle& middle : middles_near(wish.path_m)) {
-        if (search.ends_at(middle.apart)) {
-            return;
-        }
+        if (search.ends_at(middle.apart)) { return; }
         for (int step = -heading_steps; step < heading_steps; ++step) {
             const double turned_deg = heading_step_deg * step;
             RunwayStrip strip;
@@ -208,9 +193,7 @@ std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequ
     strip.heading_rad = wish.heading_rad;
     strip.begin_m = wish.path_m.front() - strip.along() * aim_after_m;
     search.look_at(strip, 0.0);
-    if (!search.best() || search.best()->earthwork_m > max_earthwork_m) {
-        look_around(wish, search);
-    }
+    if (!search.best() || search.best()->earthwork_m > max_earthwork_m) { look_around(wish, search); }
     return search.best();
 }
 

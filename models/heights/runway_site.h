@@ -12,8 +12,8 @@ namespace octant::models::heights {
 
 /// Where a runway is wished for.
 struct RunwayRequest {
-    /// Places that are flown over. The first one, which there must be, is that of its aiming point,
-    /// 300 m from its beginning.
+    /// Places that are flown over. The first one, which there must be, is that of its aiming point, 300 m from its
+    /// beginning.
     std::vector<glm::dvec2> path_m;
     double heading_rad = 0.0;
     /// It lies above this height.
@@ -28,18 +28,17 @@ struct RunwaySite {
     bool matches_request = false;
 };
 
-/// A wish is granted where no more earthwork than this is needed: cuttings and embankments as high
-/// as a house and 105 m wide.
+/// A wish is granted where no more earthwork than this is needed: cuttings and embankments as high as a house and 105 m
+/// wide.
 inline constexpr double max_earthwork_m = 15.0;
 
 /// How far from the path another place is looked for.
 inline constexpr double runway_search_radius_m = 6000.0;
 
-/// As it is wished for, if max_earthwork_m are enough; else near the path where earthwork, way and
-/// turn are least in all: a metre of earthwork counts as much as 200 m from the path to the
-/// runway's middle, 500 m from there to the path's beginning or a turn by 15 degrees. The same
-/// site for the same field. Nothing where each one would leave the field or touch water; whether
-/// the earthwork is too much is for the caller to say.
+/// As it is wished for, if max_earthwork_m are enough; else near the path where earthwork, way and turn are least in
+/// all: a metre of earthwork counts as much as 200 m from the path to the runway's middle, 500 m from there to the
+/// path's beginning or a turn by 15 degrees. The same site for the same field. Nothing where each one would leave the
+/// field or touch water; whether the earthwork is too much is for the caller to say.
 std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequest& wish);
 
 } // namespace octant::models::heights

@@ -21,17 +21,13 @@ bool same_system(SpatialReferenceHandle a, SpatialReferenceHandle b) {
     return a == nullptr || b == nullptr ? a == b : OSRIsSame(a, b) != 0;
 }
 
-bool is_whole(double x) {
-    return std::abs(x - std::round(x)) <= grid_tolerance;
-}
+bool is_whole(double x) { return std::abs(x - std::round(x)) <= grid_tolerance; }
 
 } // namespace
 
 SourceGrid::SourceGrid(SourcePiece first)
-    : map_(first.raster.map)
-    , columns_(first.raster.columns)
-    , rows_(first.raster.rows)
-    , in_degrees_(first.raster.system && OSRIsGeographic(first.raster.system.get()) != 0) {
+    : map_(first.raster.map), columns_(first.raster.columns), rows_(first.raster.rows),
+      in_degrees_(first.raster.system && OSRIsGeographic(first.raster.system.get()) != 0) {
     pieces_.push_back(std::move(first));
 }
 
@@ -44,9 +40,7 @@ bool SourceGrid::take(SourcePiece& piece) {
     const bool same_step = std::abs(other->x_column / map_->x_column - 1.0) <= step_tolerance &&
                            std::abs(other->y_row / map_->y_row - 1.0) <= step_tolerance;
     double east = other->x0 - map_->x0;
-    if (in_degrees_) {
-        east = std::remainder(east, turn_deg);
-    }
+    if (in_degrees_) { east = std::remainder(east, turn_deg); }
     const double column = east / map_->x_column;
     const double row = (other->y0 - map_->y0) / map_->y_row;
     if (!same_step || !is_whole(column) || !is_whole(row) ||
@@ -71,19 +65,14 @@ bool SourceGrid::take(SourcePiece& piece) {
 }
 
 bool SourceGrid::has_integer_metres() const {
-    return std::ranges::all_of(
-        pieces_, [](const SourcePiece& piece) { return piece.raster.has_integer_metres; });
+    return std::ranges::all_of(pieces_, [](const SourcePiece& piece) { return piece.raster.has_integer_metres; });
 }
 
 bool SourceGrid::set_target_frame(SpatialReferenceHandle frame) {
     from_frame_.reset();
     to_frame_.reset();
-    if (frame == nullptr) {
-        return true;
-    }
-    if (system() == nullptr) {
-        return false;
-    }
+    if (frame == nullptr) { return true; }
+    if (system() == nullptr) { return false; }
     from_frame_ = between(frame, system());
     to_frame_ = between(system(), frame);
     return from_frame_ && to_frame_;
@@ -112,10 +101,7 @@ void SourceGrid::frame_from_grid(std::span<double> column, std::span<double> row
 
 template <typename Height, typename ReadPiece>
 void SourceGrid::read_pieces(
-    const GridWindow& window,
-    std::span<Height> heights,
-    Height no_height,
-    const ReadPiece& read_piece) const {
+    const GridWindow& window, std::span<Height> heights, Height no_height, const ReadPiece& read_piece) const {
     const auto width = static_cast<std::size_t>(window.columns);
     assert(heights.size() == width * static_cast<std::size_t>(window.rows));
     const auto covers = [&window](const SourcePiece& piece) {
@@ -131,22 +117,18 @@ void SourceGrid::read_pieces(
     std::vector<Height> own;
     for (const SourcePiece& piece : pieces_) {
         const int west = std::max(window.first_column, piece.column);
-        const int east =
-            std::min(window.first_column + window.columns, piece.column + piece.raster.columns);
+        const int east = std::min(window.first_column + window.columns, piece.column + piece.raster.columns);
         const int south = std::max(window.first_row, piece.row);
         const int north = std::min(window.first_row + window.rows, piece.row + piece.raster.rows);
-        if (west >= east || south >= north) {
-            continue;
-        }
+        if (west >= east || south >= north) { continue; }
         const auto own_width = static_cast<std::size_t>(east - west);
         own.resize(own_width * static_cast<std::size_t>(north - south));
         const GridWindow part{west - piece.column, east - west, south - piece.row, north - south};
         read_piece(piece, part, std::span<Height>(own));
         for (int row = south; row < north; ++row) {
             const Height* const from = &own[static_cast<std::size_t>(row - south) * own_width];
-            Height* const to = &heights
-                                   [static_cast<std::size_t>(row - window.first_row) * width +
-                                    static_cast<std::size_t>(west - window.first_column)];
+            Height* const to = &heights[static_cast<std::size_t>(row - window.first_row) * width +
+                                        static_cast<std::size_t>(west - window.first_column)];
             for (std::size_t x = 0; x < own_width; ++x) {
                 const bool free = to[x] == no_height || to[x] != to[x];
                 to[x] = free ? from[x] : to[x];
@@ -155,23 +137,15 @@ void SourceGrid::read_pieces(
     }
 }
 
-void SourceGrid::read(
-    const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const {
-    read_pieces(
-        window,
-        heights_m,
-        std::numeric_limits<float>::quiet_NaN(),
+void SourceGrid::read(const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const {
+    read_pieces(window, heights_m, std::numeric_limits<float>::quiet_NaN(),
         [&gdal](const SourcePiece& piece, const GridWindow& part, std::span<float> heights) {
             read_heights(piece.file, piece.raster, part, heights, gdal);
         });
 }
 
-void SourceGrid::read(
-    const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const {
-    read_pieces(
-        window,
-        heights_m,
-        void_height_m,
+void SourceGrid::read(const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const {
+    read_pieces(window, heights_m, void_height_m,
         [&gdal](const SourcePiece& piece, const GridWindow& part, std::span<std::int16_t> heights) {
             read_integer_metres(piece.file, piece.raster, part, heights, gdal);
         });

@@ -20,17 +20,17 @@ struct SourcePiece {
     int row = 0;
 };
 
-/// Files of one coordinate system whose samples lie on one lattice, such as tiles that share their
-/// borders, as one grid. Where files overlap, the first that has data counts. Row 0 is the south
-/// and column 0 the west of an upright grid; a rotated one is a single file.
+/// Files of one coordinate system whose samples lie on one lattice, such as tiles that share their borders, as one
+/// grid. Where files overlap, the first that has data counts. Row 0 is the south and column 0 the west of an upright
+/// grid; a rotated one is a single file.
 class SourceGrid {
 public:
     static constexpr int largest_samples = 65536; ///< of width and of height
 
     explicit SourceGrid(SourcePiece first);
 
-    /// Takes a piece into the grid if its samples lie on the lattice, for degrees also a turn of
-    /// the globe away. Returns whether it did.
+    /// Takes a piece into the grid if its samples lie on the lattice, for degrees also a turn of the globe away.
+    /// Returns whether it did.
     bool take(SourcePiece& piece);
 
     const std::vector<SourcePiece>& pieces() const { return pieces_; }
@@ -47,8 +47,8 @@ public:
     /// Whether heights are whole metres that fit 16 bits.
     bool has_integer_metres() const;
 
-    /// Chooses the frame by which places are told from now on: a system, or its own (null).
-    /// Returns whether it can be brought to the grid's.
+    /// Chooses the frame by which places are told from now on: a system, or its own (null). Returns whether it can be
+    /// brought to the grid's.
     bool set_target_frame(SpatialReferenceHandle frame);
 
     /// Turns places in the frame into columns and rows; NaN where that cannot be.
@@ -57,21 +57,17 @@ public:
     /// Turns columns and rows into places in the frame; NaN where that cannot be.
     void frame_from_grid(std::span<double> column, std::span<double> row) const;
 
-    /// Heights of a window, row after row from the south; NaN without data and outside the grid.
-    /// Throws Error (damaged file, heights not believed).
+    /// Heights of a window, row after row from the south; NaN without data and outside the grid. Throws Error (damaged
+    /// file, heights not believed).
     void read(const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const;
 
     /// The same in whole metres, where has_integer_metres() (asserted); void_height_m without data.
-    void read(
-        const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const;
+    void read(const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const;
 
 private:
     template <typename Height, typename ReadPiece>
     void read_pieces(
-        const GridWindow& window,
-        std::span<Height> heights,
-        Height no_height,
-        const ReadPiece& read_piece) const;
+        const GridWindow& window, std::span<Height> heights, Height no_height, const ReadPiece& read_piece) const;
 
     std::vector<SourcePiece> pieces_;
     std::optional<GridTransform> map_;

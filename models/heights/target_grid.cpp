@@ -1,7 +1,7 @@
 #include "models/heights/target_grid.h"
 
-#include "models/heights/map_rectangle.h"
 #include "models/heights/gdal_functions.h"
+#include "models/heights/map_rectangle.h"
 #include "sim/base/error.h"
 
 #include <glm/geometric.hpp>
@@ -45,9 +45,8 @@ Outline outline_of(const SourceGrid& grid) {
             outline.y[edge].push_back(row * (grid.rows() - 1));
         }
         grid.frame_from_grid(outline.x[edge], outline.y[edge]);
-        outline.is_whole = outline.is_whole && std::ranges::none_of(outline.x[edge], [](double x) {
-                               return std::isnan(x);
-                           });
+        outline.is_whole =
+            outline.is_whole && std::ranges::none_of(outline.x[edge], [](double x) { return std::isnan(x); });
     }
     return outline;
 }
@@ -62,8 +61,8 @@ MapRectangle bounds_of(const Outline& outline) {
     return bounds;
 }
 
-/// The upright rectangle that lies within all four edges of an upright grid, or all bounds where
-/// that would leave too little.
+/// The upright rectangle that lies within all four edges of an upright grid, or all bounds where that would leave too
+/// little.
 MapRectangle rectangle_of(const Outline& outline) {
     const MapRectangle all = bounds_of(outline);
     MapRectangle within;
@@ -74,11 +73,9 @@ MapRectangle rectangle_of(const Outline& outline) {
 
 [[noreturn]] void error_no_frame(const path& file, std::string_view got) {
     throw_error_in(
-        file,
-        fmt::format(
-            "expected ground up to 1000 km wide and away from the poles that a local frame fits, "
-            "got {}",
-            got));
+        file, fmt::format("expected ground up to 1000 km wide and away from the poles that a local frame fits, "
+                          "got {}",
+                  got));
 }
 
 constexpr std::string_view no_way_to_globe =
@@ -86,9 +83,7 @@ constexpr std::string_view no_way_to_globe =
 constexpr std::string_view no_places = "edges that have no places there";
 
 /// The ellipsoid of the first grid, on which all lie.
-Ellipsoid ellipsoid_of(const std::vector<SourceGrid>& grids) {
-    return grids.front().pieces().front().raster.ellipsoid;
-}
+Ellipsoid ellipsoid_of(const std::vector<SourceGrid>& grids) { return grids.front().pieces().front().raster.ellipsoid; }
 
 /// The middle of all grids on the globe.
 GeoPosition middle_of(const path& file, std::vector<SourceGrid>& grids) {
@@ -97,20 +92,15 @@ GeoPosition middle_of(const path& file, std::vector<SourceGrid>& grids) {
     MapRectangle all;
     std::optional<double> first_deg;
     for (SourceGrid& grid : grids) {
-        if (!grid.set_target_frame(globe.get())) {
-            error_no_frame(file, no_way_to_globe);
-        }
+        if (!grid.set_target_frame(globe.get())) { error_no_frame(file, no_way_to_globe); }
         Outline outline = outline_of(grid);
         const double reference_deg = first_deg.value_or(outline.x[0][0]);
         for (std::vector<double>& edge : outline.x) {
             for (double& longitude_deg : edge) {
-                longitude_deg =
-                    reference_deg + std::remainder(longitude_deg - reference_deg, 360.0);
+                longitude_deg = reference_deg + std::remainder(longitude_deg - reference_deg, 360.0);
             }
         }
-        if (!outline.is_whole) {
-            error_no_frame(file, no_places);
-        }
+        if (!outline.is_whole) { error_no_frame(file, no_places); }
         first_deg = reference_deg;
         const MapRectangle own = bounds_of(outline);
         all.add(own.least);
@@ -119,12 +109,7 @@ GeoPosition middle_of(const path& file, std::vector<SourceGrid>& grids) {
     const glm::dvec2 middle = 0.5 * (all.least + all.most);
     if (!(all.size().x < 180.0) || std::abs(middle.y) > 90.0) {
         error_no_frame(
-            file,
-            fmt::format(
-                "{:.1f} x {:.1f} degrees about latitude {:.1f}",
-                all.size().x,
-                all.size().y,
-                middle.y));
+            file, fmt::format("{:.1f} x {:.1f} degrees about latitude {:.1f}", all.size().x, all.size().y, middle.y));
     }
     return {middle.y, std::remainder(middle.x, 360.0), ellipsoid};
 }
@@ -148,12 +133,9 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
         const path& own = grid.pieces().front().file;
         const SpatialReferenceHandle system = grid.system();
         if (system == nullptr && grids.size() > 1 && grids.front().system() != nullptr) {
-            throw_error_in(
-                own,
-                fmt::format(
-                    "expected a coordinate system, as {} has, got none: --terrain-system says "
-                    "which",
-                    file.filename().string()));
+            throw_error_in(own, fmt::format("expected a coordinate system, as {} has, got none: --terrain-system says "
+                                            "which",
+                                    file.filename().string()));
         }
         if (!has_length_unit(system) && OSRIsGeographic(system) == 0) {
             throw_error_in(own, "expected a map projection or degrees, got another coordinate system");
@@ -164,31 +146,21 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
 /// Whether all grids have one system, in which lengths are true or cannot be checked.
 bool keeps_own_frame(const path& file, std::vector<SourceGrid>& grids) {
     const SpatialReferenceHandle own = grids.front().system();
-    if (!has_length_unit(own)) {
-        return false;
-    }
+    if (!has_length_unit(own)) { return false; }
     for (const SourceGrid& grid : grids) {
-        const bool same = own == nullptr
-                              ? grid.system() == nullptr
-                              : grid.system() != nullptr && OSRIsSame(own, grid.system()) != 0;
-        if (!same) {
-            return false;
-        }
+        const bool same =
+            own == nullptr ? grid.system() == nullptr : grid.system() != nullptr && OSRIsSame(own, grid.system()) != 0;
+        if (!same) { return false; }
     }
     const SpatialReference globe = geographic_coordinate_system(ellipsoid_of(grids));
-    if (own == nullptr || !grids.front().set_target_frame(globe.get())) {
-        return true;
-    }
+    if (own == nullptr || !grids.front().set_target_frame(globe.get())) { return true; }
     const double unit_m = OSRGetLinearUnits(own, nullptr);
     try {
         const SpatialReference about = local_coordinate_system(middle_of(file, grids));
         return std::ranges::all_of(grids, [&](SourceGrid& grid) {
-            if (!about || !grid.set_target_frame(about.get())) {
-                return true;
-            }
+            if (!about || !grid.set_target_frame(about.get())) { return true; }
             const glm::dvec2 ratio = cell_sides(grid) / (grid.map()->steps() * unit_m);
-            return std::abs(ratio.x - 1.0) <= scale_tolerance &&
-                   std::abs(ratio.y - 1.0) <= scale_tolerance;
+            return std::abs(ratio.x - 1.0) <= scale_tolerance && std::abs(ratio.y - 1.0) <= scale_tolerance;
         });
     } catch (const Error&) {
         return true; // a system without a place that can be told
@@ -207,22 +179,18 @@ Finest finest_of(const std::vector<SourceGrid>& grids) {
     Finest finest{nullptr, {}};
     for (const SourceGrid& grid : grids) {
         const Finest own{&grid, cell_sides(grid)};
-        if (finest.grid == nullptr || own.side() < finest.side()) {
-            finest = own;
-        }
+        if (finest.grid == nullptr || own.side() < finest.side()) { finest = own; }
     }
     return finest;
 }
 
-/// The longest step that divides both sides of a cell, where that is at least a third of the
-/// shorter one; else the shorter one.
+/// The longest step that divides both sides of a cell, where that is at least a third of the shorter one; else the
+/// shorter one.
 double common_step(const glm::dvec2& sides) {
     const double fine = std::min(sides.x, sides.y);
     const double ratio = std::max(sides.x, sides.y) / fine;
     for (const int parts : {1, 2, 3}) {
-        if (std::abs(ratio * parts - std::round(ratio * parts)) <= square_tolerance * parts) {
-            return fine / parts;
-        }
+        if (std::abs(ratio * parts - std::round(ratio * parts)) <= square_tolerance * parts) { return fine / parts; }
     }
     return fine;
 }
@@ -230,28 +198,19 @@ double common_step(const glm::dvec2& sides) {
 void check_samples(const path& file, double columns, double rows) {
     const auto fits = [](double n) { return n >= 2.0 && n <= SourceGrid::largest_samples; };
     if (!fits(columns) || !fits(rows)) {
-        throw_error_in(
-            file,
-            fmt::format(
-                "expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}",
-                static_cast<int>(SourceGrid::largest_samples),
-                columns,
-                rows));
+        throw_error_in(file, fmt::format("expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}",
+                                 static_cast<int>(SourceGrid::largest_samples), columns, rows));
     }
 }
 
 /// How many steps fit on a length, forgiving a rounding error of its end, and one more.
-double samples_on(double length, double step) {
-    return std::floor(length / step + 1e-6) + 1.0;
-}
+double samples_on(double length, double step) { return std::floor(length / step + 1e-6) + 1.0; }
 
 MapRectangle extent_of(const path& file, const std::vector<SourceGrid>& grids) {
     MapRectangle all;
     for (const SourceGrid& grid : grids) {
         const Outline outline = outline_of(grid);
-        if (!outline.is_whole) {
-            error_no_frame(file, no_places);
-        }
+        if (!outline.is_whole) { error_no_frame(file, no_places); }
         const MapRectangle own = rectangle_of(outline);
         all.add(own.least);
         all.add(own.most);
@@ -273,9 +232,7 @@ TargetGrid lattice_in_own_frame(const path& file, std::vector<SourceGrid>& grids
     TargetGrid lattice;
     lattice.frame = spatial_reference_of(own);
     lattice.unit_m = own == nullptr ? 1.0 : OSRGetLinearUnits(own, nullptr);
-    for (SourceGrid& grid : grids) {
-        grid.set_target_frame(nullptr);
-    }
+    for (SourceGrid& grid : grids) { grid.set_target_frame(nullptr); }
     Finest finest = finest_of(grids);
     const GridTransform& map = *finest.grid->map();
     finest.sides = map.steps(); // to the last bit
@@ -305,15 +262,11 @@ TargetGrid lattice_about_middle(const path& file, std::vector<SourceGrid>& grids
     TargetGrid lattice;
     lattice.frame = local_coordinate_system(middle_of(file, grids));
     for (SourceGrid& grid : grids) {
-        if (!lattice.frame || !grid.set_target_frame(lattice.frame.get())) {
-            error_no_frame(file, no_way_to_globe);
-        }
+        if (!lattice.frame || !grid.set_target_frame(lattice.frame.get())) { error_no_frame(file, no_way_to_globe); }
     }
     const MapRectangle extent = extent_of(file, grids);
     if (!(std::max(extent.size().x, extent.size().y) <= widest_m)) {
-        error_no_frame(
-            file,
-            fmt::format("{:.0f} x {:.0f} km", 1e-3 * extent.size().x, 1e-3 * extent.size().y));
+        error_no_frame(file, fmt::format("{:.0f} x {:.0f} km", 1e-3 * extent.size().x, 1e-3 * extent.size().y));
     }
     const Finest finest = finest_of(grids);
     const double side = finest.side();
@@ -330,17 +283,12 @@ TargetGrid lattice_about_middle(const path& file, std::vector<SourceGrid>& grids
 } // namespace
 
 CoordinateSystem TargetGrid::system() const {
-    return {
-        wkt_of(frame.get()),
-        west + 0.5 * (columns - 1) * step,
-        south + 0.5 * (rows - 1) * step,
-        unit_m};
+    return {wkt_of(frame.get()), west + 0.5 * (columns - 1) * step, south + 0.5 * (rows - 1) * step, unit_m};
 }
 
 TargetGrid target_grid_for(const path& first, std::vector<SourceGrid>& grids) {
     check_systems(first, grids);
-    return keeps_own_frame(first, grids) ? lattice_in_own_frame(first, grids)
-                                         : lattice_about_middle(first, grids);
+    return keeps_own_frame(first, grids) ? lattice_in_own_frame(first, grids) : lattice_about_middle(first, grids);
 }
 
 } // namespace octant::models::heights

@@ -26,8 +26,7 @@ constexpr std::string_view points = "XYZ";
 
 bool is_same_word(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) ==
-               std::tolower(static_cast<unsigned char>(y));
+        return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
     });
 }
 
@@ -43,12 +42,8 @@ class WordFile {
 public:
     /// `separators` beside white space.
     WordFile(const path& file, std::string_view separators)
-        : file_(file)
-        , separators_(separators)
-        , stream_(VSIFOpenL(file.c_str(), "rb")) {
-        if (stream_ == nullptr) {
-            throw_error_in(file, "cannot be opened for reading");
-        }
+        : file_(file), separators_(separators), stream_(VSIFOpenL(file.c_str(), "rb")) {
+        if (stream_ == nullptr) { throw_error_in(file, "cannot be opened for reading"); }
     }
 
     ~WordFile() { VSIFCloseL(stream_); }
@@ -58,15 +53,15 @@ public:
     WordFile(WordFile&&) = delete;
     WordFile& operator=(WordFile&&) = delete;
 
-    /// The next word, valid until the next call; nothing at the end. Throws Error for a word that
-    /// is too long for a number.
+    /// The next word, valid until the next call; nothing at the end. Throws Error for a word that is too long for a
+    /// number.
     std::optional<std::string_view> next() {
         word_.clear();
         line_of_word_ = line_;
         while (const std::optional<char> c = next_char()) {
             const bool ends_line = *c == '\n' || (*c == '\r' && peek() != '\n');
-            const bool parts = ends_line || *c == ' ' || *c == '\t' || *c == '\r' ||
-                               separators_.find(*c) != std::string_view::npos;
+            const bool parts =
+                ends_line || *c == ' ' || *c == '\t' || *c == '\r' || separators_.find(*c) != std::string_view::npos;
             if (!parts) {
                 word_ += *c;
                 if (word_.size() > max_letters) {
@@ -77,9 +72,7 @@ public:
             }
             line_of_word_ = line_;
             line_ += ends_line ? 1 : 0;
-            if (!word_.empty()) {
-                return word_;
-            }
+            if (!word_.empty()) { return word_; }
         }
         line_of_word_ = line_;
         return word_.empty() ? std::nullopt : std::optional<std::string_view>(word_);
@@ -109,9 +102,7 @@ private:
         return at_ < filled_;
     }
 
-    std::optional<char> next_char() {
-        return fill() ? std::optional(piece_.at(at_++)) : std::nullopt;
-    }
+    std::optional<char> next_char() { return fill() ? std::optional(piece_.at(at_++)) : std::nullopt; }
 
     char peek() { return fill() ? piece_.at(at_) : '\0'; }
 
@@ -129,9 +120,7 @@ private:
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
     std::size_t end = at;
-    while (end < text.size() && text[end] >= '0' && text[end] <= '9') {
-        ++end;
-    }
+    while (end < text.size() && text[end] >= '0' && text[end] <= '9') { ++end; }
     return end - at;
 }
 
@@ -145,16 +134,12 @@ bool is_number(std::string_view word) {
         parts = digits_at(word, at + 1);
         at += 1 + parts;
     }
-    if (whole + parts == 0) {
-        return false;
-    }
+    if (whole + parts == 0) { return false; }
     if (at < word.size() && (word[at] == 'e' || word[at] == 'E')) {
         const bool has_sign = at + 1 < word.size() && (word[at + 1] == '-' || word[at + 1] == '+');
         at += has_sign ? 2U : 1U;
         const std::size_t power = digits_at(word, at);
-        if (power == 0) {
-            return false;
-        }
+        if (power == 0) { return false; }
         at += power;
     }
     return at == word.size();
@@ -162,19 +147,8 @@ bool is_number(std::string_view word) {
 
 /// Whether GDAL reads a word as a number that is not finite, which is without data.
 bool is_not_finite(std::string_view word) {
-    constexpr std::array<std::string_view, 12> words = {
-        "nan",
-        "-nan",
-        "+nan",
-        "inf",
-        "-inf",
-        "+inf",
-        "infinity",
-        "1.#QNAN",
-        "-1.#QNAN",
-        "-1.#IND",
-        "1.#INF",
-        "-1.#INF"};
+    constexpr std::array<std::string_view, 12> words = {"nan", "-nan", "+nan", "inf", "-inf", "+inf", "infinity",
+        "1.#QNAN", "-1.#QNAN", "-1.#IND", "1.#INF", "-1.#INF"};
     return is_one_of(word, words);
 }
 
@@ -186,16 +160,13 @@ bool is_void_word(std::string_view word) {
 }
 
 bool is_key(std::string_view word) {
-    constexpr std::array<std::string_view, 21> keys = {
-        "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
-        "dx",    "dy",    "nodata_value", "nodata",    "byteorder", "north:",    "south:",
-        "east:", "west:", "rows:",        "cols:",     "null:",     "type:",     "multiplier:"};
+    constexpr std::array<std::string_view, 21> keys = {"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter",
+        "yllcenter", "cellsize", "dx", "dy", "nodata_value", "nodata", "byteorder",
+        "north:", "south:", "east:", "west:", "rows:", "cols:", "null:", "type:", "multiplier:"};
     return is_one_of(word, keys);
 }
 
-bool is_alphabetic(std::string_view word) {
-    return std::isalpha(static_cast<unsigned char>(word.front())) != 0;
-}
+bool is_alphabetic(std::string_view word) { return std::isalpha(static_cast<unsigned char>(word.front())) != 0; }
 
 /// Whether a file may be an ESRI or GRASS text grid.
 bool begins_with_key(const path& file) {
@@ -211,41 +182,29 @@ bool begins_with_key(const path& file) {
     return !word.empty() && is_key(word);
 }
 
-/// A file of GDAL's in memory that reads as another file, in which `zeros` bytes from `begin` on
-/// are the digit 0. It exists while this object lives.
+/// A file of GDAL's in memory that reads as another file, in which `zeros` bytes from `begin` on are the digit 0. It
+/// exists while this object lives.
 class FileWithZeros {
 public:
-    FileWithZeros(const std::string& name, const path& file, std::uint64_t begin, std::size_t zeros)
-        : name_(name) {
+    FileWithZeros(const std::string& name, const path& file, std::uint64_t begin, std::size_t zeros) : name_(name) {
         VSIStatBufL status;
-        if (VSIStatL(file.c_str(), &status) != 0) {
-            return;
-        }
+        if (VSIStatL(file.c_str(), &status) != 0) { return; }
         const auto bytes = static_cast<std::uint64_t>(status.st_size);
         char* const escaped = CPLEscapeString(file.c_str(), -1, CPLES_XML);
         const auto part = [escaped](std::uint64_t from, std::uint64_t to) {
-            return fmt::format(
-                "<SubfileRegion><Filename relative=\"0\">{0}</Filename><DestinationOffset>{1}"
-                "</DestinationOffset><SourceOffset>{1}</SourceOffset><RegionLength>{2}"
-                "</RegionLength></SubfileRegion>",
-                escaped,
-                from,
-                to - from);
+            return fmt::format("<SubfileRegion><Filename relative=\"0\">{0}</Filename><DestinationOffset>{1}"
+                               "</DestinationOffset><SourceOffset>{1}</SourceOffset><RegionLength>{2}"
+                               "</RegionLength></SubfileRegion>",
+                escaped, from, to - from);
         };
-        const std::string zero_part = fmt::format(
-            "<ConstantRegion><DestinationOffset>{}</DestinationOffset><RegionLength>{}"
-            "</RegionLength><Value>{}</Value></ConstantRegion>",
-            begin,
-            zeros,
-            int{'0'});
-        text_ = fmt::format(
-            "<VSISparseFile><Length>{}</Length>{}{}</VSISparseFile>",
-            bytes,
-            zeros == 0 ? "" : part(0, begin) + zero_part,
-            part(begin + zeros, bytes));
+        const std::string zero_part =
+            fmt::format("<ConstantRegion><DestinationOffset>{}</DestinationOffset><RegionLength>{}"
+                        "</RegionLength><Value>{}</Value></ConstantRegion>",
+                begin, zeros, int{'0'});
+        text_ = fmt::format("<VSISparseFile><Length>{}</Length>{}{}</VSISparseFile>", bytes,
+            zeros == 0 ? "" : part(0, begin) + zero_part, part(begin + zeros, bytes));
         CPLFree(escaped);
-        VSIFCloseL(VSIFileFromMemBuffer(
-            name.c_str(), reinterpret_cast<GByte*>(text_.data()), text_.size(), FALSE));
+        VSIFCloseL(VSIFileFromMemBuffer(name.c_str(), reinterpret_cast<GByte*>(text_.data()), text_.size(), FALSE));
     }
 
     ~FileWithZeros() { VSIUnlink(name_.c_str()); }
@@ -263,17 +222,14 @@ private:
 class GridCheck {
 public:
     GridCheck(const path& file, const std::string& driver, int columns, int rows)
-        : words_(file, driver == points ? ",;" : "")
-        , driver_(driver)
-        , samples_(std::int64_t{columns} * rows) {}
+        : words_(file, driver == points ? ",;" : ""), driver_(driver), samples_(std::int64_t{columns} * rows) {}
 
     TextVoids run() {
         if (driver_ == points) {
             check_points();
             return {};
         }
-        const std::optional<std::string_view> first =
-            driver_ == surfer ? surfer_header() : keyed_header();
+        const std::optional<std::string_view> first = driver_ == surfer ? surfer_header() : keyed_header();
         check_samples(first);
         return voids_;
     }
@@ -282,14 +238,10 @@ private:
     /// Lines of a key and its value. Returns the first word behind them.
     std::optional<std::string_view> keyed_header() {
         while (const auto word = words_.next()) {
-            if (!is_key(*word)) {
-                return word;
-            }
+            if (!is_key(*word)) { return word; }
             const std::string key(*word);
             const auto value = words_.next();
-            if (!value) {
-                words_.refuse(fmt::format("a value of {}", printable(key)), "the end of the file");
-            }
+            if (!value) { words_.refuse(fmt::format("a value of {}", printable(key)), "the end of the file"); }
             check_value(key, *value);
         }
         return std::nullopt;
@@ -297,15 +249,7 @@ private:
 
     void check_value(std::string_view key, std::string_view value) {
         constexpr std::array<std::string_view, 9> numbers = {
-            "ncols",
-            "nrows",
-            "xllcorner",
-            "yllcorner",
-            "xllcenter",
-            "yllcenter",
-            "cellsize",
-            "dx",
-            "dy"};
+            "ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx", "dy"};
         if (is_one_of(key, numbers) && !is_number(value)) {
             words_.refuse_word(fmt::format("a number for {}", key), value);
         }
@@ -317,19 +261,13 @@ private:
     std::optional<std::string_view> surfer_header() {
         constexpr int header_numbers = 8;
         words_.next(); // DSAA
-        for (int i = 0; i < header_numbers; ++i) {
-            check_number(words_.next());
-        }
+        for (int i = 0; i < header_numbers; ++i) { check_number(words_.next()); }
         return words_.next();
     }
 
     void check_number(const std::optional<std::string_view>& word) const {
-        if (!word) {
-            words_.refuse("a number", "the end of the file");
-        }
-        if (!is_number(*word) && !is_not_finite(*word)) {
-            words_.refuse_word("a number", *word);
-        }
+        if (!word) { words_.refuse("a number", "the end of the file"); }
+        if (!is_number(*word) && !is_not_finite(*word)) { words_.refuse_word("a number", *word); }
     }
 
     void check_samples(std::optional<std::string_view> word) {
@@ -344,19 +282,13 @@ private:
             ++seen;
         }
         if (seen < samples_) {
-            words_.refuse(
-                fmt::format("{} heights", samples_),
-                fmt::format("the end of the file after {}", seen));
+            words_.refuse(fmt::format("{} heights", samples_), fmt::format("the end of the file after {}", seen));
         }
-        for (; word; word = words_.next()) {
-            ++voids_.numbers_left;
-        }
+        for (; word; word = words_.next()) { ++voids_.numbers_left; }
     }
 
     void add_void(std::int64_t sample, std::string_view word) {
-        if (voids_.samples++ == 0) {
-            voids_.word = printable(std::string(word));
-        }
+        if (voids_.samples++ == 0) { voids_.word = printable(std::string(word)); }
         voids_.are_void.resize(static_cast<std::size_t>(sample) + 1);
         voids_.are_void.back() = true;
     }
@@ -373,9 +305,7 @@ private:
             const bool is_name = !is_number(*word) && !is_not_finite(*word);
             has_number = has_number || !is_name;
             name = is_name && name.empty() ? std::string(*word) : name;
-            if (has_number && !name.empty()) {
-                words_.refuse_word("a number", name);
-            }
+            if (has_number && !name.empty()) { words_.refuse_word("a number", name); }
         }
     }
 
@@ -395,21 +325,15 @@ void TextVoids::apply(std::int64_t first, std::span<double> raw) const {
 }
 
 Dataset open_grid_that_begins_with_word(const path& file) {
-    if (!begins_with_key(file)) {
-        return nullptr;
-    }
+    if (!begins_with_key(file)) { return nullptr; }
     WordFile words(file, "");
     auto word = words.next();
     while (word && is_key(*word)) {
         words.next(); // its value
         word = words.next();
     }
-    if (!word || !is_alphabetic(*word)) {
-        return nullptr;
-    }
-    if (!is_void_word(*word) && !is_not_finite(*word)) {
-        words.refuse_word("a height", *word);
-    }
+    if (!word || !is_alphabetic(*word)) { return nullptr; }
+    if (!is_void_word(*word) && !is_not_finite(*word)) { words.refuse_word("a height", *word); }
     // GDAL looks for side files in the folder of the grid, which is in memory here.
     const std::string folder = fmt::format("/vsimem/octant-{}", static_cast<const void*>(&words));
     const path name = path(folder) / file.filename();
@@ -420,9 +344,7 @@ Dataset open_grid_that_begins_with_word(const path& file) {
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     const std::string sparse = "/vsisparse/" + name.string();
     Dataset dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
-    if (!dataset) {
-        throw_unreadable(file, "a height field", "a header without size, place or cells");
-    }
+    if (!dataset) { throw_unreadable(file, "a height field", "a header without size, place or cells"); }
     return dataset;
 }
 

@@ -22,22 +22,19 @@ struct TextVoids {
     void apply(std::int64_t first, std::span<double> raw) const;
 };
 
-/// Opens an ESRI or GRASS text grid whose first height is a word without data, such as NA. GDAL
-/// alone takes that for a part of the header: it refuses the file or loses the first row. The
-/// dataset has 0 there. Null for all other files. Throws Error for a first height that is neither a
-/// number nor such a word.
+/// Opens an ESRI or GRASS text grid whose first height is a word without data, such as NA. GDAL alone takes that for a
+/// part of the header: it refuses the file or loses the first row. The dataset has 0 there. Null for all other files.
+/// Throws Error for a first height that is neither a number nor such a word.
 Dataset open_grid_that_begins_with_word(const std::filesystem::path& file);
 
-/// Whether a driver of GDAL's reads text grids, of which it takes the front of a damaged number,
-/// and 0 for what is no number at all.
+/// Whether a driver of GDAL's reads text grids, of which it takes the front of a damaged number, and 0 for what is no
+/// number at all.
 bool is_text_grid(const std::string& driver);
 
-/// Checks every number of a text grid that GDAL has opened by this driver. ESRI and GRASS grids may
-/// have words without data (NA, NULL, ***) in place of heights, which are returned. Throws Error
-/// "file:line: expected ..., got ..." for other words, damaged numbers, and a file that ends before
-/// columns * rows of them. Points may have a first line of names, which has no numbers. Memory: a
-/// bit a sample where there are such words.
-TextVoids check_text_grid(
-    const std::filesystem::path& file, const std::string& driver, int columns, int rows);
+/// Checks every number of a text grid that GDAL has opened by this driver. ESRI and GRASS grids may have words without
+/// data (NA, NULL, ***) in place of heights, which are returned. Throws Error "file:line: expected ..., got ..." for
+/// other words, damaged numbers, and a file that ends before columns * rows of them. Points may have a first line of
+/// names, which has no numbers. Memory: a bit a sample where there are such words.
+TextVoids check_text_grid(const std::filesystem::path& file, const std::string& driver, int columns, int rows);
 
 } // namespace octant::models::heights

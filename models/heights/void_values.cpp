@@ -13,18 +13,15 @@ namespace {
 /// Distinct numbers that no ground has as a height and that count as voids at most.
 constexpr std::size_t max_absurd = 3;
 
-/// Whether a number is one that a person writes: a whole one of up to ten digits or a power of ten.
-/// Damaged samples are hardly ever.
+/// Whether a number is one that a person writes: a whole one of up to ten digits or a power of ten. Damaged samples are
+/// hardly ever.
 bool is_written(double raw) {
     const double size = std::abs(raw);
     return (size < 1e10 && size == std::floor(size)) ||
-           static_cast<float>(size) ==
-               static_cast<float>(std::pow(10.0, std::round(std::log10(size))));
+           static_cast<float>(size) == static_cast<float>(std::pow(10.0, std::round(std::log10(size))));
 }
 
-std::string samples_text(std::int64_t samples) {
-    return fmt::format("{} sample{}", samples, samples == 1 ? "" : "s");
-}
+std::string samples_text(std::int64_t samples) { return fmt::format("{} sample{}", samples, samples == 1 ? "" : "s"); }
 
 } // namespace
 
@@ -40,22 +37,11 @@ std::string raw_text(double raw) {
 }
 
 bool is_common_void_value(double raw) {
-    constexpr std::array<double, 15> usual = {
-        -999.0,
-        -9999.0,
-        -10000.0,
-        -32767.0,
-        -32768.0,
-        -99999.0,
+    constexpr std::array<double, 15> usual = {-999.0, -9999.0, -10000.0, -32767.0, -32768.0, -99999.0,
         -100000.0, // black of a Mapbox tile, in tenths of a metre
-        9999.0,
-        99999.0,
-        32767.0,
+        9999.0, 99999.0, 32767.0,
         32768.0, // -32768, -10000, -9999 and -1 as unsigned numbers of 16 bits
-        55536.0,
-        55537.0,
-        65535.0,
-        4294967295.0};
+        55536.0, 55537.0, 65535.0, 4294967295.0};
     const bool is_common_height = raw > -999.0 && raw < 9999.0; // nearly all samples
     return !is_common_height && std::ranges::find(usual, raw) != usual.end();
 }
@@ -110,44 +96,27 @@ UndeclaredVoids VoidDetector::result() const {
     const auto take = [&](const Mark& mark) {
         voids.values.push_back(mark.raw);
         may_be_heights |= mark.height_m >= lowest_m_ && mark.height_m <= highest_m_;
-        counts += fmt::format(
-            "{}{} of {}",
-            counts.empty() ? "" : ", ",
-            samples_text(mark.samples),
-            raw_text(mark.raw));
+        counts += fmt::format("{}{} of {}", counts.empty() ? "" : ", ", samples_text(mark.samples), raw_text(mark.raw));
     };
     std::ranges::for_each(beyond_, take);
     for (const Mark& mark : usual_) {
-        if (distance_m(mark.height_m) > near_m) {
-            take(mark);
-        }
+        if (distance_m(mark.height_m) > near_m) { take(mark); }
     }
     std::int64_t absurd = 0;
-    for (const Mark& mark : absurd_) {
-        absurd += mark.samples;
-    }
-    const bool are_few =
-        absurd_.size() <= 1 || (absurd_.size() <= max_absurd && absurd < ordinary_);
+    for (const Mark& mark : absurd_) { absurd += mark.samples; }
+    const bool are_few = absurd_.size() <= 1 || (absurd_.size() <= max_absurd && absurd < ordinary_);
     if (has_heights && are_few) {
         for (const Mark& mark : absurd_) {
-            if (distance_m(mark.height_m) > far_m && is_written(mark.raw)) {
-                take(mark);
-            }
+            if (distance_m(mark.height_m) > far_m && is_written(mark.raw)) { take(mark); }
         }
     }
     if (has_heights && wrapped_.samples > 0 && absurd_.empty()) {
         voids.wraparound_threshold = wrapped_.raw;
-        counts += fmt::format(
-            "{}{} from {:.15g} to {:.15g} (negative numbers stored as unsigned ones)",
-            counts.empty() ? "" : ", ",
-            samples_text(wrapped_.samples),
-            wrapped_.raw,
-            greatest_wrapped_);
+        counts += fmt::format("{}{} from {:.15g} to {:.15g} (negative numbers stored as unsigned ones)",
+            counts.empty() ? "" : ", ", samples_text(wrapped_.samples), wrapped_.raw, greatest_wrapped_);
     }
     if (!counts.empty()) {
-        voids.note = fmt::format(
-            "{} count as missing, though the file does not say so{}",
-            counts,
+        voids.note = fmt::format("{} count as missing, though the file does not say so{}", counts,
             may_be_heights ? "; --void none takes them for heights" : "");
     }
     return voids;

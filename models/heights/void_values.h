@@ -27,19 +27,17 @@ std::string raw_text(double raw);
 /// Whether a number is one that software writes for "no data" by habit, such as -9999.
 bool is_common_void_value(double raw);
 
-/// Decides from all samples of a band which numbers stand for no data though none is declared.
-/// A usual number (is_common_void_value) does where it lies apart from all other heights: deep-sea maps
-/// have true heights of -9999 m. Of other numbers those do that no ground has as a height, where
-/// there is one of them, or up to three of fewer samples than heights have, far from all heights
-/// and whole or a power of ten: more are heights in a unit that is not known. Negative heights
-/// that were stored in unsigned numbers do, too, and all numbers from undeclared_void_threshold on.
+/// Decides from all samples of a band which numbers stand for no data though none is declared. A usual number
+/// (is_common_void_value) does where it lies apart from all other heights: deep-sea maps have true heights of -9999 m.
+/// Of other numbers those do that no ground has as a height, where there is one of them, or up to three of fewer
+/// samples than heights have, far from all heights and whole or a power of ten: more are heights in a unit that is not
+/// known. Negative heights that were stored in unsigned numbers do, too, and all numbers from undeclared_void_threshold
+/// on.
 class VoidDetector {
 public:
     /// `modulus`: 2^bits of the unsigned numbers that samples are or were.
     VoidDetector(double lowest_m, double highest_m, double modulus)
-        : lowest_m_(lowest_m)
-        , highest_m_(highest_m)
-        , modulus_(modulus) {}
+        : lowest_m_(lowest_m), highest_m_(highest_m), modulus_(modulus) {}
 
     /// A sample that has data by the file's own word.
     void add(double raw, double height_m);
@@ -61,7 +59,7 @@ private:
     double lowest_m_;
     double highest_m_;
     double modulus_;
-    std::int64_t ordinary_ = 0; ///< samples that are heights and no usual numbers
+    std::int64_t ordinary_ = 0;                              ///< samples that are heights and no usual numbers
     double min_m_ = std::numeric_limits<double>::infinity(); ///< of ordinary samples
     double greatest_m_ = -std::numeric_limits<double>::infinity();
     std::vector<Mark> usual_;

@@ -1,8 +1,7 @@
-// Finds defects by sorting. All sides of all triangles are sorted by their vertices, so that the
-// sides of one edge are neighbours in the list. Two union-find structures follow: one joins corners
-// at the same vertex across edges (a vertex with more than one set of corners is not a manifold),
-// the other joins triangles (each set is a shell). The genus of a closed oriented manifold follows
-// from Euler's formula V - E + F = 2 (shells - genus).
+// Finds defects by sorting. All sides of all triangles are sorted by their vertices, so that the sides of one edge are
+// neighbours in the list. Two union-find structures follow: one joins corners at the same vertex across edges (a vertex
+// with more than one set of corners is not a manifold), the other joins triangles (each set is a shell). The genus of a
+// closed oriented manifold follows from Euler's formula V - E + F = 2 (shells - genus).
 #include "models/measure/mesh_defects.h"
 
 #include "models/mesh_edges.h"
@@ -55,9 +54,7 @@ void count_along_edges(std::span<const Triangle> faces, std::size_t vertices, Me
             fans.join(max_corner, 3 * side.triangle + side.max_corner());
             shells.join(first.triangle, side.triangle);
         }
-        if (edge.size() == 1) {
-            boundary.emplace_back(min_corner, max_corner);
-        }
+        if (edge.size() == 1) { boundary.emplace_back(min_corner, max_corner); }
         ++edges;
         found.non_manifold_edges += edge.size() > 2 ? 1U : 0U;
         found.turned_edges += edge.size() == 2 && first.rises == edge[1].rises ? 1U : 0U;
@@ -71,19 +68,15 @@ void count_along_edges(std::span<const Triangle> faces, std::size_t vertices, Me
         }
     }
     const auto used = static_cast<long>(vertices) - std::ranges::count(fans_at, 0U);
-    found.non_manifold_vertices = static_cast<std::size_t>(
-        std::ranges::count_if(fans_at, [](std::size_t count) { return count > 1; }));
+    found.non_manifold_vertices =
+        static_cast<std::size_t>(std::ranges::count_if(fans_at, [](std::size_t count) { return count > 1; }));
     found.euler_characteristic = used - edges + static_cast<long>(faces.size());
     found.boundary_edges = boundary.size();
     // Two boundary edges belong to the same loop where they end in the same fan of corners.
     DisjointSets rims(faces.size() * 3);
     std::vector<std::uint32_t> loops;
-    for (const auto& [one, other] : boundary) {
-        rims.join(fans.group_of(one), fans.group_of(other));
-    }
-    for (const auto& [one, other] : boundary) {
-        loops.push_back(rims.group_of(fans.group_of(one)));
-    }
+    for (const auto& [one, other] : boundary) { rims.join(fans.group_of(one), fans.group_of(other)); }
+    for (const auto& [one, other] : boundary) { loops.push_back(rims.group_of(fans.group_of(one))); }
     found.boundary_loops = count_distinct(loops);
 }
 
@@ -97,22 +90,15 @@ MeshDefects defects(const TriangleMesh& mesh) {
     for (const Triangle& triangle : mesh.triangles) {
         const bool repeats = repeats_vertex(triangle);
         found.degenerate_faces += repeats || is_flat(mesh, triangle) ? 1U : 0U;
-        if (!repeats) {
-            faces.push_back(triangle);
-        }
-        for (const std::uint32_t vertex : triangle) {
-            is_used[vertex] = true;
-        }
+        if (!repeats) { faces.push_back(triangle); }
+        for (const std::uint32_t vertex : triangle) { is_used[vertex] = true; }
     }
     found.unreferenced_vertices = static_cast<std::size_t>(std::ranges::count(is_used, false));
     count_along_edges(faces, mesh.vertices_m.size(), found);
-    for (Triangle& triangle : faces) {
-        std::ranges::sort(triangle);
-    }
+    for (Triangle& triangle : faces) { std::ranges::sort(triangle); }
     found.duplicate_faces = faces.size() - count_distinct(faces);
-    if (found.shells > 0 && found.boundary_edges + found.non_manifold_edges +
-                                    found.non_manifold_vertices + found.turned_edges ==
-                                0) {
+    if (found.shells > 0 &&
+        found.boundary_edges + found.non_manifold_edges + found.non_manifold_vertices + found.turned_edges == 0) {
         found.genus = static_cast<long>(found.shells) - found.euler_characteristic / 2;
     }
     return found;

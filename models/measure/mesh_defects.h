@@ -7,8 +7,8 @@
 
 namespace octant::models::measure {
 
-/// Counts of what may be wrong with a mesh. Triangles share a vertex where they use the same index.
-/// Faces that use a vertex twice count as degenerate and are otherwise left out.
+/// Counts of what may be wrong with a mesh. Triangles share a vertex where they use the same index. Faces that use a
+/// vertex twice count as degenerate and are otherwise left out.
 struct MeshDefects {
     std::size_t boundary_edges = 0;     ///< Edges of one triangle only.
     std::size_t boundary_loops = 0;     ///< Closed chains of boundary edges: holes and rims.

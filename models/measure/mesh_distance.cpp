@@ -1,17 +1,15 @@
-// Puts the two measurements of a distance together, in each direction: the certified Hausdorff
-// distance and sampled mean values (sampled_distance.cpp). Both use one tree over the triangles of
-// the other mesh.
+// Puts the two measurements of a distance together, in each direction: the certified Hausdorff distance and sampled
+// mean values (sampled_distance.cpp). Both use one tree over the triangles of the other mesh.
 //
-// The one-sided Hausdorff distance with certified bounds, by branch and bound over the triangles of
-// one mesh: M. Guthe, P. Borodin, R. Klein, "Fast and accurate Hausdorff distance calculation
-// between meshes", 2005. Every sampled point gives a lower bound; each piece of a triangle has an
-// upper bound; the piece with the largest is cut in two until the bounds are close.
+// The one-sided Hausdorff distance with certified bounds, by branch and bound over the triangles of one mesh: M. Guthe,
+// P. Borodin, R. Klein, "Fast and accurate Hausdorff distance calculation between meshes", 2005. Every sampled point
+// gives a lower bound; each piece of a triangle has an upper bound; the piece with the largest is cut in two until the
+// bounds are close.
 //
-// The upper bound of a piece: the distance to a convex set is a convex function, so that over a
-// triangular piece it is at most its largest value at the corners. A single triangle T of the
-// target is convex, and the distance to the target is at most that to T. Asked are the T nearest to
-// the corners and to the centre of the piece. In addition, the distance changes no faster than a
-// point moves.
+// The upper bound of a piece: the distance to a convex set is a convex function, so that over a triangular piece it is
+// at most its largest value at the corners. A single triangle T of the target is convex, and the distance to the target
+// is at most that to T. Asked are the T nearest to the corners and to the centre of the piece. In addition, the
+// distance changes no faster than a point moves.
 //
 // Deviations:
 // - The bound of a piece is the one above, not one from a voxel grid.
@@ -76,17 +74,15 @@ struct Cut {
 double max_to(const TargetSurface& target, std::uint32_t triangle, const Corners& corners) {
     double most2 = 0.0;
     for (const Sample* corner : corners) {
-        most2 = corner->nearest == triangle
-                    ? std::max(most2, corner->distance_m * corner->distance_m)
-                    : std::max(most2, target.distance2_to(triangle, corner->point));
+        most2 = corner->nearest == triangle ? std::max(most2, corner->distance_m * corner->distance_m)
+                                            : std::max(most2, target.distance2_to(triangle, corner->point));
     }
     return std::sqrt(most2);
 }
 
-/// A bound of the largest distance from a piece to the target. The piece is seen as four parts: one
-/// at each corner, cut off at a third of both sides, and the hexagon between them. Each part lies
-/// near one triangle of the target, the one nearest to its corner or to the centre, and no farther
-/// from it than its own corners are.
+/// A bound of the largest distance from a piece to the target. The piece is seen as four parts: one at each corner, cut
+/// off at a third of both sides, and the hexagon between them. Each part lies near one triangle of the target, the one
+/// nearest to its corner or to the centre, and no farther from it than its own corners are.
 double max_by_parts(const TargetSurface& target, std::uint32_t middle, const Corners& corners) {
     double most2 = 0.0;
     for (std::size_t from = 0; from < 3; ++from) {
@@ -94,10 +90,7 @@ double max_by_parts(const TargetSurface& target, std::uint32_t middle, const Cor
         most2 = std::max(most2, corner.distance_m * corner.distance_m);
         for (const std::size_t to : {(from + 1) % 3, (from + 2) % 3}) {
             const glm::dvec3 third = glm::mix(corner.point, corners[to]->point, 1.0 / 3.0);
-            most2 = std::max(
-                {most2,
-                 target.distance2_to(corner.nearest, third),
-                 target.distance2_to(middle, third)});
+            most2 = std::max({most2, target.distance2_to(corner.nearest, third), target.distance2_to(middle, third)});
         }
     }
     return std::sqrt(most2);
@@ -107,15 +100,13 @@ double length_m(const Corners& corners, std::size_t edge) {
     return glm::distance(corners[edge]->point, corners[(edge + 1) % 3]->point);
 }
 
-/// Whether a search from the centre can hardly bound a piece: where triangles of the target are so
-/// much smaller that the four parts of max_by_parts() reach far beyond them. Pieces that are cut
-/// without it are bounded by their halves.
+/// Whether a search from the centre can hardly bound a piece: where triangles of the target are so much smaller that
+/// the four parts of max_by_parts() reach far beyond them. Pieces that are cut without it are bounded by their halves.
 bool is_too_large(const Corners& corners, double enough_m) {
     constexpr double beyond = 1.1; // As distances at the centre may be shorter.
     constexpr double inner = 0.4;  // So far from its middle a triangle of edges 1 may reach.
     const auto& [a, b, c] = corners;
-    const double longest_m =
-        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    const double longest_m = std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
     const double mean_m = (a->distance_m + b->distance_m + c->distance_m) / 3.0;
     const double edge_m = static_cast<double>(std::max({a->edge_m, b->edge_m, c->edge_m}));
     const double aside_m = longest_m / 3.0 - inner * edge_m;
@@ -127,15 +118,14 @@ bool share_vertex(const Triangle& one, const Triangle& other) {
         one, [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); });
 }
 
-/// The place between two samples, 0 to 1, where their nearest triangles are equally far: a root of
-/// the difference of the distances, by regula falsi (Illinois algorithm).
+/// The place between two samples, 0 to 1, where their nearest triangles are equally far: a root of the difference of
+/// the distances, by regula falsi (Illinois algorithm).
 double crossing(const TargetSurface& target, const Sample& start, const Sample& end) {
-    // Of the difference of squares the signed root is taken: that is linear across an edge between
-    // two triangles of one plane.
+    // Of the difference of squares the signed root is taken: that is linear across an edge between two triangles of one
+    // plane.
     const auto difference = [&](double along) {
         const glm::dvec3 point = glm::mix(start.point, end.point, along);
-        const double squares =
-            target.distance2_to(start.nearest, point) - target.distance2_to(end.nearest, point);
+        const double squares = target.distance2_to(start.nearest, point) - target.distance2_to(end.nearest, point);
         return std::copysign(std::sqrt(std::abs(squares)), squares);
     };
     double low = 0.0;
@@ -147,9 +137,7 @@ double crossing(const TargetSurface& target, const Sample& start, const Sample& 
     for (int step = 0; step < steps && below < 0.0 && above > 0.0; ++step) {
         along = low - below * (high - low) / (above - below);
         const double here = difference(along);
-        if (here == 0.0) {
-            break;
-        }
+        if (here == 0.0) { break; }
         if (here < 0.0) {
             low = along;
             below = here;
@@ -167,15 +155,13 @@ double crossing(const TargetSurface& target, const Sample& start, const Sample& 
 Cut longest_cut(const Corners& corners) {
     Cut longest;
     for (std::size_t edge = 1; edge < 3; ++edge) {
-        if (length_m(corners, edge) > length_m(corners, longest.edge)) {
-            longest.edge = edge;
-        }
+        if (length_m(corners, edge) > length_m(corners, longest.edge)) { longest.edge = edge; }
     }
     return longest;
 }
 
-/// The cut where the nearest triangle changes between neighbouring triangles of the target, on the
-/// longest edge on which it does; otherwise the midpoint of the longest edge.
+/// The cut where the nearest triangle changes between neighbouring triangles of the target, on the longest edge on
+/// which it does; otherwise the midpoint of the longest edge.
 Cut change_cut(const TargetSurface& target, const Corners& corners) {
     const Cut longest = longest_cut(corners);
     const double longest_m = length_m(corners, longest.edge);
@@ -188,15 +174,11 @@ Cut change_cut(const TargetSurface& target, const Corners& corners) {
             changing_m = edge_m;
         }
     }
-    if (changing_m < 0.25 * longest_m) {
-        return longest;
-    }
+    if (changing_m < 0.25 * longest_m) { return longest; }
     const Sample& start = *corners[changing.edge];
     const Sample& end = *corners[(changing.edge + 1) % 3];
     const auto& triangles = target.mesh().triangles;
-    if (!share_vertex(triangles[start.nearest], triangles[end.nearest])) {
-        return longest;
-    }
+    if (!share_vertex(triangles[start.nearest], triangles[end.nearest])) { return longest; }
     constexpr double margin = 1.0 / 16.0;
     changing.along = std::clamp(crossing(target, start, end), margin, 1.0 - margin);
     return changing;
@@ -208,20 +190,17 @@ struct PlaneCut {
     double depth_m = 0.0;
 };
 
-/// The cut along a plane, given the corners' signed distances from it. Chosen is the longest edge
-/// whose ends both lie more than `min_depth_m` off the plane, on opposite sides: for thin pieces
-/// another edge would leave a part as long as the piece.
-PlaneCut
-plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double min_depth_m) {
+/// The cut along a plane, given the corners' signed distances from it. Chosen is the longest edge whose ends both lie
+/// more than `min_depth_m` off the plane, on opposite sides: for thin pieces another edge would leave a part as long as
+/// the piece.
+PlaneCut plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double min_depth_m) {
     PlaneCut found;
     double longest_m = 0.0;
     for (std::size_t edge = 0; edge < 3; ++edge) {
         const double from_m = inside_m[edge];
         const double to_m = inside_m[(edge + 1) % 3];
         const double depth_m = std::min(std::abs(from_m), std::abs(to_m));
-        if ((from_m < 0.0) == (to_m < 0.0) || !(depth_m > min_depth_m)) {
-            continue;
-        }
+        if ((from_m < 0.0) == (to_m < 0.0) || !(depth_m > min_depth_m)) { continue; }
         found.depth_m = std::max(found.depth_m, depth_m);
         const double edge_m = length_m(corners, edge);
         if (edge_m > longest_m) {
@@ -232,14 +211,10 @@ plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double 
     return found;
 }
 
-/// Replaces `best` if the piece reaches deeper across one of the three planes through the edges of
-/// a triangle that are perpendicular to it.
+/// Replaces `best` if the piece reaches deeper across one of the three planes through the edges of a triangle that are
+/// perpendicular to it.
 void take_edge_cut(
-    const TargetSurface& target,
-    std::uint32_t triangle,
-    const Corners& corners,
-    double min_depth_m,
-    PlaneCut& best) {
+    const TargetSurface& target, std::uint32_t triangle, const Corners& corners, double min_depth_m, PlaneCut& best) {
     const auto& at = target.mesh().vertices_m;
     const Triangle& t = target.mesh().triangles[triangle];
     const glm::dvec3 normal = glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
@@ -247,28 +222,19 @@ void take_edge_cut(
         const glm::dvec3& start = at[t[side]];
         const glm::dvec3 inwards = glm::cross(normal, at[t[(side + 1) % 3]] - start);
         const double length = glm::length(inwards);
-        if (!(length > 0.0)) {
-            continue;
-        }
+        if (!(length > 0.0)) { continue; }
         std::array<double, 3> inside_m{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            inside_m[i] = glm::dot(corners[i]->point - start, inwards) / length;
-        }
+        for (std::size_t i = 0; i < 3; ++i) { inside_m[i] = glm::dot(corners[i]->point - start, inwards) / length; }
         const PlaneCut found = plane_cut(corners, inside_m, min_depth_m);
         best = found.depth_m > best.depth_m ? found : best;
     }
 }
 
-/// The deepest such cut over the triangles nearest to the corners and the centre. Triangles that
-/// are small compared with the piece do not count.
-PlaneCut edge_cut(
-    const TargetSurface& target,
-    const Corners& corners,
-    std::uint32_t middle,
-    double min_depth_m) {
+/// The deepest such cut over the triangles nearest to the corners and the centre. Triangles that are small compared
+/// with the piece do not count.
+PlaneCut edge_cut(const TargetSurface& target, const Corners& corners, std::uint32_t middle, double min_depth_m) {
     constexpr double min_size = 0.25;
-    const double longest_m =
-        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    const double longest_m = std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
     const std::array<std::uint32_t, 4> nearest = {
         corners[0]->nearest, corners[1]->nearest, corners[2]->nearest, middle};
     const auto edge_m = [&](std::size_t i) {
@@ -276,8 +242,7 @@ PlaneCut edge_cut(
     };
     PlaneCut best;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
-        const bool again =
-            std::find(nearest.begin(), nearest.begin() + i, nearest[i]) != nearest.begin() + i;
+        const bool again = std::find(nearest.begin(), nearest.begin() + i, nearest[i]) != nearest.begin() + i;
         if (nearest[i] != NearestOnMesh::none && !again && edge_m(i) >= min_size * longest_m) {
             take_edge_cut(target, nearest[i], corners, min_depth_m, best);
         }
@@ -285,40 +250,29 @@ PlaneCut edge_cut(
     return best;
 }
 
-/// Measures a point. `guess` is a triangle of the target that may be near, or none; it changes the
-/// time only.
+/// Measures a point. `guess` is a triangle of the target that may be near, or none; it changes the time only.
 Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess) {
     const NearestOnMesh found = target.nearest(point, guess);
     return {
-        point,
-        std::sqrt(found.distance2),
-        found.triangle,
-        static_cast<float>(target.longest_edge_m(found.triangle))};
+        point, std::sqrt(found.distance2), found.triangle, static_cast<float>(target.longest_edge_m(found.triangle))};
 }
 
-/// The same, but no search is made where the triangle `guess` is at most `enough_m` away: then that
-/// is taken for the nearest one, and the distance is an upper bound.
-Sample estimated(
-    const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess, double enough_m) {
+/// The same, but no search is made where the triangle `guess` is at most `enough_m` away: then that is taken for the
+/// nearest one, and the distance is an upper bound.
+Sample estimated(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess, double enough_m) {
     if (guess != NearestOnMesh::none) {
         const double distance2 = target.distance2_to(guess, point);
-        if (distance2 <= enough_m * enough_m) {
-            return {point, std::sqrt(distance2), guess, 0.0F};
-        }
+        if (distance2 <= enough_m * enough_m) { return {point, std::sqrt(distance2), guess, 0.0F}; }
     }
     return measured(target, point, guess);
 }
 
-/// An upper bound of the largest distance from a piece's points to the target, without a search.
-/// The distances of the corners may be upper bounds. It is not tightened any further once it is at
-/// most `enough_m`.
+/// An upper bound of the largest distance from a piece's points to the target, without a search. The distances of the
+/// corners may be upper bounds. It is not tightened any further once it is at most `enough_m`.
 double bound_by_corners(const TargetSurface& target, const Corners& corners, double enough_m) {
-    const std::array<double, 3> edges_m = {
-        length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)};
+    const std::array<double, 3> edges_m = {length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)};
     double farthest_m = 0.0;
-    for (const Sample* corner : corners) {
-        farthest_m = std::max(farthest_m, corner->distance_m);
-    }
+    for (const Sample* corner : corners) { farthest_m = std::max(farthest_m, corner->distance_m); }
     // No point of a triangle is farther from its nearest corner than longest edge / sqrt(3).
     double max_m = farthest_m + *std::ranges::max_element(edges_m) / std::numbers::sqrt3;
     for (std::size_t i = 0; i < 3 && max_m > enough_m; ++i) {
@@ -332,50 +286,41 @@ double bound_by_corners(const TargetSurface& target, const Corners& corners, dou
     return max_m;
 }
 
-/// Bounds a piece as tightly as is cheap. The distances of the corners must be exact. The bounds
-/// are not tightened any further once the upper one is at most `enough_m`.
+/// Bounds a piece as tightly as is cheap. The distances of the corners must be exact. The bounds are not tightened any
+/// further once the upper one is at most `enough_m`.
 PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
     const auto& [a, b, c] = corners;
     PieceBounds bounds;
     bounds.min_m = std::max({a->distance_m, b->distance_m, c->distance_m});
     bounds.max_m = bound_by_corners(target, corners, enough_m);
-    if (bounds.max_m <= enough_m || is_too_large(corners, enough_m)) {
-        return bounds;
-    }
+    if (bounds.max_m <= enough_m || is_too_large(corners, enough_m)) { return bounds; }
     const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
     const Sample middle = measured(target, centre, a->nearest);
     double radius_m = 0.0;
-    for (const Sample* corner : corners) {
-        radius_m = std::max(radius_m, glm::distance(corner->point, centre));
-    }
+    for (const Sample* corner : corners) { radius_m = std::max(radius_m, glm::distance(corner->point, centre)); }
     bounds.middle = middle.nearest;
     bounds.min_m = std::max(bounds.min_m, middle.distance_m);
-    bounds.max_m = std::min(
-        {bounds.max_m, middle.distance_m + radius_m, max_to(target, middle.nearest, corners)});
+    bounds.max_m = std::min({bounds.max_m, middle.distance_m + radius_m, max_to(target, middle.nearest, corners)});
     if (bounds.max_m > enough_m) {
         bounds.max_m = std::min(bounds.max_m, max_by_parts(target, middle.nearest, corners));
     }
     return bounds;
 }
 
-/// Chooses the cut of a piece. The first choice is where it leaves the part of space over one of
-/// the triangles nearest to its corners or its centre (`middle`), because the distance to a single
-/// triangle then bounds a part well; leaving it by a small part of `enough_m` does not count. The
-/// second is where the nearest triangle changes from one corner to the next, and the last the
-/// midpoint of the longest edge.
-Cut cut_of(
-    const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m) {
-    // A point this far beside a triangle is nearer to it than the plane suggests by 5e-5 of
-    // enough_m.
+/// Chooses the cut of a piece. The first choice is where it leaves the part of space over one of the triangles nearest
+/// to its corners or its centre (`middle`), because the distance to a single triangle then bounds a part well; leaving
+/// it by a small part of `enough_m` does not count. The second is where the nearest triangle changes from one corner to
+/// the next, and the last the midpoint of the longest edge.
+Cut cut_of(const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m) {
+    // A point this far beside a triangle is nearer to it than the plane suggests by 5e-5 of enough_m.
     constexpr double ignored = 0.01;
     // Near pieces that are not much larger than `enough_m` are bounded after a few halvings.
     constexpr double near_share = 0.5;
     constexpr double max_size = 8.0;
     const Cut longest = longest_cut(corners);
     if (length_m(corners, longest.edge) <= max_size * enough_m &&
-        std::ranges::all_of(corners, [&](const Sample* corner) {
-            return corner->distance_m <= near_share * enough_m;
-        })) {
+        std::ranges::all_of(
+            corners, [&](const Sample* corner) { return corner->distance_m <= near_share * enough_m; })) {
         return longest;
     }
     const PlaneCut over_edge = edge_cut(target, corners, middle, ignored * enough_m);
@@ -391,17 +336,13 @@ struct Piece {
 };
 
 /// The order of the heap of open pieces: the one with the largest bound is on top.
-bool nearer(const Piece& one, const Piece& other) {
-    return one.max_m < other.max_m;
-}
+bool nearer(const Piece& one, const Piece& other) { return one.max_m < other.max_m; }
 
 /// One branch-and-bound search.
 class Search {
 public:
     Search(const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits)
-        : mesh_(mesh)
-        , target_(target)
-        , limits_(limits) {}
+        : mesh_(mesh), target_(target), limits_(limits) {}
 
     HausdorffBounds run();
 
@@ -422,15 +363,14 @@ private:
 
     /// The samples at the corners of a piece; `between` stands for a fresh corner.
     Corners corners_of(const Piece& piece, const Sample* between = nullptr) const;
-    /// Measures the distances of all vertices that triangles use: exactly where they may raise the
-    /// lower bound, else an upper bound.
+    /// Measures the distances of all vertices that triangles use: exactly where they may raise the lower bound, else an
+    /// upper bound.
     void measure_vertices();
     void take_min();
     std::vector<std::uint32_t> triangles_in_question();
     /// Bounds all triangles and keeps those that may hold the largest distance.
     void take_triangles();
-    /// Cuts a piece in two and bounds both parts. Changes nothing, so that threads may share the
-    /// work.
+    /// Cuts a piece in two and bounds both parts. Changes nothing, so that threads may share the work.
     Halves cut(const Piece& piece, double enough_m) const;
     /// Cuts the open pieces with the largest bounds, a whole batch against the same lower bound.
     void cut_batch();
@@ -440,9 +380,8 @@ private:
     /// Calls `work(first, last)` for chunks of 0 to `count`, on several threads.
     template <typename Work>
     void in_chunks(std::size_t count, const Work& work) const {
-        parallel_for((count + chunk - 1) / chunk, limits_.threads, [&](std::size_t i, std::size_t) {
-            work(i * chunk, std::min(count, (i + 1) * chunk));
-        });
+        parallel_for((count + chunk - 1) / chunk, limits_.threads,
+            [&](std::size_t i, std::size_t) { work(i * chunk, std::min(count, (i + 1) * chunk)); });
     }
 
     const TriangleMesh& mesh_;
@@ -467,17 +406,13 @@ Corners Search::corners_of(const Piece& piece, const Sample* between) const {
 void Search::measure_vertices() {
     std::vector<char> used(mesh_.vertices_m.size(), 0);
     for (const Triangle& triangle : mesh_.triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            used[vertex] = 1;
-        }
+        for (const std::uint32_t vertex : triangle) { used[vertex] = 1; }
     }
     samples_.resize(used.size());
     is_exact_.resize(used.size(), 0);
     in_chunks(used.size(), [&](std::size_t first, std::size_t) {
         is_exact_[first] = 1;
-        if (used[first] != 0) {
-            samples_[first] = measured(target_, mesh_.vertices_m[first], NearestOnMesh::none);
-        }
+        if (used[first] != 0) { samples_[first] = measured(target_, mesh_.vertices_m[first], NearestOnMesh::none); }
     });
     take_min();
     const double enough = std::max(limits_.negligible_m, min_m_);
@@ -497,21 +432,17 @@ void Search::measure_vertices() {
 /// Raises the lower bound to the largest distance that was measured exactly.
 void Search::take_min() {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-        if (is_exact_[i] != 0) {
-            min_m_ = std::max(min_m_, samples_[i].distance_m);
-        }
+        if (is_exact_[i] != 0) { min_m_ = std::max(min_m_, samples_[i].distance_m); }
     }
 }
 
-/// The triangles that their corners alone do not bound well enough, in order. Their corners are
-/// measured exactly then.
+/// The triangles that their corners alone do not bound well enough, in order. Their corners are measured exactly then.
 std::vector<std::uint32_t> Search::triangles_in_question() {
     const double enough = std::max(limits_.negligible_m, min_m_);
     std::vector<double> max_m(mesh_.triangles.size());
     in_chunks(max_m.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            max_m[i] =
-                bound_by_corners(target_, corners_of({.corners = mesh_.triangles[i]}), enough);
+            max_m[i] = bound_by_corners(target_, corners_of({.corners = mesh_.triangles[i]}), enough);
         }
     });
     std::vector<std::uint32_t> open;
@@ -553,13 +484,10 @@ void Search::take_triangles() {
     std::vector<PieceBounds> bounds(open.size());
     in_chunks(bounds.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            bounds[i] =
-                bounds_of(target_, corners_of({.corners = mesh_.triangles[open[i]]}), enough_m());
+            bounds[i] = bounds_of(target_, corners_of({.corners = mesh_.triangles[open[i]]}), enough_m());
         }
     });
-    for (const PieceBounds& one : bounds) {
-        min_m_ = std::max(min_m_, one.min_m);
-    }
+    for (const PieceBounds& one : bounds) { min_m_ = std::max(min_m_, one.min_m); }
     for (std::size_t i = 0; i < bounds.size(); ++i) {
         keep({mesh_.triangles[open[i]], bounds[i].max_m, bounds[i].middle});
     }
@@ -570,9 +498,7 @@ Search::Halves Search::cut(const Piece& piece, double enough_m) const {
     const Cut where = cut_of(target_, corners, piece.middle, enough_m);
     const std::size_t next = (where.edge + 1) % 3;
     Halves halves;
-    halves.between = measured(
-        target_,
-        glm::mix(corners[where.edge]->point, corners[next]->point, where.along),
+    halves.between = measured(target_, glm::mix(corners[where.edge]->point, corners[next]->point, where.along),
         corners[where.along < 0.5 ? where.edge : next]->nearest);
     halves.pieces = {piece, piece};
     halves.pieces[0].corners[next] = fresh;
@@ -596,14 +522,10 @@ void Search::cut_batch() {
     const double enough = enough_m();
     std::vector<Halves> halves(pieces.size());
     in_chunks(pieces.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            halves[i] = cut(pieces[i], enough);
-        }
+        for (std::size_t i = first; i < last; ++i) { halves[i] = cut(pieces[i], enough); }
     });
     cuts_ += pieces.size();
-    for (const Halves& pair : halves) {
-        min_m_ = std::max(min_m_, pair.min_m);
-    }
+    for (const Halves& pair : halves) { min_m_ = std::max(min_m_, pair.min_m); }
     for (Halves& pair : halves) {
         const auto between = static_cast<std::uint32_t>(samples_.size());
         samples_.push_back(pair.between);
@@ -617,9 +539,7 @@ void Search::cut_batch() {
 HausdorffBounds Search::run() {
     measure_vertices();
     take_triangles();
-    while (!open_.empty() && open_.front().max_m > enough_m() && cuts_ < limits_.cuts) {
-        cut_batch();
-    }
+    while (!open_.empty() && open_.front().max_m > enough_m() && cuts_ < limits_.cuts) { cut_batch(); }
     const double open_m = open_.empty() ? 0.0 : open_.front().max_m;
     return {min_m_, std::max({min_m_, left_out_m_, open_m}), cuts_};
 }
@@ -631,9 +551,8 @@ HausdorffBounds one_way_hausdorff(
     assert(!mesh.triangles.empty() && !target.mesh().triangles.empty());
     const BoundingBox extent = models::bounds_of(mesh);
     const glm::dvec3 farthest = glm::max(glm::abs(extent.min_m), glm::abs(extent.max_m));
-    const double rounding_m =
-        target.bvh().rounding_m() + 256.0 * std::numeric_limits<double>::epsilon() *
-                                        std::max({farthest.x, farthest.y, farthest.z});
+    const double rounding_m = target.bvh().rounding_m() + 256.0 * std::numeric_limits<double>::epsilon() *
+                                                              std::max({farthest.x, farthest.y, farthest.z});
     HausdorffLimits wanted = limits;
     wanted.negligible_m = std::max(limits.negligible_m, 4.0 * rounding_m);
     HausdorffBounds bounds = Search(mesh, target, wanted).run();
@@ -646,17 +565,12 @@ namespace {
 
 /// Tells how many of the four steps are done.
 void show(const DistanceOptions& options, int done) {
-    if (options.progress) {
-        options.progress(done, 4);
-    }
+    if (options.progress) { options.progress(done, 4); }
 }
 
 /// The two steps after those that are `done`.
 OneWayDistance one_way(
-    const TriangleMesh& mesh,
-    const TargetSurface& target,
-    const DistanceOptions& options,
-    int done) {
+    const TriangleMesh& mesh, const TargetSurface& target, const DistanceOptions& options, int done) {
     HausdorffLimits limits;
     limits.tightness = options.tightness;
     limits.negligible_m = options.negligible_m;
@@ -671,19 +585,14 @@ OneWayDistance one_way(
 
 } // namespace
 
-MeshDistance
-distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {
+MeshDistance distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {
     assert(!a.triangles.empty() && !b.triangles.empty() && options.tightness > 1.0);
     DistanceOptions wanted = options;
-    if (!(options.negligible_m > 0.0)) {
-        wanted.negligible_m = 1e-9 * std::max(diagonal_m(a), diagonal_m(b));
-    }
+    if (!(options.negligible_m > 0.0)) { wanted.negligible_m = 1e-9 * std::max(diagonal_m(a), diagonal_m(b)); }
     show(options, 0);
     MeshDistance found;
     found.there = one_way(a, TargetSurface(b), wanted, 0);
-    if (options.maximum_only) {
-        wanted.negligible_m = std::max(wanted.negligible_m, found.there.min_hausdorff_m);
-    }
+    if (options.maximum_only) { wanted.negligible_m = std::max(wanted.negligible_m, found.there.min_hausdorff_m); }
     found.back = one_way(b, TargetSurface(a, options.tree_of_a), wanted, 2);
     return found;
 }

@@ -28,11 +28,9 @@ struct HausdorffBounds {
     std::size_t cuts = 0; ///< How many cuts the search took.
 };
 
-/// Bounds of the one-sided Hausdorff distance: the largest distance from any point of `mesh`'s
-/// triangles to `target`. Rounding is allowed for in both bounds. Both meshes need triangles
-/// (asserted).
-HausdorffBounds one_way_hausdorff(
-    const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits);
+/// Bounds of the one-sided Hausdorff distance: the largest distance from any point of `mesh`'s triangles to `target`.
+/// Rounding is allowed for in both bounds. Both meshes need triangles (asserted).
+HausdorffBounds one_way_hausdorff(const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits);
 
 /// Distances from the points of one surface to another surface, metres.
 struct OneWayDistance {
@@ -42,13 +40,12 @@ struct OneWayDistance {
     double max_hausdorff_m = 0.0;
     double rms_m = 0.0;  ///< The root mean square over the surface's area, sampled.
     double mean_m = 0.0; ///< The mean over the surface's area, sampled.
-    /// The root mean square of the difference in colour to the nearest point, as a length in RGB
-    /// with parts 0 to 1; 0 without colours.
+    /// The root mean square of the difference in colour to the nearest point, as a length in RGB with parts 0 to 1; 0
+    /// without colours.
     double colour_rms = 0.0;
 };
 
-/// The distances both ways between surfaces a and b. Each two-sided figure is the larger one of the
-/// two.
+/// The distances both ways between surfaces a and b. Each two-sided figure is the larger one of the two.
 struct MeshDistance {
     OneWayDistance there; ///< From the points of a to b.
     OneWayDistance back;  ///< From the points of b to a.
@@ -64,9 +61,7 @@ struct MeshDistance {
     double colour_rms() const { return larger(&OneWayDistance::colour_rms); }
 
 private:
-    double larger(double OneWayDistance::*figure) const {
-        return std::max(there.*figure, back.*figure);
-    }
+    double larger(double OneWayDistance::*figure) const { return std::max(there.*figure, back.*figure); }
 };
 
 /// How accurately distances are measured.
@@ -74,9 +69,8 @@ struct DistanceOptions {
     /// The wanted ratio of the Hausdorff distance's upper to its lower bound, above 1.
     double tightness = 1.01;
     double negligible_m = 0.0; ///< Bounds below this need not be tight; 0 = 1e-9 of the diagonal.
-    /// Sample points for each way, for RMS and mean; 0 = neither is measured. The relative error of
-    /// the RMS is about (spread / RMS) / sqrt(samples), less because the samples are evenly spread:
-    /// some 0.1 % by default.
+    /// Sample points for each way, for RMS and mean; 0 = neither is measured. The relative error of the RMS is about
+    /// (spread / RMS) / sqrt(samples), less because the samples are evenly spread: some 0.1 % by default.
     std::size_t samples = 400'000;
     int threads = 1; ///< The number of threads; it does not change the result.
     /// Only the larger one of the Hausdorff distances of the two ways need be tight.
@@ -87,11 +81,9 @@ struct DistanceOptions {
     std::function<void(int done, int steps)> progress{};
 };
 
-/// The distance between two surfaces, both ways. The Hausdorff bounds are certified: branch and
-/// bound over the triangles, with rounding allowed for. They are as tight as was asked for unless
-/// that takes more than four million cuts, as for surfaces at nearly the same distance everywhere.
-/// Both meshes need triangles (asserted).
-MeshDistance
-distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options = {});
+/// The distance between two surfaces, both ways. The Hausdorff bounds are certified: branch and bound over the
+/// triangles, with rounding allowed for. They are as tight as was asked for unless that takes more than four million
+/// cuts, as for surfaces at nearly the same distance everywhere. Both meshes need triangles (asserted).
+MeshDistance distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options = {});
 
 } // namespace octant::models::measure

@@ -1,6 +1,6 @@
-// Makes the frames that let the distance from a point to a triangle be computed in float without
-// branches, and so for several triangles or points at once: a rotation into the plane, a
-// two-dimensional distance to the edges, and the height above the plane.
+// Makes the frames that let the distance from a point to a triangle be computed in float without branches, and so for
+// several triangles or points at once: a rotation into the plane, a two-dimensional distance to the edges, and the
+// height above the plane.
 #include "models/measure/plane_frame.h"
 
 #include <glm/geometric.hpp>
@@ -11,20 +11,16 @@ namespace octant::models::measure {
 
 namespace {
 
-float inverse(double value) {
-    return value > 1e-30 ? static_cast<float>(1.0 / value) : 0.0F;
-}
+float inverse(double value) { return value > 1e-30 ? static_cast<float>(1.0 / value) : 0.0F; }
 
 /// An edge shorter than this has no direction, because its square loses digits.
 constexpr double min_length = 1e-100;
-/// A height below this share of an edge's length consists of rounding too much to be perpendicular
-/// to the other edge.
+/// A height below this share of an edge's length consists of rounding too much to be perpendicular to the other edge.
 constexpr double min_height = 1e-8;
 
 /// Any unit vector perpendicular to a unit vector.
 glm::dvec3 across(const glm::dvec3& axis) {
-    const glm::dvec3 helper =
-        std::abs(axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 helper = std::abs(axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     return glm::normalize(glm::cross(axis, helper));
 }
 

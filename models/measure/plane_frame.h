@@ -7,9 +7,8 @@
 
 namespace octant::models::measure {
 
-/// A triangle in the coordinates of its own plane: corner a is the origin and corner b lies on the
-/// x axis. In single precision; `Number` is float, or a vector of floats for several triangles side
-/// by side.
+/// A triangle in the coordinates of its own plane: corner a is the origin and corner b lies on the x axis. In single
+/// precision; `Number` is float, or a vector of floats for several triangles side by side.
 template <typename Number>
 struct PlaneFrame {
     std::array<Number, 3> origin;
@@ -20,9 +19,8 @@ struct PlaneFrame {
     Number per_ab2, per_bc2, per_ca2; ///< 1 / length^2 of each edge; 0 for an edge without length.
 };
 
-/// The frame of a triangle. One without height gets any plane through its longest edges, and one
-/// without length any plane at all. Corners are displaced by the rounding to float and by at most
-/// 1e-8 of an edge.
+/// The frame of a triangle. One without height gets any plane through its longest edges, and one without length any
+/// plane at all. Corners are displaced by the rounding to float and by at most 1e-8 of an edge.
 PlaneFrame<float> plane_frame(const std::array<glm::dvec3, 3>& corners);
 
 inline std::array<float, 3> narrow(const glm::dvec3& v) {
@@ -53,27 +51,23 @@ OCTANT_INLINE void finish_frame(PlaneFrame<F>& t) {
         const std::size_t last = (axis + 2) % 3;
         t.normal[axis] = t.x_axis[next] * t.y_axis[last] - t.x_axis[last] * t.y_axis[next];
     }
-    const auto inverse = [](F& value, const F& length2) {
-        value = length2 > 1e-30F ? 1.0F / length2 : F{};
-    };
+    const auto inverse = [](F& value, const F& length2) { value = length2 > 1e-30F ? 1.0F / length2 : F{}; };
     const F ex = t.cx - t.bx;
     inverse(t.per_ab2, t.bx * t.bx);
     inverse(t.per_bc2, ex * ex + t.cy * t.cy);
     inverse(t.per_ca2, t.cx * t.cx + t.cy * t.cy);
 }
 
-/// The vectors from the nearest point of the triangle's edges to a point, both in the plane of the
-/// triangle.
+/// The vectors from the nearest point of the triangle's edges to a point, both in the plane of the triangle.
 template <typename F>
 struct EdgeFeet {
     F away_x, away_y, away2;
 };
 
-/// Finds the nearest point on the edges for a point (x, y) of the plane. away_x and away_y are
-/// filled only `with_place`.
+/// Finds the nearest point on the edges for a point (x, y) of the plane. away_x and away_y are filled only
+/// `with_place`.
 template <bool with_place, typename F, typename Number>
-OCTANT_INLINE void
-nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const PlaneFrame<Number>& t) {
+OCTANT_INLINE void nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const PlaneFrame<Number>& t) {
     const F qx = x - t.bx;
     const Number ex = t.cx - t.bx;
     F ab = x * (t.bx * t.per_ab2);
@@ -111,11 +105,9 @@ struct FramePoints {
     EdgeFeet<F> feet;
 };
 
-/// Transforms a point into the frame of a triangle and finds its squared distance from the
-/// triangle.
+/// Transforms a point into the frame of a triangle and finds its squared distance from the triangle.
 template <bool with_place, typename F, typename Number>
-OCTANT_INLINE void
-find_in_frame(FramePoints<F>& found, const std::array<F, 3>& place, const PlaneFrame<Number>& t) {
+OCTANT_INLINE void find_in_frame(FramePoints<F>& found, const std::array<F, 3>& place, const PlaneFrame<Number>& t) {
     const F dx = place[0] - t.origin[0];
     const F dy = place[1] - t.origin[1];
     const F dz = place[2] - t.origin[2];

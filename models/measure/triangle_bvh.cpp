@@ -1,18 +1,18 @@
-// A bounding volume hierarchy with four boxes a node, after I. Wald, C. Benthin, S. Boulos,
-// "Getting rid of packets", 2008. A node's four parts come from splitting twice in two
-// (split()), and the four boxes are tested with one instruction each.
+// A bounding volume hierarchy with four boxes a node, after I. Wald, C. Benthin, S. Boulos, "Getting rid of packets",
+// 2008. A node's four parts come from splitting twice in two (split()), and the four boxes are tested with one
+// instruction each.
 //
-// Why results are exact although boxes are in float: a box or triangle is skipped only when its
-// distance in float, less the largest possible rounding (Probe::slack), exceeds the best distance
-// found so far. So what is skipped cannot hold a nearer point.
+// Why results are exact although boxes are in float: a box or triangle is skipped only when its distance in float, less
+// the largest possible rounding (Probe::slack), exceeds the best distance found so far. So what is skipped cannot hold
+// a nearer point.
 //
-// Splits between bins by the surface area heuristic: I. Wald, "On fast construction of SAH-based
-// bounding volume hierarchies", 2007. The cost of a split is the sum over both parts of surface
-// area times number of triangles, which stands for the expected work of a search: here in full
-// leaves, as a leaf takes the same time however many triangles it holds.
+// Splits between bins by the surface area heuristic: I. Wald, "On fast construction of SAH-based bounding volume
+// hierarchies", 2007. The cost of a split is the sum over both parts of surface area times number of triangles, which
+// stands for the expected work of a search: here in full leaves, as a leaf takes the same time however many triangles
+// it holds.
 //
-// Deviations: from depth 64 on, and where no bin separates the triangles, they are split at the
-// median, so that the depth is bounded.
+// Deviations: from depth 64 on, and where no bin separates the triangles, they are split at the median, so that the
+// depth is bounded.
 #include "models/measure/triangle_bvh.h"
 
 #include <glm/common.hpp>
@@ -64,8 +64,8 @@ int longest_axis(const Extent& extent) {
 
 constexpr std::size_t bin_count = 16;
 constexpr std::size_t leaf_lanes = 4; // TriangleBvh::lanes.
-/// 64 levels and then 32 of halving, two to a node: at most 48 nodes deep, and each lets at most 3
-/// of its 4 boxes wait. That is below TriangleBvh's stack.
+/// 64 levels and then 32 of halving, two to a node: at most 48 nodes deep, and each lets at most 3 of its 4 boxes wait.
+/// That is below TriangleBvh's stack.
 constexpr int median_depth = 64;
 /// Centres closer together than this are not told apart by bins.
 constexpr float min_size = 1e-30F;
@@ -82,9 +82,7 @@ struct Bins {
     }
 };
 
-double leaves_of(std::size_t triangles) {
-    return static_cast<double>((triangles + leaf_lanes - 1) / leaf_lanes);
-}
+double leaves_of(std::size_t triangles) { return static_cast<double>((triangles + leaf_lanes - 1) / leaf_lanes); }
 
 /// The first bin of the second part at the cheapest split; 0 when all items lie in one bin.
 std::size_t cheapest_split(std::span<const Item> items, const Bins& bins) {
@@ -119,15 +117,12 @@ std::size_t cheapest_split(std::span<const Item> items, const Bins& bins) {
     return best;
 }
 
-/// Reorders the items into two parts, neither of them empty, and returns the size of the first. The
-/// split is between bins on the longest axis of the centres, by the surface area heuristic; from
-/// depth 64 on, and where no bin separates them, it is at the median. There must be at least two
-/// items.
+/// Reorders the items into two parts, neither of them empty, and returns the size of the first. The split is between
+/// bins on the longest axis of the centres, by the surface area heuristic; from depth 64 on, and where no bin separates
+/// them, it is at the median. There must be at least two items.
 std::size_t split(std::span<Item> items, int depth) {
     Extent middles;
-    for (const Item& item : items) {
-        middles.take(item.middle());
-    }
+    for (const Item& item : items) { middles.take(item.middle()); }
     Bins bins;
     bins.axis = longest_axis(middles);
     bins.start = middles.least[bins.axis];
@@ -136,9 +131,8 @@ std::size_t split(std::span<Item> items, int depth) {
         bins.scale = static_cast<float>(bin_count) / size;
         const std::size_t bin = cheapest_split(items, bins);
         if (bin > 0) {
-            const auto behind = std::partition(items.begin(), items.end(), [&](const Item& item) {
-                return bins.bin_of(item) < bin;
-            });
+            const auto behind =
+                std::partition(items.begin(), items.end(), [&](const Item& item) { return bins.bin_of(item) < bin; });
             return static_cast<std::size_t>(behind - items.begin());
         }
     }
@@ -157,9 +151,7 @@ constexpr double farthest_place = 1e9;
 /// A smaller mesh is treated as being this large.
 constexpr double min_size_m = 1e-150;
 
-double largest(const glm::dvec3& v) {
-    return std::max({v.x, v.y, v.z});
-}
+double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 } // namespace
 
@@ -170,16 +162,12 @@ struct TriangleBvh::Builder {
     std::vector<Item> items; ///< In the tree's units.
 
     /// A point in the tree's units.
-    glm::dvec3 scaled(const glm::dvec3& point_m) const {
-        return (point_m - tree.centre_m_) * tree.per_size_;
-    }
+    glm::dvec3 scaled(const glm::dvec3& point_m) const { return (point_m - tree.centre_m_) * tree.per_size_; }
 
     /// Sets one of a node's boxes to the bounds of some items.
     void set_box(Node& node, std::size_t lane, std::span<const Item> part) const {
         Extent extent;
-        for (const Item& item : part) {
-            extent.take(item.extent);
-        }
+        for (const Item& item : part) { extent.take(item.extent); }
         for (int axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<std::size_t>(axis);
             node.least[i][lane] = extent.least[axis];
@@ -233,12 +221,9 @@ struct TriangleBvh::Builder {
             add(from, left);
             add(from + left, size - left);
         };
-        const std::size_t left =
-            count > 1 ? split(std::span(items).subspan(first, count), depth) : count;
+        const std::size_t left = count > 1 ? split(std::span(items).subspan(first, count), depth) : count;
         add_half(first, left);
-        if (left < count) {
-            add_half(first + left, count - left);
-        }
+        if (left < count) { add_half(first + left, count - left); }
         return number;
     }
 
@@ -252,14 +237,10 @@ struct TriangleBvh::Builder {
     }
 };
 
-TriangleBvh::TriangleBvh(const TriangleMesh& mesh)
-    : TriangleBvh(mesh.vertices_m, mesh.triangles) {}
+TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : TriangleBvh(mesh.vertices_m, mesh.triangles) {}
 
-TriangleBvh::TriangleBvh(
-    std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles) {
-    if (triangles.empty()) {
-        return;
-    }
+TriangleBvh::TriangleBvh(std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles) {
+    if (triangles.empty()) { return; }
     glm::dvec3 min_m(std::numeric_limits<double>::infinity());
     glm::dvec3 max_m(-std::numeric_limits<double>::infinity());
     for (const Triangle& triangle : triangles) {
@@ -287,17 +268,13 @@ TriangleBvh::TriangleBvh(
     builder.build(0, triangles.size(), 0);
     firsts_.push_back(static_cast<std::uint32_t>(triangles.size()));
     triangles_.reserve(triangles.size());
-    for (const Item& item : builder.items) {
-        triangles_.push_back(item.triangle);
-    }
+    for (const Item& item : builder.items) { triangles_.push_back(item.triangle); }
     builder.items = std::vector<Item>(); // They are as large as the corners that are copied next.
     take_corners(vertices_m, triangles);
 }
 
-/// Copies the corners of the triangles in the order of the leaves, so that what lies near in space
-/// lies near in memory.
-void TriangleBvh::take_corners(
-    std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles) {
+/// Copies the corners of the triangles in the order of the leaves, so that what lies near in space lies near in memory.
+void TriangleBvh::take_corners(std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles) {
     std::vector<std::uint32_t> places(vertices_m.size(), NearestOnMesh::none);
     corners_.reserve(triangles.size());
     vertices_m_.reserve(vertices_m.size());
@@ -313,13 +290,12 @@ void TriangleBvh::take_corners(
     }
 }
 
-/// A probe at a point. Its slack covers the rounding of the point and of all that is computed from
-/// it: up to fifty roundings of 2^-24 each, and those of the double precision before.
+/// A probe at a point. Its slack covers the rounding of the point and of all that is computed from it: up to fifty
+/// roundings of 2^-24 each, and those of the double precision before.
 TriangleBvh::Probe TriangleBvh::probe(const glm::dvec3& point_m) const {
     const glm::dvec3 local = (point_m - centre_m_) * per_size_;
     Probe made;
-    const glm::dvec3 within =
-        glm::clamp(local, glm::dvec3(-farthest_place), glm::dvec3(farthest_place));
+    const glm::dvec3 within = glm::clamp(local, glm::dvec3(-farthest_place), glm::dvec3(farthest_place));
     for (int axis = 0; axis < 3; ++axis) {
         made.place[static_cast<std::size_t>(axis)] = Floats{} + static_cast<float>(within[axis]);
     }
@@ -331,8 +307,7 @@ TriangleBvh::Probe TriangleBvh::probe(const glm::dvec3& point_m) const {
 void TriangleBvh::Probe::set_reach(double distance) {
     const double reach = distance + slack;
     const bool all = slack > 1.0 || !(reach < farthest_place);
-    reach2 = all ? std::numeric_limits<float>::max()
-                 : static_cast<float>((1.0 + rounding) * reach * reach);
+    reach2 = all ? std::numeric_limits<float>::max() : static_cast<float>((1.0 + rounding) * reach * reach);
 }
 
 /// The state of one search for the nearest point.
@@ -350,17 +325,13 @@ void TriangleBvh::search_leaf(std::uint32_t leaf, const glm::dvec3& point_m, Sea
     triangle_distances2(distances2, leaves_[leaf], search.probe);
     for (std::size_t looked = 0; looked < count; ++looked) {
         std::size_t i = 0;
-        for (std::size_t lane = 1; lane < count; ++lane) {
-            i = distances2[lane] < distances2[i] ? lane : i;
-        }
-        if (!(distances2[i] <= search.probe.reach2)) {
-            return;
-        }
+        for (std::size_t lane = 1; lane < count; ++lane) { i = distances2[lane] < distances2[i] ? lane : i; }
+        if (!(distances2[i] <= search.probe.reach2)) { return; }
         distances2[i] = std::numeric_limits<float>::infinity();
         const auto& [a, b, c] = corners_[first + i];
         const std::uint32_t triangle = triangles_[first + i];
-        const NearestOnTriangle here = detail::nearest_to_origin(
-            {vertices_m_[a] - point_m, vertices_m_[b] - point_m, vertices_m_[c] - point_m});
+        const NearestOnTriangle here =
+            detail::nearest_to_origin({vertices_m_[a] - point_m, vertices_m_[b] - point_m, vertices_m_[c] - point_m});
         const bool tie = here.distance2 == search.reach2_m2 && triangle < search.found.triangle;
         if (here.distance2 < search.reach2_m2 || tie) {
             search.found = {triangle, here.point, here.weights, here.distance2};
@@ -371,9 +342,7 @@ void TriangleBvh::search_leaf(std::uint32_t leaf, const glm::dvec3& point_m, Sea
 }
 
 NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) const {
-    if (nodes_.empty()) {
-        return {};
-    }
+    if (nodes_.empty()) { return {}; }
     Search search;
     search.reach2_m2 = std::min(within_m * within_m, std::numeric_limits<double>::max());
     search.probe = probe(point);
@@ -387,9 +356,7 @@ NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) con
     Floats distances2;
     while (count > 0) {
         --count;
-        if (!(away2[count] <= search.probe.reach2)) {
-            continue;
-        }
+        if (!(away2[count] <= search.probe.reach2)) { continue; }
         const std::uint32_t next = waiting[count];
         if ((next & leaf_bit) != 0) {
             search_leaf(next & ~leaf_bit, point, search);
@@ -400,9 +367,7 @@ NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) con
         const std::size_t first = count;
         for (std::size_t i = 0; i < lanes; ++i) {
             const float here2 = distances2[i];
-            if (!(here2 <= search.probe.reach2)) {
-                continue;
-            }
+            if (!(here2 <= search.probe.reach2)) { continue; }
             // Sorted so that the nearest box comes last and is looked at first.
             std::size_t place = count++;
             for (; place > first && away2[place - 1] < here2; --place) {

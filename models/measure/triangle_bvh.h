@@ -29,16 +29,14 @@ struct NearestOnTriangle {
 
 namespace detail {
 
-/// Replaces `found` by the nearest point of the segment from corner i to corner j if that is nearer
-/// to the origin. The nearest point of a segment without length is its first end.
-inline void
-update_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
+/// Replaces `found` by the nearest point of the segment from corner i to corner j if that is nearer to the origin. The
+/// nearest point of a segment without length is its first end.
+inline void update_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
     const glm::dvec3& start = corners[static_cast<std::size_t>(i)];
     const glm::dvec3& end = corners[static_cast<std::size_t>(j)];
     const glm::dvec3 edge = end - start;
     const double length2 = glm::dot(edge, edge);
-    const double along =
-        length2 > 0.0 ? std::clamp(-glm::dot(start, edge) / length2, 0.0, 1.0) : 0.0;
+    const double along = length2 > 0.0 ? std::clamp(-glm::dot(start, edge) / length2, 0.0, 1.0) : 0.0;
     const glm::dvec3 point = along < 1.0 ? start + along * edge : end;
     const double distance2 = glm::dot(point, point);
     if (distance2 < found.distance2) {
@@ -48,10 +46,8 @@ update_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, Nearest
     }
 }
 
-/// Whether a corner is the point of its triangle nearest to the origin: both edges at it lead away
-/// from the origin.
-inline bool
-is_at_corner(const glm::dvec3& corner, const glm::dvec3& to_one, const glm::dvec3& to_other) {
+/// Whether a corner is the point of its triangle nearest to the origin: both edges at it lead away from the origin.
+inline bool is_at_corner(const glm::dvec3& corner, const glm::dvec3& to_one, const glm::dvec3& to_other) {
     return glm::dot(corner, to_one) >= 0.0 && glm::dot(corner, to_other) >= 0.0;
 }
 
@@ -61,30 +57,24 @@ struct NearestInPlane {
     bool uncertain = true; ///< The triangle is nearly a line, and the weights may be wrong.
 };
 
-/// The nearest point in the plane of a triangle whose longest edge `base` runs from corner 0 to
-/// corner 1. It is found along that edge and along the height over it, which keeps its accuracy for
-/// thin triangles. The weights are in the order of the corners.
+/// The nearest point in the plane of a triangle whose longest edge `base` runs from corner 0 to corner 1. It is found
+/// along that edge and along the height over it, which keeps its accuracy for thin triangles. The weights are in the
+/// order of the corners.
 inline NearestInPlane nearest_over_base(
     const glm::dvec3& from, const glm::dvec3& base, const glm::dvec3& side, double base2) {
     const double foot = glm::dot(side, base) / base2;
     const glm::dvec3 height = side - foot * base;
     const double height2 = glm::dot(height, height);
-    if (!(height2 > 0.0)) {
-        return {};
-    }
+    if (!(height2 > 0.0)) { return {}; }
     const double along = -glm::dot(from, base) / base2;
     const double up = -glm::dot(from + along * base, height) / height2;
     const double end = along - up * foot;
     return {{1.0 - up - end, end, up}, height2 < 1e-12 * base2};
 }
 
-/// The nearest point in a triangle's plane: calls nearest_over_base with the longest edge as the
-/// base.
+/// The nearest point in a triangle's plane: calls nearest_over_base with the longest edge as the base.
 inline NearestInPlane nearest_in_plane(
-    const std::array<glm::dvec3, 3>& corners,
-    const glm::dvec3& ab,
-    const glm::dvec3& bc,
-    const glm::dvec3& ca) {
+    const std::array<glm::dvec3, 3>& corners, const glm::dvec3& ab, const glm::dvec3& bc, const glm::dvec3& ca) {
     const double ab2 = glm::dot(ab, ab);
     const double bc2 = glm::dot(bc, bc);
     const double ca2 = glm::dot(ca, ca);
@@ -111,38 +101,23 @@ inline NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corn
     if (weights.x > 0.0 && weights.y > 0.0 && weights.z > 0.0) {
         const glm::dvec3 point = weights.x * a + weights.y * b + weights.z * c;
         const NearestOnTriangle inside{point, weights, glm::dot(point, point)};
-        if (!plane.uncertain) {
-            return inside;
-        }
+        if (!plane.uncertain) { return inside; }
         found = inside.distance2 < found.distance2 ? inside : found;
     }
-    if (is_at_corner(a, ab, -ca)) {
-        return {a, {1.0, 0.0, 0.0}, glm::dot(a, a)};
-    }
-    if (is_at_corner(b, bc, -ab)) {
-        return {b, {0.0, 1.0, 0.0}, glm::dot(b, b)};
-    }
-    if (is_at_corner(c, ca, -bc)) {
-        return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)};
-    }
-    if (plane.uncertain || !(weights.z > 0.0)) {
-        update_from_edge(corners, 0, 1, found);
-    }
-    if (plane.uncertain || !(weights.x > 0.0)) {
-        update_from_edge(corners, 1, 2, found);
-    }
-    if (plane.uncertain || !(weights.y > 0.0)) {
-        update_from_edge(corners, 2, 0, found);
-    }
+    if (is_at_corner(a, ab, -ca)) { return {a, {1.0, 0.0, 0.0}, glm::dot(a, a)}; }
+    if (is_at_corner(b, bc, -ab)) { return {b, {0.0, 1.0, 0.0}, glm::dot(b, b)}; }
+    if (is_at_corner(c, ca, -bc)) { return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)}; }
+    if (plane.uncertain || !(weights.z > 0.0)) { update_from_edge(corners, 0, 1, found); }
+    if (plane.uncertain || !(weights.x > 0.0)) { update_from_edge(corners, 1, 2, found); }
+    if (plane.uncertain || !(weights.y > 0.0)) { update_from_edge(corners, 2, 0, found); }
     return found;
 }
 
 } // namespace detail
 
-/// The point of the triangle a, b, c, which includes its edges and corners, that is nearest to
-/// `point`. Computed with edge vectors and relative to `point`, so that neither a far origin nor
-/// triangles without area or length spoil it. The found point lies on the triangle, so that the
-/// distance is never below the true one by more than rounding.
+/// The point of the triangle a, b, c, which includes its edges and corners, that is nearest to `point`. Computed with
+/// edge vectors and relative to `point`, so that neither a far origin nor triangles without area or length spoil it.
+/// The found point lies on the triangle, so that the distance is never below the true one by more than rounding.
 inline NearestOnTriangle nearest_on_triangle(
     const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     NearestOnTriangle found = detail::nearest_to_origin({a - point, b - point, c - point});
@@ -162,41 +137,37 @@ struct NearestOnMesh {
     double distance2 = std::numeric_limits<double>::infinity(); ///< The square of the distance.
 };
 
-/// A bounding volume hierarchy over the triangles of a mesh, for exact nearest points. It copies
-/// the corners, so that the mesh may change or go. It is constant once built, and many threads may
-/// ask at the same time.
+/// A bounding volume hierarchy over the triangles of a mesh, for exact nearest points. It copies the corners, so that
+/// the mesh may change or go. It is constant once built, and many threads may ask at the same time.
 ///
-/// Boxes and triangles are first compared in single precision, four at a time, by lower bounds of
-/// their distances: what the rounding can be at most is subtracted. Only what passes is measured in
-/// double precision. It takes some 100 bytes a triangle.
+/// Boxes and triangles are first compared in single precision, four at a time, by lower bounds of their distances: what
+/// the rounding can be at most is subtracted. Only what passes is measured in double precision. It takes some 100 bytes
+/// a triangle.
 class TriangleBvh {
 public:
     explicit TriangleBvh(const TriangleMesh& mesh);
     TriangleBvh(std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles);
 
-    /// The nearest point of all triangles, degenerate ones included, that is at most `within_m`
-    /// away. Of several triangles at the same distance it is the one with the lowest index.
-    NearestOnMesh nearest(
-        const glm::dvec3& point, double within_m = std::numeric_limits<double>::infinity()) const;
+    /// The nearest point of all triangles, degenerate ones included, that is at most `within_m` away. Of several
+    /// triangles at the same distance it is the one with the lowest index.
+    NearestOnMesh nearest(const glm::dvec3& point, double within_m = std::numeric_limits<double>::infinity()) const;
 
-    /// Calls `take(triangle)` for every triangle that may be at most `within_m` away from the
-    /// point: for all that are, and for some that are a little farther, in the order of the tree.
+    /// Calls `take(triangle)` for every triangle that may be at most `within_m` away from the point: for all that are,
+    /// and for some that are a little farther, in the order of the tree.
     template <typename Take>
     void for_each_near(const glm::dvec3& point, double within_m, const Take& take) const;
 
     /// The number of triangles.
     std::size_t size() const { return triangles_.size(); }
 
-    /// Distances from points within the mesh's bounding box are wrong by less than this, metres,
-    /// because of rounding.
+    /// Distances from points within the mesh's bounding box are wrong by less than this, metres, because of rounding.
     double rounding_m() const { return rounding_m_; }
 
 private:
     static constexpr std::size_t lanes = 4; ///< A leaf holds at most so many triangles.
     using Floats = float __attribute__((vector_size(4 * lanes)));
 
-    /// Four bounding boxes in the tree's units: the mesh's centre is the origin and half of its
-    /// longest side is 1.
+    /// Four bounding boxes in the tree's units: the mesh's centre is the origin and half of its longest side is 1.
     struct Node {
         std::array<Floats, 3> least;
         std::array<Floats, 3> most;
@@ -204,8 +175,8 @@ private:
         std::array<std::uint32_t, lanes> below;
     };
 
-    /// Up to four triangles, as PlaneFrame has them but for what follows from the rest; where there
-    /// are fewer, the last one is repeated.
+    /// Up to four triangles, as PlaneFrame has them but for what follows from the rest; where there are fewer, the last
+    /// one is repeated.
     struct Leaf {
         std::array<Floats, 3> origin;
         std::array<Floats, 3> x_axis;
@@ -217,7 +188,7 @@ private:
     struct Probe {
         std::array<Floats, 3> place; ///< Its coordinates, each four times.
         double slack = 0.0;          ///< Distances in single precision are wrong by less than this.
-        float reach2 = 0.0F; ///< The square of the distance beyond which nothing is looked at.
+        float reach2 = 0.0F;         ///< The square of the distance beyond which nothing is looked at.
 
         void set_reach(double distance);
     };
@@ -231,8 +202,7 @@ private:
     static void box_distances2(Floats& distances2, const Node& node, const Probe& probe);
     /// The squared distances of a leaf's triangles from the probe, in the tree's units.
     static void triangle_distances2(Floats& distances2, const Leaf& leaf, const Probe& probe);
-    /// Measures those triangles of a leaf in double precision that may be nearer than what was
-    /// found.
+    /// Measures those triangles of a leaf in double precision that may be nearer than what was found.
     void search_leaf(std::uint32_t leaf, const glm::dvec3& point_m, Search& search) const;
 
     static constexpr std::uint32_t leaf_bit = 1U << 31U;
@@ -254,9 +224,7 @@ private:
 /// Depth first with a stack; a node's order does not matter, because all that is near is taken.
 template <typename Take>
 void TriangleBvh::for_each_near(const glm::dvec3& point, double within_m, const Take& take) const {
-    if (nodes_.empty()) {
-        return;
-    }
+    if (nodes_.empty()) { return; }
     Probe here = probe(point);
     here.set_reach(within_m * per_size_);
     std::array<std::uint32_t, max_waiting> waiting;
@@ -269,24 +237,19 @@ void TriangleBvh::for_each_near(const glm::dvec3& point, double within_m, const 
             const Node& node = nodes_[next];
             box_distances2(distances2, node, here);
             for (std::size_t i = 0; i < lanes; ++i) {
-                if (distances2[i] <= here.reach2) {
-                    waiting[count++] = node.below[i];
-                }
+                if (distances2[i] <= here.reach2) { waiting[count++] = node.below[i]; }
             }
             continue;
         }
         const std::uint32_t leaf = next & ~leaf_bit;
         triangle_distances2(distances2, leaves_[leaf], here);
         for (std::uint32_t i = firsts_[leaf]; i < firsts_[leaf + 1]; ++i) {
-            if (distances2[i - firsts_[leaf]] <= here.reach2) {
-                take(triangles_[i]);
-            }
+            if (distances2[i - firsts_[leaf]] <= here.reach2) { take(triangles_[i]); }
         }
     }
 }
 
-OCTANT_INLINE void
-TriangleBvh::box_distances2(Floats& distances2, const Node& node, const Probe& probe) {
+OCTANT_INLINE void TriangleBvh::box_distances2(Floats& distances2, const Node& node, const Probe& probe) {
     distances2 = Floats{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Floats below = node.least[axis] - probe.place[axis];
@@ -297,8 +260,7 @@ TriangleBvh::box_distances2(Floats& distances2, const Node& node, const Probe& p
     }
 }
 
-OCTANT_INLINE void
-TriangleBvh::triangle_distances2(Floats& distances2, const Leaf& leaf, const Probe& probe) {
+OCTANT_INLINE void TriangleBvh::triangle_distances2(Floats& distances2, const Leaf& leaf, const Probe& probe) {
     PlaneFrame<Floats> frames;
     frames.origin = leaf.origin;
     frames.x_axis = leaf.x_axis;
@@ -312,15 +274,12 @@ TriangleBvh::triangle_distances2(Floats& distances2, const Leaf& leaf, const Pro
     distances2 = found.distance2;
 }
 
-/// A mesh to which distances are measured, with a tree over its triangles. The mesh must outlive
-/// this.
+/// A mesh to which distances are measured, with a tree over its triangles. The mesh must outlive this.
 class TargetSurface {
 public:
     /// `bvh` is a tree over the mesh's triangles (asserted by their number); null = one is built.
-    explicit TargetSurface(
-        const TriangleMesh& mesh, std::shared_ptr<const TriangleBvh> bvh = nullptr)
-        : mesh_(&mesh)
-        , bvh_(bvh ? std::move(bvh) : std::make_shared<const TriangleBvh>(mesh)) {
+    explicit TargetSurface(const TriangleMesh& mesh, std::shared_ptr<const TriangleBvh> bvh = nullptr)
+        : mesh_(&mesh), bvh_(bvh ? std::move(bvh) : std::make_shared<const TriangleBvh>(mesh)) {
         assert(bvh_->size() == mesh.triangles.size());
     }
 
@@ -338,18 +297,13 @@ public:
     double longest_edge_m(std::uint32_t triangle) const {
         const auto& [a, b, c] = mesh_->triangles[triangle];
         const auto& at = mesh_->vertices_m;
-        return std::max(
-            {glm::distance(at[a], at[b]),
-             glm::distance(at[b], at[c]),
-             glm::distance(at[c], at[a])});
+        return std::max({glm::distance(at[a], at[b]), glm::distance(at[b], at[c]), glm::distance(at[c], at[a])});
     }
 
-    /// The nearest point of the mesh. `guess` is a triangle that may be near, or none; a good guess
-    /// makes the search faster but never changes what is found.
+    /// The nearest point of the mesh. `guess` is a triangle that may be near, or none; a good guess makes the search
+    /// faster but never changes what is found.
     NearestOnMesh nearest(const glm::dvec3& point, std::uint32_t guess) const {
-        if (guess == NearestOnMesh::none) {
-            return bvh_->nearest(point);
-        }
+        if (guess == NearestOnMesh::none) { return bvh_->nearest(point); }
         constexpr double margin = 1.0 + 1e-12; // Makes up for the rounding of the square root.
         return bvh_->nearest(point, std::sqrt(distance2_to(guess, point)) * margin);
     }

@@ -35,14 +35,12 @@ struct Ac3dObject {
 };
 
 /// Of an object of this name that hangs on another.
-Ac3dObject
-object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options);
+Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options);
 
-/// Whether an object's name says that it is shown in place of blades while they turn, of a lamp's
-/// light, or of a shadow on the ground.
+/// Whether an object's name says that it is shown in place of blades while they turn, of a lamp's light, or of a shadow
+/// on the ground.
 bool is_stand_in(std::string name) {
-    std::ranges::transform(
-        name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto has = [&](std::string_view part) { return name.find(part) != name.npos; };
     const bool of_blades = has("prop") || has("rotor") || has("blade") || has("pdis");
     const bool turns_fast = has("disc") || has("disk") || has("blur") || has("fast");
@@ -50,13 +48,11 @@ bool is_stand_in(std::string name) {
     return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
 }
 
-Ac3dObject
-object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
+Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
     Ac3dObject object = holder;
     object.is_placeholder = !holder.is_excluded && !options.placeholders && is_stand_in(name);
     object.is_excluded = holder.is_excluded || object.is_placeholder || options.excluded.contains(name);
-    const auto group = std::ranges::find_if(
-        options.groups, [&](const auto& names) { return names.contains(name); });
+    const auto group = std::ranges::find_if(options.groups, [&](const auto& names) { return names.contains(name); });
     if (holder.group == invalid_index && group != options.groups.end()) {
         object.group = static_cast<std::uint32_t>(group - options.groups.begin());
     }
@@ -74,8 +70,8 @@ public:
 
     std::size_t count() const { return materials_.size(); }
 
-    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file
-    /// or without (empty). Materials come into the mesh in the order of their first polygon.
+    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file or without
+    /// (empty). Materials come into the mesh in the order of their first polygon.
     std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh);
 
 private:
@@ -93,9 +89,7 @@ private:
 
 float colour_part(std::string_view word, const WordScanner& words) {
     const auto value = finite_number(word);
-    if (!value || *value < 0.0 || *value > 1.0) {
-        words.refuse("a part of a colour of 0 to 1", in_quotes(word));
-    }
+    if (!value || *value < 0.0 || *value > 1.0) { words.refuse("a part of a colour of 0 to 1", in_quotes(word)); }
     return static_cast<float>(*value);
 }
 
@@ -108,9 +102,7 @@ float opacity_of(std::string_view trans) {
 std::string read_ac3d_name(std::string_view& line, const WordScanner& words) {
     const bool quoted = line.starts_with('"');
     const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
-    if (quoted && end == std::string_view::npos) {
-        words.refuse("a name in quotes", in_quotes(line));
-    }
+    if (quoted && end == std::string_view::npos) { words.refuse("a name in quotes", in_quotes(line)); }
     const std::size_t last = std::min(end, line.size());
     std::string name(line.substr(quoted ? 1 : 0, last - (quoted ? 1 : 0)));
     line.remove_prefix(std::min(last + 1, line.size()));
@@ -132,9 +124,7 @@ void Ac3dMaterials::take_line(WordScanner& words) {
     std::string_view rest = words.rest_of_line();
     Material material{.name = read_ac3d_name(rest, words)};
     const auto parts = split_words(rest);
-    if (parts.size() < 4 || parts[0] != "rgb") {
-        words.refuse("rgb and three numbers", in_quotes(rest));
-    }
+    if (parts.size() < 4 || parts[0] != "rgb") { words.refuse("rgb and three numbers", in_quotes(rest)); }
     for (int part = 0; part < 3; ++part) {
         material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
     }
@@ -153,18 +143,13 @@ void Ac3dMaterials::read_block(WordScanner& words) {
             material.colour[part] = colour_part(words.word("a part of a colour"), words);
         }
         const auto rest_words = split_words(words.rest_of_line());
-        if (word == "trans" && !rest_words.empty()) {
-            opacity = opacity_of(rest_words[0]);
-        }
+        if (word == "trans" && !rest_words.empty()) { opacity = opacity_of(rest_words[0]); }
     }
     materials_.push_back({std::move(material), opacity, {}});
 }
 
-std::uint32_t
-Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
-    if (number == invalid_index) {
-        return invalid_index;
-    }
+std::uint32_t Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
+    if (number == invalid_index) { return invalid_index; }
     FileMaterial& material = materials_[number];
     const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
     if (is_new) {
@@ -185,25 +170,18 @@ constexpr std::array<std::string_view, 7> ignored_keywords{
 
 class Ac3dReading {
 public:
-    Ac3dReading(
-        const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
-        : path_(path)
-        , options_(options)
-        , words_(path, polygons::without_byte_order_mark(text), 1)
-        , mesh_(path, options) {}
+    Ac3dReading(const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
+        : path_(path), options_(options), words_(path, polygons::without_byte_order_mark(text), 1),
+          mesh_(path, options) {}
 
     /// What the file holds, to be finished.
     MeshBuilder read() {
         const std::string_view magic = words_.word("AC3D");
-        if (!magic.starts_with("AC3D")) {
-            words_.refuse("AC3D", in_quotes(magic));
-        }
+        if (!magic.starts_with("AC3D")) { words_.refuse("AC3D", in_quotes(magic)); }
         words_.rest_of_line();
         while (true) {
             const std::string_view word = words_.word("MATERIAL or OBJECT");
-            if (word == "OBJECT") {
-                break;
-            }
+            if (word == "OBJECT") { break; }
             materials_.take(word, words_);
         }
         take_object({}, 0);
@@ -224,9 +202,7 @@ private:
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
             const std::string_view word = words_.word("kids");
-            if (word == "kids") {
-                break;
-            }
+            if (word == "kids") { break; }
             if (word == "loc") {
                 own.shift_m = vector();
             } else if (word == "rot") {
@@ -263,9 +239,7 @@ private:
                 missing_kids_ += kids - kid;
                 break;
             }
-            if (word != "OBJECT") {
-                words_.refuse("OBJECT", word.empty() ? "the end of the file" : in_quotes(word));
-            }
+            if (word != "OBJECT") { words_.refuse("OBJECT", word.empty() ? "the end of the file" : in_quotes(word)); }
             take_object(parent.of(own), depth + 1);
         }
         object_ = holder;
@@ -296,15 +270,12 @@ private:
         pair.y = static_cast<float>(words_.number("a number"));
     }
 
-    /// What follows a corner's vertex: where it lies on the picture, from the lower left corner.
-    /// No index where the object has no picture.
+    /// What follows a corner's vertex: where it lies on the picture, from the lower left corner. No index where the
+    /// object has no picture.
     std::uint32_t taken_place(const ObjectPicture& picture) {
         const auto words = split_words(words_.rest_of_line());
-        if (!picture.is_named || words.size() < 2) {
-            return invalid_index;
-        }
-        const glm::vec2 place(
-            static_cast<float>(finite_number(words[0]).value_or(0.0)),
+        if (!picture.is_named || words.size() < 2) { return invalid_index; }
+        const glm::vec2 place(static_cast<float>(finite_number(words[0]).value_or(0.0)),
             static_cast<float>(finite_number(words[1]).value_or(0.0)));
         return mesh_.add_texture_coordinates(place * picture.repeat + picture.shift);
     }
@@ -320,9 +291,7 @@ private:
     void take_turn(glm::dmat3& turn) {
         for (int row = 0; row < 3; ++row) {
             const glm::dvec3 numbers = vector();
-            for (int column = 0; column < 3; ++column) {
-                turn[column][row] = numbers[column];
-            }
+            for (int column = 0; column < 3; ++column) { turn[column][row] = numbers[column]; }
         }
     }
 
@@ -330,15 +299,11 @@ private:
         const long count = words_.whole("a number of vertices", 0, max_count);
         const auto most = static_cast<long>(words_.bytes_left() / min_vertex_bytes);
         if (count > most) {
-            words_.refuse(
-                fmt::format("at most {} vertices in a file of this size", most),
-                std::to_string(count));
+            words_.refuse(fmt::format("at most {} vertices in a file of this size", most), std::to_string(count));
         }
         for (long i = 0; i < count; ++i) {
             const auto place_m = placement.point_m(vector());
-            if (!place_m) {
-                words_.refuse("a vertex within bounds", "one that its object moves out of them");
-            }
+            if (!place_m) { words_.refuse("a vertex within bounds", "one that its object moves out of them"); }
             mesh_.add_vertex(*place_m);
         }
     }
@@ -347,9 +312,7 @@ private:
         const long count = words_.whole("a number of surfaces", 0, max_count);
         for (long i = 0; i < count; ++i) {
             const std::string_view word = words_.word("SURF");
-            if (word != "SURF") {
-                words_.refuse("SURF", in_quotes(word));
-            }
+            if (word != "SURF") { words_.refuse("SURF", in_quotes(word)); }
             take_surface(first_vertex, mirrored, picture);
         }
     }
@@ -360,8 +323,7 @@ private:
         const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
         digits.remove_prefix(hex ? 2 : 0);
         unsigned value = 0;
-        const auto [end, code] =
-            std::from_chars(digits.data(), digits.data() + digits.size(), value, hex ? 16 : 10);
+        const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value, hex ? 16 : 10);
         if (code != std::errc() || end != digits.data() + digits.size()) {
             words_.refuse("flags of a surface", in_quotes(word));
         }
@@ -377,9 +339,7 @@ private:
             material = static_cast<std::uint32_t>(words_.whole("a material", 0, last));
             word = words_.word("refs");
         }
-        if (word != "refs") {
-            words_.refuse("refs", in_quotes(word));
-        }
+        if (word != "refs") { words_.refuse("refs", in_quotes(word)); }
         const bool is_polygon = (kind & 0xfU) == 0;
         const long most = is_polygon ? static_cast<long>(max_polygon_corners) : max_count;
         const long count = words_.whole("a number of corners", 0, most);
@@ -390,53 +350,40 @@ private:
             const std::uint32_t texture = taken_place(picture);
             if (is_polygon) {
                 corners_.push_back(
-                    {.vertex = static_cast<std::uint32_t>(
-                         first_vertex + static_cast<std::size_t>(vertex)),
-                     .normal = invalid_index,
-                     .texture = texture});
+                    {.vertex = static_cast<std::uint32_t>(first_vertex + static_cast<std::size_t>(vertex)),
+                        .normal = invalid_index,
+                        .texture = texture});
             }
         }
         if (!is_polygon || count < 3) {
             ++skipped_;
             return;
         }
-        if (object_.is_excluded) {
-            return;
-        }
+        if (object_.is_excluded) { return; }
         const bool is_two_sided = (kind & 0x20U) != 0;
         two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.adds_back_faces());
         mesh_.set_two_sided(is_two_sided);
         mesh_.set_group(object_.group);
-        if (mirrored) {
-            std::ranges::reverse(corners_);
-        }
+        if (mirrored) { std::ranges::reverse(corners_); }
         mesh_.add_polygon(corners_, materials_.used(material, picture.file, mesh_), picture.number);
     }
 
     void add_notes() {
         if (missing_kids_ > 0) {
-            mesh_.add_note(fmt::format(
-                "{}: the file ends {} objects before what it announces",
-                path_.string(),
-                missing_kids_));
+            mesh_.add_note(
+                fmt::format("{}: the file ends {} objects before what it announces", path_.string(), missing_kids_));
         }
         if (stand_ins_ > 0) {
-            mesh_.add_note(fmt::format(
-                "{}: {} objects are left out that stand for turning blades, light or shadows",
-                path_.string(),
-                stand_ins_));
+            mesh_.add_note(fmt::format("{}: {} objects are left out that stand for turning blades, light or shadows",
+                path_.string(), stand_ins_));
         }
         if (skipped_ > 0) {
-            mesh_.add_note(fmt::format(
-                "{}: {} lines and other surfaces without an area are not read",
-                path_.string(),
-                skipped_));
+            mesh_.add_note(
+                fmt::format("{}: {} lines and other surfaces without an area are not read", path_.string(), skipped_));
         }
         if (two_sided_ > 0) {
-            mesh_.add_note(fmt::format(
-                "{}: {} two-sided surfaces are read with their front only",
-                path_.string(),
-                two_sided_));
+            mesh_.add_note(
+                fmt::format("{}: {} two-sided surfaces are read with their front only", path_.string(), two_sided_));
         }
     }
 

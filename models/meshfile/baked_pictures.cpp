@@ -38,16 +38,13 @@ std::pair<glm::dvec3, double> pixel_at(const heights::Image& picture, const glm:
         const double inside = share - std::floor(share);
         return std::min(static_cast<int>(inside * count), count - 1);
     };
-    const std::uint8_t* pixel =
-        picture.pixel(cell(place.x, picture.width), cell(place.y, picture.height));
+    const std::uint8_t* pixel = picture.pixel(cell(place.x, picture.width), cell(place.y, picture.height));
     return {glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0, pixel[3] / 255.0};
 }
 
 bool hides_all(const heights::Image& picture) {
     for (std::size_t at = 3; at < picture.rgba.size(); at += 4) {
-        if (picture.rgba[at] != 255) {
-            return false;
-        }
+        if (picture.rgba[at] != 255) { return false; }
     }
     return true;
 }
@@ -56,28 +53,22 @@ int samples_of(const heights::Image& picture, const std::array<glm::vec2, 3>& pl
     double longest_px = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec2 side(places.at((k + 1) % 3) - places.at(k));
-        longest_px =
-            std::max(longest_px, std::hypot(side.x * picture.width, side.y * picture.height));
+        longest_px = std::max(longest_px, std::hypot(side.x * picture.width, side.y * picture.height));
     }
     const double wanted = std::isfinite(longest_px) ? longest_px / pixels_a_sample : 1.0;
     return static_cast<int>(std::clamp<double>(wanted, min_samples, max_samples));
 }
 
-/// Calls `visit(share, colour, there)` for samples spread over a triangle: the shares of its
-/// corners, the picture's colour, and how much of it is there, 0..1. Returns the number of samples.
+/// Calls `visit(share, colour, there)` for samples spread over a triangle: the shares of its corners, the picture's
+/// colour, and how much of it is there, 0..1. Returns the number of samples.
 template <typename Visit>
-int for_each_sample(
-    const heights::Image& picture, const std::array<glm::vec2, 3>& places, const Visit& visit) {
+int for_each_sample(const heights::Image& picture, const std::array<glm::vec2, 3>& places, const Visit& visit) {
     const int steps = samples_of(picture, places);
     for (int i = 0; i < steps; ++i) {
         for (int j = 0; i + j < steps; ++j) {
-            const glm::dvec3 share(
-                (i + 1.0 / 3.0) / steps,
-                (j + 1.0 / 3.0) / steps,
-                1.0 - (i + j + 2.0 / 3.0) / steps);
-            const glm::dvec2 place = share.x * glm::dvec2(places[0]) +
-                                     share.y * glm::dvec2(places[1]) +
-                                     share.z * glm::dvec2(places[2]);
+            const glm::dvec3 share((i + 1.0 / 3.0) / steps, (j + 1.0 / 3.0) / steps, 1.0 - (i + j + 2.0 / 3.0) / steps);
+            const glm::dvec2 place =
+                share.x * glm::dvec2(places[0]) + share.y * glm::dvec2(places[1]) + share.z * glm::dvec2(places[2]);
             const auto [colour, there] = pixel_at(picture, place);
             visit(share, colour, there);
         }
@@ -86,28 +77,21 @@ int for_each_sample(
 }
 
 /// Adds what a triangle shows around each of its corners.
-void add_picture(
-    const heights::Image& picture,
-    const std::array<glm::vec2, 3>& places,
-    const glm::dvec3& tint,
-    double area,
-    const std::array<Sum*, 3>& sums) {
+void add_picture(const heights::Image& picture, const std::array<glm::vec2, 3>& places, const glm::dvec3& tint,
+    double area, const std::array<Sum*, 3>& sums) {
     const int steps = samples_of(picture, places);
     const double weight = 2.0 * area / (static_cast<double>(steps) * (steps + 1));
-    for_each_sample(
-        picture, places, [&](const glm::dvec3& share, const glm::dvec3& colour, double there) {
-            for (int k = 0; k < 3; ++k) {
-                sums.at(static_cast<std::size_t>(k))
-                    ->add(tint * colour, weight * there * share[k] * share[k]);
-            }
-        });
+    for_each_sample(picture, places, [&](const glm::dvec3& share, const glm::dvec3& colour, double there) {
+        for (int k = 0; k < 3; ++k) {
+            sums.at(static_cast<std::size_t>(k))->add(tint * colour, weight * there * share[k] * share[k]);
+        }
+    });
 }
 
 bool is_good(const std::array<glm::vec2, 3>& places) {
     constexpr float far = 1e6F;
-    return std::ranges::all_of(places, [](const glm::vec2& place) {
-        return std::abs(place.x) < far && std::abs(place.y) < far;
-    });
+    return std::ranges::all_of(
+        places, [](const glm::vec2& place) { return std::abs(place.x) < far && std::abs(place.y) < far; });
 }
 
 } // namespace
@@ -119,9 +103,7 @@ fs::path picture_file(const fs::path& mesh_file, const std::string& name, const 
     const fs::path beside = mesh_file.parent_path();
     for (const fs::path& from : {folder.empty() ? beside : folder, beside}) {
         for (const fs::path& file : {from / slashes, from / fs::path(slashes).filename()}) {
-            if (fs::is_regular_file(file, ignored)) {
-                return file;
-            }
+            if (fs::is_regular_file(file, ignored)) { return file; }
         }
     }
     return beside / slashes;
@@ -136,8 +118,7 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
             is_opaque_.push_back(hides_all(*pictures_.back()));
             at->second = static_cast<std::uint32_t>(pictures_.size() - 1);
         } catch (const Error& fault) {
-            notes_.push_back(
-                fmt::format("{}; its surfaces have their material's colour", fault.what()));
+            notes_.push_back(fmt::format("{}; its surfaces have their material's colour", fault.what()));
         }
     }
     return at->second;
@@ -146,9 +127,7 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
 std::uint32_t BakedPictures::picture(const std::string& name) {
     return kept(name, [&] {
         const fs::path file = picture_file(mesh_file_, name, folder_);
-        if (std::error_code ignored; fs::is_regular_file(file, ignored)) {
-            return heights::read_image(file);
-        }
+        if (std::error_code ignored; fs::is_regular_file(file, ignored)) { return heights::read_image(file); }
         throw_error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));
     });
 }
@@ -166,16 +145,12 @@ std::vector<BakedPictures::Cover> BakedPictures::covers() const {
     std::vector<Cover> found;
     for (const TexturedTriangle& triangle : triangles_) {
         Cover& cover = found.emplace_back();
-        if (triangle.picture == none || is_opaque_[triangle.picture]) {
-            continue;
-        }
+        if (triangle.picture == none || is_opaque_[triangle.picture]) { continue; }
         double sum = 0.0;
         double least = 1.0;
         double most = 0.0;
         const int samples = for_each_sample(
-            *pictures_[triangle.picture],
-            triangle.places,
-            [&](const glm::dvec3&, const glm::dvec3&, double there) {
+            *pictures_[triangle.picture], triangle.places, [&](const glm::dvec3&, const glm::dvec3&, double there) {
                 sum += there;
                 least = std::min(least, there);
                 most = std::max(most, there);
@@ -200,12 +175,9 @@ void BakedPictures::bake(TriangleMesh& mesh) const {
         const Triangle& corners = mesh.triangles[t];
         const double area = 0.5 * glm::length(area_vector(mesh, corners));
         const glm::dvec3 own(material_colour(mesh, t));
-        const std::array<Sum*, 3> at{
-            &sums[firsts[corners[0]]], &sums[firsts[corners[1]]], &sums[firsts[corners[2]]]};
+        const std::array<Sum*, 3> at{&sums[firsts[corners[0]]], &sums[firsts[corners[1]]], &sums[firsts[corners[2]]]};
         if (triangles_[t].picture == none) {
-            for (Sum* sum : at) {
-                sum->add(own, area / 6.0);
-            }
+            for (Sum* sum : at) { sum->add(own, area / 6.0); }
         } else {
             add_picture(*pictures_[triangles_[t].picture], triangles_[t].places, own, area, at);
         }
@@ -213,9 +185,7 @@ void BakedPictures::bake(TriangleMesh& mesh) const {
     mesh.colours.assign(mesh.vertices_m.size(), Material().colour);
     for (std::size_t v = 0; v < firsts.size(); ++v) {
         const Sum& sum = sums[firsts[v]];
-        if (sum.weight > 0.0) {
-            mesh.colours[v] = glm::vec3(sum.colour / sum.weight);
-        }
+        if (sum.weight > 0.0) { mesh.colours[v] = glm::vec3(sum.colour / sum.weight); }
     }
 }
 

@@ -17,12 +17,10 @@
 
 namespace octant::models::meshfile {
 
-/// The file of a picture that a mesh names: as it is named, else by its last name, in `folder`
-/// (empty: none) or beside the mesh; beside the mesh where there is no such file.
+/// The file of a picture that a mesh names: as it is named, else by its last name, in `folder` (empty: none) or beside
+/// the mesh; beside the mesh where there is no such file.
 std::filesystem::path picture_file(
-    const std::filesystem::path& mesh_file,
-    const std::string& name,
-    const std::filesystem::path& folder = {});
+    const std::filesystem::path& mesh_file, const std::string& name, const std::filesystem::path& folder = {});
 
 /// The pictures on the surfaces of a mesh, and the colours that they leave at its vertices.
 class BakedPictures {
@@ -32,24 +30,23 @@ public:
 
     /// `folder`: where pictures are looked for before the mesh's own one; empty: there alone.
     explicit BakedPictures(std::filesystem::path mesh_file, std::filesystem::path folder = {})
-        : mesh_file_(std::move(mesh_file))
-        , folder_(std::move(folder)) {}
+        : mesh_file_(std::move(mesh_file)), folder_(std::move(folder)) {}
 
-    /// The number of a picture in one of the folders: as it is named, else by its last name. None
-    /// where there is no such file, or none that can be read.
+    /// The number of a picture in one of the folders: as it is named, else by its last name. None where there is no
+    /// such file, or none that can be read.
     std::uint32_t picture(const std::string& name);
 
     /// The number of a picture that stands in a file; `name` is only told.
     std::uint32_t picture(const std::string& name, std::string_view bytes);
 
-    /// The next triangle of the mesh: its picture or none, and where its corners lie on it, in
-    /// shares of width and height from the upper left corner; beyond 0..1 the picture repeats.
+    /// The next triangle of the mesh: its picture or none, and where its corners lie on it, in shares of width and
+    /// height from the upper left corner; beyond 0..1 the picture repeats.
     void add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places);
 
     /// How a picture hides what lies behind a triangle.
     struct Cover {
-        float opacity = 1.0F; ///< mean
-        bool is_uniform = true;  ///< about the same all over it
+        float opacity = 1.0F;   ///< mean
+        bool is_uniform = true; ///< about the same all over it
     };
 
     /// One for each triangle added.
@@ -60,9 +57,8 @@ public:
 
     bool is_empty() const { return pictures_.empty(); }
 
-    /// Gives the vertices of a mesh the mean colour around them: of the pictures, times the colour
-    /// of the material, or that alone. Vertices at one place get one colour. Its triangles are
-    /// those added.
+    /// Gives the vertices of a mesh the mean colour around them: of the pictures, times the colour of the material, or
+    /// that alone. Vertices at one place get one colour. Its triangles are those added.
     void bake(TriangleMesh& mesh) const;
 
     /// One line a picture that could not be used.
@@ -80,7 +76,7 @@ private:
     std::filesystem::path mesh_file_;
     std::filesystem::path folder_;
     std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
-    std::vector<bool> is_opaque_; ///< one a picture: nothing is seen through it
+    std::vector<bool> is_opaque_;                                 ///< one a picture: nothing is seen through it
     std::map<std::string, std::uint32_t> known_;
     std::vector<TexturedTriangle> triangles_;
     std::vector<std::string> notes_;

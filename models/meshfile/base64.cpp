@@ -7,19 +7,12 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::string_view digits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 int value_of(char c) {
-    if (c >= 'A' && c <= 'Z') {
-        return c - 'A';
-    }
-    if (c >= 'a' && c <= 'z') {
-        return c - 'a' + 26;
-    }
-    if (c >= '0' && c <= '9') {
-        return c - '0' + 52;
-    }
+    if (c >= 'A' && c <= 'Z') { return c - 'A'; }
+    if (c >= 'a' && c <= 'z') { return c - 'a' + 26; }
+    if (c >= '0' && c <= '9') { return c - '0' + 52; }
     return c == '+' ? 62 : (c == '/' ? 63 : -1);
 }
 
@@ -35,29 +28,21 @@ std::string base64_text(std::string_view bytes) {
             const char byte = i < count ? bytes[at + i] : '\0';
             group = group << 8U | static_cast<unsigned char>(byte);
         }
-        for (std::size_t i = 0; i < 4; ++i) {
-            text += i <= count ? digits[group >> (18U - 6U * i) & 63U] : '=';
-        }
+        for (std::size_t i = 0; i < 4; ++i) { text += i <= count ? digits[group >> (18U - 6U * i) & 63U] : '='; }
     }
     return text;
 }
 
 std::optional<std::string> base64_bytes(std::string_view text) {
-    for (int marks = 0; marks < 2 && text.ends_with('='); ++marks) {
-        text.remove_suffix(1);
-    }
-    if (text.size() % 4 == 1) {
-        return std::nullopt;
-    }
+    for (int marks = 0; marks < 2 && text.ends_with('='); ++marks) { text.remove_suffix(1); }
+    if (text.size() % 4 == 1) { return std::nullopt; }
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t group = 0;
     unsigned bits = 0;
     for (const char c : text) {
         const int value = value_of(c);
-        if (value < 0) {
-            return std::nullopt;
-        }
+        if (value < 0) { return std::nullopt; }
         group = group << 6U | static_cast<std::uint32_t>(value);
         bits += 6;
         if (bits >= 8) {

@@ -13,15 +13,9 @@ namespace octant::models::meshfile {
 class ByteReader {
 public:
     /// Keeps a view into `bytes`.
-    ByteReader(
-        const std::filesystem::path& path,
-        std::string_view bytes,
-        std::size_t at = 0,
+    ByteReader(const std::filesystem::path& path, std::string_view bytes, std::size_t at = 0,
         std::endian order = std::endian::little)
-        : path_(path)
-        , bytes_(bytes)
-        , at_(at)
-        , order_(order) {}
+        : path_(path), bytes_(bytes), at_(at), order_(order) {}
 
     std::size_t at() const { return at_; }
 
@@ -48,8 +42,7 @@ public:
         refuse_at(at_, expected, got);
     }
 
-    [[noreturn]] void
-    refuse_at(std::size_t at, const std::string& expected, const std::string& got) const;
+    [[noreturn]] void refuse_at(std::size_t at, const std::string& expected, const std::string& got) const;
 
 private:
     std::filesystem::path path_;

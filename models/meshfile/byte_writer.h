@@ -13,9 +13,7 @@ namespace octant::models::meshfile {
 template <typename T>
 void append_number(std::string& bytes, T value) {
     auto own = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    if constexpr (std::endian::native == std::endian::big) {
-        std::ranges::reverse(own);
-    }
+    if constexpr (std::endian::native == std::endian::big) { std::ranges::reverse(own); }
     bytes.append(own.data(), own.size());
 }
 

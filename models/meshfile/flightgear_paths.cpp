@@ -13,18 +13,12 @@ fs::path flightgear_file(const fs::path& model, const std::string& name) {
         fs::path named = name;
         // "Aircraft/NAME/Models/..." where the aircraft's own folder is called something else
         for (int less = 0; less < 3 && !named.empty(); ++less) {
-            if (fs::is_regular_file(folder / named, ignored)) {
-                return folder / named;
-            }
+            if (fs::is_regular_file(folder / named, ignored)) { return folder / named; }
             fs::path shorter;
-            for (auto part = std::next(named.begin()); part != named.end(); ++part) {
-                shorter /= *part;
-            }
+            for (auto part = std::next(named.begin()); part != named.end(); ++part) { shorter /= *part; }
             named = shorter;
         }
-        if (folder == folder.parent_path()) {
-            return {};
-        }
+        if (folder == folder.parent_path()) { return {}; }
     }
 }
 

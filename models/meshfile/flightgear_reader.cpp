@@ -1,6 +1,6 @@
-// FlightGear's model files: a PropertyList that names a mesh, other models with their offsets, and
-// animations, which are read as at rest: all properties 0, but for what turns in flight. Its axes
-// are x back, y right, z up; AC3D files lie in them as (x, -z, y).
+// FlightGear's model files: a PropertyList that names a mesh, other models with their offsets, and animations, which
+// are read as at rest: all properties 0, but for what turns in flight. Its axes are x back, y right, z up; AC3D files
+// lie in them as (x, -z, y).
 #include "models/meshfile/affine_transform.h"
 #include "models/meshfile/flightgear_paths.h"
 #include "models/meshfile/mesh_append.h"
@@ -53,71 +53,48 @@ constexpr int max_files = 500;
 XmlElement tree_of(const fs::path& file, int depth, int& files);
 
 void include_into(XmlElement& element, const fs::path& file, int depth, int& files) {
-    const fs::path included =
-        element.include.empty() ? fs::path() : flightgear_file(file, element.include);
-    if (included.empty()) {
-        return;
-    }
+    const fs::path included = element.include.empty() ? fs::path() : flightgear_file(file, element.include);
+    if (included.empty()) { return; }
     if (depth == max_include_depth) {
-        throw_error_at(
-            file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
+        throw_error_at(file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
     }
     if (++files > max_files) {
-        throw_error_at(
-            file, element.line, fmt::format("expected at most {} includes, got more", max_files));
+        throw_error_at(file, element.line, fmt::format("expected at most {} includes, got more", max_files));
     }
     XmlElement other = tree_of(included, depth + 1, files);
-    element.children.insert(
-        element.children.end(),
-        std::make_move_iterator(other.children.begin()),
+    element.children.insert(element.children.end(), std::make_move_iterator(other.children.begin()),
         std::make_move_iterator(other.children.end()));
 }
 
 XmlElement tree_of(const fs::path& file, int depth, int& files) {
     const std::string text = read_text_file(file, largest_xml_bytes);
     XmlElement root = xml_tree(file, text);
-    for (XmlElement& child : root.children) {
-        include_into(child, file, depth, files);
-    }
+    for (XmlElement& child : root.children) { include_into(child, file, depth, files); }
     include_into(root, file, depth, files);
     return root;
 }
 
-/// The elements of a FlightGear file. What the outermost element, or one in it, includes from
-/// another file stands behind its own; an included file that is not there is left out. Throws
-/// Error for files that cannot be read, and for includes more than 8 deep or 500 in all.
+/// The elements of a FlightGear file. What the outermost element, or one in it, includes from another file stands
+/// behind its own; an included file that is not there is left out. Throws Error for files that cannot be read, and for
+/// includes more than 8 deep or 500 in all.
 XmlElement flightgear_tree(const fs::path& file) {
     int files = 0;
     return tree_of(file, 0, files);
 }
 
-/// The number in a child of an element of a FlightGear file; `without` where there is none. Throws
-/// Error for what is no number, or beyond max_coordinate.
+/// The number in a child of an element of a FlightGear file; `without` where there is none. Throws Error for what is no
+/// number, or beyond max_coordinate.
 double number_in(
-    const std::filesystem::path& file,
-    const XmlElement& parent,
-    std::string_view name,
-    double without = 0.0);
+    const std::filesystem::path& file, const XmlElement& parent, std::string_view name, double without = 0.0);
 
 glm::dvec3 vector_in(
-    const std::filesystem::path& file,
-    const XmlElement& parent,
-    const std::array<std::string_view, 3>& names) {
-    return {
-        number_in(file, parent, names[0]),
-        number_in(file, parent, names[1]),
-        number_in(file, parent, names[2])};
+    const std::filesystem::path& file, const XmlElement& parent, const std::array<std::string_view, 3>& names) {
+    return {number_in(file, parent, names[0]), number_in(file, parent, names[1]), number_in(file, parent, names[2])};
 }
 
-double number_in(
-    const std::filesystem::path& file,
-    const XmlElement& parent,
-    std::string_view name,
-    double without) {
+double number_in(const std::filesystem::path& file, const XmlElement& parent, std::string_view name, double without) {
     const XmlElement* found = parent.find(name);
-    if (found == nullptr || found->text.empty()) {
-        return without;
-    }
+    if (found == nullptr || found->text.empty()) { return without; }
     const auto value = finite_number(found->text);
     if (!value || std::abs(*value) > max_coordinate) {
         throw_error_at(file, found->line, "expected a number, got " + in_quotes(found->text));
@@ -134,11 +111,8 @@ double interpolated(const std::filesystem::path& file, const XmlElement& animati
         entries.emplace_back(number_in(file, entry, "ind"), number_in(file, entry, "dep"));
     }
     std::ranges::sort(entries);
-    const auto next =
-        std::ranges::upper_bound(entries, value, {}, [](const auto& entry) { return entry.first; });
-    if (entries.empty()) {
-        return value;
-    }
+    const auto next = std::ranges::upper_bound(entries, value, {}, [](const auto& entry) { return entry.first; });
+    if (entries.empty()) { return value; }
     if (next == entries.begin() || next == entries.end()) {
         return next == entries.begin() ? next->second : entries.back().second;
     }
@@ -146,8 +120,8 @@ double interpolated(const std::filesystem::path& file, const XmlElement& animati
     return start + (value - from) / (next->first - from) * (next->second - start);
 }
 
-/// A point of an animation's axis and its direction, as long as the file has it: without a length
-/// where it gives none. It does not turn.
+/// A point of an animation's axis and its direction, as long as the file has it: without a length where it gives none.
+/// It does not turn.
 RotationAxis axis_in(const std::filesystem::path& file, const XmlElement& animation) {
     RotationAxis about;
     about.direction = glm::dvec3(0.0);
@@ -167,9 +141,7 @@ RotationAxis axis_in(const std::filesystem::path& file, const XmlElement& animat
 
 bool holds(const XmlElement& condition);
 
-bool all_hold(const XmlElement& group) {
-    return std::ranges::all_of(group.children, holds);
-}
+bool all_hold(const XmlElement& group) { return std::ranges::all_of(group.children, holds); }
 
 double at_rest(std::string_view property) {
     constexpr double chase_view = 2.0; // 0 is the pilot's, in which much of the outside is hidden
@@ -181,34 +153,23 @@ double number_of(const XmlElement& side) {
     return side.name == "property" ? at_rest(side.text) : finite_number(side.text).value_or(0.0);
 }
 
-/// Less, equal or greater, as -1, 0 or 1. Of texts only whether they are empty counts, as a
-/// property at rest is.
+/// Less, equal or greater, as -1, 0 or 1. Of texts only whether they are empty counts, as a property at rest is.
 int order_of(const XmlElement& comparison) {
     std::array<double, 2> sides{};
     std::size_t count = 0;
     for (const XmlElement& side : comparison.children) {
         const bool is_text = side.name == "value" && !finite_number(side.text);
-        if (count < sides.size()) {
-            sides.at(count++) = is_text && !side.text.empty() ? 1.0 : number_of(side);
-        }
+        if (count < sides.size()) { sides.at(count++) = is_text && !side.text.empty() ? 1.0 : number_of(side); }
     }
     return sides[0] < sides[1] ? -1 : sides[0] > sides[1] ? 1 : 0;
 }
 
 bool holds(const XmlElement& condition) {
     const std::string_view kind = condition.name;
-    if (kind == "property") {
-        return at_rest(condition.text) != 0.0;
-    }
-    if (kind == "not") {
-        return !all_hold(condition);
-    }
-    if (kind == "or") {
-        return std::ranges::any_of(condition.children, holds);
-    }
-    if (kind == "and") {
-        return all_hold(condition);
-    }
+    if (kind == "property") { return at_rest(condition.text) != 0.0; }
+    if (kind == "not") { return !all_hold(condition); }
+    if (kind == "or") { return std::ranges::any_of(condition.children, holds); }
+    if (kind == "and") { return all_hold(condition); }
     const int order = order_of(condition);
     const bool negated = kind.ends_with("not-equals");
     return (kind == "less-than" && order < 0) || (kind == "less-than-equals" && order <= 0) ||
@@ -216,9 +177,8 @@ bool holds(const XmlElement& condition) {
            (kind == "equals" && order == 0) || (negated && order != 0);
 }
 
-/// Whether the <condition> of a FlightGear animation holds while all properties are 0 but for the
-/// view, which is one from outside: an aircraft as it stands in its file, gear up, doors shut,
-/// lights off. True without a condition.
+/// Whether the <condition> of a FlightGear animation holds while all properties are 0 but for the view, which is one
+/// from outside: an aircraft as it stands in its file, gear up, doors shut, lights off. True without a condition.
 bool holds_at_rest(const XmlElement& animation) {
     const XmlElement* condition = animation.find("condition");
     return condition == nullptr || all_hold(*condition);
@@ -230,51 +190,46 @@ struct FlightGearRotation {
     RotationAxis about;
 };
 
-/// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a
-/// rotor's angle. They turn as at cruise, since a file says by which property only: propellers at
-/// 2400 turns a minute, main rotors at 390, tail rotors at 2000, turbines at 90 per cent. `spin` by
-/// a property that does not say what it is of turns what is called rotor, propeller or blade: about
-/// a mostly upright axis as a main rotor, along as a propeller, across as a tail rotor. Nothing for
-/// wheels, instruments and all other animations. Throws Error for faulty numbers.
-std::optional<FlightGearRotation>
-rotation_in_flight(const std::filesystem::path& file, const XmlElement& animation);
+/// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a rotor's angle. They
+/// turn as at cruise, since a file says by which property only: propellers at 2400 turns a minute, main rotors at 390,
+/// tail rotors at 2000, turbines at 90 per cent. `spin` by a property that does not say what it is of turns what is
+/// called rotor, propeller or blade: about a mostly upright axis as a main rotor, along as a propeller, across as a
+/// tail rotor. Nothing for wheels, instruments and all other animations. Throws Error for faulty numbers.
+std::optional<FlightGearRotation> rotation_in_flight(const std::filesystem::path& file, const XmlElement& animation);
 
-/// Where a `rotate` or `translate` animation puts what it names while all properties are 0: landing
-/// gear up, for one. Axes of the FlightGear model.
+/// Where a `rotate` or `translate` animation puts what it names while all properties are 0: landing gear up, for one.
+/// Axes of the FlightGear model.
 struct FlightGearRestPlacement {
     std::set<std::string> objects; ///< by name; an empty one: all of the model
     AffineTransform placement;
 };
 
-/// Nothing for other animations, for those that leave everything where it is, whose condition does
-/// not hold at rest, or that compute an <expression>. Throws Error for faulty numbers.
-std::optional<FlightGearRestPlacement>
-placement_at_rest(const std::filesystem::path& file, const XmlElement& animation);
+/// Nothing for other animations, for those that leave everything where it is, whose condition does not hold at rest, or
+/// that compute an <expression>. Throws Error for faulty numbers.
+std::optional<FlightGearRestPlacement> placement_at_rest(
+    const std::filesystem::path& file, const XmlElement& animation);
 
-/// What the animations of one FlightGear model do to the objects of its mesh and to its
-/// sub-models, by their names; axes of that model.
+/// What the animations of one FlightGear model do to the objects of its mesh and to its sub-models, by their names;
+/// axes of that model.
 struct FlightGearAnimations {
-    /// What a range shows only to eyes farther than some metres away, what a select hides at rest,
-    /// what stands for a light's reach, and what is moved along the ground as a shadow. An empty
-    /// name stands for all of the model.
+    /// What a range shows only to eyes farther than some metres away, what a select hides at rest, what stands for a
+    /// light's reach, and what is moved along the ground as a shadow. An empty name stands for all of the model.
     std::set<std::string> hidden;
-    std::vector<FlightGearRotation> turns; ///< of objects about the same axis only one
-    std::vector<FlightGearRestPlacement>
-        moves; ///< in the file's order: the first one moves what others moved
-    std::map<std::string, int> at_rest; ///< how many others there are, by their types
-    std::vector<std::string> notes;     ///< faults in them; often none
+    std::vector<FlightGearRotation> turns;      ///< of objects about the same axis only one
+    std::vector<FlightGearRestPlacement> moves; ///< in the file's order: the first one moves what others moved
+    std::map<std::string, int> at_rest;         ///< how many others there are, by their types
+    std::vector<std::string> notes;             ///< faults in them; often none
 
     /// What turns an object; the empty name stands for all of the model. Null for what stays.
     const RotationAxis* axis_of(const std::string& object) const;
 
-    /// Where an object stands at rest; the empty name stands for all of the model. What turns in
-    /// flight is not moved: its axis stands where the file has it.
+    /// Where an object stands at rest; the empty name stands for all of the model. What turns in flight is not moved:
+    /// its axis stands where the file has it.
     AffineTransform place_of(const std::string& object) const;
 };
 
 /// `root`: of flightgear_tree(file).
-FlightGearAnimations
-flightgear_animations(const std::filesystem::path& file, const XmlElement& root);
+FlightGearAnimations flightgear_animations(const std::filesystem::path& file, const XmlElement& root);
 
 /// What a property of a kind is worth at cruise.
 struct CruiseValue {
@@ -288,54 +243,41 @@ constexpr double tail_rotor = 2000.0;
 constexpr double propeller = 2400.0;
 
 /// The first one that fits counts.
-constexpr std::array cruise_values{
-    CruiseValue{"rotors/main", main_rotor},
-    CruiseValue{"rotors/tail", tail_rotor},
-    CruiseValue{"rpm", propeller},
-    CruiseValue{"/n1", 90.0},
-    CruiseValue{"/n2", 90.0}};
+constexpr std::array cruise_values{CruiseValue{"rotors/main", main_rotor}, CruiseValue{"rotors/tail", tail_rotor},
+    CruiseValue{"rpm", propeller}, CruiseValue{"/n1", 90.0}, CruiseValue{"/n2", 90.0}};
 
 /// Whether a property is one of an engine or rotor itself, not of a dial that shows it.
 bool is_of_engine(std::string_view property) {
     return property.find("instrument") == property.npos &&
            (property.find("engine") != property.npos || property.find("rotor") != property.npos ||
-            property.find("propeller") != property.npos);
+               property.find("propeller") != property.npos);
 }
 
 double at_cruise(std::string_view property) {
-    if (!is_of_engine(property)) {
-        return 0.0;
-    }
-    const auto* const found = std::ranges::find_if(cruise_values, [&](const CruiseValue& one) {
-        return property.find(one.part_of_name) != property.npos;
-    });
+    if (!is_of_engine(property)) { return 0.0; }
+    const auto* const found = std::ranges::find_if(
+        cruise_values, [&](const CruiseValue& one) { return property.find(one.part_of_name) != property.npos; });
     return found == cruise_values.end() ? 0.0 : found->value;
 }
 
 /// Turns a minute while the factor is 1; 0 for what does not turn in flight.
 double turns_per_minute(std::string_view kind, std::string_view property) {
     const bool is_angle = property.find("position-deg") != property.npos;
-    if (kind == "spin" ? is_angle : !is_angle) {
-        return 0.0;
-    }
+    if (kind == "spin" ? is_angle : !is_angle) { return 0.0; }
     return kind == "spin" || kind == "rotate" ? at_cruise(property) : 0.0;
 }
 
-/// Turns a minute of what is called a rotor or propeller, about an axis mostly along x, y or z;
-/// 0 for what is called otherwise.
+/// Turns a minute of what is called a rotor or propeller, about an axis mostly along x, y or z; 0 for what is called
+/// otherwise.
 double rate_by_name(const XmlElement& animation, const glm::dvec3& direction) {
     const auto named = [](const XmlElement& child) {
         std::string name = child.name == "object-name" ? child.text : "";
-        std::ranges::transform(name, name.begin(), [](unsigned char letter) {
-            return static_cast<char>(std::tolower(letter));
-        });
-        return std::ranges::any_of(std::array{"rotor", "prop", "blade"}, [&](const char* part) {
-            return name.find(part) != name.npos;
-        });
+        std::ranges::transform(
+            name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+        return std::ranges::any_of(
+            std::array{"rotor", "prop", "blade"}, [&](const char* part) { return name.find(part) != name.npos; });
     };
-    if (std::ranges::none_of(animation.children, named)) {
-        return 0.0;
-    }
+    if (std::ranges::none_of(animation.children, named)) { return 0.0; }
     const glm::dvec3 along = glm::abs(direction);
     const bool upright = along.z > std::max(along.x, along.y);
     return upright ? main_rotor : along.x > along.y ? propeller : tail_rotor;
@@ -343,56 +285,43 @@ double rate_by_name(const XmlElement& animation, const glm::dvec3& direction) {
 
 /// Whether a property is one of what turns on the ground or in the cockpit.
 bool is_of_other_wheels(std::string_view property) {
-    return std::ranges::any_of(
-        std::array<std::string_view, 4>{"gear", "wheel", "roll", "instrument"},
+    return std::ranges::any_of(std::array<std::string_view, 4>{"gear", "wheel", "roll", "instrument"},
         [&](std::string_view part) { return property.find(part) != property.npos; });
 }
 
-std::optional<FlightGearRotation>
-rotation_in_flight(const std::filesystem::path& file, const XmlElement& animation) {
+std::optional<FlightGearRotation> rotation_in_flight(const std::filesystem::path& file, const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const std::string_view property = animation.text_of("property");
     double rate = turns_per_minute(kind, property);
     const bool by_name = rate == 0.0 && kind == "spin" && !is_of_other_wheels(property);
-    if (by_name) {
-        rate = rate_by_name(animation, glm::dvec3(0, 0, 1));
-    }
+    if (by_name) { rate = rate_by_name(animation, glm::dvec3(0, 0, 1)); }
     if (rate == 0.0) { // then its numbers do not count: files have faulty ones
         return std::nullopt;
     }
     const double factor = number_in(file, animation, "factor", 1.0);
     FlightGearRotation turn{{}, axis_in(file, animation)};
     const double length = glm::length(turn.about.direction);
-    if (factor == 0.0 || !(length > 0.0)) {
-        return std::nullopt;
-    }
+    if (factor == 0.0 || !(length > 0.0)) { return std::nullopt; }
     turn.about.direction /= length;
-    if (by_name) {
-        rate = rate_by_name(animation, turn.about.direction);
-    }
+    if (by_name) { rate = rate_by_name(animation, turn.about.direction); }
     // An angle's factor only says which way round.
-    turn.about.turns_per_s = kind == "spin" ? interpolated(file, animation, rate) * factor / 60.0
-                                            : std::copysign(rate, factor) / 60.0;
+    turn.about.turns_per_s =
+        kind == "spin" ? interpolated(file, animation, rate) * factor / 60.0 : std::copysign(rate, factor) / 60.0;
     for (const XmlElement& named : animation.children) {
-        if (named.name == "object-name") {
-            turn.objects.insert(named.text);
-        }
+        if (named.name == "object-name") { turn.objects.insert(named.text); }
     }
     return turn;
 }
 
-/// Degrees or metres, for the property's value of 0; without one for the position at the start.
-/// `unit`: as its elements' names end.
-double value_at_rest(
-    const std::filesystem::path& file, const XmlElement& animation, std::string_view unit) {
+/// Degrees or metres, for the property's value of 0; without one for the position at the start. `unit`: as its
+/// elements' names end.
+double value_at_rest(const std::filesystem::path& file, const XmlElement& animation, std::string_view unit) {
     const auto number = [&](std::string_view name, double without) {
         return number_in(file, animation, std::string(name) + std::string(unit), without);
     };
     const bool has_property = !animation.text_of("property").empty();
     const double input = has_property ? 0.0 : number("starting-position", 0.0);
-    if (animation.find("interpolation") != nullptr) {
-        return interpolated(file, animation, input);
-    }
+    if (animation.find("interpolation") != nullptr) { return interpolated(file, animation, input); }
     constexpr double any = std::numeric_limits<double>::max();
     const double factor = input == 0.0 ? 1.0 : number_in(file, animation, "factor", 1.0);
     const double value = input * factor + number("offset", 0.0);
@@ -404,12 +333,11 @@ AffineTransform turned_about(const RotationAxis& axis, double angle_rad) {
     return {turn, axis.point_m - turn * axis.point_m};
 }
 
-std::optional<FlightGearRestPlacement>
-placement_at_rest(const std::filesystem::path& file, const XmlElement& animation) {
+std::optional<FlightGearRestPlacement> placement_at_rest(
+    const std::filesystem::path& file, const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const bool turns = kind == "rotate";
-    if ((!turns && kind != "translate") || animation.find("expression") != nullptr ||
-        !holds_at_rest(animation)) {
+    if ((!turns && kind != "translate") || animation.find("expression") != nullptr || !holds_at_rest(animation)) {
         return std::nullopt;
     }
     const double value = value_at_rest(file, animation, turns ? "-deg" : "-m");
@@ -418,21 +346,15 @@ placement_at_rest(const std::filesystem::path& file, const XmlElement& animation
     }
     RotationAxis axis = axis_in(file, animation);
     const double length = glm::length(axis.direction);
-    if (!(length > 0.0)) {
-        return std::nullopt;
-    }
+    if (!(length > 0.0)) { return std::nullopt; }
     axis.direction /= length;
     FlightGearRestPlacement move;
-    move.placement = turns ? turned_about(axis, rad_from_deg(value))
-                           : AffineTransform{glm::dmat3(1.0), value * axis.direction};
+    move.placement =
+        turns ? turned_about(axis, rad_from_deg(value)) : AffineTransform{glm::dmat3(1.0), value * axis.direction};
     for (const XmlElement& named : animation.children) {
-        if (named.name == "object-name") {
-            move.objects.insert(named.text);
-        }
+        if (named.name == "object-name") { move.objects.insert(named.text); }
     }
-    if (move.objects.empty()) {
-        move.objects.insert("");
-    }
+    if (move.objects.empty()) { move.objects.insert(""); }
     return move;
 }
 
@@ -440,13 +362,9 @@ using Names = std::set<std::string>;
 using Groups = std::map<std::string, Names>;
 
 void add_names(const XmlElement& animation, Names& names) {
-    if (animation.find("object-name") == nullptr) {
-        names.insert("");
-    }
+    if (animation.find("object-name") == nullptr) { names.insert(""); }
     for (const XmlElement& named : animation.children) {
-        if (named.name == "object-name") {
-            names.insert(named.text);
-        }
+        if (named.name == "object-name") { names.insert(named.text); }
     }
 }
 
@@ -468,17 +386,14 @@ void expand(Names& names, const Groups& groups) {
     for (std::size_t before = 0; before != names.size();) {
         before = names.size();
         for (const auto& [group, members] : groups) {
-            if (names.contains(group)) {
-                names.insert(members.begin(), members.end());
-            }
+            if (names.contains(group)) { names.insert(members.begin(), members.end()); }
         }
     }
 }
 
 bool is_shadow(const std::string& name) {
     std::string lower = name;
-    std::ranges::transform(
-        lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return lower.find("shadow") != lower.npos && lower.find("noshadow") == lower.npos;
 }
 
@@ -492,10 +407,8 @@ void add_shadows(const XmlElement& animation, Names& hidden) {
 /// Turns of objects about the same axis become one: each costs a reading of the mesh.
 void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
     const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& other) {
-        return other.objects.empty() == turn.objects.empty() &&
-               other.about.point_m == turn.about.point_m &&
-               other.about.direction == turn.about.direction &&
-               other.about.turns_per_s == turn.about.turns_per_s;
+        return other.objects.empty() == turn.objects.empty() && other.about.point_m == turn.about.point_m &&
+               other.about.direction == turn.about.direction && other.about.turns_per_s == turn.about.turns_per_s;
     });
     if (found != turns.end()) {
         found->objects.merge(turn.objects);
@@ -506,10 +419,7 @@ void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
 
 /// What `read(file, animation)` gives; nothing for one whose numbers are faulty.
 template <typename Read>
-auto unless_faulty(
-    const Read& read,
-    const std::filesystem::path& file,
-    const XmlElement& animation,
+auto unless_faulty(const Read& read, const std::filesystem::path& file, const XmlElement& animation,
     std::vector<std::string>& notes) -> decltype(read(file, animation)) {
     try {
         return read(file, animation);
@@ -519,22 +429,15 @@ auto unless_faulty(
     }
 }
 
-/// Whether an animation hides what it names from an eye outside, at rest. Ranges that begin within
-/// some metres hide a pilot from his own eye; those that begin at a level of detail hold coarser
-/// levels, which are not needed: the finest one is refined. One whose numbers are faulty hides
-/// nothing.
-bool hides(
-    const std::filesystem::path& file,
-    const XmlElement& animation,
-    std::vector<std::string>& notes) {
+/// Whether an animation hides what it names from an eye outside, at rest. Ranges that begin within some metres hide a
+/// pilot from his own eye; those that begin at a level of detail hold coarser levels, which are not needed: the finest
+/// one is refined. One whose numbers are faulty hides nothing.
+bool hides(const std::filesystem::path& file, const XmlElement& animation, std::vector<std::string>& notes) {
     const std::string_view kind = animation.text_of("type");
-    if (kind != "range") {
-        return kind == "light" || !holds_at_rest(animation);
-    }
+    if (kind != "range") { return kind == "light" || !holds_at_rest(animation); }
     try {
         constexpr double eye_outside_m = 10.0;
-        return animation.find("min-property") != nullptr ||
-               number_in(file, animation, "min-m") > eye_outside_m;
+        return animation.find("min-property") != nullptr || number_in(file, animation, "min-m") > eye_outside_m;
     } catch (const Error& fault) {
         notes.push_back(fmt::format("{}; what it names is always shown", fault.what()));
         return false;
@@ -551,34 +454,25 @@ const RotationAxis* FlightGearAnimations::axis_of(const std::string& object) con
 AffineTransform FlightGearAnimations::place_of(const std::string& object) const {
     AffineTransform place;
     for (const FlightGearRestPlacement& move : moves) {
-        if (move.objects.contains(object) && axis_of(object) == nullptr) {
-            place = place.of(move.placement);
-        }
+        if (move.objects.contains(object) && axis_of(object) == nullptr) { place = place.of(move.placement); }
     }
     return place;
 }
 
-FlightGearAnimations
-flightgear_animations(const std::filesystem::path& file, const XmlElement& root) {
+FlightGearAnimations flightgear_animations(const std::filesystem::path& file, const XmlElement& root) {
     const Groups groups = groups_in(root);
     FlightGearAnimations animated;
     for (const XmlElement& child : root.children) {
         const std::string kind(child.text_of("type"));
-        if (child.name != "animation" || kind.empty()) {
-            continue;
-        }
+        if (child.name != "animation" || kind.empty()) { continue; }
         if (kind == "range" || kind == "select" || kind == "light") {
-            if (hides(file, child, animated.notes)) {
-                add_names(child, animated.hidden);
-            }
+            if (hides(file, child, animated.notes)) { add_names(child, animated.hidden); }
         } else if (auto turn = unless_faulty(rotation_in_flight, file, child, animated.notes)) {
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
         } else {
             ++animated.at_rest[kind];
-            if (kind == "translate" || kind == "rotate") {
-                add_shadows(child, animated.hidden);
-            }
+            if (kind == "translate" || kind == "rotate") { add_shadows(child, animated.hidden); }
             if (auto move = unless_faulty(placement_at_rest, file, child, animated.notes)) {
                 expand(move->objects, groups);
                 animated.moves.push_back(std::move(*move));
@@ -610,9 +504,7 @@ glm::dmat3 turn_about(int axis, double angle_rad) {
 
 class FlightGearReading {
 public:
-    FlightGearReading(const fs::path& path, const ReadOptions& options)
-        : path_(path)
-        , options_(options) {}
+    FlightGearReading(const fs::path& path, const ReadOptions& options) : path_(path), options_(options) {}
 
     RotatingModel read() {
         take_model(model_file(), {}, nullptr, 0);
@@ -621,16 +513,12 @@ public:
                 join_mesh(model_.body, std::move(part.mesh), {});
             }
         }
-        if (model_.body.triangles.empty()) {
-            join_mesh(model_.body, std::exchange(model_.clear, {}).mesh, {});
-        }
-        if (model_.body.triangles.empty()) {
-            throw_error_in(path_, "expected a model with a mesh, got none");
-        }
+        if (model_.body.triangles.empty()) { join_mesh(model_.body, std::exchange(model_.clear, {}).mesh, {}); }
+        if (model_.body.triangles.empty()) { throw_error_in(path_, "expected a model with a mesh, got none"); }
         if (const std::size_t all = model_.body.notes.size(); all > max_notes) {
             model_.body.notes.resize(max_notes);
-            model_.body.notes.push_back(fmt::format(
-                "{}: {} more notes on its sub-models", path_.string(), all - max_notes));
+            model_.body.notes.push_back(
+                fmt::format("{}: {} more notes on its sub-models", path_.string(), all - max_notes));
         }
         model_.body.name = path_.stem().string();
         if (!at_rest_.empty()) {
@@ -638,8 +526,7 @@ public:
             for (const auto& [kind, count] : at_rest_) {
                 kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, printable(kind));
             }
-            model_.body.notes.push_back(
-                fmt::format("{}: animations are left at rest: {}", path_.string(), kinds));
+            model_.body.notes.push_back(fmt::format("{}: animations are left at rest: {}", path_.string(), kinds));
         }
         return std::move(model_);
     }
@@ -647,21 +534,15 @@ public:
 private:
     /// An aircraft's own file, such as b25-set.xml, names its model among much else.
     fs::path model_file() const {
-        if (!path_.filename().string().ends_with("-set.xml")) {
-            return path_;
-        }
+        if (!path_.filename().string().ends_with("-set.xml")) { return path_; }
         const XmlElement root = flightgear_tree(path_);
         for (const XmlElement& sim : root.children) {
             const XmlElement* model = sim.name == "sim" ? sim.find("model") : nullptr;
             const std::string name(model == nullptr ? "" : model->text_of("path"));
-            if (name.empty()) {
-                continue;
-            }
+            if (name.empty()) { continue; }
             fs::path file = flightgear_file(path_, name);
             if (file.empty()) {
-                throw_error_in(
-                    path_,
-                    "expected a file of its sim/model/path, got none called " + in_quotes(name));
+                throw_error_in(path_, "expected a file of its sim/model/path, got none called " + in_quotes(name));
             }
             return file;
         }
@@ -670,39 +551,26 @@ private:
 
     AffineTransform offsets(const fs::path& file, const XmlElement& parent) const {
         const XmlElement* found = parent.find("offsets");
-        if (found == nullptr) {
-            return {};
-        }
-        const auto angle_rad = [&](std::string_view name) {
-            return rad_from_deg(number_in(file, *found, name));
-        };
-        const glm::dmat3 turn = turn_about(2, angle_rad("heading-deg")) *
-                                turn_about(1, angle_rad("pitch-deg")) *
+        if (found == nullptr) { return {}; }
+        const auto angle_rad = [&](std::string_view name) { return rad_from_deg(number_in(file, *found, name)); };
+        const glm::dmat3 turn = turn_about(2, angle_rad("heading-deg")) * turn_about(1, angle_rad("pitch-deg")) *
                                 turn_about(0, angle_rad("roll-deg"));
-        return {
-            turn,
-            {number_in(file, *found, "x-m"),
-             number_in(file, *found, "y-m"),
-             number_in(file, *found, "z-m")}};
+        return {turn, {number_in(file, *found, "x-m"), number_in(file, *found, "y-m"), number_in(file, *found, "z-m")}};
     }
 
     /// `about`: what turns all of it; null for what does not turn as a whole.
-    void
-    take_model(const fs::path& file, const AffineTransform& parent, const RotationAxis* about, int depth) {
+    void take_model(const fs::path& file, const AffineTransform& parent, const RotationAxis* about, int depth) {
         if (extension_of(file) != ".xml") {
             add_mesh(file, parent, {}, about);
             return;
         }
         if (depth > max_model_depth || ++models_ > max_models) {
-            throw_error_in(
-                file, fmt::format("expected models at most {} deep, got more", max_model_depth));
+            throw_error_in(file, fmt::format("expected models at most {} deep, got more", max_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
         AffineTransform own = parent.of(offsets(file, root));
         const FlightGearAnimations animated = animations_of(file, root, own);
-        if (animated.hidden.contains("") && depth > 0) {
-            return;
-        }
+        if (animated.hidden.contains("") && depth > 0) { return; }
         about = about == nullptr ? animated.axis_of("") : about;
         options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (const std::string name(root.text_of("path")); !name.empty()) {
@@ -717,8 +585,7 @@ private:
             const std::string name(child.text_of("name"));
             const bool is_hidden = !name.empty() && animated.hidden.contains(name);
             if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
-                const RotationAxis* turned =
-                    about == nullptr && !name.empty() ? animated.axis_of(name) : about;
+                const RotationAxis* turned = about == nullptr && !name.empty() ? animated.axis_of(name) : about;
                 const AffineTransform moved = name.empty() ? own : own.of(animated.place_of(name));
                 take_named(file, path, moved.of(offsets(file, child)), {}, turned, depth);
             }
@@ -726,28 +593,20 @@ private:
     }
 
     /// Also moves `own`, the model, to where it stands at rest.
-    FlightGearAnimations
-    animations_of(const fs::path& file, const XmlElement& root, AffineTransform& own) {
+    FlightGearAnimations animations_of(const fs::path& file, const XmlElement& root, AffineTransform& own) {
         FlightGearAnimations animated = flightgear_animations(file, root);
         own = own.of(animated.place_of(""));
         for (FlightGearRotation& turn : animated.turns) {
             turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
             turn.about.direction = own.turn * turn.about.direction;
         }
-        for (const auto& [kind, count] : animated.at_rest) {
-            at_rest_[kind] += count;
-        }
+        for (const auto& [kind, count] : animated.at_rest) { at_rest_[kind] += count; }
         std::ranges::for_each(animated.notes, [&](const std::string& note) { note_once(note); });
         return animated;
     }
 
-    void take_named(
-        const fs::path& from,
-        const std::string& name,
-        const AffineTransform& placement,
-        const FlightGearAnimations& animated,
-        const RotationAxis* about,
-        int depth) {
+    void take_named(const fs::path& from, const std::string& name, const AffineTransform& placement,
+        const FlightGearAnimations& animated, const RotationAxis* about, int depth) {
         const fs::path file = flightgear_file(from, name);
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
@@ -761,19 +620,13 @@ private:
     }
 
     /// A faulty file below the first one costs itself alone.
-    void take_sub_model(
-        const fs::path& file, const AffineTransform& placement, const RotationAxis* about, int depth) {
+    void take_sub_model(const fs::path& file, const AffineTransform& placement, const RotationAxis* about, int depth) {
         try {
             take_model(file, placement, about, depth);
-        } catch (const Error& fault) {
-            note_once(fmt::format("{}; what else is in there is left out", fault.what()));
-        }
+        } catch (const Error& fault) { note_once(fmt::format("{}; what else is in there is left out", fault.what())); }
     }
 
-    void add_mesh(
-        const fs::path& file,
-        const AffineTransform& placement,
-        const FlightGearAnimations& animated,
+    void add_mesh(const fs::path& file, const AffineTransform& placement, const FlightGearAnimations& animated,
         const RotationAxis* about) {
         if (!animated.turns.empty() && extension_of(file) != ".ac") {
             note_once(file.string() + ": its objects are not told apart, so none of them turns");
@@ -786,46 +639,34 @@ private:
             }
         }
         for (const FlightGearRotation& turn : animated.turns) {
-            if (about == nullptr) {
-                options.groups.push_back(turn.objects);
-            }
+            if (about == nullptr) { options.groups.push_back(turn.objects); }
         }
         try {
             MeshParts parts = read_parts(file, options);
             const AffineTransform placed = in_model(file, placement);
-            join_mesh(
-                about == nullptr ? model_.body : part_about(*about), std::move(parts.body), placed);
+            join_mesh(about == nullptr ? model_.body : part_about(*about), std::move(parts.body), placed);
             for (std::size_t i = 0; i < parts.groups.size(); ++i) {
                 if (!parts.groups[i].triangles.empty()) {
-                    join_mesh(
-                        part_about(animated.turns[i].about), std::move(parts.groups[i]), placed);
+                    join_mesh(part_about(animated.turns[i].about), std::move(parts.groups[i]), placed);
                 }
             }
             join_clear(std::move(parts.clear), placed);
-        } catch (const Error& fault) {
-            note_once(fmt::format("{}; this sub-model is left out", fault.what()));
-        }
+        } catch (const Error& fault) { note_once(fmt::format("{}; this sub-model is left out", fault.what())); }
     }
 
     void join_clear(TransparentSurfaces more, const AffineTransform& placed) {
         const std::size_t count = more.mesh.triangles.size();
-        if (count == 0) {
-            return;
-        }
+        if (count == 0) { return; }
         TransparentSurfaces& all = model_.clear;
         join_mesh(all.mesh, std::move(more.mesh), placed);
-        const float share =
-            static_cast<float>(count) / static_cast<float>(all.mesh.triangles.size());
-        all.opacity = all.mesh.triangles.size() == count
-                          ? more.opacity
-                          : all.opacity + (more.opacity - all.opacity) * share;
+        const float share = static_cast<float>(count) / static_cast<float>(all.mesh.triangles.size());
+        all.opacity =
+            all.mesh.triangles.size() == count ? more.opacity : all.opacity + (more.opacity - all.opacity) * share;
     }
 
     /// A move within a model, within an AC3D file.
     static AffineTransform in_ac3d(const AffineTransform& in_model) {
-        return {
-            glm::transpose(from_ac3d) * in_model.turn * from_ac3d,
-            glm::transpose(from_ac3d) * in_model.shift_m};
+        return {glm::transpose(from_ac3d) * in_model.turn * from_ac3d, glm::transpose(from_ac3d) * in_model.shift_m};
     }
 
     static AffineTransform in_model(const fs::path& file, const AffineTransform& placement) {
@@ -836,10 +677,8 @@ private:
     TriangleMesh& part_about(const RotationAxis& about) {
         constexpr double near_m = 0.01;
         for (RotatingPart& part : model_.parts) {
-            const glm::dvec3 across_m =
-                glm::cross(part.about.direction, about.point_m - part.about.point_m);
-            if (glm::dot(part.about.direction, about.direction) > 1.0 - 1e-6 &&
-                glm::length(across_m) < near_m &&
+            const glm::dvec3 across_m = glm::cross(part.about.direction, about.point_m - part.about.point_m);
+            if (glm::dot(part.about.direction, about.direction) > 1.0 - 1e-6 && glm::length(across_m) < near_m &&
                 std::abs(part.about.turns_per_s - about.turns_per_s) < 1e-9) {
                 return part.mesh;
             }
@@ -848,9 +687,7 @@ private:
     }
 
     void note_once(const std::string& note) {
-        if (told_.insert(note).second) {
-            model_.body.notes.push_back(note);
-        }
+        if (told_.insert(note).second) { model_.body.notes.push_back(note); }
     }
 
     fs::path path_;
@@ -864,9 +701,7 @@ private:
 } // namespace
 
 RotatingModel read_rotating_model(const fs::path& path, const ReadOptions& options) {
-    if (extension_of(path) == ".xml") {
-        return FlightGearReading(path, options).read();
-    }
+    if (extension_of(path) == ".xml") { return FlightGearReading(path, options).read(); }
     ReadOptions alone = options;
     alone.placeholders = false;
     MeshParts parts = read_parts(path, alone);
@@ -878,9 +713,7 @@ RotatingModel read_rotating_model(const fs::path& path, const ReadOptions& optio
 
 TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& options) {
     RotatingModel model = read_rotating_model(path, options);
-    for (RotatingPart& part : model.parts) {
-        join_mesh(model.body, std::move(part.mesh), {});
-    }
+    for (RotatingPart& part : model.parts) { join_mesh(model.body, std::move(part.mesh), {}); }
     join_mesh(model.body, std::move(model.clear.mesh), {});
     return std::move(model.body);
 }

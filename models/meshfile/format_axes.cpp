@@ -10,15 +10,9 @@ namespace octant::models::meshfile {
 
 std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file) {
     const std::string ending = extension_of(file);
-    if (ending == ".ac") {
-        return polygons::FileAxes::from_text("back,up,left");
-    }
-    if (ending == ".gltf" || ending == ".glb") {
-        return polygons::FileAxes::from_text("left,up,forward");
-    }
-    if (ending == ".xml") {
-        return polygons::FileAxes::from_text("back,right,up");
-    }
+    if (ending == ".ac") { return polygons::FileAxes::from_text("back,up,left"); }
+    if (ending == ".gltf" || ending == ".glb") { return polygons::FileAxes::from_text("left,up,forward"); }
+    if (ending == ".xml") { return polygons::FileAxes::from_text("back,right,up"); }
     return std::nullopt;
 }
 

@@ -41,16 +41,15 @@ private:
     bool is_normalized_ = false;
 };
 
-/// The JSON part of a .gltf or .glb file and what its buffers hold. Every access is checked; faults
-/// throw Error "file: meshes[0].primitives: expected ..., got ...".
+/// The JSON part of a .gltf or .glb file and what its buffers hold. Every access is checked; faults throw Error "file:
+/// meshes[0].primitives: expected ..., got ...".
 class GltfData {
 public:
     explicit GltfData(const std::filesystem::path& path);
 
     const Json& root() const { return root_; }
 
-    [[noreturn]] void
-    refuse(const std::string& where, const std::string& expected, const std::string& got) const;
+    [[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& got) const;
 
     /// Entry `index` of a list at the top, which must be an object.
     const Json& entry(const char* list, std::size_t index) const;
@@ -58,18 +57,15 @@ public:
     std::size_t count_of(const char* list) const;
 
     /// A member that must be a whole number below `limit`; nothing when it is missing.
-    std::optional<std::size_t>
-    index(const Json& object, const char* name, std::size_t limit, const std::string& where) const;
+    std::optional<std::size_t> index(
+        const Json& object, const char* name, std::size_t limit, const std::string& where) const;
 
     /// The list of that name, empty when it is missing.
     const Json& list(const Json& object, const char* name, const std::string& where) const;
 
     /// As many numbers as `otherwise` has, which is given when the member is missing.
     std::vector<double> numbers(
-        const Json& object,
-        const char* name,
-        std::vector<double> otherwise,
-        const std::string& where) const;
+        const Json& object, const char* name, std::vector<double> otherwise, const std::string& where) const;
 
     /// The accessor of that number, all of which lies in its buffer.
     GltfAccessor accessor(std::size_t index);

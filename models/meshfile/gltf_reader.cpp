@@ -38,14 +38,10 @@ constexpr int max_gltf_node_depth = 200;
 
 class SceneWalk {
 public:
-    explicit SceneWalk(const GltfData& data)
-        : data_(data)
-        , met_(data.count_of("nodes"), false) {}
+    explicit SceneWalk(const GltfData& data) : data_(data), met_(data.count_of("nodes"), false) {}
 
     std::vector<PlacedMesh> walk() {
-        for (const std::size_t root : roots()) {
-            take_node(root, {}, 0);
-        }
+        for (const std::size_t root : roots()) { take_node(root, {}, 0); }
         for (std::size_t mesh = 0; met_.empty() && mesh < data_.count_of("meshes"); ++mesh) {
             placed_.push_back({mesh, {}});
         }
@@ -56,33 +52,23 @@ private:
     std::vector<std::size_t> roots() const {
         const std::size_t scenes = data_.count_of("scenes");
         const std::size_t scene = data_.index(data_.root(), "scene", scenes, "file").value_or(0);
-        if (scenes > 0) {
-            return node_list(
-                data_.entry("scenes", scene), "nodes", fmt::format("scenes[{}]", scene));
-        }
+        if (scenes > 0) { return node_list(data_.entry("scenes", scene), "nodes", fmt::format("scenes[{}]", scene)); }
         std::vector<bool> is_child(met_.size(), false);
         for (std::size_t node = 0; node < met_.size(); ++node) {
-            for (const std::size_t child : children(node)) {
-                is_child[child] = true;
-            }
+            for (const std::size_t child : children(node)) { is_child[child] = true; }
         }
         std::vector<std::size_t> found;
         for (std::size_t node = 0; node < met_.size(); ++node) {
-            if (!is_child[node]) {
-                found.push_back(node);
-            }
+            if (!is_child[node]) { found.push_back(node); }
         }
         return found;
     }
 
-    std::vector<std::size_t>
-    node_list(const Json& object, const char* name, const std::string& where) const {
+    std::vector<std::size_t> node_list(const Json& object, const char* name, const std::string& where) const {
         std::vector<std::size_t> found;
         for (const Json& node : data_.list(object, name, where)) {
             if (!node.is_number_unsigned() || node.get<std::uint64_t>() >= met_.size()) {
-                data_.refuse(
-                    where + "." + name,
-                    fmt::format("nodes below {}", met_.size()),
+                data_.refuse(where + "." + name, fmt::format("nodes below {}", met_.size()),
                     in_quotes(node.dump(-1, ' ', true, Json::error_handler_t::replace)));
             }
             found.push_back(node.get<std::size_t>());
@@ -96,12 +82,9 @@ private:
 
     void take_node(std::size_t index, const AffineTransform& parent, int depth) {
         const std::string where = fmt::format("nodes[{}]", index);
-        if (met_[index]) {
-            data_.refuse(where, "a node with one parent", "one that is met again");
-        }
+        if (met_[index]) { data_.refuse(where, "a node with one parent", "one that is met again"); }
         if (depth > max_gltf_node_depth) {
-            data_.refuse(
-                where, fmt::format("nodes at most {} deep", max_gltf_node_depth), "a deeper one");
+            data_.refuse(where, fmt::format("nodes at most {} deep", max_gltf_node_depth), "a deeper one");
         }
         met_[index] = true;
         const Json& node = data_.entry("nodes", index);
@@ -109,9 +92,7 @@ private:
         if (const auto mesh = data_.index(node, "mesh", data_.count_of("meshes"), where)) {
             placed_.push_back({*mesh, placement});
         }
-        for (const std::size_t child : children(index)) {
-            take_node(child, placement, depth + 1);
-        }
+        for (const std::size_t child : children(index)) { take_node(child, placement, depth + 1); }
     }
 
     AffineTransform own(const Json& node, const std::string& where) const {
@@ -130,9 +111,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 image(0.0);
             image[axis] = 1.0;
-            if (length2 > 0.0) {
-                image += 2.0 / length2 * glm::cross(v, glm::cross(v, image) + q[3] * image);
-            }
+            if (length2 > 0.0) { image += 2.0 / length2 * glm::cross(v, glm::cross(v, image) + q[3] * image); }
             made.turn[axis] = image * scale[static_cast<std::size_t>(axis)];
         }
         made.shift_m = {shift[0], shift[1], shift[2]};
@@ -144,16 +123,14 @@ private:
     std::vector<PlacedMesh> placed_;
 };
 
-/// What the default scene shows, else the first one, else the nodes that are nobody's child, else
-/// (a file without nodes) all meshes as they are. Throws Error for nodes that are met twice.
-std::vector<PlacedMesh> placed_meshes(const GltfData& data) {
-    return SceneWalk(data).walk();
-}
+/// What the default scene shows, else the first one, else the nodes that are nobody's child, else (a file without
+/// nodes) all meshes as they are. Throws Error for nodes that are met twice.
+std::vector<PlacedMesh> placed_meshes(const GltfData& data) { return SceneWalk(data).walk(); }
 
-/// The accessor of a primitive's texture coordinates: those of its material's base colour picture,
-/// the first ones where there is none; nothing where the primitive has none.
-std::optional<std::size_t>
-texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes);
+/// The accessor of a primitive's texture coordinates: those of its material's base colour picture, the first ones where
+/// there is none; nothing where the primitive has none.
+std::optional<std::size_t> texture_accessor(
+    GltfData& data, std::optional<std::size_t> material, const Json& attributes);
 
 /// A member that is an object; null where it is not there.
 const Json* object_in(const Json& json, const char* name) {
@@ -170,29 +147,22 @@ const Json* base_texture(GltfData& data, std::size_t material) {
 std::optional<std::size_t> image_of(GltfData& data, std::size_t material) {
     const std::string where = fmt::format("materials[{}]", material);
     const Json* base = base_texture(data, material);
-    const auto texture = base == nullptr
-                             ? std::nullopt
-                             : data.index(*base, "index", data.count_of("textures"), where);
-    return texture ? data.index(
-                         data.entry("textures", *texture), "source", data.count_of("images"), where)
+    const auto texture = base == nullptr ? std::nullopt : data.index(*base, "index", data.count_of("textures"), where);
+    return texture ? data.index(data.entry("textures", *texture), "source", data.count_of("images"), where)
                    : std::nullopt;
 }
 
-/// The number of a material's base colour picture among `pictures`, read once. What cannot be read
-/// is noted and left out.
+/// The number of a material's base colour picture among `pictures`, read once. What cannot be read is noted and left
+/// out.
 std::uint32_t baked_picture(GltfData& data, std::size_t material, BakedPictures& pictures) {
     const auto image = image_of(data, material);
-    return image ? pictures.picture(fmt::format("images[{}]", *image), data.image_bytes(*image))
-                 : BakedPictures::none;
+    return image ? pictures.picture(fmt::format("images[{}]", *image), data.image_bytes(*image)) : BakedPictures::none;
 }
 
 /// Names a material's base colour picture in `made`: the file, or the bytes in the file at `path`.
-void take_picture(
-    GltfData& data, std::size_t material, const std::filesystem::path& path, Material& made) {
+void take_picture(GltfData& data, std::size_t material, const std::filesystem::path& path, Material& made) {
     const auto image = image_of(data, material);
-    if (!image) {
-        return;
-    }
+    if (!image) { return; }
     const Json uri = data.entry("images", *image).value("uri", Json());
     if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
         made.picture = picture_file(path, uri.get<std::string>()).string();
@@ -202,17 +172,12 @@ void take_picture(
     made.picture_bytes = std::make_shared<const std::string>(data.image_bytes(*image));
 }
 
-std::optional<std::size_t>
-texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes) {
+std::optional<std::size_t> texture_accessor(
+    GltfData& data, std::optional<std::size_t> material, const Json& attributes) {
     constexpr std::size_t max_sets = 8;
     const Json* base = material ? base_texture(data, *material) : nullptr;
-    const std::size_t set =
-        base == nullptr ? 0 : data.index(*base, "texCoord", max_sets, "materials").value_or(0);
-    return data.index(
-        attributes,
-        fmt::format("TEXCOORD_{}", set).c_str(),
-        data.count_of("accessors"),
-        "attributes");
+    const std::size_t set = base == nullptr ? 0 : data.index(*base, "texCoord", max_sets, "materials").value_or(0);
+    return data.index(attributes, fmt::format("TEXCOORD_{}", set).c_str(), data.count_of("accessors"), "attributes");
 }
 
 constexpr std::size_t max_gltf_numbers = std::size_t{1} << 27U; ///< of corners and vertices
@@ -225,24 +190,18 @@ constexpr std::array<int, 5> place_components{5126, 5120, 5121, 5122, 5123};
 class GltfReading {
 public:
     GltfReading(const std::filesystem::path& path, const ReadOptions& options)
-        : path_(path)
-        , data_(path)
-        , mesh_(path, options)
-        , materials_(data_.count_of("materials"), invalid_index) {}
+        : path_(path), data_(path), mesh_(path, options), materials_(data_.count_of("materials"), invalid_index) {}
 
     /// What the file holds, to be finished.
     MeshBuilder read() {
         refuse_packed_meshes();
-        for (const PlacedMesh& placed : placed_meshes(data_)) {
-            take_mesh(placed.mesh, placed.placement);
-        }
+        for (const PlacedMesh& placed : placed_meshes(data_)) { take_mesh(placed.mesh, placed.placement); }
         if (skipped_ > 0) {
-            mesh_.add_note(fmt::format(
-                "{}: {} primitives of points and lines are not read", path_.string(), skipped_));
+            mesh_.add_note(fmt::format("{}: {} primitives of points and lines are not read", path_.string(), skipped_));
         }
         if (!not_read_.empty()) {
-            mesh_.add_note(fmt::format(
-                "{}: attributes that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
+            mesh_.add_note(
+                fmt::format("{}: attributes that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
         return std::move(mesh_);
     }
@@ -263,45 +222,33 @@ private:
         vertices_.clear();
         normals_.clear();
         texture_coordinates_.clear();
-        for (const Json& primitive :
-             data_.list(data_.entry("meshes", index), "primitives", where)) {
-            if (!primitive.is_object()) {
-                data_.refuse(where, "objects", "something else");
-            }
+        for (const Json& primitive : data_.list(data_.entry("meshes", index), "primitives", where)) {
+            if (!primitive.is_object()) { data_.refuse(where, "objects", "something else"); }
             take_primitive(primitive, placement, where);
         }
     }
 
-    void
-    take_primitive(const Json& primitive, const AffineTransform& placement, const std::string& where) {
+    void take_primitive(const Json& primitive, const AffineTransform& placement, const std::string& where) {
         const std::size_t mode = data_.index(primitive, "mode", 7, where).value_or(4);
         if (mode < 4) {
             ++skipped_;
             return;
         }
         const auto attributes = primitive.find("attributes");
-        if (attributes == primitive.end() || !attributes->is_object()) {
-            data_.refuse(where, "attributes", "none");
-        }
+        if (attributes == primitive.end() || !attributes->is_object()) { data_.refuse(where, "attributes", "none"); }
         const std::size_t accessors = data_.count_of("accessors");
         const auto position = data_.index(*attributes, "POSITION", accessors, where);
-        if (!position) {
-            data_.refuse(where, "a POSITION", "none");
-        }
+        if (!position) { data_.refuse(where, "a POSITION", "none"); }
         const auto colour = data_.index(*attributes, "COLOR_0", accessors, where);
         const auto normal = data_.index(*attributes, "NORMAL", accessors, where);
-        const auto [first_vertex, count] =
-            vertices(*position, colour.value_or(accessors), placement, where);
+        const auto [first_vertex, count] = vertices(*position, colour.value_or(accessors), placement, where);
         std::uint32_t first_normal = invalid_index;
-        if (normal) {
-            first_normal = normals(*normal, count, placement, where);
-        }
+        if (normal) { first_normal = normals(*normal, count, placement, where); }
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
         const auto material = data_.index(primitive, "material", materials_.size(), where);
         const std::uint32_t used = material ? used_material(*material) : invalid_index;
-        const std::uint32_t picture = material && mesh_.uses_pictures()
-                                          ? baked_picture(data_, *material, mesh_.pictures())
-                                          : BakedPictures::none;
+        const std::uint32_t picture =
+            material && mesh_.uses_pictures() ? baked_picture(data_, *material, mesh_.pictures()) : BakedPictures::none;
         const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
         const auto texture = texture_accessor(data_, material, *attributes);
         for (const auto& [name, number] : attributes->items()) {
@@ -309,20 +256,15 @@ private:
                 not_read_.insert(printable(name));
             }
         }
-        const auto add = [&,
-                          first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto add = [&, first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const auto corner = [&](std::uint32_t vertex) {
-                return CornerIndices{
-                    first + vertex,
+                return CornerIndices{first + vertex,
                     first_normal == invalid_index ? invalid_index : first_normal + vertex,
                     first_texture == invalid_index ? invalid_index : first_texture + vertex};
             };
             std::array<CornerIndices, 3> triangle{corner(a), corner(b), corner(c)};
-            if (placement.mirrors()) {
-                std::swap(triangle[1], triangle[2]);
-            }
-            mesh_.add_polygon(
-                triangle, used, first_texture == invalid_index ? BakedPictures::none : picture);
+            if (placement.mirrors()) { std::swap(triangle[1], triangle[2]); }
+            mesh_.add_polygon(triangle, used, first_texture == invalid_index ? BakedPictures::none : picture);
         };
         add_triangles(mode, corners, add, where);
     }
@@ -330,10 +272,7 @@ private:
     /// Mode 4 is triangles, 5 a strip, 6 a fan.
     template <typename Add>
     void add_triangles(
-        std::size_t mode,
-        const std::vector<std::uint32_t>& corners,
-        const Add& add,
-        const std::string& where) const {
+        std::size_t mode, const std::vector<std::uint32_t>& corners, const Add& add, const std::string& where) const {
         if (corners.size() < 3 || (mode == 4 && corners.size() % 3 != 0)) {
             data_.refuse(where, "corners of whole triangles", std::to_string(corners.size()));
         }
@@ -352,35 +291,25 @@ private:
     void count_numbers(std::size_t count, const std::string& where) {
         numbers_ += count;
         if (numbers_ > max_gltf_numbers) {
-            data_.refuse(
-                where, fmt::format("at most {} corners and vertices", max_gltf_numbers), "more");
+            data_.refuse(where, fmt::format("at most {} corners and vertices", max_gltf_numbers), "more");
         }
     }
 
     /// Primitives of one mesh that have the same places and colours share their vertices.
     std::pair<std::uint32_t, std::size_t> vertices(
-        std::size_t position,
-        std::size_t colour,
-        const AffineTransform& placement,
-        const std::string& where) {
+        std::size_t position, std::size_t colour, const AffineTransform& placement, const std::string& where) {
         const auto known = vertices_.find({position, colour});
-        if (known != vertices_.end()) {
-            return known->second;
-        }
+        if (known != vertices_.end()) { return known->second; }
         const GltfAccessor places = data_.accessor(position);
-        if (places.parts() != 3 ||
-            std::ranges::find(place_components, places.component()) == place_components.end()) {
+        if (places.parts() != 3 || std::ranges::find(place_components, places.component()) == place_components.end()) {
             data_.refuse(where, "a POSITION of three floats or short numbers", "another type");
         }
         count_numbers(places.count(), where);
         const auto first = static_cast<std::uint32_t>(mesh_.vertex_count());
         for (std::size_t i = 0; i < places.count(); ++i) {
-            const auto place_m =
-                placement.point_m({places.at(i, 0), places.at(i, 1), places.at(i, 2)});
+            const auto place_m = placement.point_m({places.at(i, 0), places.at(i, 1), places.at(i, 2)});
             if (!place_m) {
-                data_.refuse(
-                    where,
-                    "finite places within bounds",
+                data_.refuse(where, "finite places within bounds",
                     fmt::format("{} {} {}", places.at(i, 0), places.at(i, 1), places.at(i, 2)));
             }
             mesh_.add_vertex(*place_m);
@@ -393,15 +322,9 @@ private:
         return made;
     }
 
-    void take_colours(
-        const GltfAccessor& colours,
-        std::uint32_t first,
-        std::size_t count,
-        const std::string& where) {
+    void take_colours(const GltfAccessor& colours, std::uint32_t first, std::size_t count, const std::string& where) {
         if (colours.parts() < 3 || colours.count() != count) {
-            data_.refuse(
-                where,
-                fmt::format("a COLOR_0 of 3 or 4 numbers for each of {} places", count),
+            data_.refuse(where, fmt::format("a COLOR_0 of 3 or 4 numbers for each of {} places", count),
                 fmt::format("{} of {}", colours.count(), colours.parts()));
         }
         for (std::size_t i = 0; i < count; ++i) {
@@ -413,25 +336,17 @@ private:
                 }
                 colour[part] = value;
             }
-            mesh_.set_colour(
-                first + static_cast<std::uint32_t>(i), glm::vec3(srgb_from_linear(colour)));
+            mesh_.set_colour(first + static_cast<std::uint32_t>(i), glm::vec3(srgb_from_linear(colour)));
         }
     }
 
     std::uint32_t normals(
-        std::size_t index,
-        std::size_t count,
-        const AffineTransform& placement,
-        const std::string& where) {
+        std::size_t index, std::size_t count, const AffineTransform& placement, const std::string& where) {
         const auto known = normals_.find(index);
-        if (known != normals_.end() && known->second.second == count) {
-            return known->second.first;
-        }
+        if (known != normals_.end() && known->second.second == count) { return known->second.first; }
         const GltfAccessor list = data_.accessor(index);
         if (list.parts() != 3 || list.count() != count) {
-            data_.refuse(
-                where,
-                fmt::format("a NORMAL of three numbers for each of {} places", count),
+            data_.refuse(where, fmt::format("a NORMAL of three numbers for each of {} places", count),
                 fmt::format("{} of {}", list.count(), list.parts()));
         }
         const auto first = static_cast<std::uint32_t>(mesh_.normal_count());
@@ -444,20 +359,13 @@ private:
     }
 
     /// The first of the texture coordinates of a primitive's vertices; invalid_index where it has none.
-    std::uint32_t texture_coordinates(
-        std::optional<std::size_t> material, const Json& attributes, std::size_t count) {
+    std::uint32_t texture_coordinates(std::optional<std::size_t> material, const Json& attributes, std::size_t count) {
         const auto index = texture_accessor(data_, material, attributes);
-        if (!index) {
-            return invalid_index;
-        }
+        if (!index) { return invalid_index; }
         const auto known = texture_coordinates_.find(*index);
-        if (known != texture_coordinates_.end() && known->second.second == count) {
-            return known->second.first;
-        }
+        if (known != texture_coordinates_.end() && known->second.second == count) { return known->second.first; }
         const GltfAccessor list = data_.accessor(*index);
-        if (list.parts() != 2 || list.count() != count) {
-            return invalid_index;
-        }
+        if (list.parts() != 2 || list.count() != count) { return invalid_index; }
         const auto first = static_cast<std::uint32_t>(mesh_.texture_coordinates_count());
         for (std::size_t i = 0; i < count; ++i) { // glTF counts v downwards
             mesh_.add_texture_coordinates(
@@ -467,15 +375,12 @@ private:
         return first;
     }
 
-    std::vector<std::uint32_t>
-    corner_list(const Json& primitive, std::size_t count, const std::string& where) {
+    std::vector<std::uint32_t> corner_list(const Json& primitive, std::size_t count, const std::string& where) {
         std::vector<std::uint32_t> corners;
         const auto index = data_.index(primitive, "indices", data_.count_of("accessors"), where);
         if (!index) {
             count_numbers(count, where);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                corners.push_back(i);
-            }
+            for (std::uint32_t i = 0; i < count; ++i) { corners.push_back(i); }
             return corners;
         }
         const GltfAccessor indices = data_.accessor(*index);
@@ -487,8 +392,7 @@ private:
         for (std::size_t i = 0; i < indices.count(); ++i) {
             corners.push_back(indices.unsigned_at(i));
             if (corners.back() >= count) {
-                data_.refuse(
-                    where, fmt::format("indices below {}", count), std::to_string(corners.back()));
+                data_.refuse(where, fmt::format("indices below {}", count), std::to_string(corners.back()));
             }
         }
         return corners;
@@ -496,14 +400,11 @@ private:
 
     /// Materials come in the order of their first primitive.
     std::uint32_t used_material(std::size_t index) {
-        if (materials_[index] != invalid_index) {
-            return materials_[index];
-        }
+        if (materials_[index] != invalid_index) { return materials_[index]; }
         const std::string where = fmt::format("materials[{}]", index);
         const Json& json = data_.entry("materials", index);
         const Json name = json.value("name", Json());
-        Material made{
-            .name = name.is_string() ? name.get<std::string>() : fmt::format("material {}", index)};
+        Material made{.name = name.is_string() ? name.get<std::string>() : fmt::format("material {}", index)};
         made.colour = glm::vec3(1.0F); // as glTF has it
         float opacity = 1.0F;
         const auto rough = json.find("pbrMetallicRoughness");

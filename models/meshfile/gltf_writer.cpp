@@ -1,8 +1,8 @@
-#include "models/srgb.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/byte_writer.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
+#include "models/srgb.h"
 
 #include <glm/common.hpp>
 
@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 constexpr int float_type = 5126;
 constexpr int index_type = 5125;
 
-/// A mesh whose vertices have one normal and one pair of texture coordinates each: the first keeps
-/// the vertex, others get copies.
+/// A mesh whose vertices have one normal and one pair of texture coordinates each: the first keeps the vertex, others
+/// get copies.
 struct Split {
     std::vector<std::uint32_t> vertices; ///< of the mesh, for each one here
     std::vector<std::uint32_t> normals;  ///< likewise; empty without
@@ -32,15 +32,11 @@ struct Split {
 
 Split split_by_corners(const TriangleMesh& mesh) {
     Split split;
-    for (std::uint32_t v = 0; v < mesh.vertices_m.size(); ++v) {
-        split.vertices.push_back(v);
-    }
+    for (std::uint32_t v = 0; v < mesh.vertices_m.size(); ++v) { split.vertices.push_back(v); }
     split.triangles = mesh.triangles;
     const bool has_normals = !mesh.corner_normals.empty();
     const bool has_textures = !mesh.corner_texture_coordinates.empty();
-    if (!has_normals && !has_textures) {
-        return split;
-    }
+    if (!has_normals && !has_textures) { return split; }
     split.normals.assign(has_normals ? mesh.vertices_m.size() : 0, invalid_index);
     split.textures.assign(has_textures ? mesh.vertices_m.size() : 0, invalid_index);
     std::vector<bool> is_taken(mesh.vertices_m.size(), false);
@@ -50,25 +46,18 @@ Split split_by_corners(const TriangleMesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[t][k];
             const std::uint32_t normal = has_normals ? mesh.corner_normals[t][k] : invalid_index;
-            const std::uint32_t texture =
-                has_textures ? mesh.corner_texture_coordinates[t][k] : invalid_index;
+            const std::uint32_t texture = has_textures ? mesh.corner_texture_coordinates[t][k] : invalid_index;
             const glm::vec3 n = normal == invalid_index ? glm::vec3(0.0F) : mesh.normals[normal];
-            const glm::vec2 place =
-                texture == invalid_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
-            const auto [at, is_new] =
-                known.try_emplace({vertex, n.x, n.y, n.z, place.x, place.y}, vertex);
+            const glm::vec2 place = texture == invalid_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
+            const auto [at, is_new] = known.try_emplace({vertex, n.x, n.y, n.z, place.x, place.y}, vertex);
             if (is_new && is_taken[vertex]) {
                 at->second = static_cast<std::uint32_t>(split.vertices.size());
                 split.vertices.push_back(vertex);
                 split.normals.resize(has_normals ? split.vertices.size() : 0);
                 split.textures.resize(has_textures ? split.vertices.size() : 0);
             }
-            if (is_new && has_normals) {
-                split.normals[at->second] = normal;
-            }
-            if (is_new && has_textures) {
-                split.textures[at->second] = texture;
-            }
+            if (is_new && has_normals) { split.normals[at->second] = normal; }
+            if (is_new && has_textures) { split.textures[at->second] = texture; }
             is_taken[vertex] = true;
             split.triangles[t][k] = at->second;
         }
@@ -79,9 +68,7 @@ Split split_by_corners(const TriangleMesh& mesh) {
 class GltfWriting {
 public:
     explicit GltfWriting(const TriangleMesh& mesh)
-        : mesh_(mesh)
-        , split_(split_by_corners(mesh))
-        , origin_m_(gltf_origin_m(bounds_of(mesh))) {
+        : mesh_(mesh), split_(split_by_corners(mesh)), origin_m_(gltf_origin_m(bounds_of(mesh))) {
         json_["asset"] = {{"version", "2.0"}};
         json_["scene"] = 0;
         json_["scenes"] = Json::array({{{"nodes", {0}}}});
@@ -90,9 +77,7 @@ public:
             json_["nodes"][0]["translation"] = {origin_m_.x, origin_m_.y, origin_m_.z};
         }
         add_vertices();
-        if (mesh.materials.empty()) {
-            add_primitive(invalid_index);
-        }
+        if (mesh.materials.empty()) { add_primitive(invalid_index); }
         for (std::uint32_t material = 0; material < mesh.materials.size(); ++material) {
             add_primitive(material);
             add_material(mesh.materials[material]);
@@ -108,13 +93,10 @@ public:
 private:
     void add_material(const Material& material) {
         const glm::dvec3 c = linear_from_srgb(glm::dvec3(material.colour));
-        json_["materials"].push_back(
-            {{"name", material.name},
-             {"pbrMetallicRoughness",
-              {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0F}}}});
+        json_["materials"].push_back({{"name", material.name},
+            {"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0F}}}});
         if (material.picture_bytes && is_gltf_picture(*material.picture_bytes)) {
-            json_["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {
-                {"index", texture_of(material)}};
+            json_["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture_of(material)}};
         }
     }
 
@@ -127,24 +109,18 @@ private:
                 {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", picture.size()}});
             bytes_ += picture;
             bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
-            json_["images"].push_back(
-                {{"bufferView", json_["bufferViews"].size() - 1},
-                 {"mimeType", picture.starts_with("\x89PNG") ? "image/png" : "image/jpeg"}});
+            json_["images"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
+                {"mimeType", picture.starts_with("\x89PNG") ? "image/png" : "image/jpeg"}});
             json_["textures"].push_back({{"source", json_["images"].size() - 1}});
         }
         return at->second;
     }
 
     /// Gives the accessor's number; its numbers stand from `first` to the end of the bytes.
-    std::size_t
-    add_accessor(std::size_t first, std::size_t count, int component, const char* type) {
-        json_["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", first}, {"byteLength", bytes_.size() - first}});
-        json_["accessors"].push_back(
-            {{"bufferView", json_["bufferViews"].size() - 1},
-             {"componentType", component},
-             {"count", count},
-             {"type", type}});
+    std::size_t add_accessor(std::size_t first, std::size_t count, int component, const char* type) {
+        json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", first}, {"byteLength", bytes_.size() - first}});
+        json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1}, {"componentType", component},
+            {"count", count}, {"type", type}});
         return json_["accessors"].size() - 1;
     }
 
@@ -171,16 +147,15 @@ private:
         if (!mesh_.normals.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t normal : split_.normals) {
-                append_vector(
-                    normal == invalid_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
+                append_vector(normal == invalid_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
             }
             attributes_["NORMAL"] = add_accessor(first, count, float_type, "VEC3");
         }
         if (!split_.textures.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t texture : split_.textures) { // glTF counts v downwards
-                const glm::vec2 place = texture == invalid_index ? glm::vec2(0.0F, 1.0F)
-                                                            : mesh_.texture_coordinates[texture];
+                const glm::vec2 place =
+                    texture == invalid_index ? glm::vec2(0.0F, 1.0F) : mesh_.texture_coordinates[texture];
                 append_number(bytes_, place.x);
                 append_number(bytes_, 1.0F - place.y);
             }
@@ -199,20 +174,15 @@ private:
         const std::size_t first = bytes_.size();
         for (std::size_t t = 0; t < split_.triangles.size(); ++t) {
             if (material == invalid_index || mesh_.triangle_materials[t] == material) {
-                for (const std::uint32_t vertex : split_.triangles[t]) {
-                    append_number(bytes_, vertex);
-                }
+                for (const std::uint32_t vertex : split_.triangles[t]) { append_number(bytes_, vertex); }
             }
         }
         if (bytes_.size() == first) {
             return; // glTF has no empty lists
         }
         Json primitive{{"attributes", attributes_}};
-        primitive["indices"] =
-            add_accessor(first, (bytes_.size() - first) / 4, index_type, "SCALAR");
-        if (material != invalid_index) {
-            primitive["material"] = material;
-        }
+        primitive["indices"] = add_accessor(first, (bytes_.size() - first) / 4, index_type, "SCALAR");
+        if (material != invalid_index) { primitive["material"] = material; }
         primitives_.push_back(primitive);
     }
 
@@ -226,9 +196,7 @@ private:
     Json primitives_ = Json::array();
 };
 
-std::string text_of(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 } // namespace
 
@@ -248,8 +216,7 @@ bool is_gltf_picture(std::string_view bytes) {
 
 std::string gltf_text(const TriangleMesh& mesh) {
     GltfWriting writing(mesh);
-    writing.json()["buffers"][0]["uri"] =
-        "data:application/octet-stream;base64," + base64_text(writing.bytes());
+    writing.json()["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_text(writing.bytes());
     return text_of(writing.json()) + "\n";
 }
 

@@ -18,8 +18,8 @@ struct ChainLevel {
     double error_m = 0.0;
 };
 
-/// Levels of detail of one model, finest first, each coarser and of a larger error than the one
-/// before; the first is the original at error 0. In the axes of the file it was made from.
+/// Levels of detail of one model, finest first, each coarser and of a larger error than the one before; the first is
+/// the original at error 0. In the axes of the file it was made from.
 struct LevelChain {
     std::string name;
     std::vector<ChainLevel> levels;                 ///< at least one
@@ -30,12 +30,12 @@ struct LevelChain {
 /// Whether a file calls itself a chain by its ending, .chain.
 bool is_chain_file(const std::filesystem::path& path);
 
-/// Reads a file of write_chain. Throws Error "file: ..." for another version, a wrong checksum and
-/// anything that the file cannot hold.
+/// Reads a file of write_chain. Throws Error "file: ..." for another version, a wrong checksum and anything that the
+/// file cannot hold.
 LevelChain read_chain(const std::filesystem::path& path);
 
-/// One versioned, checksummed binary file. Positions are stored in double, every bit of them: the
-/// certified errors hold for what is read back as they are. Throws Error.
+/// One versioned, checksummed binary file. Positions are stored in double, every bit of them: the certified errors hold
+/// for what is read back as they are. Throws Error.
 void write_chain(const std::filesystem::path& path, const LevelChain& chain);
 
 } // namespace octant::models::meshfile

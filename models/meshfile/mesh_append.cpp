@@ -12,14 +12,10 @@ namespace {
 
 /// The colours of materials for the vertices of a mesh that has none: the last triangle's counts.
 void colour_vertices(TriangleMesh& mesh) {
-    if (!mesh.colours.empty() || mesh.vertices_m.empty()) {
-        return;
-    }
+    if (!mesh.colours.empty() || mesh.vertices_m.empty()) { return; }
     mesh.colours.assign(mesh.vertices_m.size(), Material().colour);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (const std::uint32_t vertex : mesh.triangles[t]) {
-            mesh.colours[vertex] = material_colour(mesh, t);
-        }
+        for (const std::uint32_t vertex : mesh.triangles[t]) { mesh.colours[vertex] = material_colour(mesh, t); }
     }
 }
 
@@ -32,9 +28,7 @@ void give_materials(TriangleMesh& mesh) {
 }
 
 void place(TriangleMesh& mesh, const AffineTransform& placement) {
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m = placement.point_m(vertex_m).value_or(placement.shift_m);
-    }
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = placement.point_m(vertex_m).value_or(placement.shift_m); }
     for (glm::vec3& normal : mesh.normals) {
         const glm::dvec3 turned = placement.normal(glm::dvec3(normal));
         const double length = glm::length(turned);
@@ -45,8 +39,7 @@ void place(TriangleMesh& mesh, const AffineTransform& placement) {
 /// No texture coordinates for the triangles of a mesh that has none.
 void give_texture_coordinates(TriangleMesh& mesh) {
     if (mesh.corner_texture_coordinates.empty()) {
-        mesh.corner_texture_coordinates.assign(
-            mesh.triangles.size(), {invalid_index, invalid_index, invalid_index});
+        mesh.corner_texture_coordinates.assign(mesh.triangles.size(), {invalid_index, invalid_index, invalid_index});
     }
 }
 
@@ -60,9 +53,7 @@ void keep_used(std::vector<Value>& values, std::vector<Triangle>& corners) {
     std::vector<std::uint32_t> numbers(values.size(), invalid_index);
     for (const Triangle& triangle : corners) {
         for (const std::uint32_t corner : triangle) {
-            if (corner != invalid_index) {
-                numbers[corner] = 0;
-            }
+            if (corner != invalid_index) { numbers[corner] = 0; }
         }
     }
     std::uint32_t count = 0;
@@ -74,30 +65,23 @@ void keep_used(std::vector<Value>& values, std::vector<Triangle>& corners) {
     }
     values.resize(count);
     for (Triangle& triangle : corners) {
-        for (std::uint32_t& corner : triangle) {
-            corner = corner == invalid_index ? invalid_index : numbers[corner];
-        }
+        for (std::uint32_t& corner : triangle) { corner = corner == invalid_index ? invalid_index : numbers[corner]; }
     }
 }
 
 } // namespace
 
-TriangleMesh
-part_of_materials(const TriangleMesh& mesh, std::uint32_t first_material, std::uint32_t count) {
+TriangleMesh part_of_materials(const TriangleMesh& mesh, std::uint32_t first_material, std::uint32_t count) {
     TriangleMesh part = mesh;
     const auto from = mesh.materials.begin() + first_material;
     part.materials.assign(from, from + count);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t material = mesh.triangle_materials[t];
-        if (material < first_material || material - first_material >= count) {
-            continue;
-        }
+        if (material < first_material || material - first_material >= count) { continue; }
         part.triangles[kept] = mesh.triangles[t];
         part.triangle_materials[kept] = material - first_material;
-        if (!mesh.corner_normals.empty()) {
-            part.corner_normals[kept] = mesh.corner_normals[t];
-        }
+        if (!mesh.corner_normals.empty()) { part.corner_normals[kept] = mesh.corner_normals[t]; }
         if (!mesh.corner_texture_coordinates.empty()) {
             part.corner_texture_coordinates[kept] = mesh.corner_texture_coordinates[t];
         }
@@ -134,14 +118,11 @@ void join_mesh(TriangleMesh& to, TriangleMesh from, const AffineTransform& place
         give_texture_coordinates(from);
     }
     const auto first_texture = static_cast<std::uint32_t>(to.texture_coordinates.size());
-    const bool normals =
-        (to.triangles.empty() || !to.corner_normals.empty()) && !from.corner_normals.empty();
+    const bool normals = (to.triangles.empty() || !to.corner_normals.empty()) && !from.corner_normals.empty();
     const auto first = static_cast<std::uint32_t>(to.vertices_m.size());
     const auto first_normal = static_cast<std::uint32_t>(to.normals.size());
     const auto first_material = static_cast<std::uint32_t>(to.materials.size());
-    const auto append = [](auto& list, const auto& more) {
-        list.insert(list.end(), more.begin(), more.end());
-    };
+    const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
     append(to.vertices_m, from.vertices_m);
     append(to.colours, from.colours);
     append(to.texture_coordinates, from.texture_coordinates);
@@ -154,9 +135,7 @@ void join_mesh(TriangleMesh& to, TriangleMesh from, const AffineTransform& place
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {
         to.triangles.push_back(shifted(from.triangles[t], first));
         to.triangle_materials.push_back(from.triangle_materials[t] + first_material);
-        if (normals) {
-            to.corner_normals.push_back(shifted(from.corner_normals[t], first_normal));
-        }
+        if (normals) { to.corner_normals.push_back(shifted(from.corner_normals[t], first_normal)); }
     }
     if (normals) {
         append(to.normals, from.normals);

@@ -38,34 +38,26 @@ void drop_unused_vertices(TriangleMesh& mesh) {
     std::vector<std::uint32_t> places(mesh.vertices_m.size(), invalid_index);
     std::uint32_t count = 0;
     for (const Triangle& triangle : mesh.triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            places[vertex] = 0;
-        }
+        for (const std::uint32_t vertex : triangle) { places[vertex] = 0; }
     }
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (places[v] != invalid_index) {
             mesh.vertices_m[count] = mesh.vertices_m[v];
-            if (!mesh.colours.empty()) {
-                mesh.colours[count] = mesh.colours[v];
-            }
+            if (!mesh.colours.empty()) { mesh.colours[count] = mesh.colours[v]; }
             places[v] = count++;
         }
     }
     mesh.vertices_m.resize(count);
     mesh.colours.resize(mesh.colours.empty() ? 0 : count);
     for (Triangle& triangle : mesh.triangles) {
-        for (std::uint32_t& vertex : triangle) {
-            vertex = places[vertex];
-        }
+        for (std::uint32_t& vertex : triangle) { vertex = places[vertex]; }
     }
 }
 
 } // namespace
 
 MeshBuilder::MeshBuilder(const std::filesystem::path& path, const ReadOptions& options)
-    : path_(path)
-    , options_(options)
-    , pictures_(path, options.pictures_in) {
+    : path_(path), options_(options), pictures_(path, options.pictures_in) {
     mesh_.name = path.stem().string();
 }
 
@@ -75,9 +67,7 @@ std::uint32_t MeshBuilder::add_vertex(const glm::dvec3& position_m) {
 }
 
 void MeshBuilder::set_colour(std::uint32_t vertex, const glm::vec3& colour) {
-    if (mesh_.colours.size() <= vertex) {
-        mesh_.colours.resize(std::size_t{vertex} + 1, glm::vec3(1.0F));
-    }
+    if (mesh_.colours.size() <= vertex) { mesh_.colours.resize(std::size_t{vertex} + 1, glm::vec3(1.0F)); }
     mesh_.colours[vertex] = colour;
 }
 
@@ -97,9 +87,7 @@ std::uint32_t MeshBuilder::add_texture_coordinates(const glm::vec2& coordinates)
 
 /// Where a corner lies on its picture, in shares from the upper left corner.
 glm::vec2 MeshBuilder::on_picture(const CornerIndices& corner) const {
-    if (corner.texture == invalid_index) {
-        return glm::vec2(0.0F);
-    }
+    if (corner.texture == invalid_index) { return glm::vec2(0.0F); }
     const glm::vec2& coordinates = mesh_.texture_coordinates[corner.texture];
     return {coordinates.x, 1.0F - coordinates.y};
 }
@@ -110,15 +98,13 @@ std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
 }
 
-void MeshBuilder::add_polygon(
-    std::span<const CornerIndices> corners, std::uint32_t material, std::uint32_t picture) {
+void MeshBuilder::add_polygon(std::span<const CornerIndices> corners, std::uint32_t material, std::uint32_t picture) {
     assert(corners.size() >= 3 && corners.size() <= max_polygon_corners);
     const auto add = [&](const std::array<CornerIndices, 3>& triangle) {
         add_triangle(triangle, material);
         if (options_.pictures) {
             pictures_.add_triangle(
-                picture,
-                {on_picture(triangle[0]), on_picture(triangle[1]), on_picture(triangle[2])});
+                picture, {on_picture(triangle[0]), on_picture(triangle[1]), on_picture(triangle[2])});
         }
     };
     if (corners.size() == 3) {
@@ -126,9 +112,7 @@ void MeshBuilder::add_polygon(
         return;
     }
     places_m_.clear();
-    for (const CornerIndices& corner : corners) {
-        places_m_.push_back(mesh_.vertices_m[corner.vertex]);
-    }
+    for (const CornerIndices& corner : corners) { places_m_.push_back(mesh_.vertices_m[corner.vertex]); }
     for (const auto& piece : polygons::triangulate_polygon(places_m_)) {
         add({corners[piece[0]], corners[piece[1]], corners[piece[2]]});
     }
@@ -142,19 +126,14 @@ void MeshBuilder::add_triangle(const std::array<CornerIndices, 3>& corners, std:
     mesh_.triangle_materials.push_back(material);
     two_sided_.push_back(is_two_sided_);
     groups_.push_back(group_);
-    has_normals_ =
-        has_normals_ || a.normal != invalid_index || b.normal != invalid_index || c.normal != invalid_index;
+    has_normals_ = has_normals_ || a.normal != invalid_index || b.normal != invalid_index || c.normal != invalid_index;
     has_texture_coordinates_ = has_texture_coordinates_ || a.texture != invalid_index;
     has_materials_ = has_materials_ || material != invalid_index;
 }
 
 TriangleMesh MeshBuilder::finish() {
-    if (mesh_.triangles.empty()) {
-        throw_error_in(path_, "expected at least one triangle, got none");
-    }
-    if (!mesh_.colours.empty()) {
-        mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
-    }
+    if (mesh_.triangles.empty()) { throw_error_in(path_, "expected at least one triangle, got none"); }
+    if (!mesh_.colours.empty()) { mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F)); }
     finish_part();
     return std::move(mesh_);
 }
@@ -171,25 +150,18 @@ void MeshBuilder::finish_part() {
 float MeshBuilder::opacity_of(std::size_t triangle) const {
     const std::uint32_t material = mesh_.triangle_materials[triangle];
     const bool has_glass = !covers_.empty() && is_glass(covers_[triangle]);
-    return (material == invalid_index ? 1.0F : opacities_[material]) *
-           (has_glass ? covers_[triangle].opacity : 1.0F);
+    return (material == invalid_index ? 1.0F : opacities_[material]) * (has_glass ? covers_[triangle].opacity : 1.0F);
 }
 
 void MeshBuilder::find_opacities() {
-    if (!pictures_.is_empty() && mesh_.colours.empty() && covers_.empty()) {
-        covers_ = pictures_.covers();
-    }
+    if (!pictures_.is_empty() && mesh_.colours.empty() && covers_.empty()) { covers_ = pictures_.covers(); }
 }
 
-bool MeshBuilder::is_transparent(std::size_t triangle) const {
-    return opacity_of(triangle) < opaque_from;
-}
+bool MeshBuilder::is_transparent(std::size_t triangle) const { return opacity_of(triangle) < opaque_from; }
 
 void MeshBuilder::drop_invisible() {
     std::vector<bool> gone;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        gone.push_back(opacity_of(t) < seen_from);
-    }
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) { gone.push_back(opacity_of(t) < seen_from); }
     take_out(gone);
 }
 
@@ -197,12 +169,8 @@ void MeshBuilder::drop_invisible() {
 template <typename Kept>
 TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>& notes) const {
     std::vector<bool> gone;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        gone.push_back(!is_kept(t));
-    }
-    if (std::ranges::find(gone, false) == gone.end()) {
-        return {};
-    }
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) { gone.push_back(!is_kept(t)); }
+    if (std::ranges::find(gone, false) == gone.end()) { return {}; }
     MeshBuilder part(*this);
     part.mesh_.notes.clear();
     part.take_out(gone);
@@ -210,26 +178,19 @@ TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>&
     part.finish_part();
     drop_unused_vertices(part.mesh_);
     for (std::string& note : std::exchange(part.mesh_.notes, {})) {
-        if (std::ranges::find(notes, note) == notes.end()) {
-            notes.push_back(std::move(note));
-        }
+        if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(std::move(note)); }
     }
     return std::move(part.mesh_);
 }
 
 MeshParts MeshBuilder::finish_parts() {
-    if (mesh_.triangles.empty()) {
-        throw_error_in(path_, "expected at least one triangle, got none");
-    }
+    if (mesh_.triangles.empty()) { throw_error_in(path_, "expected at least one triangle, got none"); }
     find_opacities();
     drop_invisible();
-    if (!mesh_.colours.empty()) {
-        mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
-    }
+    if (!mesh_.colours.empty()) { mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F)); }
     MeshParts parts;
     std::vector<std::string> notes = mesh_.notes;
-    parts.body =
-        part_of([&](std::size_t t) { return groups_[t] == invalid_index && !is_transparent(t); }, notes);
+    parts.body = part_of([&](std::size_t t) { return groups_[t] == invalid_index && !is_transparent(t); }, notes);
     for (std::uint32_t group = 0; group < options_.groups.size(); ++group) {
         parts.groups.push_back(
             part_of([&](std::size_t t) { return groups_[t] == group && !is_transparent(t); }, notes));
@@ -255,38 +216,25 @@ void MeshBuilder::take_out(const std::vector<bool>& gone) {
         std::erase_if(list, [&](const auto&) { return gone[t++]; });
     };
     take(mesh_.triangles);
-    if (!mesh_.corner_normals.empty()) {
-        take(mesh_.corner_normals);
-    }
-    if (!mesh_.corner_texture_coordinates.empty()) {
-        take(mesh_.corner_texture_coordinates);
-    }
-    if (!mesh_.triangle_materials.empty()) {
-        take(mesh_.triangle_materials);
-    }
+    if (!mesh_.corner_normals.empty()) { take(mesh_.corner_normals); }
+    if (!mesh_.corner_texture_coordinates.empty()) { take(mesh_.corner_texture_coordinates); }
+    if (!mesh_.triangle_materials.empty()) { take(mesh_.triangle_materials); }
     take(two_sided_);
     take(groups_);
-    if (!covers_.empty()) {
-        take(covers_);
-    }
-    if (options_.pictures) {
-        pictures_.take_out(gone);
-    }
+    if (!covers_.empty()) { take(covers_); }
+    if (options_.pictures) { pictures_.take_out(gone); }
 }
 
 void MeshBuilder::finish_backs() {
     const bool any = std::ranges::find(two_sided_, true) != two_sided_.end();
     const std::size_t added = options_.backs && any ? repair::add_back_faces(mesh_, two_sided_) : 0;
     if (added > 0) {
-        mesh_.notes.push_back(
-            fmt::format("{}: {} triangles of two-sided sheets got a back", path_.string(), added));
+        mesh_.notes.push_back(fmt::format("{}: {} triangles of two-sided sheets got a back", path_.string(), added));
     }
 }
 
 void MeshBuilder::leave_out_transparent() {
-    if (pictures_.is_empty() || !mesh_.colours.empty()) {
-        return;
-    }
+    if (pictures_.is_empty() || !mesh_.colours.empty()) { return; }
     find_opacities();
     std::vector<bool> gone;
     for (const BakedPictures::Cover& cover : covers_) {
@@ -294,23 +242,15 @@ void MeshBuilder::leave_out_transparent() {
     }
     const auto count = static_cast<std::size_t>(std::ranges::count(gone, true));
     const bool is_all = count == gone.size();
-    if (count == 0 || (is_all && !is_part_)) {
-        return;
-    }
+    if (count == 0 || (is_all && !is_part_)) { return; }
     take_out(gone);
-    mesh_.notes.push_back(fmt::format(
-        "{}: {} triangles whose picture is mostly transparent are left out",
-        path_.string(),
-        count));
+    mesh_.notes.push_back(
+        fmt::format("{}: {} triangles whose picture is mostly transparent are left out", path_.string(), count));
 }
 
 void MeshBuilder::bake_pictures() {
-    for (const std::string& note : pictures_.notes()) {
-        mesh_.notes.push_back(note);
-    }
-    if (!pictures_.is_empty() && mesh_.colours.empty()) {
-        pictures_.bake(mesh_);
-    }
+    for (const std::string& note : pictures_.notes()) { mesh_.notes.push_back(note); }
+    if (!pictures_.is_empty() && mesh_.colours.empty()) { pictures_.bake(mesh_); }
 }
 
 void MeshBuilder::finish_normals() {
@@ -324,18 +264,14 @@ void MeshBuilder::finish_normals() {
     };
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
         Triangle& corners = mesh_.corner_normals[t];
-        if (std::ranges::none_of(corners, is_faulty)) {
-            continue;
-        }
+        if (std::ranges::none_of(corners, is_faulty)) { continue; }
         const auto own = static_cast<std::uint32_t>(mesh_.normals.size());
         mesh_.normals.emplace_back(normal_of(mesh_, mesh_.triangles[t], upwards));
         std::ranges::replace_if(corners, is_faulty, own);
     }
     // Faulty normals go: no triangle points to them any more.
     for (std::size_t n = 0; n < faulty_normals_.size(); ++n) {
-        if (faulty_normals_[n]) {
-            mesh_.normals[n] = glm::vec3(0.0F, 0.0F, 1.0F);
-        }
+        if (faulty_normals_[n]) { mesh_.normals[n] = glm::vec3(0.0F, 0.0F, 1.0F); }
     }
 }
 
@@ -355,9 +291,7 @@ void MeshBuilder::finish_texture_coordinates() {
             corners = {invalid_index, invalid_index, invalid_index};
             continue;
         }
-        for (const std::uint32_t corner : corners) {
-            used[corner] = true;
-        }
+        for (const std::uint32_t corner : corners) { used[corner] = true; }
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) {

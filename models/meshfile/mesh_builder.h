@@ -1,10 +1,10 @@
 #pragma once
 
+#include "models/invalid_index.h"
 #include "models/meshfile/baked_pictures.h"
 #include "models/meshfile/mesh_limits.h"
 #include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/read_options.h"
-#include "models/invalid_index.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>
@@ -28,9 +28,8 @@ struct CornerIndices {
     std::uint32_t texture = invalid_index; ///< of add_texture_coordinates
 };
 
-/// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its
-/// readers have checked what they add: finite numbers, indices in range, 3 to
-/// max_polygon_corners corners.
+/// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its readers have checked
+/// what they add: finite numbers, indices in range, 3 to max_polygon_corners corners.
 class MeshBuilder {
 public:
     /// The mesh is called after the file.
@@ -58,12 +57,12 @@ public:
     /// Vertices that get no colour are white once any other has one.
     void set_colour(std::uint32_t vertex, const glm::vec3& colour);
 
-    /// Makes it a unit vector, unless it is one already; one without a length is replaced at each
-    /// corner by the triangle's own normal.
+    /// Makes it a unit vector, unless it is one already; one without a length is replaced at each corner by the
+    /// triangle's own normal.
     std::uint32_t add_normal(const glm::dvec3& normal);
 
-    /// From a picture's lower left corner. A triangle with a corner that has none, or none that is
-    /// finite, is read without.
+    /// From a picture's lower left corner. A triangle with a corner that has none, or none that is finite, is read
+    /// without.
     std::uint32_t add_texture_coordinates(const glm::vec2& coordinates);
 
     std::size_t texture_coordinates_count() const { return mesh_.texture_coordinates.size(); }
@@ -74,11 +73,8 @@ public:
     /// The group of the options that polygons from now on belong to; invalid_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
-    /// Adds a polygon, cut into triangles by polygons::triangulate_polygon.
-    /// `picture`: a number of pictures().
-    void add_polygon(
-        std::span<const CornerIndices> corners,
-        std::uint32_t material = invalid_index,
+    /// Adds a polygon, cut into triangles by polygons::triangulate_polygon. `picture`: a number of pictures().
+    void add_polygon(std::span<const CornerIndices> corners, std::uint32_t material = invalid_index,
         std::uint32_t picture = BakedPictures::none);
 
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }

@@ -20,17 +20,14 @@ namespace octant::models::meshfile {
 
 namespace {
 
-/// Names pictures as seen from the folder of a file that is about to be written; those that stand
-/// in the mesh's former file are written beside it.
+/// Names pictures as seen from the folder of a file that is about to be written; those that stand in the mesh's former
+/// file are written beside it.
 TriangleMesh with_named_pictures(const std::filesystem::path& path, const TriangleMesh& mesh) {
     TriangleMesh named = mesh;
     const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
     for (Material& material : named.materials) {
         if (material.picture_bytes) {
-            material.picture = fmt::format(
-                "{}-{}.{}",
-                path.stem().string(),
-                material.picture,
+            material.picture = fmt::format("{}-{}.{}", path.stem().string(), material.picture,
                 material.picture_bytes->starts_with("\x89PNG") ? "png" : "jpg");
             write_file(folder / material.picture, *material.picture_bytes);
         } else if (!material.picture.empty()) {
@@ -44,18 +41,15 @@ TriangleMesh with_named_pictures(const std::filesystem::path& path, const Triang
 }
 
 bool has_pictures(const TriangleMesh& mesh) {
-    return std::ranges::any_of(
-        mesh.materials, [](const Material& material) { return !material.picture.empty(); });
+    return std::ranges::any_of(mesh.materials, [](const Material& material) { return !material.picture.empty(); });
 }
 
 void write_obj_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     std::filesystem::path mtl = path;
     mtl.replace_extension(".mtl");
-    const ObjMeshText text = obj_mesh_text(
-        has_pictures(mesh) ? with_named_pictures(path, mesh) : mesh, mtl.filename().string());
-    if (!text.mtl.empty()) {
-        write_file(mtl, text.mtl);
-    }
+    const ObjMeshText text =
+        obj_mesh_text(has_pictures(mesh) ? with_named_pictures(path, mesh) : mesh, mtl.filename().string());
+    if (!text.mtl.empty()) { write_file(mtl, text.mtl); }
     write_file(path, text.obj);
 }
 
@@ -68,8 +62,7 @@ void write_ac3d_mesh(const std::filesystem::path& path, const TriangleMesh& mesh
     write_file(path, ac3d_text(has_pictures(mesh) ? with_named_pictures(path, mesh) : mesh));
 }
 
-/// The encoded picture of a material, from its file where it stands in one; null where it has none
-/// that can be read.
+/// The encoded picture of a material, from its file where it stands in one; null where it has none that can be read.
 std::shared_ptr<const std::string> picture_bytes_of(const Material& material) {
     std::error_code ignored;
     constexpr std::size_t largest_bytes = std::size_t{256} << 20U;
@@ -88,9 +81,7 @@ void write_gltf_mesh(const std::filesystem::path& path, const TriangleMesh& mesh
         return;
     }
     TriangleMesh loaded = mesh;
-    for (Material& material : loaded.materials) {
-        material.picture_bytes = picture_bytes_of(material);
-    }
+    for (Material& material : loaded.materials) { material.picture_bytes = picture_bytes_of(material); }
     write_file(path, bytes_of(loaded));
 }
 
@@ -104,34 +95,22 @@ struct Format {
     std::string_view ending;
     TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
     MeshParts (*parts)(const std::filesystem::path&, const ReadOptions&); ///< null: all is body
-    void (*write)(const std::filesystem::path&, const TriangleMesh&); ///< null: it is only read
-    /// What a written file leaves out, of "normals", "colours of vertices", "materials" and
-    /// "texture coordinates".
+    void (*write)(const std::filesystem::path&, const TriangleMesh&);     ///< null: it is only read
+    /// What a written file leaves out, of "normals", "colours of vertices", "materials" and "texture coordinates".
     std::string_view excluded = {};
     bool places_in_float = false; ///< As written.
     bool has_origin = false;      ///< Written places count from gltf_origin_m.
 };
 
-constexpr std::array formats{
-    Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
+constexpr std::array formats{Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
     Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>, "materials"},
-    Format{
-        ".stl",
-        read_plainly<read_stl_mesh>,
-        nullptr,
-        write_one_file<stl_bytes>,
-        "normals, colours of vertices, materials, texture coordinates",
-        true},
+    Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>,
+        "normals, colours of vertices, materials, texture coordinates", true},
     Format{".off", read_plainly<read_off_mesh>, nullptr, nullptr},
     Format{".gltf", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<gltf_text>, "", true, true},
     Format{".glb", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<glb_bytes>, "", true, true},
     Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_ac3d_mesh, "normals, colours of vertices"},
-    Format{
-        ".wrl",
-        read_plainly<read_vrml_mesh>,
-        nullptr,
-        write_one_file<vrml_text>,
-        "texture coordinates"},
+    Format{".wrl", read_plainly<read_vrml_mesh>, nullptr, write_one_file<vrml_text>, "texture coordinates"},
     Format{".xml", read_flightgear_model, nullptr, nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
@@ -144,16 +123,10 @@ const Format& format_of(const std::filesystem::path& path) {
     const Format* found = find_format(path);
     if (found == nullptr) {
         std::string known;
-        for (const Format& format : formats) {
-            known += fmt::format("{}{}", known.empty() ? "" : ", ", format.ending);
-        }
+        for (const Format& format : formats) { known += fmt::format("{}{}", known.empty() ? "" : ", ", format.ending); }
         const std::string ending = printable(path.extension().string());
-        throw_error_in(
-            path,
-            fmt::format(
-                "expected a mesh file ({}), got {}",
-                known,
-                ending.empty() ? "a name without an ending" : fmt::format("'{}'", ending)));
+        throw_error_in(path, fmt::format("expected a mesh file ({}), got {}", known,
+                                 ending.empty() ? "a name without an ending" : fmt::format("'{}'", ending)));
     }
     return *found;
 }
@@ -166,9 +139,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 
 MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options) {
     const Format& format = format_of(path);
-    if (format.parts != nullptr) {
-        return format.parts(path, options);
-    }
+    if (format.parts != nullptr) { return format.parts(path, options); }
     return {format.read(path, options), std::vector<TriangleMesh>(options.groups.size()), {}};
 }
 
@@ -180,8 +151,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     format.write(path, mesh);
 }
 
-std::vector<std::string>
-write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh) {
+std::vector<std::string> write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh) {
     const Format& format = format_of(path);
     std::string excluded;
     const auto look_at = [&](std::string_view what, bool is_there) {
@@ -195,27 +165,23 @@ write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh) {
     look_at("texture coordinates", !mesh.corner_texture_coordinates.empty());
     std::vector<std::string> notes;
     if (!excluded.empty()) {
-        notes.push_back(
-            fmt::format("{}: the format holds no {}; they are left out", path.string(), excluded));
+        notes.push_back(fmt::format("{}: the format holds no {}; they are left out", path.string(), excluded));
     }
     if (format.ending == ".ply" && !mesh.corner_normals.empty() && !has_vertex_normals(mesh)) {
         notes.push_back(fmt::format(
-            "{}: normals are left out, as some vertices have several and the format holds one",
-            path.string()));
+            "{}: normals are left out, as some vertices have several and the format holds one", path.string()));
     }
     const bool has_textures = !mesh.corner_texture_coordinates.empty();
     if (has_textures && format.ending == ".ac" && single_picture(mesh).empty()) {
-        notes.push_back(fmt::format(
-            "{}: texture coordinates are written without a picture, as the materials do not have "
-            "one in common",
-            path.string()));
+        notes.push_back(
+            fmt::format("{}: texture coordinates are written without a picture, as the materials do not have "
+                        "one in common",
+                path.string()));
     }
     for (const Material& material : format.has_origin ? mesh.materials : std::vector<Material>()) {
         const auto bytes = picture_bytes_of(material);
         if (!material.picture.empty() && (!bytes || !is_gltf_picture(*bytes))) {
-            notes.push_back(fmt::format(
-                "{}: expected a PNG or JPEG picture, got '{}'; it is left out",
-                path.string(),
+            notes.push_back(fmt::format("{}: expected a PNG or JPEG picture, got '{}'; it is left out", path.string(),
                 printable(material.picture)));
         }
     }
@@ -224,26 +190,19 @@ write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh) {
 
 double rounding_m(const std::filesystem::path& path, const BoundingBox& bounds) {
     const Format& format = format_of(path);
-    if (!format.places_in_float) {
-        return 0.0;
-    }
+    if (!format.places_in_float) { return 0.0; }
     const glm::dvec3 origin_m = format.has_origin ? gltf_origin_m(bounds) : glm::dvec3(0.0);
     glm::dvec3 moves_m(0.0);
     for (int axis = 0; axis < 3; ++axis) {
-        const double farthest_m = std::max(
-            std::abs(bounds.min_m[axis] - origin_m[axis]),
-            std::abs(bounds.max_m[axis] - origin_m[axis]));
+        const double farthest_m =
+            std::max(std::abs(bounds.min_m[axis] - origin_m[axis]), std::abs(bounds.max_m[axis] - origin_m[axis]));
         const auto rounded = static_cast<float>(farthest_m);
-        moves_m[axis] =
-            0.5 * static_cast<double>(
-                      std::nextafter(rounded, std::numeric_limits<float>::max()) - rounded);
+        moves_m[axis] = 0.5 * static_cast<double>(std::nextafter(rounded, std::numeric_limits<float>::max()) - rounded);
     }
     return glm::length(moves_m);
 }
 
-bool is_mesh_file(const std::filesystem::path& path) {
-    return find_format(path) != nullptr;
-}
+bool is_mesh_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
 
 bool is_writable_mesh_file(const std::filesystem::path& path) {
     const Format* format = find_format(path);

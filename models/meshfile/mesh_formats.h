@@ -25,8 +25,8 @@ MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& o
 MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options);
 MeshParts read_gltf_parts(const std::filesystem::path& path, const ReadOptions& options);
 
-/// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib
-/// line without materials). Numbers have the digits that it takes to read them back bit for bit.
+/// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib line without
+/// materials). Numbers have the digits that it takes to read them back bit for bit.
 struct ObjMeshText {
     std::string obj;
     std::string mtl; ///< empty without materials
@@ -34,10 +34,9 @@ struct ObjMeshText {
 
 ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name);
 
-/// A binary PLY file, little endian: coordinates in float where that changes none of them, else in
-/// double; colours in uchar where that changes none, else in float; normals where each vertex has
-/// one only; texture coordinates of vertices (s, t) where each has one only, else of faces (list
-/// texcoord); no materials.
+/// A binary PLY file, little endian: coordinates in float where that changes none of them, else in double; colours in
+/// uchar where that changes none, else in float; normals where each vertex has one only; texture coordinates of
+/// vertices (s, t) where each has one only, else of faces (list texcoord); no materials.
 std::string ply_bytes(const TriangleMesh& mesh);
 
 /// Whether each vertex has one normal only, so that a PLY file holds the normals.
@@ -46,12 +45,11 @@ bool has_vertex_normals(const TriangleMesh& mesh);
 /// A binary STL file: coordinates in float, one normal a triangle, nothing else.
 std::string stl_bytes(const TriangleMesh& mesh);
 
-/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours
-/// (linear in light, as glTF has them) in float, a primitive a material. A vertex of several
-/// normals or texture coordinates is written once for each. Coordinates count from gltf_origin_m,
-/// the translation of the node. PNG and JPEG pictures are written into the file.
-/// Where coordinates of a glTF file count from: 0 where the bounding box is near it, else a point
-/// in its middle with coordinates in float, so that less of their digits is lost.
+/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours (linear in light, as glTF
+/// has them) in float, a primitive a material. A vertex of several normals or texture coordinates is written once for
+/// each. Coordinates count from gltf_origin_m, the translation of the node. PNG and JPEG pictures are written into the
+/// file. Where coordinates of a glTF file count from: 0 where the bounding box is near it, else a point in its middle
+/// with coordinates in float, so that less of their digits is lost.
 glm::dvec3 gltf_origin_m(const BoundingBox& bounds);
 
 /// Whether the bytes are of a picture that glTF files may hold: PNG or JPEG.
@@ -60,15 +58,15 @@ bool is_gltf_picture(std::string_view bytes);
 std::string gltf_text(const TriangleMesh& mesh);
 std::string glb_bytes(const TriangleMesh& mesh);
 
-/// AC3D: places, materials and texture coordinates, no colours of vertices, no normals; the picture
-/// where there is one only.
+/// AC3D: places, materials and texture coordinates, no colours of vertices, no normals; the picture where there is one
+/// only.
 std::string ac3d_text(const TriangleMesh& mesh);
 
 /// The picture that all materials with a picture have; empty where they have several or none.
 std::string single_picture(const TriangleMesh& mesh);
 
-/// VRML 2.0, without texture coordinates: an IndexedFaceSet a material, triangles therefore in the
-/// order of their materials.
+/// VRML 2.0, without texture coordinates: an IndexedFaceSet a material, triangles therefore in the order of their
+/// materials.
 std::string vrml_text(const TriangleMesh& mesh);
 
 } // namespace octant::models::meshfile

@@ -21,10 +21,9 @@ struct MeshParts {
     TransparentSurfaces clear;
 };
 
-/// As read_mesh, in one reading of the file, with what is clear (of .ac, .obj and glTF files) and
-/// groups of objects (of .ac files) apart. With pictures what they cover evenly by 0.05 to 0.5 is
-/// clear, too. Invisible surfaces are left out, and so are parts whose picture is mostly
-/// transparent otherwise. Throws Error.
+/// As read_mesh, in one reading of the file, with what is clear (of .ac, .obj and glTF files) and groups of objects (of
+/// .ac files) apart. With pictures what they cover evenly by 0.05 to 0.5 is clear, too. Invisible surfaces are left
+/// out, and so are parts whose picture is mostly transparent otherwise. Throws Error.
 MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options);
 
 } // namespace octant::models::meshfile

@@ -22,9 +22,7 @@ using Words = std::vector<std::string_view>;
 
 class ObjMeshReading {
 public:
-    ObjMeshReading(const std::filesystem::path& path, const ReadOptions& options)
-        : path_(path)
-        , mesh_(path, options) {}
+    ObjMeshReading(const std::filesystem::path& path, const ReadOptions& options) : path_(path), mesh_(path, options) {}
 
     /// What the file holds, to be finished.
     MeshBuilder read() {
@@ -46,9 +44,7 @@ private:
     /// Lines of other keywords say nothing about triangles.
     void take(std::string_view line) {
         const Words words = split_words(line);
-        if (words.empty() || words[0].starts_with('#')) {
-            return;
-        }
+        if (words.empty() || words[0].starts_with('#')) { return; }
         if (words[0] == "v") {
             take_vertex(words);
         } else if (words[0] == "vn") {
@@ -68,9 +64,7 @@ private:
 
     double number(std::string_view word) const {
         const auto value = finite_number(word);
-        if (!value) {
-            refuse("a number", in_quotes(word));
-        }
+        if (!value) { refuse("a number", in_quotes(word)); }
         if (std::abs(*value) > max_coordinate) {
             refuse(fmt::format("a number within {:g}", max_coordinate), in_quotes(word));
         }
@@ -78,9 +72,7 @@ private:
     }
 
     glm::dvec3 vector(const Words& words, std::size_t first) const {
-        if (words.size() < first + 3) {
-            refuse("three numbers", std::to_string(words.size() - first));
-        }
+        if (words.size() < first + 3) { refuse("three numbers", std::to_string(words.size() - first)); }
         return {number(words[first]), number(words[first + 1]), number(words[first + 2])};
     }
 
@@ -92,8 +84,7 @@ private:
             for (int part = 0; part < 3; ++part) {
                 if (colour[part] < 0.0 || colour[part] > 1.0) {
                     refuse(
-                        "a vertex colour of three numbers 0..1",
-                        in_quotes(words[static_cast<std::size_t>(part) + 4]));
+                        "a vertex colour of three numbers 0..1", in_quotes(words[static_cast<std::size_t>(part) + 4]));
                 }
             }
             mesh_.set_colour(vertex, glm::vec3(colour));
@@ -103,9 +94,7 @@ private:
     /// vt u v, from the lower left corner of a picture.
     void take_texture_coordinates(const Words& words) {
         const auto part = [&](std::size_t place) {
-            return place < words.size()
-                       ? static_cast<float>(finite_number(words[place]).value_or(0.0))
-                       : 0.0F;
+            return place < words.size() ? static_cast<float>(finite_number(words[place]).value_or(0.0)) : 0.0F;
         };
         mesh_.add_texture_coordinates({part(1), part(2)});
     }
@@ -139,14 +128,10 @@ private:
     void take_polygon(const Words& words) {
         const std::size_t count = words.size() - 1;
         if (count < 3 || count > max_polygon_corners) {
-            refuse(
-                fmt::format("a polygon of 3 to {} corners", max_polygon_corners),
-                std::to_string(count));
+            refuse(fmt::format("a polygon of 3 to {} corners", max_polygon_corners), std::to_string(count));
         }
         corners_.clear();
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            corners_.push_back(corner(words[i]));
-        }
+        for (std::size_t i = 1; i < words.size(); ++i) { corners_.push_back(corner(words[i])); }
         const std::uint32_t used = material();
         mesh_.add_polygon(corners_, used, picture_);
     }
@@ -154,31 +139,23 @@ private:
     /// Of the materials that have one; BakedPictures::none for the others.
     std::uint32_t picture_of(const std::string& material) {
         const auto named = picture_names_.find(material);
-        return named == picture_names_.end() || !mesh_.uses_pictures()
-                   ? BakedPictures::none
-                   : mesh_.pictures().picture(named->second);
+        return named == picture_names_.end() || !mesh_.uses_pictures() ? BakedPictures::none
+                                                                       : mesh_.pictures().picture(named->second);
     }
 
     /// Of the polygons from here on; materials come in the order of their first polygon.
     std::uint32_t material() {
-        if (!material_name_ || material_ != invalid_index) {
-            return material_;
-        }
+        if (!material_name_ || material_ != invalid_index) { return material_; }
         picture_ = picture_of(*material_name_);
         const auto used = materials_.find(*material_name_);
-        if (used != materials_.end()) {
-            return material_ = used->second;
-        }
+        if (used != materials_.end()) { return material_ = used->second; }
         const auto known = colours_.find(*material_name_);
         Material made{.name = *material_name_};
-        if (known != colours_.end()) {
-            made.colour = known->second;
-        }
+        if (known != colours_.end()) { made.colour = known->second; }
         if (picture_ != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }
-        if (const auto named = picture_names_.find(*material_name_);
-            named != picture_names_.end()) {
+        if (const auto named = picture_names_.find(*material_name_); named != picture_names_.end()) {
             made.picture = picture_file(path_, named->second);
         }
         const auto opacity = opacities_.find(*material_name_);
@@ -189,22 +166,16 @@ private:
 
     /// `all` is one name with blanks or, where there is no such file, a name a word.
     void take_material_files(const std::string& all, const Words& words) {
-        if (take_material_file(all)) {
-            return;
-        }
+        if (take_material_file(all)) { return; }
         for (std::size_t i = 1; i < words.size(); ++i) {
-            if (!take_material_file(std::string(words[i]))) {
-                missing_.emplace(std::string(words[i]), line_);
-            }
+            if (!take_material_file(std::string(words[i]))) { missing_.emplace(std::string(words[i]), line_); }
         }
     }
 
     bool take_material_file(const std::string& name) {
         const std::filesystem::path file = path_.parent_path() / name;
         std::error_code ignored;
-        if (!std::filesystem::is_regular_file(file, ignored)) {
-            return false;
-        }
+        if (!std::filesystem::is_regular_file(file, ignored)) { return false; }
         for (const Material& material : polygons::read_mtl(file)) {
             colours_.insert_or_assign(material.name, material.colour);
         }
@@ -219,11 +190,8 @@ private:
 
     void note_missing_files() {
         for (const auto& [name, line] : missing_) {
-            mesh_.add_note(fmt::format(
-                "{}:{}: material file {} is missing, its materials are drawn grey",
-                path_.string(),
-                line,
-                printable(name)));
+            mesh_.add_note(fmt::format("{}:{}: material file {} is missing, its materials are drawn grey",
+                path_.string(), line, printable(name)));
         }
     }
 

@@ -32,8 +32,7 @@ bool take(std::string_view& text, std::string_view word) {
     return is_there;
 }
 
-/// The header is a word such as COFF or STCNOFF, which may be missing; counts may follow without a
-/// blank.
+/// The header is a word such as COFF or STCNOFF, which may be missing; counts may follow without a blank.
 OffHeader read_header(const std::filesystem::path& path, std::string_view text) {
     OffHeader header;
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
@@ -48,12 +47,9 @@ OffHeader read_header(const std::filesystem::path& path, std::string_view text) 
     header.has_normals = take(rest, "N");
     if (!take(rest, "OFF") || rest.substr(rest.find_first_not_of(" \t")).starts_with("BINARY")) {
         const std::string_view word = text.substr(first, text.find_first_of("\r\n", first) - first);
-        throw_error_at(
-            path,
-            line,
-            fmt::format(
-                "expected OFF, COFF, NOFF, STOFF or a mixture of them, as text and in three "
-                "dimensions, got {}",
+        throw_error_at(path, line,
+            fmt::format("expected OFF, COFF, NOFF, STOFF or a mixture of them, as text and in three "
+                        "dimensions, got {}",
                 in_quotes(word)));
     }
     header.body_at = text.size() - rest.size();
@@ -64,35 +60,25 @@ class OffReading {
 public:
     /// `text` has no comments.
     OffReading(const std::filesystem::path& path, std::string_view text)
-        : header_(read_header(path, text))
-        , words_(
-              path,
-              text.substr(header_.body_at),
-              1 + static_cast<int>(std::ranges::count(text.substr(0, header_.body_at), '\n')))
-        , mesh_(path)
-        , path_(path) {}
+        : header_(read_header(path, text)),
+          words_(path, text.substr(header_.body_at),
+              1 + static_cast<int>(std::ranges::count(text.substr(0, header_.body_at), '\n'))),
+          mesh_(path), path_(path) {}
 
     TriangleMesh read() {
         const auto most = static_cast<long>(words_.bytes_left());
         const long vertices = words_.whole("the number of vertices", 0, most);
         const long faces = words_.whole("the number of faces", 0, most);
         words_.rest_of_line(); // The number of edges, which nobody needs.
-        for (long i = 0; i < vertices; ++i) {
-            take_vertex();
-        }
-        for (long i = 0; i < faces; ++i) {
-            take_face();
-        }
+        for (long i = 0; i < vertices; ++i) { take_vertex(); }
+        for (long i = 0; i < faces; ++i) { take_face(); }
         if (small_faces_ > 0) {
-            mesh_.add_note(fmt::format(
-                "{}: faces of fewer than 3 corners are not read: {}",
-                path_.string(),
-                small_faces_));
+            mesh_.add_note(
+                fmt::format("{}: faces of fewer than 3 corners are not read: {}", path_.string(), small_faces_));
         }
         if (has_map_colours_) {
-            mesh_.add_note(fmt::format(
-                "{}: colours of faces that are numbers of a colour map are not read",
-                path_.string()));
+            mesh_.add_note(
+                fmt::format("{}: colours of faces that are numbers of a colour map are not read", path_.string()));
         }
         return mesh_.finish();
     }
@@ -104,41 +90,31 @@ private:
         return {x, y, words_.number(what)};
     }
 
-    /// Place, normal, colour and texture coordinates, in this order. Many files that say OFF have
-    /// colours behind the places, too.
+    /// Place, normal, colour and texture coordinates, in this order. Many files that say OFF have colours behind the
+    /// places, too.
     void take_vertex() {
         const std::uint32_t vertex = mesh_.add_vertex(triple("a coordinate"));
-        if (header_.has_normals) {
-            mesh_.add_normal(triple("a normal"));
-        }
+        if (header_.has_normals) { mesh_.add_normal(triple("a normal")); }
         const int line = words_.line();
         std::vector<std::string_view> rest = split_words(words_.rest_of_line());
         if (header_.has_textures) {
-            if (rest.size() < 2) {
-                refuse(line, "texture coordinates behind a vertex", rest);
-            }
+            if (rest.size() < 2) { refuse(line, "texture coordinates behind a vertex", rest); }
             WordScanner numbers(path_, text_of(rest, rest.size() - 2), line);
             const double u = numbers.number("a texture coordinate");
-            mesh_.add_texture_coordinates(
-                glm::vec2(glm::dvec2(u, numbers.number("a texture coordinate"))));
+            mesh_.add_texture_coordinates(glm::vec2(glm::dvec2(u, numbers.number("a texture coordinate"))));
             rest.resize(rest.size() - 2);
         }
-        if (!rest.empty() || header_.has_colours) {
-            mesh_.set_colour(vertex, colour(rest, line));
-        }
+        if (!rest.empty() || header_.has_colours) { mesh_.set_colour(vertex, colour(rest, line)); }
     }
 
     void take_face() {
-        const long count =
-            words_.whole("a number of corners", 1, static_cast<long>(max_polygon_corners));
+        const long count = words_.whole("a number of corners", 1, static_cast<long>(max_polygon_corners));
         corners_.clear();
         for (long i = 0; i < count; ++i) {
-            const auto vertex = static_cast<std::uint32_t>(words_.whole(
-                "the number of a vertex", 0, static_cast<long>(mesh_.vertex_count()) - 1));
+            const auto vertex = static_cast<std::uint32_t>(
+                words_.whole("the number of a vertex", 0, static_cast<long>(mesh_.vertex_count()) - 1));
             corners_.push_back(
-                {vertex,
-                 header_.has_normals ? vertex : invalid_index,
-                 header_.has_textures ? vertex : invalid_index});
+                {vertex, header_.has_normals ? vertex : invalid_index, header_.has_textures ? vertex : invalid_index});
         }
         const int line = words_.line();
         const std::vector<std::string_view> rest = split_words(words_.rest_of_line());
@@ -151,14 +127,11 @@ private:
         }
     }
 
-    /// Red, green, blue and perhaps opacity, which is not read: whole numbers 0..255 or others
-    /// 0..1.
+    /// Red, green, blue and perhaps opacity, which is not read: whole numbers 0..255 or others 0..1.
     glm::vec3 colour(const std::vector<std::string_view>& words, int line) const {
-        if (words.size() < 3 || words.size() > 4) {
-            refuse(line, "a colour of 3 or 4 numbers", words);
-        }
-        const bool is_whole = std::ranges::all_of(
-            words, [](std::string_view word) { return word.find_first_of(".eE") == word.npos; });
+        if (words.size() < 3 || words.size() > 4) { refuse(line, "a colour of 3 or 4 numbers", words); }
+        const bool is_whole =
+            std::ranges::all_of(words, [](std::string_view word) { return word.find_first_of(".eE") == word.npos; });
         const double most = is_whole ? 255.0 : 1.0;
         glm::dvec3 parts(0.0);
         for (int part = 0; part < 3; ++part) {
@@ -173,10 +146,7 @@ private:
 
     std::uint32_t material_of(const glm::vec3& colour) {
         const auto [at, is_new] = materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
-        if (is_new) {
-            at->second =
-                mesh_.add_material({fmt::format("face colour {}", materials_.size()), colour});
-        }
+        if (is_new) { at->second = mesh_.add_material({fmt::format("face colour {}", materials_.size()), colour}); }
         return at->second;
     }
 
@@ -185,15 +155,9 @@ private:
         return {words[from].data(), words.back().end()};
     }
 
-    [[noreturn]] void refuse(
-        int line, const std::string& expected, const std::vector<std::string_view>& words) const {
-        throw_error_at(
-            path_,
-            line,
-            fmt::format(
-                "expected {}, got {}",
-                expected,
-                words.empty() ? "none" : in_quotes(text_of(words, 0))));
+    [[noreturn]] void refuse(int line, const std::string& expected, const std::vector<std::string_view>& words) const {
+        throw_error_at(path_, line,
+            fmt::format("expected {}, got {}", expected, words.empty() ? "none" : in_quotes(text_of(words, 0))));
     }
 
     OffHeader header_;
@@ -211,9 +175,7 @@ private:
 TriangleMesh read_off_mesh(const std::filesystem::path& path) {
     std::string text = read_text_file(path, largest_off_bytes);
     for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at)) {
-        for (; at < text.size() && text[at] != '\n'; ++at) {
-            text[at] = ' ';
-        }
+        for (; at < text.size() && text[at] != '\n'; ++at) { text[at] = ' '; }
     }
     return OffReading(path, text).read();
 }

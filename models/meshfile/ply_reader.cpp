@@ -61,50 +61,32 @@ struct TypeName {
 };
 
 constexpr std::array<TypeName, 16> type_names{
-    {{"char", PlyType::i8},
-     {"int8", PlyType::i8},
-     {"uchar", PlyType::u8},
-     {"uint8", PlyType::u8},
-     {"short", PlyType::i16},
-     {"int16", PlyType::i16},
-     {"ushort", PlyType::u16},
-     {"uint16", PlyType::u16},
-     {"int", PlyType::i32},
-     {"int32", PlyType::i32},
-     {"uint", PlyType::u32},
-     {"uint32", PlyType::u32},
-     {"float", PlyType::f32},
-     {"float32", PlyType::f32},
-     {"double", PlyType::f64},
-     {"float64", PlyType::f64}}};
+    {{"char", PlyType::i8}, {"int8", PlyType::i8}, {"uchar", PlyType::u8}, {"uint8", PlyType::u8},
+        {"short", PlyType::i16}, {"int16", PlyType::i16}, {"ushort", PlyType::u16}, {"uint16", PlyType::u16},
+        {"int", PlyType::i32}, {"int32", PlyType::i32}, {"uint", PlyType::u32}, {"uint32", PlyType::u32},
+        {"float", PlyType::f32}, {"float32", PlyType::f32}, {"double", PlyType::f64}, {"float64", PlyType::f64}}};
 
 /// The least that one element takes in the body: what a count is held against.
 std::size_t min_element_bytes(const PlyElement& element, PlyEncoding form) {
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties) {
         bytes += form == PlyEncoding::ascii ? 2
-                 : property.is_list     ? bytes_of(property.count_type)
-                                        : bytes_of(property.type);
+                 : property.is_list         ? bytes_of(property.count_type)
+                                            : bytes_of(property.type);
     }
     return bytes;
 }
 
 class HeaderReading {
 public:
-    HeaderReading(const std::filesystem::path& path, std::string_view bytes)
-        : path_(path)
-        , bytes_(bytes) {}
+    HeaderReading(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
     PlyHeader read() {
-        if (next_line() != "ply") {
-            refuse("'ply'", in_quotes(text_));
-        }
+        if (next_line() != "ply") { refuse("'ply'", in_quotes(text_)); }
         bool has_form = false;
         while (next_line() != "end_header") {
             const Words words = split_words(text_);
-            if (words.empty() || words[0] == "comment" || words[0] == "obj_info") {
-                continue;
-            }
+            if (words.empty() || words[0] == "comment" || words[0] == "obj_info") { continue; }
             if (words[0] == "format") {
                 take_form(words);
                 has_form = true;
@@ -116,9 +98,7 @@ public:
                 refuse("format, element, property, comment or end_header", in_quotes(text_));
             }
         }
-        if (!has_form) {
-            refuse("a format line in the header", "none");
-        }
+        if (!has_form) { refuse("a format line in the header", "none"); }
         header_.body_at = at_;
         header_.body_line = line_ + 1;
         check_counts();
@@ -133,22 +113,16 @@ private:
     std::string_view next_line() {
         ++line_;
         const std::size_t end = bytes_.find('\n', at_);
-        if (end == std::string_view::npos) {
-            refuse("end_header", "the end of the file");
-        }
+        if (end == std::string_view::npos) { refuse("end_header", "the end of the file"); }
         text_ = bytes_.substr(at_, end - at_);
         at_ = end + 1;
-        while (!text_.empty() && (text_.back() == '\r' || text_.back() == ' ')) {
-            text_.remove_suffix(1);
-        }
+        while (!text_.empty() && (text_.back() == '\r' || text_.back() == ' ')) { text_.remove_suffix(1); }
         return text_;
     }
 
     void take_form(const Words& words) {
         const std::string_view form = words.size() > 1 ? words[1] : std::string_view();
-        if (words.size() != 3 || words[2] != "1.0") {
-            refuse("'format FORM 1.0'", in_quotes(text_));
-        }
+        if (words.size() != 3 || words[2] != "1.0") { refuse("'format FORM 1.0'", in_quotes(text_)); }
         if (form == "ascii") {
             header_.form = PlyEncoding::ascii;
         } else if (form == "binary_little_endian") {
@@ -162,18 +136,14 @@ private:
 
     void take_element(const Words& words) {
         const auto count = words.size() == 3 ? whole_number(words[2]) : std::nullopt;
-        if (!count || *count < 0) {
-            refuse("'element NAME COUNT'", in_quotes(text_));
-        }
+        if (!count || *count < 0) { refuse("'element NAME COUNT'", in_quotes(text_)); }
         element_lines_.push_back(line_);
         header_.elements.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
     }
 
     PlyType type_of(std::string_view name) const {
         for (const TypeName& known : type_names) {
-            if (known.name == name) {
-                return known.type;
-            }
+            if (known.name == name) { return known.type; }
         }
         refuse("a type such as uchar, int or float", in_quotes(name));
     }
@@ -183,12 +153,8 @@ private:
         if (!is_list && words.size() != 3) {
             refuse("'property TYPE NAME' or 'property list TYPE TYPE NAME'", in_quotes(text_));
         }
-        if (header_.elements.empty()) {
-            refuse("an element before its property", in_quotes(text_));
-        }
-        if (++properties_ > max_properties) {
-            refuse(fmt::format("at most {} properties", max_properties), "more");
-        }
+        if (header_.elements.empty()) { refuse("an element before its property", in_quotes(text_)); }
+        if (++properties_ > max_properties) { refuse(fmt::format("at most {} properties", max_properties), "more"); }
         PlyProperty property;
         property.name = std::string(words.back());
         property.is_list = is_list;
@@ -211,11 +177,8 @@ private:
             const std::size_t least = min_element_bytes(element, header_.form);
             if (least > 0 && element.count > (room + spare) / least) {
                 line_ = element_lines_[i];
-                refuse(
-                    fmt::format(
-                        "at most {} of {} in a file of this size",
-                        (room + spare) / least,
-                        in_quotes(element.name)),
+                refuse(fmt::format(
+                           "at most {} of {} in a file of this size", (room + spare) / least, in_quotes(element.name)),
                     std::to_string(element.count));
             }
         }
@@ -285,17 +248,13 @@ public:
 
     double number(PlyType /*type*/, const char* what) { return words_.number(what); }
 
-    double count(PlyType /*type*/, const char* what) {
-        return static_cast<double>(words_.whole(what, 0, 0xffffffffL));
-    }
+    double count(PlyType /*type*/, const char* what) { return static_cast<double>(words_.whole(what, 0, 0xffffffffL)); }
 
     /// Other properties may be anything, such as nan for a confidence.
     void skip(PlyType /*type*/) { words_.word("a value of a property"); }
 
     void skip(PlyType type, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) {
-            skip(type);
-        }
+        for (std::size_t i = 0; i < count; ++i) { skip(type); }
     }
 
     [[noreturn]] void refuse(const std::string& expected, const std::string& got) const {
@@ -310,10 +269,7 @@ private:
 class ByteSource {
 public:
     ByteSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-        : bytes_(
-              path,
-              bytes,
-              header.body_at,
+        : bytes_(path, bytes, header.body_at,
               header.form == PlyEncoding::big_endian ? std::endian::big : std::endian::little) {}
 
     double number(PlyType type, const char* what) {
@@ -328,9 +284,7 @@ public:
 
     void skip(PlyType type) { bytes_.take(bytes_of(type), "a value of a property"); }
 
-    void skip(PlyType type, std::size_t count) {
-        bytes_.take(count * bytes_of(type), "a list of a property");
-    }
+    void skip(PlyType type, std::size_t count) { bytes_.take(count * bytes_of(type), "a list of a property"); }
 
     [[noreturn]] void refuse(const std::string& expected, const std::string& got) const {
         bytes_.refuse(expected, got);
@@ -377,10 +331,7 @@ template <typename Source>
 class BodyReading {
 public:
     BodyReading(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-        : header_(header)
-        , path_(path)
-        , source_(path, bytes, header)
-        , mesh_(path) {}
+        : header_(header), path_(path), source_(path, bytes, header), mesh_(path) {}
 
     TriangleMesh read() {
         for (const PlyElement& element : header_.elements) {
@@ -390,32 +341,25 @@ public:
                 take_surface(element);
             } else if (is_surface(element)) {
                 source_.refuse(
-                    fmt::format("the element vertex before the element {}", element.name),
-                    element.name + " first");
+                    fmt::format("the element vertex before the element {}", element.name), element.name + " first");
             } else {
                 skip(element);
             }
         }
         if (!not_read_.empty()) {
-            mesh_.add_note(fmt::format(
-                "{}: properties that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
+            mesh_.add_note(
+                fmt::format("{}: properties that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
         return mesh_.finish();
     }
 
 private:
-    static bool is_surface(const PlyElement& element) {
-        return element.name == "face" || element.name == "tristrips";
-    }
+    static bool is_surface(const PlyElement& element) { return element.name == "face" || element.name == "tristrips"; }
 
     void skip(const PlyElement& element) {
-        if (element.properties.empty()) {
-            return;
-        }
+        if (element.properties.empty()) { return; }
         for (std::size_t i = 0; i < element.count; ++i) {
-            for (const PlyProperty& property : element.properties) {
-                skip_one(property);
-            }
+            for (const PlyProperty& property : element.properties) { skip_one(property); }
         }
     }
 
@@ -429,9 +373,7 @@ private:
 
     std::size_t count_of(const PlyProperty& property) {
         const double count = source_.count(property.count_type, "a number of list entries");
-        if (count < 0.0) {
-            source_.refuse("a number of list entries", fmt::format("{}", count));
-        }
+        if (count < 0.0) { source_.refuse("a number of list entries", fmt::format("{}", count)); }
         return static_cast<std::size_t>(count);
     }
 
@@ -440,8 +382,8 @@ private:
         for (std::size_t slot = 0; slot < vertex_names.size(); ++slot) {
             if (!property.is_list &&
                 (property.name == vertex_names[slot] ||
-                 (slot >= first_colour && (property.name == short_names[slot - first_colour] ||
-                                           property.name == long_names[slot - first_colour])))) {
+                    (slot >= first_colour && (property.name == short_names[slot - first_colour] ||
+                                                 property.name == long_names[slot - first_colour])))) {
                 return slot;
             }
         }
@@ -460,19 +402,14 @@ private:
                 note_not_read(element, property);
             }
         }
-        if (!has[0] || !has[1] || !has[2]) {
-            source_.refuse("the properties x, y and z of a vertex", "fewer");
-        }
+        if (!has[0] || !has[1] || !has[2]) { source_.refuse("the properties x, y and z of a vertex", "fewer"); }
         has_normals_ = has[3] && has[4] && has[5];
         has_colours_ = has[6] && has[7] && has[8];
         has_textures_ = has[9] && has[10];
-        for (std::size_t i = 0; i < element.count; ++i) {
-            take_vertex(element, slots);
-        }
+        for (std::size_t i = 0; i < element.count; ++i) { take_vertex(element, slots); }
     }
 
-    void
-    take_vertex(const PlyElement& element, const std::vector<std::optional<std::size_t>>& slots) {
+    void take_vertex(const PlyElement& element, const std::vector<std::optional<std::size_t>>& slots) {
         std::array<double, vertex_names.size()> values{};
         for (std::size_t p = 0; p < slots.size(); ++p) {
             const PlyProperty& property = element.properties[p];
@@ -485,23 +422,16 @@ private:
             }
         }
         const std::uint32_t vertex = mesh_.add_vertex({values[0], values[1], values[2]});
-        if (has_normals_) {
-            mesh_.add_normal({values[3], values[4], values[5]});
-        }
-        if (has_colours_) {
-            mesh_.set_colour(vertex, glm::vec3(glm::dvec3{values[6], values[7], values[8]}));
-        }
-        if (has_textures_) {
-            mesh_.add_texture_coordinates(glm::vec2(glm::dvec2{values[9], values[10]}));
-        }
+        if (has_normals_) { mesh_.add_normal({values[3], values[4], values[5]}); }
+        if (has_colours_) { mesh_.set_colour(vertex, glm::vec3(glm::dvec3{values[6], values[7], values[8]})); }
+        if (has_textures_) { mesh_.add_texture_coordinates(glm::vec2(glm::dvec2{values[9], values[10]})); }
     }
 
     double colour_part(const PlyProperty& property) {
         const double largest = normalization_divisor(property.type);
         const double value = source_.number(property.type, "a part of a colour");
         if (value < 0.0 || value > largest) {
-            source_.refuse(
-                fmt::format("a part of a colour of 0 to {}", largest), fmt::format("{}", value));
+            source_.refuse(fmt::format("a part of a colour of 0 to {}", largest), fmt::format("{}", value));
         }
         return value / largest;
     }
@@ -510,13 +440,9 @@ private:
         bool has_corners = false;
         for (const PlyProperty& property : element.properties) {
             has_corners = has_corners || is_corners(property);
-            if (!is_corners(property) && !has_places(element, property)) {
-                note_not_read(element, property);
-            }
+            if (!is_corners(property) && !has_places(element, property)) { note_not_read(element, property); }
         }
-        if (!has_corners) {
-            source_.refuse("the list vertex_indices of a " + element.name, "none");
-        }
+        if (!has_corners) { source_.refuse("the list vertex_indices of a " + element.name, "none"); }
         for (std::size_t i = 0; i < element.count; ++i) {
             places_.clear();
             for (const PlyProperty& property : element.properties) {
@@ -530,9 +456,7 @@ private:
                     take_strips(property);
                 }
             }
-            if (element.name == "face") {
-                add_face();
-            }
+            if (element.name == "face") { add_face(); }
         }
     }
 
@@ -546,8 +470,8 @@ private:
     void add_face() {
         if (places_.size() == 2 * corners_.size()) {
             for (std::size_t k = 0; k < corners_.size(); ++k) {
-                corners_[k].texture = mesh_.add_texture_coordinates(
-                    glm::vec2(glm::dvec2{places_[2 * k], places_[2 * k + 1]}));
+                corners_[k].texture =
+                    mesh_.add_texture_coordinates(glm::vec2(glm::dvec2{places_[2 * k], places_[2 * k + 1]}));
             }
         }
         mesh_.add_polygon(corners_);
@@ -558,16 +482,13 @@ private:
     }
 
     static bool is_corners(const PlyProperty& property) {
-        return property.is_list &&
-               (property.name == "vertex_indices" || property.name == "vertex_index");
+        return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
     }
 
     void take_face(const PlyProperty& property) {
         const std::size_t count = count_of(property);
         if (count < 3 || count > max_polygon_corners) {
-            source_.refuse(
-                fmt::format("a face of 3 to {} corners", max_polygon_corners),
-                fmt::format("{}", count));
+            source_.refuse(fmt::format("a face of 3 to {} corners", max_polygon_corners), fmt::format("{}", count));
         }
         corners_.clear();
         for (std::size_t i = 0; i < count; ++i) {
@@ -576,17 +497,15 @@ private:
     }
 
     CornerIndices corner(double number) const {
-        if (!(number >= 0.0 && number < static_cast<double>(mesh_.vertex_count())) ||
-            number != std::floor(number)) {
-            source_.refuse(
-                fmt::format("a vertex below {}", mesh_.vertex_count()), fmt::format("{}", number));
+        if (!(number >= 0.0 && number < static_cast<double>(mesh_.vertex_count())) || number != std::floor(number)) {
+            source_.refuse(fmt::format("a vertex below {}", mesh_.vertex_count()), fmt::format("{}", number));
         }
         const auto vertex = static_cast<std::uint32_t>(number);
         return {vertex, has_normals_ ? vertex : invalid_index, has_textures_ ? vertex : invalid_index};
     }
 
-    /// Strips of triangles, one behind the other, -1 between them. Every second triangle of a strip
-    /// has its corners the other way round; those with a corner twice only lead on.
+    /// Strips of triangles, one behind the other, -1 between them. Every second triangle of a strip has its corners the
+    /// other way round; those with a corner twice only lead on.
     void take_strips(const PlyProperty& property) {
         constexpr double next_strip = -1.0;
         corners_.clear();
@@ -635,7 +554,7 @@ TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
     const std::string bytes = read_file(path, largest_ply_bytes);
     const PlyHeader header = read_ply_header(path, bytes);
     return header.form == PlyEncoding::ascii ? BodyReading<WordSource>(path, bytes, header).read()
-                                         : BodyReading<ByteSource>(path, bytes, header).read();
+                                             : BodyReading<ByteSource>(path, bytes, header).read();
 }
 
 } // namespace octant::models::meshfile

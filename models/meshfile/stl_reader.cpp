@@ -29,14 +29,11 @@ public:
             repair::first_duplicates(places_m_, {}, std::vector<bool>(places_m_.size(), true));
         std::vector<std::uint32_t> vertices(places_m_.size(), invalid_index);
         for (std::uint32_t corner = 0; corner < firsts.size(); ++corner) {
-            vertices[corner] = firsts[corner] == corner ? mesh.add_vertex(places_m_[corner])
-                                                        : vertices[firsts[corner]];
+            vertices[corner] = firsts[corner] == corner ? mesh.add_vertex(places_m_[corner]) : vertices[firsts[corner]];
         }
         for (std::size_t corner = 0; corner + 2 < vertices.size(); corner += 3) {
-            mesh.add_polygon(std::array<CornerIndices, 3>{
-                CornerIndices{vertices[corner]},
-                CornerIndices{vertices[corner + 1]},
-                CornerIndices{vertices[corner + 2]}});
+            mesh.add_polygon(std::array<CornerIndices, 3>{CornerIndices{vertices[corner]},
+                CornerIndices{vertices[corner + 1]}, CornerIndices{vertices[corner + 2]}});
         }
         return mesh.finish();
     }
@@ -46,16 +43,13 @@ private:
 };
 
 bool is_word(std::string_view word, std::string_view lower) {
-    return std::ranges::equal(word, lower, [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-    });
+    return std::ranges::equal(
+        word, lower, [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
 }
 
 class AsciiReading {
 public:
-    AsciiReading(const std::filesystem::path& path, std::string_view text)
-        : words_(path, text, 1)
-        , mesh_(path) {}
+    AsciiReading(const std::filesystem::path& path, std::string_view text) : words_(path, text, 1), mesh_(path) {}
 
     TriangleMesh read() {
         take("solid");
@@ -66,13 +60,10 @@ public:
                 take_facet();
             } else if (is_word(word, "endsolid")) {
                 words_.rest_of_line();
-                if (words_.word_or_end().empty()) {
-                    return corners_.welded(mesh_);
-                }
+                if (words_.word_or_end().empty()) { return corners_.welded(mesh_); }
                 words_.rest_of_line(); // another solid's name
             } else {
-                words_.refuse(
-                    "facet or endsolid", word.empty() ? "the end of the file" : in_quotes(word));
+                words_.refuse("facet or endsolid", word.empty() ? "the end of the file" : in_quotes(word));
             }
         }
     }
@@ -80,17 +71,13 @@ public:
 private:
     void take(std::string_view expected) {
         const std::string_view word = words_.word(expected);
-        if (!is_word(word, expected)) {
-            words_.refuse(expected, in_quotes(word));
-        }
+        if (!is_word(word, expected)) { words_.refuse(expected, in_quotes(word)); }
     }
 
     /// The normal says nothing that the corners do not, and is often wrong.
     void take_facet() {
         take("normal");
-        for (int part = 0; part < 3; ++part) {
-            words_.word("a part of a normal");
-        }
+        for (int part = 0; part < 3; ++part) { words_.word("a part of a normal"); }
         take("outer");
         take("loop");
         for (int corner = 0; corner < 3; ++corner) {
@@ -118,9 +105,7 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view byt
     const std::size_t room = reader.bytes_left() / triangle_bytes;
     if (count > room) {
         reader.refuse_at(
-            count_at,
-            fmt::format("at most {} triangles in a file of this size", room),
-            std::to_string(count));
+            count_at, fmt::format("at most {} triangles in a file of this size", room), std::to_string(count));
     }
     for (std::size_t t = 0; t < count; ++t) {
         reader.take(12, "a normal");
@@ -129,8 +114,7 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view byt
             for (int part = 0; part < 3; ++part) {
                 place_m[part] = static_cast<double>(reader.number<float>("a coordinate"));
                 if (!(std::abs(place_m[part]) <= max_coordinate)) { // also NaN
-                    reader.refuse_at(
-                        reader.at() - 4, "a coordinate", fmt::format("{}", place_m[part]));
+                    reader.refuse_at(reader.at() - 4, "a coordinate", fmt::format("{}", place_m[part]));
                 }
             }
             corners.add(place_m);
@@ -138,10 +122,8 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view byt
         reader.take(2, "attributes");
     }
     if (reader.bytes_left() > 0) {
-        mesh.add_note(fmt::format(
-            "{}: {} bytes behind the last triangle are not read",
-            path.string(),
-            reader.bytes_left()));
+        mesh.add_note(
+            fmt::format("{}: {} bytes behind the last triangle are not read", path.string(), reader.bytes_left()));
     }
     return corners.welded(mesh);
 }
@@ -149,11 +131,8 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view byt
 /// Many binary files begin with "solid" too: the size decides.
 bool is_binary(const std::filesystem::path& path, std::string_view bytes) {
     if (bytes.size() >= header_bytes) {
-        const std::size_t count =
-            ByteReader(path, bytes, count_at).number<std::uint32_t>("a number of triangles");
-        if (bytes.size() == header_bytes + count * triangle_bytes) {
-            return true;
-        }
+        const std::size_t count = ByteReader(path, bytes, count_at).number<std::uint32_t>("a number of triangles");
+        if (bytes.size() == header_bytes + count * triangle_bytes) { return true; }
     }
     const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
     return !is_word(bytes.substr(first, 5), "solid");

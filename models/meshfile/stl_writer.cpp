@@ -21,9 +21,7 @@ std::string stl_bytes(const TriangleMesh& mesh) {
     append_number(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
     for (const Triangle& triangle : mesh.triangles) {
         append_vector(bytes, glm::vec3(normal_of(mesh, triangle)));
-        for (const std::uint32_t vertex : triangle) {
-            append_vector(bytes, glm::vec3(mesh.vertices_m[vertex]));
-        }
+        for (const std::uint32_t vertex : triangle) { append_vector(bytes, glm::vec3(mesh.vertices_m[vertex])); }
         append_number(bytes, std::uint16_t{0});
     }
     return bytes;

@@ -31,9 +31,7 @@ class VrmlTokenizer {
 public:
     /// Keeps references to both; the text begins in line `line` of the file.
     VrmlTokenizer(const std::filesystem::path& path, std::string_view text, int line)
-        : path_(&path)
-        , text_(text)
-        , line_(line) {}
+        : path_(&path), text_(text), line_(line) {}
 
     /// The next word, a string with its quotes; empty at the end.
     std::string_view peek();
@@ -89,31 +87,21 @@ void VrmlTokenizer::skip_blanks() {
 
 std::string_view VrmlTokenizer::peek() {
     skip_blanks();
-    if (at_ == text_.size()) {
-        return {};
-    }
-    if (is_punctuation(text_.substr(at_, 1))) {
-        return text_.substr(at_, 1);
-    }
+    if (at_ == text_.size()) { return {}; }
+    if (is_punctuation(text_.substr(at_, 1))) { return text_.substr(at_, 1); }
     if (text_[at_] != '"') {
         const std::size_t end = text_.find_first_of(word_ends, at_ + 1);
         return text_.substr(at_, end == std::string_view::npos ? end : end - at_);
     }
     std::size_t end = at_ + 1;
-    while (end < text_.size() && text_[end] != '"') {
-        end += text_[end] == '\\' ? 2U : 1U;
-    }
-    if (end >= text_.size()) {
-        refuse("a quote at the end of a string", "the end of the file");
-    }
+    while (end < text_.size() && text_[end] != '"') { end += text_[end] == '\\' ? 2U : 1U; }
+    if (end >= text_.size()) { refuse("a quote at the end of a string", "the end of the file"); }
     return text_.substr(at_, end + 1 - at_);
 }
 
 std::string_view VrmlTokenizer::take(std::string_view what) {
     const std::string_view word = peek();
-    if (word.empty()) {
-        refuse(what, "the end of the file");
-    }
+    if (word.empty()) { refuse(what, "the end of the file"); }
     line_ += static_cast<int>(std::ranges::count(word, '\n'));
     at_ += word.size();
     return word;
@@ -122,18 +110,14 @@ std::string_view VrmlTokenizer::take(std::string_view what) {
 double VrmlTokenizer::number(std::string_view what) {
     const std::string_view word = take(what);
     const auto value = finite_number(word);
-    if (!value || std::abs(*value) > max_coordinate) {
-        refuse(what, in_quotes(word));
-    }
+    if (!value || std::abs(*value) > max_coordinate) { refuse(what, in_quotes(word)); }
     return *value;
 }
 
 long VrmlTokenizer::whole(std::string_view what) {
     const std::string_view word = take(what);
     const auto value = whole_number(word);
-    if (!value) {
-        refuse(what, in_quotes(word));
-    }
+    if (!value) { refuse(what, in_quotes(word)); }
     return *value;
 }
 
@@ -172,8 +156,7 @@ constexpr int max_vrml_use_depth = 100;
 
 class Nodes {
 public:
-    Nodes(const std::filesystem::path& path, std::string_view text)
-        : words_(path, text, 1) {}
+    Nodes(const std::filesystem::path& path, std::string_view text) : words_(path, text, 1) {}
 
     VrmlFile read() {
         const std::string_view text = words_.text();
@@ -181,9 +164,7 @@ public:
             words_.refuse("'#VRML V2.0'", in_quotes(text.substr(0, text.find('\n'))));
         }
         while (!words_.peek().empty()) {
-            if (!passed_over()) {
-                file_.roots.push_back(take_node(0));
-            }
+            if (!passed_over()) { file_.roots.push_back(take_node(0)); }
         }
         return std::move(file_);
     }
@@ -191,27 +172,21 @@ public:
 private:
     static bool is_name(std::string_view word) {
         const auto first = static_cast<unsigned char>(word.empty() ? '0' : word.front());
-        return (std::isalpha(first) != 0 || first == '_' || first >= 0x80) && word != "TRUE" &&
-               word != "FALSE" && word != "NULL";
+        return (std::isalpha(first) != 0 || first == '_' || first >= 0x80) && word != "TRUE" && word != "FALSE" &&
+               word != "NULL";
     }
 
     std::string_view take_name(std::string_view what) {
         const std::string_view word = words_.take(what);
-        if (!is_name(word)) {
-            words_.refuse(what, in_quotes(word));
-        }
+        if (!is_name(word)) { words_.refuse(what, in_quotes(word)); }
         return word;
     }
 
     /// Whether the next words are a node: DEF, USE or a type with its brace.
     bool node_follows() {
         const std::string_view word = words_.peek();
-        if (word == "DEF" || word == "USE") {
-            return true;
-        }
-        if (!is_name(word)) {
-            return false;
-        }
+        if (word == "DEF" || word == "USE") { return true; }
+        if (!is_name(word)) { return false; }
         VrmlTokenizer ahead = words_;
         ahead.take("a node");
         return ahead.peek() == "{";
@@ -233,14 +208,10 @@ private:
     bool passed_over() {
         const std::string_view word = words_.peek();
         if (word == "ROUTE") {
-            for (int i = 0; i < 4; ++i) {
-                words_.take("a route");
-            }
+            for (int i = 0; i < 4; ++i) { words_.take("a route"); }
             return true;
         }
-        if (word != "PROTO" && word != "EXTERNPROTO") {
-            return false;
-        }
+        if (word != "PROTO" && word != "EXTERNPROTO") { return false; }
         file_.has_prototypes = true;
         words_.take("PROTO");
         take_name("a name of a prototype");
@@ -257,16 +228,13 @@ private:
 
     std::uint32_t take_node(int depth) {
         if (depth > max_vrml_use_depth) {
-            words_.refuse(
-                fmt::format("nodes at most {} deep", max_vrml_use_depth), "a deeper one");
+            words_.refuse(fmt::format("nodes at most {} deep", max_vrml_use_depth), "a deeper one");
         }
         std::string_view word = take_name("a node");
         if (word == "USE") {
             const std::string_view name = take_name("a name");
             const auto known = named_.find(name);
-            if (known == named_.end()) {
-                words_.refuse("a name that DEF gave to a node before", in_quotes(name));
-            }
+            if (known == named_.end()) { words_.refuse("a name that DEF gave to a node before", in_quotes(name)); }
             return known->second;
         }
         VrmlNode node;
@@ -277,8 +245,7 @@ private:
         node.type = word;
         node.line = words_.line();
         if (words_.take("'{'") != "{") {
-            words_.refuse(
-                fmt::format("'{{' after {}", printable(std::string(word))), "something else");
+            words_.refuse(fmt::format("'{{' after {}", printable(std::string(word))), "something else");
         }
         while (words_.peek() != "}") {
             if (!passed_over()) {
@@ -288,9 +255,7 @@ private:
         }
         words_.take("'}'");
         const auto made = static_cast<std::uint32_t>(file_.nodes.size());
-        if (!node.name.empty()) {
-            named_.insert_or_assign(node.name, made);
-        }
+        if (!node.name.empty()) { named_.insert_or_assign(node.name, made); }
         file_.nodes.push_back(std::move(node));
         return made;
     }
@@ -298,9 +263,7 @@ private:
     VrmlField take_field(int depth) {
         VrmlField field;
         const bool is_list = words_.peek() == "[";
-        if (is_list) {
-            words_.take("'['");
-        }
+        if (is_list) { words_.take("'['"); }
         words_.peek();
         field.line = words_.line();
         const std::size_t first = words_.at();
@@ -308,30 +271,18 @@ private:
         while (true) {
             if (node_follows()) {
                 field.nodes.push_back(take_node(depth + 1));
-                if (!is_list) {
-                    return field;
-                }
+                if (!is_list) { return field; }
                 continue;
             }
             const std::string_view word = words_.peek();
-            if (word.empty()) {
-                words_.refuse(is_list ? "']'" : "'}'", "the end of the file");
-            }
-            if (is_list ? word == "]" : word == "}" || is_name(word)) {
-                break;
-            }
-            if (VrmlTokenizer::is_punctuation(word)) {
-                words_.refuse("a value of a field", in_quotes(word));
-            }
+            if (word.empty()) { words_.refuse(is_list ? "']'" : "'}'", "the end of the file"); }
+            if (is_list ? word == "]" : word == "}" || is_name(word)) { break; }
+            if (VrmlTokenizer::is_punctuation(word)) { words_.refuse("a value of a field", in_quotes(word)); }
             words_.take("a value");
             last = words_.at();
         }
-        if (field.nodes.empty()) {
-            field.text = words_.text().substr(first, last - first);
-        }
-        if (is_list) {
-            words_.take("']'");
-        }
+        if (field.nodes.empty()) { field.text = words_.text().substr(first, last - first); }
+        if (is_list) { words_.take("']'"); }
         return field;
     }
 
@@ -345,30 +296,24 @@ const VrmlField* VrmlNode::field(std::string_view field_name) const {
     return found == fields.end() ? nullptr : &found->second;
 }
 
-/// The nodes of a VRML 2.0 (97) file, views into `text`. USE gives the node of the DEF before it,
-/// so that no node lies in itself. Throws Error "file:line: ...".
-VrmlFile read_vrml_nodes(const std::filesystem::path& path, std::string_view text) {
-    return Nodes(path, text).read();
-}
+/// The nodes of a VRML 2.0 (97) file, views into `text`. USE gives the node of the DEF before it, so that no node lies
+/// in itself. Throws Error "file:line: ...".
+VrmlFile read_vrml_nodes(const std::filesystem::path& path, std::string_view text) { return Nodes(path, text).read(); }
 
-/// Values of the fields of VRML nodes; a field that a node has not gives what VRML says or what
-/// the caller does. Faults throw Error "file:line: ...".
+/// Values of the fields of VRML nodes; a field that a node has not gives what VRML says or what the caller does. Faults
+/// throw Error "file:line: ...".
 class VrmlFields {
 public:
     /// Keeps references to both.
-    VrmlFields(const std::filesystem::path& path, const VrmlFile& file)
-        : path_(path)
-        , file_(file) {}
+    VrmlFields(const std::filesystem::path& path, const VrmlFile& file) : path_(path), file_(file) {}
 
-    glm::dvec3
-    vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const;
+    glm::dvec3 vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const;
 
     /// The whole numbers of a field; none where the node has no such field.
     std::vector<long> indices(const VrmlNode& node, std::string_view name) const;
 
     /// Triples of the list `name` of the node in a field of another node; none without either.
-    std::vector<glm::dvec3>
-    triples(const VrmlNode& node, std::string_view field_name, std::string_view name) const;
+    std::vector<glm::dvec3> triples(const VrmlNode& node, std::string_view field_name, std::string_view name) const;
 
     /// The value of a field; true where the node has no such field.
     bool flag(const VrmlNode& node, std::string_view name) const;
@@ -383,8 +328,7 @@ public:
     std::uint32_t place_of(const VrmlNode& node) const;
 
 private:
-    std::vector<double>
-    numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const;
+    std::vector<double> numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const;
     glm::dmat3 turn(const VrmlNode& node, std::string_view name) const;
 
     const std::filesystem::path& path_;
@@ -396,9 +340,7 @@ constexpr double max_rad = 1e6;
 /// The matrix that turns by an angle around an axis, the right hand's way.
 glm::dmat3 turned_about(const glm::dvec3& axis, double angle_rad) {
     const double length = glm::length(axis);
-    if (!(length > 0.0)) {
-        return glm::dmat3(1.0);
-    }
+    if (!(length > 0.0)) { return glm::dmat3(1.0); }
     const glm::dvec3 a = axis / length;
     const double c = std::cos(angle_rad);
     const double s = std::sin(angle_rad);
@@ -411,18 +353,13 @@ glm::dmat3 turned_about(const glm::dvec3& axis, double angle_rad) {
 std::vector<double> VrmlFields::numbers(
     const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const {
     const VrmlField* field = node.field(name);
-    if (field == nullptr) {
-        return otherwise;
-    }
+    if (field == nullptr) { return otherwise; }
     VrmlTokenizer words(path_, field->text, field->line);
-    for (double& value : otherwise) {
-        value = words.number(name);
-    }
+    for (double& value : otherwise) { value = words.number(name); }
     return otherwise;
 }
 
-glm::dvec3
-VrmlFields::vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
+glm::dvec3 VrmlFields::vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
     const auto v = numbers(node, name, {otherwise.x, otherwise.y, otherwise.z});
     return {v[0], v[1], v[2]};
 }
@@ -441,14 +378,10 @@ AffineTransform VrmlFields::placement(const VrmlNode& node) const {
     const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
     const glm::dmat3 slant = turn(node, "scaleOrientation");
     glm::dmat3 scaled(1.0);
-    for (int part = 0; part < 3; ++part) {
-        scaled[part][part] = scale[part];
-    }
+    for (int part = 0; part < 3; ++part) { scaled[part][part] = scale[part]; }
     AffineTransform made;
     made.turn = turn(node, "rotation");
-    if (scale != glm::dvec3(1.0)) {
-        made.turn = made.turn * slant * scaled * glm::transpose(slant);
-    }
+    if (scale != glm::dvec3(1.0)) { made.turn = made.turn * slant * scaled * glm::transpose(slant); }
     made.shift_m = vector(node, "translation", glm::dvec3(0.0)) + centre_m - made.turn * centre_m;
     return made;
 }
@@ -464,9 +397,7 @@ std::uint32_t VrmlFields::place_of(const VrmlNode& node) const {
 
 bool VrmlFields::flag(const VrmlNode& node, std::string_view name) const {
     const VrmlField* field = node.field(name);
-    if (field == nullptr || field->text == "TRUE") {
-        return true;
-    }
+    if (field == nullptr || field->text == "TRUE") { return true; }
     if (field->text != "FALSE") {
         throw_error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
     }
@@ -477,21 +408,17 @@ std::vector<long> VrmlFields::indices(const VrmlNode& node, std::string_view nam
     std::vector<long> found;
     if (const VrmlField* field = node.field(name)) {
         VrmlTokenizer words(path_, field->text, field->line);
-        while (!words.peek().empty()) {
-            found.push_back(words.whole("a whole number"));
-        }
+        while (!words.peek().empty()) { found.push_back(words.whole("a whole number")); }
     }
     return found;
 }
 
-std::vector<glm::dvec3>
-VrmlFields::triples(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
+std::vector<glm::dvec3> VrmlFields::triples(
+    const VrmlNode& set, std::string_view field_name, std::string_view name) const {
     std::vector<glm::dvec3> found;
     const VrmlNode* node = only_node(set, field_name);
     const VrmlField* field = node == nullptr ? nullptr : node->field(name);
-    if (field == nullptr) {
-        return found;
-    }
+    if (field == nullptr) { return found; }
     VrmlTokenizer words(path_, field->text, field->line);
     while (!words.peek().empty()) {
         const double x = words.number("a number");
@@ -504,18 +431,13 @@ VrmlFields::triples(const VrmlNode& set, std::string_view field_name, std::strin
 
 constexpr std::size_t largest_vrml_bytes = std::size_t{1} << 28U;
 constexpr int max_vrml_depth = 200;
-constexpr std::size_t max_visits = 1'000'000; ///< of nodes that USE brings back again and again
-constexpr std::size_t max_vrml_numbers = std::size_t{1}
-                                          << 27U; ///< of corners and points, likewise
+constexpr std::size_t max_visits = 1'000'000;                   ///< of nodes that USE brings back again and again
+constexpr std::size_t max_vrml_numbers = std::size_t{1} << 27U; ///< of corners and points, likewise
 
 /// Grouping nodes, with the field that holds their children.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> groups{
-    {{"Transform", "children"},
-     {"Group", "children"},
-     {"Anchor", "children"},
-     {"Billboard", "children"},
-     {"Collision", "children"},
-     {"LOD", "level"}}};
+    {{"Transform", "children"}, {"Group", "children"}, {"Anchor", "children"}, {"Billboard", "children"},
+        {"Collision", "children"}, {"LOD", "level"}}};
 
 /// The lists of an IndexedFaceSet; indices are empty where the file gives none.
 struct FaceSet {
@@ -534,22 +456,14 @@ struct FaceSet {
 class VrmlReading {
 public:
     VrmlReading(const std::filesystem::path& path, std::string_view text)
-        : path_(path)
-        , file_(read_vrml_nodes(path_, text))
-        , fields_(path_, file_)
-        , mesh_(path)
-        , used_materials_(file_.nodes.size(), invalid_index) {}
+        : path_(path), file_(read_vrml_nodes(path_, text)), fields_(path_, file_), mesh_(path),
+          used_materials_(file_.nodes.size(), invalid_index) {}
 
     TriangleMesh read() {
-        for (const std::uint32_t root : file_.roots) {
-            visit(root, {}, 0, 0);
-        }
-        if (file_.has_prototypes) {
-            mesh_.add_note(fmt::format("{}: prototypes are not read", path_.string()));
-        }
+        for (const std::uint32_t root : file_.roots) { visit(root, {}, 0, 0); }
+        if (file_.has_prototypes) { mesh_.add_note(fmt::format("{}: prototypes are not read", path_.string())); }
         if (has_textures_) {
-            mesh_.add_note(fmt::format(
-                "{}: texture coordinates and pictures are not read", path_.string()));
+            mesh_.add_note(fmt::format("{}: texture coordinates and pictures are not read", path_.string()));
         }
         return mesh_.finish();
     }
@@ -563,10 +477,7 @@ private:
     void visit(std::uint32_t at, const AffineTransform& placement, std::size_t group, int depth) {
         const VrmlNode& node = file_.nodes[at];
         if (depth > max_vrml_depth || ++visits_ > max_visits) {
-            refuse(
-                node.line,
-                fmt::format("at most {} nodes, {} deep", max_visits, max_vrml_depth),
-                "more");
+            refuse(node.line, fmt::format("at most {} nodes, {} deep", max_visits, max_vrml_depth), "more");
         }
         if (node.type == "Shape") {
             take_shape(node, placement, group);
@@ -576,30 +487,22 @@ private:
             take_switch(node, placement, depth);
             return;
         }
-        const auto* const kind =
-            std::ranges::find(groups, node.type, [](const auto& g) { return g.first; });
+        const auto* const kind = std::ranges::find(groups, node.type, [](const auto& g) { return g.first; });
         const VrmlField* children = kind == groups.end() ? nullptr : node.field(kind->second);
-        if (children == nullptr) {
-            return;
-        }
+        if (children == nullptr) { return; }
         const bool first_only = node.type == "LOD";
-        const AffineTransform inner =
-            node.type == "Transform" ? placement.of(fields_.placement(node)) : placement;
+        const AffineTransform inner = node.type == "Transform" ? placement.of(fields_.placement(node)) : placement;
         const std::size_t inner_group = visits_;
         for (const std::uint32_t child : children->nodes) {
             visit(child, inner, inner_group, depth + 1);
-            if (first_only) {
-                return;
-            }
+            if (first_only) { return; }
         }
     }
 
     void take_switch(const VrmlNode& node, const AffineTransform& placement, int depth) {
         const VrmlField* which = node.field("whichChoice");
         const VrmlField* choices = node.field("choice");
-        if (which == nullptr || choices == nullptr) {
-            return;
-        }
+        if (which == nullptr || choices == nullptr) { return; }
         const long chosen = VrmlTokenizer(path_, which->text, which->line).whole("a choice");
         if (chosen >= 0 && std::cmp_less(chosen, choices->nodes.size())) {
             visit(choices->nodes[static_cast<std::size_t>(chosen)], placement, visits_, depth + 1);
@@ -609,9 +512,7 @@ private:
     void take_shape(const VrmlNode& shape, const AffineTransform& placement, std::size_t group) {
         const VrmlNode* set = fields_.only_node(shape, "geometry");
         const VrmlNode* coord = set == nullptr ? nullptr : fields_.only_node(*set, "coord");
-        if (coord == nullptr || set->type != "IndexedFaceSet") {
-            return;
-        }
+        if (coord == nullptr || set->type != "IndexedFaceSet") { return; }
         has_textures_ = has_textures_ || set->field("texCoord") != nullptr;
         FaceSet faces;
         faces.corners = fields_.indices(*set, "coordIndex");
@@ -623,8 +524,7 @@ private:
         faces.normal_per_vertex = fields_.flag(*set, "normalPerVertex");
         faces.counter_clockwise = fields_.flag(*set, "ccw") != placement.mirrors();
         faces.line = set->line;
-        std::ranges::for_each(
-            faces.colours, [&](const glm::dvec3& colour) { check_colour(colour, set->line); });
+        std::ranges::for_each(faces.colours, [&](const glm::dvec3& colour) { check_colour(colour, set->line); });
         faces.first_normal = static_cast<std::uint32_t>(mesh_.normal_count());
         for (const glm::dvec3& normal : fields_.triples(*set, "normal", "vector")) {
             mesh_.add_normal(placement.normal(normal));
@@ -643,8 +543,7 @@ private:
     }
 
     /// Shapes of one group that have the same points share their vertices.
-    void take_points(
-        const VrmlNode& set, const VrmlNode& coord, const AffineTransform& placement, std::size_t group) {
+    void take_points(const VrmlNode& set, const VrmlNode& coord, const AffineTransform& placement, std::size_t group) {
         const auto key = std::pair(group, fields_.place_of(coord));
         const auto known = points_.find(key);
         if (known != points_.end()) {
@@ -654,9 +553,7 @@ private:
         first_point_ = mesh_.vertex_count();
         for (const glm::dvec3& own_m : fields_.triples(set, "coord", "point")) {
             const auto place_m = placement.point_m(own_m);
-            if (!place_m) {
-                refuse(coord.line, "points within bounds", "one that its node moves out of them");
-            }
+            if (!place_m) { refuse(coord.line, "points within bounds", "one that its node moves out of them"); }
             mesh_.add_vertex(*place_m);
         }
         point_count_ = mesh_.vertex_count() - first_point_;
@@ -675,11 +572,8 @@ private:
 
     std::uint32_t material_of(const VrmlNode& shape) {
         const VrmlNode* appearance = fields_.only_node(shape, "appearance");
-        const VrmlNode* node =
-            appearance == nullptr ? nullptr : fields_.only_node(*appearance, "material");
-        if (node == nullptr || node->type != "Material") {
-            return invalid_index;
-        }
+        const VrmlNode* node = appearance == nullptr ? nullptr : fields_.only_node(*appearance, "material");
+        if (node == nullptr || node->type != "Material") { return invalid_index; }
         std::uint32_t& used = used_materials_[fields_.place_of(*node)];
         if (used == invalid_index) {
             const glm::dvec3 colour = fields_.vector(*node, "diffuseColor", glm::dvec3(0.8));
@@ -697,10 +591,7 @@ private:
             const auto end = std::find(begin, faces.corners.end(), -1);
             const auto count = static_cast<std::size_t>(end - begin);
             if (count < 3 || count > max_polygon_corners) {
-                refuse(
-                    faces.line,
-                    fmt::format("faces of 3 to {} corners", max_polygon_corners),
-                    std::to_string(count));
+                refuse(faces.line, fmt::format("faces of 3 to {} corners", max_polygon_corners), std::to_string(count));
             }
             take_face(faces, face, first, count, material);
             first += count + 1;
@@ -715,69 +606,34 @@ private:
     }
 
     /// Index of a colour or a normal: of its own list, of the corner's point or of the face.
-    std::size_t attribute(
-        const FaceSet& faces,
-        const std::vector<long>& own,
-        bool per_vertex,
-        std::size_t face,
-        std::size_t corner,
-        std::size_t count,
-        const char* what) {
+    std::size_t attribute(const FaceSet& faces, const std::vector<long>& own, bool per_vertex, std::size_t face,
+        std::size_t corner, std::size_t count, const char* what) {
         const std::size_t at = per_vertex ? corner : face;
-        if (!own.empty()) {
-            return checked(at < own.size() ? own[at] : -1, count, faces, what);
-        }
-        return checked(
-            per_vertex ? faces.corners[corner] : static_cast<long>(face), count, faces, what);
+        if (!own.empty()) { return checked(at < own.size() ? own[at] : -1, count, faces, what); }
+        return checked(per_vertex ? faces.corners[corner] : static_cast<long>(face), count, faces, what);
     }
 
     void take_face(
-        const FaceSet& faces,
-        std::size_t face,
-        std::size_t first,
-        std::size_t count,
-        std::uint32_t material) {
+        const FaceSet& faces, std::size_t face, std::size_t first, std::size_t count, std::uint32_t material) {
         polygon_.clear();
         for (std::size_t corner = first; corner < first + count; ++corner) {
-            const std::size_t point =
-                checked(faces.corners[corner], point_count_, faces, "a point");
+            const std::size_t point = checked(faces.corners[corner], point_count_, faces, "a point");
             CornerIndices made{static_cast<std::uint32_t>(first_point_ + point)};
             if (!faces.colours.empty() && faces.colour_per_vertex) {
-                made.vertex = coloured(
-                    made.vertex,
-                    glm::vec3(faces.colours[attribute(
-                        faces,
-                        faces.colour_indices,
-                        true,
-                        face,
-                        corner,
-                        faces.colours.size(),
-                        "a colour")]));
+                made.vertex = coloured(made.vertex, glm::vec3(faces.colours[attribute(faces, faces.colour_indices, true,
+                                                        face, corner, faces.colours.size(), "a colour")]));
             }
             if (faces.normals > 0) {
-                made.normal = faces.first_normal + static_cast<std::uint32_t>(attribute(
-                                                       faces,
-                                                       faces.normal_indices,
-                                                       faces.normal_per_vertex,
-                                                       face,
-                                                       corner,
-                                                       faces.normals,
-                                                       "a normal"));
+                made.normal =
+                    faces.first_normal + static_cast<std::uint32_t>(attribute(faces, faces.normal_indices,
+                                             faces.normal_per_vertex, face, corner, faces.normals, "a normal"));
             }
             polygon_.push_back(made);
         }
-        if (!faces.counter_clockwise) {
-            std::ranges::reverse(polygon_);
-        }
+        if (!faces.counter_clockwise) { std::ranges::reverse(polygon_); }
         if (!faces.colours.empty() && !faces.colour_per_vertex) {
             material = face_material(faces.colours[attribute(
-                faces,
-                faces.colour_indices,
-                false,
-                face,
-                first,
-                faces.colours.size(),
-                "a colour")]);
+                faces, faces.colour_indices, false, face, first, faces.colours.size(), "a colour")]);
         }
         mesh_.add_polygon(polygon_, material);
     }
@@ -790,8 +646,7 @@ private:
             copies_[{vertex, colour.x, colour.y, colour.z}] = vertex;
             return vertex;
         }
-        const auto [at, is_new] =
-            copies_.try_emplace({vertex, colour.x, colour.y, colour.z}, invalid_index);
+        const auto [at, is_new] = copies_.try_emplace({vertex, colour.x, colour.y, colour.z}, invalid_index);
         if (is_new) {
             at->second = mesh_.add_vertex(mesh_.vertex_m(vertex));
             mesh_.set_colour(at->second, colour);
@@ -802,11 +657,9 @@ private:
 
     /// The material that stands for a colour of whole faces.
     std::uint32_t face_material(const glm::dvec3& colour) {
-        const auto [at, is_new] =
-            face_materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
+        const auto [at, is_new] = face_materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
         if (is_new) {
-            at->second = mesh_.add_material(
-                {fmt::format("face colour {}", face_materials_.size()), glm::vec3(colour)});
+            at->second = mesh_.add_material({fmt::format("face colour {}", face_materials_.size()), glm::vec3(colour)});
         }
         return at->second;
     }

@@ -26,22 +26,16 @@ void append_list(std::string& text, std::string_view head, const std::vector<Vec
     text += "      ] }\n";
 }
 
-/// A shape of the triangles of one material; of all triangles where there are no materials. The
-/// first one names the lists that the others use.
+/// A shape of the triangles of one material; of all triangles where there are no materials. The first one names the
+/// lists that the others use.
 class ShapeWriting {
 public:
-    explicit ShapeWriting(const TriangleMesh& mesh)
-        : mesh_(mesh)
-        , names_(unique_material_names(mesh.materials)) {}
+    explicit ShapeWriting(const TriangleMesh& mesh) : mesh_(mesh), names_(unique_material_names(mesh.materials)) {}
 
     std::string text() {
         text_ = "#VRML V2.0 utf8\nGroup { children [\n";
-        if (names_.empty()) {
-            append_shape(0);
-        }
-        for (std::uint32_t material = 0; material < names_.size(); ++material) {
-            append_shape(material);
-        }
+        if (names_.empty()) { append_shape(0); }
+        for (std::uint32_t material = 0; material < names_.size(); ++material) { append_shape(material); }
         text_ += "] }\n";
         return std::move(text_);
     }
@@ -51,20 +45,14 @@ private:
         text_ += "  Shape {\n";
         if (!names_.empty()) {
             const glm::vec3& colour = mesh_.materials[material].colour;
-            text_ += fmt::format(
-                "    appearance Appearance {{ material DEF {} Material {{ diffuseColor {} {} {} "
-                "}} }}\n",
-                identifier(names_[material]),
-                colour.x,
-                colour.y,
-                colour.z);
+            text_ += fmt::format("    appearance Appearance {{ material DEF {} Material {{ diffuseColor {} {} {} "
+                                 "}} }}\n",
+                identifier(names_[material]), colour.x, colour.y, colour.z);
         }
         text_ += "    geometry IndexedFaceSet {\n";
         append_lists();
         append_indices("coordIndex", mesh_.triangles, material);
-        if (!mesh_.corner_normals.empty()) {
-            append_indices("normalIndex", mesh_.corner_normals, material);
-        }
+        if (!mesh_.corner_normals.empty()) { append_indices("normalIndex", mesh_.corner_normals, material); }
         text_ += "    }\n  }\n";
     }
 
@@ -77,16 +65,11 @@ private:
         }
         first_ = false;
         append_list(text_, "coord DEF points Coordinate { point", mesh_.vertices_m);
-        if (!mesh_.colours.empty()) {
-            append_list(text_, "color DEF colours Color { color", mesh_.colours);
-        }
-        if (!mesh_.normals.empty()) {
-            append_list(text_, "normal DEF normals Normal { vector", mesh_.normals);
-        }
+        if (!mesh_.colours.empty()) { append_list(text_, "color DEF colours Color { color", mesh_.colours); }
+        if (!mesh_.normals.empty()) { append_list(text_, "normal DEF normals Normal { vector", mesh_.normals); }
     }
 
-    void append_indices(
-        std::string_view name, const std::vector<Triangle>& corners, std::uint32_t material) {
+    void append_indices(std::string_view name, const std::vector<Triangle>& corners, std::uint32_t material) {
         text_ += fmt::format("      {} [\n", name);
         for (std::size_t t = 0; t < corners.size(); ++t) {
             if (mesh_.triangle_materials.empty() || mesh_.triangle_materials[t] == material) {
@@ -116,8 +99,6 @@ private:
 
 } // namespace
 
-std::string vrml_text(const TriangleMesh& mesh) {
-    return ShapeWriting(mesh).text();
-}
+std::string vrml_text(const TriangleMesh& mesh) { return ShapeWriting(mesh).text(); }
 
 } // namespace octant::models::meshfile

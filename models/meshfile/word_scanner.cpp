@@ -12,21 +12,15 @@ namespace octant::models::meshfile {
 
 namespace {
 
-bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 } // namespace
 
 std::string_view WordScanner::word_or_end() {
     std::size_t at = 0;
-    for (; at < text_.size() && is_blank(text_[at]); ++at) {
-        line_ += static_cast<int>(text_[at] == '\n');
-    }
+    for (; at < text_.size() && is_blank(text_[at]); ++at) { line_ += static_cast<int>(text_[at] == '\n'); }
     std::size_t end = at;
-    while (end < text_.size() && !is_blank(text_[end])) {
-        ++end;
-    }
+    while (end < text_.size() && !is_blank(text_[end])) { ++end; }
     const std::string_view found = text_.substr(at, end - at);
     text_.remove_prefix(end);
     return found;
@@ -34,9 +28,7 @@ std::string_view WordScanner::word_or_end() {
 
 std::string_view WordScanner::word(std::string_view what) {
     const std::string_view found = word_or_end();
-    if (found.empty()) {
-        refuse(what, "the end of the file");
-    }
+    if (found.empty()) { refuse(what, "the end of the file"); }
     return found;
 }
 
@@ -44,20 +36,14 @@ std::string_view WordScanner::rest_of_line() {
     const std::size_t end = std::min(text_.find('\n'), text_.size());
     std::string_view rest = text_.substr(0, end);
     text_.remove_prefix(end);
-    while (!rest.empty() && is_blank(rest.back())) {
-        rest.remove_suffix(1);
-    }
-    while (!rest.empty() && is_blank(rest.front())) {
-        rest.remove_prefix(1);
-    }
+    while (!rest.empty() && is_blank(rest.back())) { rest.remove_suffix(1); }
+    while (!rest.empty() && is_blank(rest.front())) { rest.remove_prefix(1); }
     return rest;
 }
 
 void WordScanner::skip_bytes(std::size_t count, std::string_view what) {
     if (count > text_.size()) {
-        refuse(
-            fmt::format("{} ({} bytes)", what, count),
-            fmt::format("{} to the end of the file", text_.size()));
+        refuse(fmt::format("{} ({} bytes)", what, count), fmt::format("{} to the end of the file", text_.size()));
     }
     line_ += static_cast<int>(std::ranges::count(text_.substr(0, count), '\n'));
     text_.remove_prefix(count);
@@ -66,9 +52,7 @@ void WordScanner::skip_bytes(std::size_t count, std::string_view what) {
 double WordScanner::number(std::string_view what) {
     const std::string_view found = word(what);
     const auto value = finite_number(found);
-    if (!value || std::abs(*value) > max_coordinate) {
-        refuse(what, in_quotes(found));
-    }
+    if (!value || std::abs(*value) > max_coordinate) { refuse(what, in_quotes(found)); }
     return *value;
 }
 

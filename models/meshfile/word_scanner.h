@@ -12,9 +12,7 @@ class WordScanner {
 public:
     /// Keeps a view into `text`, whose first line is line `line` of the file.
     WordScanner(const std::filesystem::path& path, std::string_view text, int line)
-        : path_(path)
-        , text_(text)
-        , line_(line) {}
+        : path_(path), text_(text), line_(line) {}
 
     /// Throws Error at the end of the text; `what` is what it then expected.
     std::string_view word(std::string_view what);
@@ -22,8 +20,7 @@ public:
     /// The next word; empty at the end of the text.
     std::string_view word_or_end();
 
-    /// What is left of the line at hand, without blanks at either end; the next word is in the line
-    /// below.
+    /// What is left of the line at hand, without blanks at either end; the next word is in the line below.
     std::string_view rest_of_line();
 
     /// Passes over so many bytes. Throws Error when there are fewer.

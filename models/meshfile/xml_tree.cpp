@@ -18,16 +18,12 @@ constexpr std::string_view xml_blanks = " \t\r\n";
 
 class XmlReading {
 public:
-    XmlReading(const std::filesystem::path& file, std::string_view text)
-        : file_(file)
-        , left_(text) {}
+    XmlReading(const std::filesystem::path& file, std::string_view text) : file_(file), left_(text) {}
 
     XmlElement read() {
         XmlElement none;
         skip_between(none);
-        if (left_.empty()) {
-            refuse("an element", "the end of the file");
-        }
+        if (left_.empty()) { refuse("an element", "the end of the file"); }
         return element(0);
     }
 
@@ -45,9 +41,7 @@ private:
     /// Takes what comes before `end`, and it.
     std::string_view take_until(std::string_view end) {
         const std::size_t at = left_.find(end);
-        if (at == std::string_view::npos) {
-            refuse(fmt::format("'{}'", end), "the end of the file");
-        }
+        if (at == std::string_view::npos) { refuse(fmt::format("'{}'", end), "the end of the file"); }
         const std::string_view before = left_.substr(0, at);
         take(at + end.size());
         return before;
@@ -77,8 +71,8 @@ private:
         constexpr std::array<std::pair<std::string_view, char>, 5> named{
             {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}}};
         while (!text.empty()) {
-            const auto found = std::ranges::find_if(
-                named, [&](const auto& entity) { return text.starts_with(entity.first); });
+            const auto found =
+                std::ranges::find_if(named, [&](const auto& entity) { return text.starts_with(entity.first); });
             to += found == named.end() ? text.front() : found->second;
             text.remove_prefix(found == named.end() ? 1 : found->first.size());
         }
@@ -106,17 +100,14 @@ private:
         return tag.substr(0, std::min(tag.find_first_of(" \t\r\n/"), tag.size()));
     }
 
-    /// The value of an attribute of a tag; empty where it has none. What stands in another
-    /// attribute's quotes is none.
+    /// The value of an attribute of a tag; empty where it has none. What stands in another attribute's quotes is none.
     static std::string attribute_of(std::string_view tag, std::string_view name) {
         std::string_view rest = tag.substr(name_of(tag).size());
         for (;;) {
             const std::size_t equals = rest.find('=');
             const std::size_t open = rest.find_first_of("\"'", std::min(equals, rest.size()));
             const std::size_t close = open == rest.npos ? open : rest.find(rest[open], open + 1);
-            if (close == rest.npos) {
-                return {};
-            }
+            if (close == rest.npos) { return {}; }
             std::string_view word = rest.substr(0, equals);
             word.remove_prefix(std::min(word.find_first_not_of(xml_blanks), word.size()));
             word = word.substr(0, word.find_last_not_of(xml_blanks) + 1);
@@ -130,33 +121,23 @@ private:
     }
 
     XmlElement element(int depth) {
-        if (depth > max_xml_depth) {
-            refuse(fmt::format("elements at most {} deep", max_xml_depth), "a deeper one");
-        }
+        if (depth > max_xml_depth) { refuse(fmt::format("elements at most {} deep", max_xml_depth), "a deeper one"); }
         XmlElement made;
         made.line = line_;
         const std::string_view tag = take_tag();
         made.name = name_of(tag);
         made.include = attribute_of(tag, "include");
-        if (made.name.empty()) {
-            refuse("the name of an element", in_quotes(tag));
-        }
-        if (tag.ends_with('/')) {
-            return made;
-        }
+        if (made.name.empty()) { refuse("the name of an element", in_quotes(tag)); }
+        if (tag.ends_with('/')) { return made; }
         while (true) {
             skip_between(made);
-            if (left_.empty()) {
-                refuse(fmt::format("</{}>", printable(made.name)), "the end of the file");
-            }
+            if (left_.empty()) { refuse(fmt::format("</{}>", printable(made.name)), "the end of the file"); }
             if (!left_.starts_with("</")) {
                 made.children.push_back(element(depth + 1));
                 continue;
             }
             const std::string_view end = take_tag().substr(1);
-            if (name_of(end) != made.name) {
-                refuse(fmt::format("</{}>", printable(made.name)), in_quotes(end));
-            }
+            if (name_of(end) != made.name) { refuse(fmt::format("</{}>", printable(made.name)), in_quotes(end)); }
             trim(made.text);
             return made;
         }
@@ -184,8 +165,6 @@ std::string_view XmlElement::text_of(std::string_view child) const {
     return found == nullptr ? std::string_view() : std::string_view(found->text);
 }
 
-XmlElement xml_tree(const std::filesystem::path& file, std::string_view text) {
-    return XmlReading(file, text).read();
-}
+XmlElement xml_tree(const std::filesystem::path& file, std::string_view text) { return XmlReading(file, text).read(); }
 
 } // namespace octant::models::meshfile

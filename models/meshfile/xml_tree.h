@@ -7,8 +7,8 @@
 
 namespace octant::models::meshfile {
 
-/// An element of an XML file: its name, the text right inside it without blanks at its ends, and
-/// the elements in it. Of its attributes only `include` is kept.
+/// An element of an XML file: its name, the text right inside it without blanks at its ends, and the elements in it. Of
+/// its attributes only `include` is kept.
 struct XmlElement {
     std::string name;
     std::string text;
@@ -23,8 +23,8 @@ struct XmlElement {
     std::string_view text_of(std::string_view child) const;
 };
 
-/// The outermost element of an XML text. Comments, declarations and processing instructions are
-/// left out; nothing outside the text is read. Throws Error "file:line: expected ..., got ...".
+/// The outermost element of an XML text. Comments, declarations and processing instructions are left out; nothing
+/// outside the text is read. Throws Error "file:line: expected ..., got ...".
 XmlElement xml_tree(const std::filesystem::path& file, std::string_view text);
 
 } // namespace octant::models::meshfile

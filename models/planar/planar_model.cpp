@@ -1,4 +1,5 @@
 #include "models/planar/planar_model.h"
+
 #include "models/planar/incidences.h"
 #include "models/planar/vertex_grid.h"
 #include "models/polygons/convex_pieces.h"
@@ -23,14 +24,12 @@
 
 namespace octant::models::planar {
 
-// Points into planes by successive projections (S. Kaczmarz, "Angenaeherte Aufloesung von Systemen
-// linearer Gleichungen", 1937, here with planes that follow the points): polygon after polygon, all
-// that must lie on its plane is moved there, until nothing moves any more. A model of quadrangles
-// has more unknowns than conditions, so that nearby planar shapes exist; where they do not,
-// polygons give up and the rest begins again. It is not those that fail that give up: among a
-// failing one and those that share a point with it, it is the one that was least flat as given. So
-// what is planar in the file stays so, decals in one plane with it, beside neighbours that are
-// bent.
+// Points into planes by successive projections (S. Kaczmarz, "Angenaeherte Aufloesung von Systemen linearer
+// Gleichungen", 1937, here with planes that follow the points): polygon after polygon, all that must lie on its plane
+// is moved there, until nothing moves any more. A model of quadrangles has more unknowns than conditions, so that
+// nearby planar shapes exist; where they do not, polygons give up and the rest begins again. It is not those that fail
+// that give up: among a failing one and those that share a point with it, it is the one that was least flat as given.
+// So what is planar in the file stays so, decals in one plane with it, beside neighbours that are bent.
 
 namespace {
 
@@ -38,22 +37,16 @@ constexpr int max_sweeps = 2'000;
 constexpr std::size_t max_visits = 1'000'000; ///< Of polygons, in one round.
 constexpr std::size_t max_visits_in_all = 4 * max_visits;
 constexpr int max_rounds = 8;
-/// A polygon whose corners lie farther from their plane than they may move, so many times, gives up
-/// at once.
+/// A polygon whose corners lie farther from their plane than they may move, so many times, gives up at once.
 constexpr double hopeless_moves = 2.0;
 constexpr double at_rest = 1e-14; ///< Smaller moves count as none.
 
 /// One run of planarize().
 class Planarizing {
 public:
-    Planarizing(
-        std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double max_move)
-        : points_(points)
-        , given_(points)
-        , incidences_(incidences)
-        , max_move_(max_move)
-        , bent_(incidences.size())
-        , alone_(incidences.size()) {
+    Planarizing(std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double max_move)
+        : points_(points), given_(points), incidences_(incidences), max_move_(max_move), bent_(incidences.size()),
+          alone_(incidences.size()) {
         for (std::size_t i = 0; i < incidences.size(); ++i) {
             const auto& [corners, touching] = incidences[i];
             const double uneven = max_height(i, corners);
@@ -68,9 +61,7 @@ public:
             points_ = given_;
             sweep_to_rest();
             visits += clock_;
-            if (!give_up()) {
-                return bent_;
-            }
+            if (!give_up()) { return bent_; }
         }
         settle();
         return bent_;
@@ -88,9 +79,7 @@ private:
     Level level_of(std::size_t polygon) const {
         const auto& corners = incidences_[polygon].corners;
         Level level;
-        if (corners.size() < 3) {
-            return level;
-        }
+        if (corners.size() < 3) { return level; }
         const glm::dvec3& first = points_[corners[0]];
         glm::dvec3 sum(0.0);
         glm::dvec3 from_first(0.0);
@@ -111,20 +100,16 @@ private:
     double max_height(std::size_t polygon, std::span<const std::uint32_t> points) const {
         const Level level = level_of(polygon);
         double most = 0.0;
-        for (const std::uint32_t point : points) {
-            most = std::max(most, std::abs(level.height(points_[point])));
-        }
+        for (const std::uint32_t point : points) { most = std::max(most, std::abs(level.height(points_[point]))); }
         return most;
     }
 
     /// The largest distance of a corner from its polygon's plane.
-    double unevenness(std::size_t polygon) const {
-        return max_height(polygon, incidences_[polygon].corners);
-    }
+    double unevenness(std::size_t polygon) const { return max_height(polygon, incidences_[polygon].corners); }
 
     bool has_work(std::size_t polygon) const {
         return !bent_[polygon] && (incidences_[polygon].corners.size() > 3 ||
-                                   (!alone_[polygon] && !incidences_[polygon].touching.empty()));
+                                      (!alone_[polygon] && !incidences_[polygon].touching.empty()));
     }
 
     /// Whether a point of a polygon has moved since the polygon was flattened.
@@ -147,15 +132,11 @@ private:
                 any = true;
             }
         };
-        if (!level.is_plane) {
-            return false;
-        }
+        if (!level.is_plane) { return false; }
         if (incidences_[polygon].corners.size() > 3 && unevenness(polygon) > at_rest) {
             std::ranges::for_each(incidences_[polygon].corners, project);
         }
-        if (!alone_[polygon]) {
-            std::ranges::for_each(incidences_[polygon].touching, project);
-        }
+        if (!alone_[polygon]) { std::ranges::for_each(incidences_[polygon].touching, project); }
         return any;
     }
 
@@ -165,36 +146,28 @@ private:
         flattened_.assign(incidences_.size(), 0);
         std::vector<std::size_t> working;
         for (std::size_t i = 0; i < incidences_.size(); ++i) {
-            if (has_work(i)) {
-                working.push_back(i);
-            }
+            if (has_work(i)) { working.push_back(i); }
         }
         bool moves = true;
         for (int sweep = 0; sweep < max_sweeps && moves && clock_ < max_visits; ++sweep) {
             moves = false;
             for (const std::size_t polygon : working) {
-                if (is_stirred(polygon)) {
-                    moves = flatten(polygon) || moves;
-                }
+                if (is_stirred(polygon)) { moves = flatten(polygon) || moves; }
             }
         }
     }
 
-    bool moved_too_far(std::uint32_t point) const {
-        return glm::distance(points_[point], given_[point]) > max_move_;
-    }
+    bool moved_too_far(std::uint32_t point) const { return glm::distance(points_[point], given_[point]) > max_move_; }
 
     /// Whether points of a polygon are off its plane or have moved too far.
     bool fails(std::size_t polygon, std::span<const std::uint32_t> points) const {
-        return std::ranges::any_of(
-                   points, [&](std::uint32_t point) { return moved_too_far(point); }) ||
+        return std::ranges::any_of(points, [&](std::uint32_t point) { return moved_too_far(point); }) ||
                max_height(polygon, points) > planar_noise;
     }
 
     bool fails(std::size_t polygon) const {
         const auto& [corners, touching] = incidences_[polygon];
-        return (!alone_[polygon] && fails(polygon, touching)) ||
-               (corners.size() > 3 && fails(polygon, corners));
+        return (!alone_[polygon] && fails(polygon, touching)) || (corners.size() > 3 && fails(polygon, corners));
     }
 
     /// How far from flat a polygon was as given, with what still has to lie on it.
@@ -202,8 +175,8 @@ private:
         return alone_[polygon] ? misfits_[polygon].of_corners : misfits_[polygon].of_all;
     }
 
-    /// Whether a polygon was less flat than another as given, by more than rounding: of mirrored
-    /// ones, which are alike, the same gives up however the model is turned.
+    /// Whether a polygon was less flat than another as given, by more than rounding: of mirrored ones, which are alike,
+    /// the same gives up however the model is turned.
     bool is_less_flat(std::size_t polygon, std::size_t other) const {
         constexpr double alike = 1e-6;
         return misfit(polygon) > misfit(other) * (1.0 + alike) + planar_noise * alike;
@@ -212,9 +185,7 @@ private:
     template <class Visit>
     void for_each_point(std::size_t polygon, Visit visit) const {
         std::ranges::for_each(incidences_[polygon].corners, visit);
-        if (!alone_[polygon]) {
-            std::ranges::for_each(incidences_[polygon].touching, visit);
-        }
+        if (!alone_[polygon]) { std::ranges::for_each(incidences_[polygon].touching, visit); }
     }
 
     /// For each point the polygons on whose plane it has to lie.
@@ -233,8 +204,8 @@ private:
     /// Whether nothing had to move for a polygon as given.
     bool was_flat(std::size_t polygon) const { return misfit(polygon) <= planar_noise; }
 
-    /// For each polygon the nearest one that was not flat as given, along points that have moved;
-    /// its own number where there is none.
+    /// For each polygon the nearest one that was not flat as given, along points that have moved; its own number where
+    /// there is none.
     std::vector<std::size_t> stirred_by(const PolygonsOfPoints& polygons_of) const {
         std::vector<std::size_t> by(incidences_.size());
         std::vector<std::size_t> reached;
@@ -249,9 +220,7 @@ private:
         for (std::size_t next = 0; next < reached.size(); ++next) {
             const std::size_t from = reached[next];
             for_each_point(from, [&](std::uint32_t point) {
-                if (points_[point] == given_[point]) {
-                    return;
-                }
+                if (points_[point] == given_[point]) { return; }
                 for (const std::size_t other : polygons_of[point]) {
                     if (!known[other]) {
                         known[other] = true;
@@ -268,23 +237,19 @@ private:
     std::size_t worst_around(std::size_t polygon, const PolygonsOfPoints& polygons_of) const {
         std::size_t worst = polygon;
         for_each_point(polygon, [&](std::uint32_t point) {
-            for (const std::size_t other : polygons_of[point]) {
-                worst = is_less_flat(other, worst) ? other : worst;
-            }
+            for (const std::size_t other : polygons_of[point]) { worst = is_less_flat(other, worst) ? other : worst; }
         });
         return worst;
     }
 
-    /// Lets polygons give up where some are not planar yet or have moved a point too far; says
-    /// whether there were any. What touches a polygon is given up first, then its own plane.
+    /// Lets polygons give up where some are not planar yet or have moved a point too far; says whether there were any.
+    /// What touches a polygon is given up first, then its own plane.
     bool give_up() {
         const PolygonsOfPoints polygons_of = polygons_of_points();
         const std::vector<std::size_t> by = stirred_by(polygons_of);
         std::set<std::size_t> giving;
         for (std::size_t i = 0; i < incidences_.size(); ++i) {
-            if (has_work(i) && fails(i)) {
-                giving.insert(was_flat(i) ? by[i] : worst_around(i, polygons_of));
-            }
+            if (has_work(i) && fails(i)) { giving.insert(was_flat(i) ? by[i] : worst_around(i, polygons_of)); }
         }
         for (const std::size_t polygon : giving) {
             bent_[polygon] = alone_[polygon] || incidences_[polygon].touching.empty();
@@ -293,17 +258,13 @@ private:
         return !giving.empty();
     }
 
-    /// Ends without all of them planar: those that are not keep their corners as they have come.
-    /// Points that have moved too far go back.
+    /// Ends without all of them planar: those that are not keep their corners as they have come. Points that have moved
+    /// too far go back.
     void settle() {
         for (std::uint32_t point = 0; point < points_.size(); ++point) {
-            if (moved_too_far(point)) {
-                points_[point] = given_[point];
-            }
+            if (moved_too_far(point)) { points_[point] = given_[point]; }
         }
-        for (std::size_t i = 0; i < incidences_.size(); ++i) {
-            bent_[i] = bent_[i] || unevenness(i) > planar_noise;
-        }
+        for (std::size_t i = 0; i < incidences_.size(); ++i) { bent_[i] = bent_[i] || unevenness(i) > planar_noise; }
     }
 
     /// How far points of a polygon were from its plane as given.
@@ -327,15 +288,14 @@ private:
 
 } // namespace
 
-std::vector<bool> planarize(
-    std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double max_move) {
+std::vector<bool> planarize(std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double max_move) {
     return Planarizing(points, incidences, max_move).run();
 }
 
 namespace {
 
-// Which way a model lies. Whatever looks along axes later on, at boxes or for planes across them,
-// then gives the same for a model and the same model turned.
+// Which way a model lies. Whatever looks along axes later on, at boxes or for planes across them, then gives the same
+// for a model and the same model turned.
 
 /// Of more sides only so many are looked at, evenly spread.
 constexpr std::size_t max_sides = 4'000;
@@ -349,8 +309,7 @@ struct Side {
     double length = 0.0;
 };
 
-std::vector<Side>
-sides_of(const polygons::PolygonModel& model, std::span<const glm::dvec3> points) {
+std::vector<Side> sides_of(const polygons::PolygonModel& model, std::span<const glm::dvec3> points) {
     std::vector<Side> sides;
     const std::size_t step = model.corner_vertices.size() / max_sides + 1;
     std::size_t number = 0;
@@ -360,24 +319,19 @@ sides_of(const polygons::PolygonModel& model, std::span<const glm::dvec3> points
         for (std::size_t k = 0; k < corners.size(); ++k, ++number) {
             const glm::dvec3 side = points[corners[(k + 1) % corners.size()]] - points[corners[k]];
             const double length = glm::length(side);
-            if (!turns && number % step == 0 && length > 0.0) {
-                sides.push_back({side / length, length});
-            }
+            if (!turns && number % step == 0 && length > 0.0) { sides.push_back({side / length, length}); }
         }
     }
     return sides;
 }
 
-/// The sides that are tried, in their order. Rounding does not decide which of many that are
-/// equally long are among them.
+/// The sides that are tried, in their order. Rounding does not decide which of many that are equally long are among
+/// them.
 std::vector<Side> tried_of(const std::vector<Side>& sides) {
     std::vector<double> lengths;
-    for (const Side& side : sides) {
-        lengths.push_back(side.length);
-    }
+    for (const Side& side : sides) { lengths.push_back(side.length); }
     const std::size_t last = std::min(max_tried, lengths.size()) - 1;
-    std::ranges::nth_element(
-        lengths, lengths.begin() + static_cast<std::ptrdiff_t>(last), std::greater());
+    std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(last), std::greater());
     const double least = lengths[last] * (1.0 - rounding);
     const std::size_t step = sides.size() / max_tried + 1;
     std::vector<Side> tried;
@@ -385,9 +339,7 @@ std::vector<Side> tried_of(const std::vector<Side>& sides) {
     for (std::size_t i = 0; i < sides.size(); ++i) {
         const bool is_long = sides[i].length >= least && long_ones < 4 * max_tried;
         long_ones += is_long ? 1 : 0;
-        if (is_long || i % step == 0) {
-            tried.push_back(sides[i]);
-        }
+        if (is_long || i % step == 0) { tried.push_back(sides[i]); }
     }
     return tried;
 }
@@ -419,8 +371,7 @@ glm::dvec3 best_of(const std::vector<glm::dvec3>& directions, const std::vector<
     return best;
 }
 
-/// The directions of sides with what they have along an axis taken away: those across it or, where
-/// there are none, all.
+/// The directions of sides with what they have along an axis taken away: those across it or, where there are none, all.
 std::vector<glm::dvec3> across(const glm::dvec3& axis, const std::vector<Side>& tried) {
     std::vector<glm::dvec3> exactly;
     std::vector<glm::dvec3> about;
@@ -437,20 +388,15 @@ std::vector<glm::dvec3> across(const glm::dvec3& axis, const std::vector<Side>& 
     return exactly.empty() ? about : exactly;
 }
 
-/// Axes that turn with a model, as the columns of a rotation: the first is the side of a polygon
-/// along or across which most of the length of all sides lies, the second the best one across it.
-/// Of a model that is built along its file's axes they are these, in some order. What turns is left
-/// out. `points` are the vertices in any unit.
+/// Axes that turn with a model, as the columns of a rotation: the first is the side of a polygon along or across which
+/// most of the length of all sides lies, the second the best one across it. Of a model that is built along its file's
+/// axes they are these, in some order. What turns is left out. `points` are the vertices in any unit.
 glm::dmat3 own_axes(const polygons::PolygonModel& model, std::span<const glm::dvec3> points) {
     const std::vector<Side> sides = sides_of(model, points);
-    if (sides.empty()) {
-        return glm::dmat3(1.0);
-    }
+    if (sides.empty()) { return glm::dmat3(1.0); }
     const std::vector<Side> tried = tried_of(sides);
     std::vector<glm::dvec3> directions;
-    for (const Side& side : tried) {
-        directions.push_back(side.along);
-    }
+    for (const Side& side : tried) { directions.push_back(side.along); }
     const glm::dvec3 first = best_of(directions, sides);
     const glm::dvec3 second = best_of(across(first, tried), sides);
     if (second == glm::dvec3(0.0)) {
@@ -459,19 +405,18 @@ glm::dmat3 own_axes(const polygons::PolygonModel& model, std::span<const glm::dv
     return {first, second, glm::cross(first, second)};
 }
 
-/// What reading a decimal, moving or scaling it, and looking at it here may round off a number, as
-/// a share of it. (Each of these steps rounds by at most half an epsilon.)
+/// What reading a decimal, moving or scaling it, and looking at it here may round off a number, as a share of it. (Each
+/// of these steps rounds by at most half an epsilon.)
 constexpr double rounding_share = 2.5 * std::numeric_limits<double>::epsilon();
-/// Decimal steps finer than so many of these, of the largest coordinate, are not told from noise:
-/// of numbers without a grid one in eight lies that near to a multiple.
+/// Decimal steps finer than so many of these, of the largest coordinate, are not told from noise: of numbers without a
+/// grid one in eight lies that near to a multiple.
 constexpr double min_roundings = 16.0;
 
-/// Whether a number is a multiple of 10 to some power but for rounding. Powers above 1 are exact,
-/// their inverses are not.
+/// Whether a number is a multiple of 10 to some power but for rounding. Powers above 1 are exact, their inverses are
+/// not.
 bool is_multiple(double value, int power) {
     const double scale = std::pow(10.0, std::abs(power));
-    const double nearest =
-        power < 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+    const double nearest = power < 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
     return std::abs(value - nearest) <= rounding_share * std::abs(value);
 }
 
@@ -486,18 +431,12 @@ double decimal_grid(std::span<const glm::dvec3> points) {
             values.push_back(value);
         }
     }
-    if (most == 0.0) {
-        return 0.0;
-    }
+    if (most == 0.0) { return 0.0; }
     const double least = min_roundings * rounding_share * most;
     for (int power = static_cast<int>(std::floor(std::log10(most)));; --power) {
         const double step = std::pow(10.0, power);
-        if (step <= least) {
-            return 0.0;
-        }
-        if (std::ranges::all_of(values, [&](double value) { return is_multiple(value, power); })) {
-            return step;
-        }
+        if (step <= least) { return 0.0; }
+        if (std::ranges::all_of(values, [&](double value) { return is_multiple(value, power); })) { return step; }
     }
 }
 
@@ -512,8 +451,8 @@ constexpr double moves_in_reaches = 4.0;
 /// A polygon whose height over its longest side is less has no area.
 constexpr double min_height = planar_tolerance;
 
-/// A point in steps of the decimals of its file, where it has a grid of them. Far from the origin,
-/// and in any unit, that gives the decimals that were written without what rounding has added.
+/// A point in steps of the decimals of its file, where it has a grid of them. Far from the origin, and in any unit,
+/// that gives the decimals that were written without what rounding has added.
 glm::dvec3 in_steps(const PlanarModel& frame, const glm::dvec3& point_m) {
     return frame.grid_m > 0.0 ? glm::round(point_m / frame.grid_m) : point_m;
 }
@@ -536,29 +475,20 @@ glm::dvec3 from_base(const PlanarModel& frame, const glm::dvec3& point_m) {
     return (in_steps(frame, point_m) - frame.base_steps) * frame.axes; // by the transpose
 }
 
-/// The axes, the middle of the box around all corners along them, and the distance of the farthest
-/// corner from it.
+/// The axes, the middle of the box around all corners along them, and the distance of the farthest corner from it.
 void find_frame(const PolygonModel& model, Attitude attitude, PlanarModel& out) {
     out.grid_m = decimal_grid(model.vertices_m);
-    if (model.corner_vertices.empty()) {
-        return;
-    }
+    if (model.corner_vertices.empty()) { return; }
     Box given;
-    for (const std::uint32_t vertex : model.corner_vertices) {
-        given.add(in_steps(out, model.vertices_m[vertex]));
-    }
+    for (const std::uint32_t vertex : model.corner_vertices) { given.add(in_steps(out, model.vertices_m[vertex])); }
     out.base_steps = given.middle();
     if (attitude == Attitude::Own) {
         std::vector<glm::dvec3> points;
-        for (const glm::dvec3& vertex_m : model.vertices_m) {
-            points.push_back(from_base(out, vertex_m));
-        }
+        for (const glm::dvec3& vertex_m : model.vertices_m) { points.push_back(from_base(out, vertex_m)); }
         out.axes = own_axes(model, points);
     }
     Box own;
-    for (const std::uint32_t vertex : model.corner_vertices) {
-        own.add(from_base(out, model.vertices_m[vertex]));
-    }
+    for (const std::uint32_t vertex : model.corner_vertices) { own.add(from_base(out, model.vertices_m[vertex])); }
     out.centre_steps = own.middle();
     double farthest = 0.0;
     for (const std::uint32_t vertex : model.corner_vertices) {
@@ -573,15 +503,12 @@ glm::dvec3 in_radii(const PlanarModel& frame, const glm::dvec3& point_m) {
     return (from_base(frame, point_m) - frame.centre_steps) / frame.radius_steps;
 }
 
-/// For each vertex which part it turns with: 0 for what stands still, and for vertices without a
-/// polygon.
+/// For each vertex which part it turns with: 0 for what stands still, and for vertices without a polygon.
 std::vector<std::uint32_t> pivots_of_vertices(const PolygonModel& model) {
     std::vector<std::uint32_t> kind(model.vertices_m.size(), 0);
     for (std::size_t i = 0; i < model.polygons.size() && !model.pivots.empty(); ++i) {
         const auto pivot = polygons::pivot_of(model, i);
-        for (const std::uint32_t vertex : model.corners(i)) {
-            kind[vertex] = pivot ? *pivot + 1 : 0;
-        }
+        for (const std::uint32_t vertex : model.corners(i)) { kind[vertex] = pivot ? *pivot + 1 : 0; }
     }
     return kind;
 }
@@ -592,9 +519,7 @@ std::vector<bool> move_vertices(PolygonModel& model) {
     const auto places = one_place(model.vertices_m, kind, touching_reach);
     const auto incidences = incidences_of(model, model.vertices_m, places, kind, touching_reach);
     auto bent = planarize(model.vertices_m, incidences, moves_in_reaches * touching_reach);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        model.vertices_m[i] = model.vertices_m[places[i]];
-    }
+    for (std::size_t i = 0; i < places.size(); ++i) { model.vertices_m[i] = model.vertices_m[places[i]]; }
     return bent;
 }
 
@@ -602,21 +527,15 @@ std::vector<bool> move_vertices(PolygonModel& model) {
 Outline different_corners(const PolygonModel& model, std::size_t polygon) {
     Outline out;
     for (const std::uint32_t vertex : model.corners(polygon)) {
-        if (out.empty() || model.vertices_m[out.back()] != model.vertices_m[vertex]) {
-            out.push_back(vertex);
-        }
+        if (out.empty() || model.vertices_m[out.back()] != model.vertices_m[vertex]) { out.push_back(vertex); }
     }
-    while (out.size() > 1 && model.vertices_m[out.back()] == model.vertices_m[out.front()]) {
-        out.pop_back();
-    }
+    while (out.size() > 1 && model.vertices_m[out.back()] == model.vertices_m[out.front()]) { out.pop_back(); }
     return out;
 }
 
 std::vector<glm::dvec3> places_of(const PolygonModel& model, const Outline& outline) {
     std::vector<glm::dvec3> places;
-    for (const std::uint32_t vertex : outline) {
-        places.push_back(model.vertices_m[vertex]);
-    }
+    for (const std::uint32_t vertex : outline) { places.push_back(model.vertices_m[vertex]); }
     return places;
 }
 
@@ -635,28 +554,20 @@ bool has_no_area(const std::vector<glm::dvec3>& places) {
 /// All triangles of a fan, for an outline that could not be cut otherwise.
 std::vector<Outline> fan_of(const Outline& outline) {
     std::vector<Outline> pieces;
-    for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-        pieces.push_back({outline[0], outline[i], outline[i + 1]});
-    }
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i) { pieces.push_back({outline[0], outline[i], outline[i + 1]}); }
     return pieces;
 }
 
 /// Convex planar pieces of an outline, most often the outline itself.
 std::vector<Outline> pieces_of(const PolygonModel& model, const Outline& outline, bool bent) {
     const auto places = places_of(model, outline);
-    if (outline.size() == 3 || (!bent && !polygons::corners_fault(places, planar_tolerance))) {
-        return {outline};
-    }
+    if (outline.size() == 3 || (!bent && !polygons::corners_fault(places, planar_tolerance))) { return {outline}; }
     const auto convex = polygons::convex_pieces(places, planar_noise);
-    if (convex.pieces.empty()) {
-        return fan_of(outline);
-    }
+    if (convex.pieces.empty()) { return fan_of(outline); }
     std::vector<Outline> pieces;
     for (const auto& corners : convex.pieces) {
         Outline& piece = pieces.emplace_back();
-        for (const std::size_t corner : corners) {
-            piece.push_back(outline[corner]);
-        }
+        for (const std::size_t corner : corners) { piece.push_back(outline[corner]); }
     }
     return pieces;
 }
@@ -670,13 +581,9 @@ void triangulated_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const Outline whole = different_corners(model, i);
         std::vector<Outline> pieces;
-        if (whole.size() >= 3 && !has_no_area(places_of(model, whole))) {
-            pieces = pieces_of(model, whole, bent[i]);
-        }
-        std::erase_if(
-            pieces, [&](const Outline& piece) { return has_no_area(places_of(model, piece)); });
-        const bool is_faulty =
-            pieces.size() > 1 && polygons::corners_fault(places_of(model, whole), touching_reach);
+        if (whole.size() >= 3 && !has_no_area(places_of(model, whole))) { pieces = pieces_of(model, whole, bent[i]); }
+        std::erase_if(pieces, [&](const Outline& piece) { return has_no_area(places_of(model, piece)); });
+        const bool is_faulty = pieces.size() > 1 && polygons::corners_fault(places_of(model, whole), touching_reach);
         planar.triangulated_polygons += is_faulty ? 1 : 0;
         planar.dropped_polygons += pieces.empty() ? 1 : 0;
         is_changed = is_changed || pieces.size() != 1;
@@ -689,9 +596,7 @@ void triangulated_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
             parents.push_back(model.parent_of(i));
         }
     }
-    if (is_changed) {
-        model.parents = std::move(parents);
-    }
+    if (is_changed) { model.parents = std::move(parents); }
     model.polygons = std::move(out.polygons);
     model.corner_vertices = std::move(out.corner_vertices);
 }
@@ -701,13 +606,9 @@ void triangulated_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
 PlanarModel planar_model(const PolygonModel& model, Attitude attitude) {
     PlanarModel planar;
     planar.model = model;
-    if (model.vertices_m.empty()) {
-        return planar;
-    }
+    if (model.vertices_m.empty()) { return planar; }
     find_frame(model, attitude, planar);
-    for (glm::dvec3& vertex : planar.model.vertices_m) {
-        vertex = in_radii(planar, vertex);
-    }
+    for (glm::dvec3& vertex : planar.model.vertices_m) { vertex = in_radii(planar, vertex); }
     for (Pivot& pivot : planar.model.pivots) {
         const glm::dvec3 point_steps = pivot.point_m / planar.step_m() - planar.base_steps;
         pivot.point_m = (point_steps * planar.axes - planar.centre_steps) / planar.radius_steps;
@@ -720,8 +621,7 @@ PlanarModel planar_model(const PolygonModel& model, Attitude attitude) {
 PolygonModel in_model_frame(PolygonModel changed, const PlanarModel& planar, const PolygonModel& given) {
     for (std::size_t i = 0; i < changed.vertices_m.size(); ++i) {
         glm::dvec3& vertex = changed.vertices_m[i];
-        const bool is_still =
-            i < given.vertices_m.size() && vertex == in_radii(planar, given.vertices_m[i]);
+        const bool is_still = i < given.vertices_m.size() && vertex == in_radii(planar, given.vertices_m[i]);
         vertex = is_still ? given.vertices_m[i] : planar.to_model_frame(vertex);
     }
     changed.pivots = given.pivots;

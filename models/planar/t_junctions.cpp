@@ -1,7 +1,7 @@
 #include "models/planar/t_junctions.h"
 
-#include "models/planar/vertex_grid.h"
 #include "models/planar/planar_model.h"
+#include "models/planar/vertex_grid.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,8 +17,8 @@ namespace {
 
 using polygons::PolygonModel;
 
-/// A corner within the reach of a side and the side itself may both have been moved since, when
-/// their polygons were made planar.
+/// A corner within the reach of a side and the side itself may both have been moved since, when their polygons were
+/// made planar.
 constexpr double in_reaches = 2.0;
 
 /// The corners of one turning part, or of all that stands still.
@@ -58,12 +58,8 @@ double radius_m_of(const PolygonModel& model) {
 class Search {
 public:
     explicit Search(const PolygonModel& model)
-        : model_(model)
-        , reach_m_(in_reaches * touching_reach * radius_m_of(model))
-        , parts_(corners_of_parts(model)) {
-        for (const PartCorners& part : parts_) {
-            near_.emplace_back(part.places_m);
-        }
+        : model_(model), reach_m_(in_reaches * touching_reach * radius_m_of(model)), parts_(corners_of_parts(model)) {
+        for (const PartCorners& part : parts_) { near_.emplace_back(part.places_m); }
     }
 
     std::vector<TJunction> all() {
@@ -73,10 +69,7 @@ public:
             for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
                 const std::uint32_t next = k + 1 < polygon.corner_count ? k + 1 : 0;
                 add_on_side(
-                    pivot ? *pivot + 1 : 0,
-                    model_.corners(i),
-                    polygon.first_corner + k,
-                    polygon.first_corner + next);
+                    pivot ? *pivot + 1 : 0, model_.corners(i), polygon.first_corner + k, polygon.first_corner + next);
             }
         }
         return std::move(found_);
@@ -87,20 +80,16 @@ private:
 
     /// Whether a place is as good as that of one of a polygon's own corners.
     bool is_own(std::span<const std::uint32_t> corners, const glm::dvec3& at_m) const {
-        return std::ranges::any_of(corners, [&](std::uint32_t vertex) {
-            return glm::distance(place_m(vertex), at_m) <= reach_m_;
-        });
+        return std::ranges::any_of(
+            corners, [&](std::uint32_t vertex) { return glm::distance(place_m(vertex), at_m) <= reach_m_; });
     }
 
-    void add_on_side(
-        std::size_t part, std::span<const std::uint32_t> own, std::size_t from, std::size_t to) {
+    void add_on_side(std::size_t part, std::span<const std::uint32_t> own, std::size_t from, std::size_t to) {
         const glm::dvec3& from_m = place_m(model_.corner_vertices[from]);
         const glm::dvec3& to_m = place_m(model_.corner_vertices[to]);
         const glm::dvec3 along_m = to_m - from_m;
         const double length2 = glm::dot(along_m, along_m);
-        if (length2 == 0.0) {
-            return;
-        }
+        if (length2 == 0.0) { return; }
         boxed_.clear();
         near_[part].append_near_segment(from_m, to_m, reach_m_, boxed_);
         const std::size_t first = found_.size();
@@ -108,8 +97,8 @@ private:
             const std::uint32_t vertex = parts_[part].vertices[number];
             const glm::dvec3& at_m = place_m(vertex);
             const double share = glm::dot(at_m - from_m, along_m) / length2;
-            if (share > 0.0 && share < 1.0 &&
-                glm::distance(at_m, from_m + along_m * share) <= reach_m_ && !is_own(own, at_m)) {
+            if (share > 0.0 && share < 1.0 && glm::distance(at_m, from_m + along_m * share) <= reach_m_ &&
+                !is_own(own, at_m)) {
                 found_.push_back({from, vertex, share});
             }
         }
@@ -133,8 +122,6 @@ private:
 
 } // namespace
 
-std::vector<TJunction> t_junctions(const PolygonModel& model) {
-    return Search(model).all();
-}
+std::vector<TJunction> t_junctions(const PolygonModel& model) { return Search(model).all(); }
 
 } // namespace octant::models::planar

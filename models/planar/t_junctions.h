@@ -15,8 +15,8 @@ struct TJunction {
     double share = 0.0; ///< of the side that lies before it, 0 to 1
 };
 
-/// All corners that lie within twice the touching_reach of a side of a polygon of the same turning
-/// part: polygon after polygon, along its sides; of corners in one place only one.
+/// All corners that lie within twice the touching_reach of a side of a polygon of the same turning part: polygon after
+/// polygon, along its sides; of corners in one place only one.
 std::vector<TJunction> t_junctions(const polygons::PolygonModel& model);
 
 } // namespace octant::models::planar

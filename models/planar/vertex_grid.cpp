@@ -1,5 +1,5 @@
-// A grid of equal cells as counting-sorted lists. Points lie on surfaces: with eight cells a point
-// a cell that is not empty holds a few.
+// A grid of equal cells as counting-sorted lists. Points lie on surfaces: with eight cells a point a cell that is not
+// empty holds a few.
 #include "models/planar/vertex_grid.h"
 
 #include <glm/common.hpp>
@@ -28,28 +28,18 @@ VertexGrid::VertexGrid(std::span<const glm::dvec3> points) {
     }
     const glm::dvec3 extent = points.empty() ? glm::dvec3(0.0) : most - least_;
     const double largest = std::max({extent.x, extent.y, extent.z});
-    const double an_axis = std::clamp(
-        2.0 * std::cbrt(static_cast<double>(points.size())),
-        1.0,
-        static_cast<double>(max_cells_an_axis));
+    const double an_axis =
+        std::clamp(2.0 * std::cbrt(static_cast<double>(points.size())), 1.0, static_cast<double>(max_cells_an_axis));
     cell_ = largest > 0.0 ? largest / an_axis : 1.0;
     cells_ = glm::ivec3(extent / cell_) + 1;
     first_.assign(index_of(cells_ - 1) + 2, 0);
-    for (const glm::dvec3& point : points) {
-        ++first_[index_of(cell_of(point)) + 1];
-    }
-    for (std::size_t i = 1; i < first_.size(); ++i) {
-        first_[i] += first_[i - 1];
-    }
+    for (const glm::dvec3& point : points) { ++first_[index_of(cell_of(point)) + 1]; }
+    for (std::size_t i = 1; i < first_.size(); ++i) { first_[i] += first_[i - 1]; }
     numbers_.resize(points.size());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        numbers_[next[index_of(cell_of(points[i]))]++] = i;
-    }
+    for (std::uint32_t i = 0; i < points.size(); ++i) { numbers_[next[index_of(cell_of(points[i]))]++] = i; }
     places_.reserve(points.size());
-    for (const std::uint32_t number : numbers_) {
-        places_.push_back(points[number]);
-    }
+    for (const std::uint32_t number : numbers_) { places_.push_back(points[number]); }
 }
 
 glm::ivec3 VertexGrid::cell_of(const glm::dvec3& point) const {
@@ -62,8 +52,7 @@ std::size_t VertexGrid::index_of(const glm::ivec3& cell) const {
     return static_cast<std::size_t>((cell.z * size.y + cell.y) * size.x + cell.x);
 }
 
-void VertexGrid::append_in_box(
-    const glm::dvec3& least, const glm::dvec3& most, std::vector<std::uint32_t>& out) const {
+void VertexGrid::append_in_box(const glm::dvec3& least, const glm::dvec3& most, std::vector<std::uint32_t>& out) const {
     const glm::ivec3 from = cell_of(least);
     const glm::ivec3 to = cell_of(most);
     for (int z = from.z; z <= to.z; ++z) {
@@ -72,8 +61,7 @@ void VertexGrid::append_in_box(
             const std::size_t end = first_[index_of({to.x, y, z}) + 1];
             for (std::size_t i = begin; i < end; ++i) {
                 const glm::dvec3& point = places_[i];
-                if (glm::all(glm::greaterThanEqual(point, least)) &&
-                    glm::all(glm::lessThanEqual(point, most))) {
+                if (glm::all(glm::greaterThanEqual(point, least)) && glm::all(glm::lessThanEqual(point, most))) {
                     out.push_back(numbers_[i]);
                 }
             }
@@ -82,10 +70,7 @@ void VertexGrid::append_in_box(
 }
 
 void VertexGrid::append_near_segment(
-    const glm::dvec3& from,
-    const glm::dvec3& to,
-    double reach,
-    std::vector<std::uint32_t>& out) const {
+    const glm::dvec3& from, const glm::dvec3& to, double reach, std::vector<std::uint32_t>& out) const {
     constexpr double max_pieces = 4.0 * max_cells_an_axis;
     const double pieces = std::clamp(std::ceil(glm::distance(from, to) / cell_), 1.0, max_pieces);
     for (double i = 0.0; i < pieces; ++i) {
@@ -96,8 +81,8 @@ void VertexGrid::append_near_segment(
     }
 }
 
-std::vector<std::uint32_t>
-one_place(std::span<const glm::dvec3> points, std::span<const std::uint32_t> kind, double reach) {
+std::vector<std::uint32_t> one_place(
+    std::span<const glm::dvec3> points, std::span<const std::uint32_t> kind, double reach) {
     const VertexGrid near(points);
     std::vector<std::uint32_t> place(points.size());
     std::vector<std::uint32_t> found;
@@ -108,9 +93,7 @@ one_place(std::span<const glm::dvec3> points, std::span<const std::uint32_t> kin
         for (const std::uint32_t other : found) {
             const bool joins = other < i && place[other] == other && kind[other] == kind[i] &&
                                glm::distance(points[other], points[i]) <= reach;
-            if (joins) {
-                place[i] = std::min(place[i], other);
-            }
+            if (joins) { place[i] = std::min(place[i], other); }
         }
     }
     return place;

@@ -16,8 +16,8 @@ namespace octant::models::polygons {
 namespace {
 
 constexpr int cells_along = 64; ///< the longest side
-/// Shares of the cells that have one in their mirrored place: at least so many, and so many more
-/// than for the next plane.
+/// Shares of the cells that have one in their mirrored place: at least so many, and so many more than for the next
+/// plane.
 constexpr double min_symmetry = 0.85;
 constexpr double symmetry_lead = 0.04;
 /// Of an aircraft's length: its height at most, and its span at least.
@@ -34,19 +34,13 @@ public:
         const BoundingBox bounds = bounds_of(mesh);
         const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
         size_m_ = std::max({extent_m.x, extent_m.y, extent_m.z}) / (cells_along - 2);
-        for (int k = 0; k < 3; ++k) {
-            counts_[k] = static_cast<int>(std::ceil(extent_m[k] / size_m_)) + 2;
-        }
+        for (int k = 0; k < 3; ++k) { counts_[k] = static_cast<int>(std::ceil(extent_m[k] / size_m_)) + 2; }
         first_m_ = 0.5 * (bounds.min_m + bounds.max_m) - 0.5 * size_m_ * glm::dvec3(counts_);
-        touched_.assign(
-            static_cast<std::size_t>(counts_.x) * static_cast<std::size_t>(counts_.y) *
-                static_cast<std::size_t>(counts_.z),
+        touched_.assign(static_cast<std::size_t>(counts_.x) * static_cast<std::size_t>(counts_.y) *
+                            static_cast<std::size_t>(counts_.z),
             false);
         for (const Triangle& triangle : mesh.triangles) {
-            touch(
-                mesh.vertices_m[triangle[0]],
-                mesh.vertices_m[triangle[1]],
-                mesh.vertices_m[triangle[2]]);
+            touch(mesh.vertices_m[triangle[0]], mesh.vertices_m[triangle[1]], mesh.vertices_m[triangle[2]]);
         }
     }
 
@@ -57,9 +51,7 @@ public:
         for (int z = 0; z < counts_.z; ++z) {
             for (int y = 0; y < counts_.y; ++y) {
                 for (int x = 0; x < counts_.x; ++x) {
-                    if (touched_[index({x, y, z})]) {
-                        take(glm::ivec3(x, y, z));
-                    }
+                    if (touched_[index({x, y, z})]) { take(glm::ivec3(x, y, z)); }
                 }
             }
         }
@@ -88,9 +80,7 @@ private:
         for (int z = least.z; z <= most.z; ++z) {
             for (int y = least.y; y <= most.y; ++y) {
                 for (int x = least.x; x <= most.x; ++x) {
-                    if (touched_[index({x, y, z})]) {
-                        return true;
-                    }
+                    if (touched_[index({x, y, z})]) { return true; }
                 }
             }
         }
@@ -99,8 +89,7 @@ private:
 
     /// Touches the cells of points on a triangle that lie half a cell apart.
     void touch(const glm::dvec3& a_m, const glm::dvec3& b_m, const glm::dvec3& c_m) {
-        const double longest_m =
-            std::max({glm::distance(a_m, b_m), glm::distance(b_m, c_m), glm::distance(c_m, a_m)});
+        const double longest_m = std::max({glm::distance(a_m, b_m), glm::distance(b_m, c_m), glm::distance(c_m, a_m)});
         const int steps = 1 + static_cast<int>(2.0 * longest_m / size_m_);
         for (int i = 0; i <= steps; ++i) {
             for (int j = 0; i + j <= steps; ++j) {
@@ -123,18 +112,13 @@ std::optional<int> lateral_axis(const Cells& cells) {
     const std::array<double, 3> symmetry{cells.symmetry(0), cells.symmetry(1), cells.symmetry(2)};
     const auto best = static_cast<int>(std::ranges::max_element(symmetry) - symmetry.begin());
     for (int k = 0; k < 3; ++k) {
-        const double lead =
-            symmetry[static_cast<std::size_t>(best)] - symmetry[static_cast<std::size_t>(k)];
-        if (k != best && lead < symmetry_lead) {
-            return std::nullopt;
-        }
+        const double lead = symmetry[static_cast<std::size_t>(best)] - symmetry[static_cast<std::size_t>(k)];
+        if (k != best && lead < symmetry_lead) { return std::nullopt; }
     }
-    return symmetry[static_cast<std::size_t>(best)] >= min_symmetry ? std::optional(best)
-                                                                      : std::nullopt;
+    return symmetry[static_cast<std::size_t>(best)] >= min_symmetry ? std::optional(best) : std::nullopt;
 }
 
-/// Along the length, 1 or -1: the fin at the tail reaches farther above the mean height than
-/// anything at the nose.
+/// Along the length, 1 or -1: the fin at the tail reaches farther above the mean height than anything at the nose.
 std::optional<int> nose_by_fin(const Cells& cells, int length, int height) {
     double sum = 0.0;
     double count = 0.0;
@@ -154,9 +138,7 @@ std::optional<int> nose_by_fin(const Cells& cells, int length, int height) {
             high = std::max(high, above);
         }
     });
-    if (std::max(low, high) < clear_lead * std::min(low, high)) {
-        return std::nullopt;
-    }
+    if (std::max(low, high) < clear_lead * std::min(low, high)) { return std::nullopt; }
     return low > high ? 1 : -1;
 }
 
@@ -170,19 +152,13 @@ glm::dvec3 along(int axis, int sign) {
 } // namespace
 
 std::optional<FileAxes> guess_axes(const TriangleMesh& mesh) {
-    if (mesh.triangles.empty() || !(diagonal_m(mesh) > 0.0)) {
-        return std::nullopt;
-    }
+    if (mesh.triangles.empty() || !(diagonal_m(mesh) > 0.0)) { return std::nullopt; }
     const Cells cells(mesh);
     const std::optional<int> lateral = lateral_axis(cells);
-    if (!lateral) {
-        return std::nullopt;
-    }
+    if (!lateral) { return std::nullopt; }
     int length = (*lateral + 1) % 3;
     int height = (*lateral + 2) % 3;
-    if (cells.counts()[length] < cells.counts()[height]) {
-        std::swap(length, height);
-    }
+    if (cells.counts()[length] < cells.counts()[height]) { std::swap(length, height); }
     if (cells.counts()[height] > max_height * cells.counts()[length] ||
         cells.counts()[*lateral] < min_span * cells.counts()[length]) {
         return std::nullopt;
@@ -191,9 +167,7 @@ std::optional<FileAxes> guess_axes(const TriangleMesh& mesh) {
         return std::nullopt;
     }
     const std::optional<int> nose = nose_by_fin(cells, length, height);
-    if (!nose) {
-        return std::nullopt;
-    }
+    if (!nose) { return std::nullopt; }
     const glm::dvec3 right = glm::cross(along(length, *nose), along(height, 1));
     std::array<std::string_view, 3> names;
     names.at(static_cast<std::size_t>(length)) = *nose > 0 ? "forward" : "back";

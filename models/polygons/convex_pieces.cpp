@@ -1,6 +1,5 @@
-// Ear clipping: G. H. Meisters, "Polygons have ears", 1975. Merging of triangles into convex
-// pieces: S. Hertel, K. Mehlhorn, "Fast triangulation of simple polygons", 1983.
-// Deviations:
+// Ear clipping: G. H. Meisters, "Polygons have ears", 1975. Merging of triangles into convex pieces: S. Hertel, K.
+// Mehlhorn, "Fast triangulation of simple polygons", 1983. Deviations:
 // - Both leave open which ear is clipped and which diagonal is removed first. Here the ear is
 //   clipped that lies in one plane with a side next to it, the one of greatest height among them,
 //   and long diagonals are removed first: bent polygons fold where they should, and needles are
@@ -13,8 +12,8 @@
 
 #include "models/polygons/convex_pieces.h"
 
-#include "models/polygons/projected_outline.h"
 #include "models/polygons/polygon_check.h"
+#include "models/polygons/projected_outline.h"
 
 #include <glm/geometric.hpp>
 
@@ -50,8 +49,7 @@ struct Ear {
     bool is_better_than(const Ear& other) const {
         const auto kind = std::tuple(in_a_plane, dents_beside);
         const auto other_kind = std::tuple(other.in_a_plane, other.dents_beside);
-        return kind != other_kind ? kind > other_kind
-                                  : height_m > other.height_m * (1.0 + equal_share);
+        return kind != other_kind ? kind > other_kind : height_m > other.height_m * (1.0 + equal_share);
     }
 };
 
@@ -61,13 +59,8 @@ using Rank = std::optional<Ear>;
 class EarClipper {
 public:
     EarClipper(Corners corners_m, const Outline& outline, double tolerance_m, Prefer prefer)
-        : corners_m_(corners_m)
-        , outline_(outline)
-        , tolerance_m_(tolerance_m)
-        , prefer_(prefer) {
-        for (std::size_t i = 0; i < outline.size(); ++i) {
-            ring_.push_back(i);
-        }
+        : corners_m_(corners_m), outline_(outline), tolerance_m_(tolerance_m), prefer_(prefer) {
+        for (std::size_t i = 0; i < outline.size(); ++i) { ring_.push_back(i); }
     }
 
     /// Clips ears until a triangle is left; nothing where no ear is found.
@@ -82,9 +75,7 @@ public:
                     ear = best();
                 }
             }
-            if (!ear) {
-                return std::nullopt;
-            }
+            if (!ear) { return std::nullopt; }
             out.push_back({at(*ear, -1), at(*ear, 0), at(*ear, 1)});
             clip(*ear);
         }
@@ -105,17 +96,13 @@ private:
     void rank_all(double clearance_m) {
         clearance_m_ = clearance_m;
         ranks_.resize(ring_.size());
-        for (std::size_t i = 0; i < ring_.size(); ++i) {
-            ranks_[i] = rank_of(i);
-        }
+        for (std::size_t i = 0; i < ring_.size(); ++i) { ranks_[i] = rank_of(i); }
     }
 
     std::optional<std::size_t> best() const {
         std::optional<std::size_t> found;
         for (std::size_t i = 0; i < ranks_.size(); ++i) {
-            if (ranks_[i] && (!found || ranks_[i]->is_better_than(*ranks_[*found]))) {
-                found = i;
-            }
+            if (ranks_[i] && (!found || ranks_[i]->is_better_than(*ranks_[*found]))) { found = i; }
         }
         return found;
     }
@@ -133,14 +120,10 @@ private:
 
     Rank rank_of(std::size_t i) const {
         const std::array<glm::dvec2, 3> ear{flat(i, -1), flat(i, 0), flat(i, 1)};
-        const double longest_m = std::max(
-            {glm::distance(ear[0], ear[1]),
-             glm::distance(ear[1], ear[2]),
-             glm::distance(ear[2], ear[0])});
+        const double longest_m =
+            std::max({glm::distance(ear[0], ear[1]), glm::distance(ear[1], ear[2]), glm::distance(ear[2], ear[0])});
         const double height_m = turn_of(ear[0], ear[1], ear[2]) / longest_m;
-        if (height_m <= std::max(clearance_m_, 1e-9 * longest_m) || !is_free(i, ear)) {
-            return std::nullopt;
-        }
+        if (height_m <= std::max(clearance_m_, 1e-9 * longest_m) || !is_free(i, ear)) { return std::nullopt; }
         const bool beside = prefer_ == Prefer::BesideDents;
         return Ear{in_a_plane(i), beside ? dents_beside(i) : 0, height_m};
     }
@@ -148,9 +131,7 @@ private:
     /// True when no other corner lies in the ear or nearer to it than the clearance.
     bool is_free(std::size_t i, const std::array<glm::dvec2, 3>& ear) const {
         for (const std::size_t other : ring_) {
-            if (other == at(i, -1) || other == at(i, 0) || other == at(i, 1)) {
-                continue;
-            }
+            if (other == at(i, -1) || other == at(i, 0) || other == at(i, 1)) { continue; }
             bool inside = true;
             for (std::size_t side = 0; side < 3 && inside; ++side) {
                 const glm::dvec2& from = ear[side];
@@ -158,9 +139,7 @@ private:
                 const double length_m = glm::distance(from, to);
                 inside = turn_of(from, to, outline_[other]) >= -clearance_m_ * length_m;
             }
-            if (inside) {
-                return false;
-            }
+            if (inside) { return false; }
         }
         return true;
     }
@@ -168,8 +147,8 @@ private:
     /// True when the corner before or behind the ear lies in its plane.
     bool in_a_plane(std::size_t i) const {
         const glm::dvec3& origin_m = corners_m_[at(i, 0)];
-        const glm::dvec3 normal = glm::normalize(
-            glm::cross(corners_m_[at(i, 1)] - origin_m, corners_m_[at(i, -1)] - origin_m));
+        const glm::dvec3 normal =
+            glm::normalize(glm::cross(corners_m_[at(i, 1)] - origin_m, corners_m_[at(i, -1)] - origin_m));
         const auto near = [&](int step) {
             const glm::dvec3 offset_m = corners_m_[at(i, step)] - origin_m;
             return std::abs(glm::dot(offset_m, normal)) <= tolerance_m_;
@@ -196,9 +175,7 @@ private:
 
 std::vector<glm::dvec3> corners_of(Corners corners_m, const Piece& piece) {
     std::vector<glm::dvec3> out;
-    for (const std::size_t place : piece) {
-        out.push_back(corners_m[place]);
-    }
+    for (const std::size_t place : piece) { out.push_back(corners_m[place]); }
     return out;
 }
 
@@ -207,9 +184,7 @@ Piece joined(const Piece& first, std::size_t side, const Piece& second) {
     const std::size_t to = first[(side + 1) % first.size()];
     const auto begin = std::ranges::find(second, to) - second.begin();
     Piece out;
-    for (std::size_t i = 1; i <= first.size(); ++i) {
-        out.push_back(first[(side + i) % first.size()]);
-    }
+    for (std::size_t i = 1; i <= first.size(); ++i) { out.push_back(first[(side + i) % first.size()]); }
     // `second` runs to -> from and on; what lies behind `from` comes between from and to.
     for (std::size_t i = 2; i < second.size(); ++i) {
         out.push_back(second[(static_cast<std::size_t>(begin) + i) % second.size()]);
@@ -240,21 +215,16 @@ std::vector<Diagonal> diagonals_of(Corners corners_m, const std::vector<Piece>& 
         }
     }
     double longest_m = 0.0;
-    for (const Diagonal& diagonal : out) {
-        longest_m = std::max(longest_m, diagonal.length_m);
-    }
-    std::ranges::stable_sort(out, std::ranges::greater(), [&](const Diagonal& diagonal) {
-        return diagonal.steps(longest_m);
-    });
+    for (const Diagonal& diagonal : out) { longest_m = std::max(longest_m, diagonal.length_m); }
+    std::ranges::stable_sort(
+        out, std::ranges::greater(), [&](const Diagonal& diagonal) { return diagonal.steps(longest_m); });
     return out;
 }
 
 /// Where a side begins in a piece.
 std::optional<std::size_t> side_in(const Piece& piece, std::size_t from, std::size_t to) {
     for (std::size_t i = 0; i < piece.size(); ++i) {
-        if (piece[i] == from && piece[(i + 1) % piece.size()] == to) {
-            return i;
-        }
+        if (piece[i] == from && piece[(i + 1) % piece.size()] == to) { return i; }
     }
     return std::nullopt;
 }
@@ -277,49 +247,33 @@ std::vector<Piece> merged(Corners corners_m, std::vector<Piece> pieces, double t
 
 /// Each piece from its lowest place on, the pieces by that place.
 void put_in_order(std::vector<Piece>& pieces) {
-    for (Piece& piece : pieces) {
-        std::rotate(piece.begin(), std::ranges::min_element(piece), piece.end());
-    }
+    for (Piece& piece : pieces) { std::rotate(piece.begin(), std::ranges::min_element(piece), piece.end()); }
     std::ranges::sort(pieces);
 }
 
 } // namespace
 
 ConvexPieces convex_pieces(std::span<const glm::dvec3> corners_m, double tolerance_m) {
-    if (const auto fault = outline_fault(corners_m)) {
-        return {{}, *fault};
-    }
+    if (const auto fault = outline_fault(corners_m)) { return {{}, *fault}; }
     const Outline outline = projected_outline(corners_m);
     const std::size_t count = corners_m.size();
     if (const auto sides = intersecting_sides(outline)) {
-        return {
-            {},
-            fmt::format(
-                "expected a polygon whose sides do not meet, got the sides from corner {} to {} "
-                "and {} to {} meeting",
-                sides->first + 1,
-                (sides->first + 1) % count + 1,
-                sides->second + 1,
-                (sides->second + 1) % count + 1)};
+        return {{},
+            fmt::format("expected a polygon whose sides do not meet, got the sides from corner {} to {} "
+                        "and {} to {} meeting",
+                sides->first + 1, (sides->first + 1) % count + 1, sides->second + 1, (sides->second + 1) % count + 1)};
     }
     ConvexPieces best;
     for (const Prefer prefer : {Prefer::High, Prefer::BesideDents}) {
         auto triangles = EarClipper(corners_m, outline, tolerance_m, prefer).triangles();
-        if (!triangles) {
-            continue;
-        }
+        if (!triangles) { continue; }
         std::vector<Piece> pieces = merged(corners_m, std::move(*triangles), tolerance_m);
-        const bool good = std::ranges::none_of(pieces, [&](const Piece& piece) {
-            return corners_fault(corners_of(corners_m, piece), tolerance_m).has_value();
-        });
-        if (good && (best.pieces.empty() || pieces.size() < best.pieces.size())) {
-            best.pieces = std::move(pieces);
-        }
+        const bool good = std::ranges::none_of(pieces,
+            [&](const Piece& piece) { return corners_fault(corners_of(corners_m, piece), tolerance_m).has_value(); });
+        if (good && (best.pieces.empty() || pieces.size() < best.pieces.size())) { best.pieces = std::move(pieces); }
     }
     put_in_order(best.pieces);
-    if (best.pieces.empty()) {
-        best.fault = "expected a polygon that can be cut into convex ones, got needles only";
-    }
+    if (best.pieces.empty()) { best.fault = "expected a polygon that can be cut into convex ones, got needles only"; }
     return best;
 }
 

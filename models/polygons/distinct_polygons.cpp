@@ -10,8 +10,8 @@ namespace octant::models::polygons {
 
 namespace {
 
-/// What two polygons have in common where one repeats the other: the part that turns them, and the
-/// places of their corners from the least one on.
+/// What two polygons have in common where one repeats the other: the part that turns them, and the places of their
+/// corners from the least one on.
 struct Key {
     std::uint32_t turns_with = 0; ///< 0: nothing
     std::vector<std::array<double, 3>> places;
@@ -39,9 +39,7 @@ std::vector<std::uint32_t> distinct_polygons(const PolygonModel& model) {
         last.insert_or_assign(key_of(model, polygon), polygon);
     }
     std::vector<std::uint32_t> kept;
-    for (const auto& [key, polygon] : last) {
-        kept.push_back(polygon);
-    }
+    for (const auto& [key, polygon] : last) { kept.push_back(polygon); }
     std::ranges::sort(kept);
     return kept;
 }

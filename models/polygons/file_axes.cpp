@@ -16,31 +16,23 @@ struct Direction {
     glm::dvec3 in_body;
 };
 
-const std::array<Direction, 6> directions{
-    Direction{"right", glm::dvec3(0, 1, 0)},
-    Direction{"left", glm::dvec3(0, -1, 0)},
-    Direction{"up", glm::dvec3(0, 0, -1)},
-    Direction{"down", glm::dvec3(0, 0, 1)},
-    Direction{"forward", glm::dvec3(1, 0, 0)},
+const std::array<Direction, 6> directions{Direction{"right", glm::dvec3(0, 1, 0)},
+    Direction{"left", glm::dvec3(0, -1, 0)}, Direction{"up", glm::dvec3(0, 0, -1)},
+    Direction{"down", glm::dvec3(0, 0, 1)}, Direction{"forward", glm::dvec3(1, 0, 0)},
     Direction{"back", glm::dvec3(-1, 0, 0)}};
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
     throw_error_in(
-        "axes",
-        fmt::format(
-            "expected where x, y and z point, such as right,up,back (of right, left, up, down, "
-            "forward, back), got '{}'{}",
-            printable(std::string(text)),
-            why));
+        "axes", fmt::format("expected where x, y and z point, such as right,up,back (of right, left, up, down, "
+                            "forward, back), got '{}'{}",
+                    printable(std::string(text)), why));
 }
 
 } // namespace
 
 FileAxes FileAxes::from_text(std::string_view text) {
     const auto names = split_fields(text, ',');
-    if (names.size() != 3) {
-        refuse(text, "");
-    }
+    if (names.size() != 3) { refuse(text, ""); }
     FileAxes axes;
     for (std::size_t i = 0; i < 3; ++i) {
         bool known = false;
@@ -50,17 +42,11 @@ FileAxes FileAxes::from_text(std::string_view text) {
                 known = true;
             }
         }
-        if (!known) {
-            refuse(text, "");
-        }
+        if (!known) { refuse(text, ""); }
     }
     const double volume = glm::dot(glm::cross(axes.axes_[0], axes.axes_[1]), axes.axes_[2]);
-    if (volume == 0.0) {
-        refuse(text, ", where two axes lie on one line");
-    }
-    if (volume < 0.0) {
-        refuse(text, ", which is left-handed");
-    }
+    if (volume == 0.0) { refuse(text, ", where two axes lie on one line"); }
+    if (volume < 0.0) { refuse(text, ", which is left-handed"); }
     return axes;
 }
 
@@ -70,11 +56,7 @@ glm::dvec3 FileAxes::body_from_file(const glm::dvec3& in_file) const {
 }
 
 glm::dvec3 FileAxes::file_from_body(const glm::dvec3& in_body) const {
-    return glm::dvec3(
-               glm::dot(axes_[0], in_body),
-               glm::dot(axes_[1], in_body),
-               glm::dot(axes_[2], in_body)) +
-           0.0;
+    return glm::dvec3(glm::dot(axes_[0], in_body), glm::dot(axes_[1], in_body), glm::dot(axes_[2], in_body)) + 0.0;
 }
 
 std::string FileAxes::text() const {

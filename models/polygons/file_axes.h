@@ -8,16 +8,16 @@
 
 namespace octant::models::polygons {
 
-/// The axes of a model file against the body axes (x forward, y right, z down). Files are
-/// right-handed: the conversion is a rotation by quarter turns, exact in both directions.
+/// The axes of a model file against the body axes (x forward, y right, z down). Files are right-handed: the conversion
+/// is a rotation by quarter turns, exact in both directions.
 class FileAxes {
 public:
     /// The usual axes of OBJ files: x right, y up, -z forward.
     FileAxes() = default;
 
-    /// Axes from text: where the file's x, y and z axes point, each one of right, left, up, down,
-    /// forward, back, such as "right,up,back" (the default) or "forward,left,up". Throws Error for
-    /// other text, for axes that do not span space and for left-handed ones.
+    /// Axes from text: where the file's x, y and z axes point, each one of right, left, up, down, forward, back, such
+    /// as "right,up,back" (the default) or "forward,left,up". Throws Error for other text, for axes that do not span
+    /// space and for left-handed ones.
     static FileAxes from_text(std::string_view text);
 
     glm::dvec3 body_from_file(const glm::dvec3& in_file) const;
@@ -29,8 +29,7 @@ public:
 
 private:
     /// Unit vectors of the file's axes, in body axes.
-    std::array<glm::dvec3, 3> axes_{
-        glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)};
+    std::array<glm::dvec3, 3> axes_{glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)};
 };
 
 } // namespace octant::models::polygons

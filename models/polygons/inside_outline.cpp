@@ -10,8 +10,7 @@
 
 namespace octant::models::polygons {
 
-bool is_inside(
-    std::span<const glm::dvec3> corners, const glm::dvec3& normal, const glm::dvec3& point) {
+bool is_inside(std::span<const glm::dvec3> corners, const glm::dvec3& normal, const glm::dvec3& point) {
     const glm::dvec3 steep = glm::abs(normal);
     const int most = steep.y > steep.x ? 1 : 0;
     const int across = steep.z > steep[most] ? 2 : most;
@@ -36,8 +35,7 @@ double distance_to_sides(std::span<const glm::dvec3> corners, const glm::dvec3& 
         const glm::dvec3 to = corner - point;
         const glm::dvec3 along = to - from;
         const double length2 = glm::dot(along, along);
-        const double share =
-            length2 > 0.0 ? std::clamp(-glm::dot(from, along) / length2, 0.0, 1.0) : 0.0;
+        const double share = length2 > 0.0 ? std::clamp(-glm::dot(from, along) / length2, 0.0, 1.0) : 0.0;
         const glm::dvec3 nearest = from + along * share;
         nearest2 = std::min(nearest2, glm::dot(nearest, nearest));
         from = to;

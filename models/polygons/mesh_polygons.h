@@ -5,8 +5,7 @@
 
 namespace octant::models::polygons {
 
-/// A mesh's triangles as polygons: one part, and one material for all colours that differ by less
-/// than 1/31.
+/// A mesh's triangles as polygons: one part, and one material for all colours that differ by less than 1/31.
 PolygonModel polygons_from_mesh(const TriangleMesh& mesh);
 
 /// The polygons cut into fans, without colours: what their distance is measured by.

@@ -19,9 +19,7 @@ bool is_comment(std::string_view line) {
 
 /// Takes the backslash off the end; false when there is none.
 bool goes_on(std::string_view& line) {
-    if (!line.ends_with('\\')) {
-        return false;
-    }
+    if (!line.ends_with('\\')) { return false; }
     line.remove_suffix(1);
     return true;
 }
@@ -29,36 +27,27 @@ bool goes_on(std::string_view& line) {
 } // namespace
 
 std::string_view without_byte_order_mark(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) {
-        text.remove_prefix(3);
-    }
+    if (text.starts_with("\xef\xbb\xbf")) { text.remove_prefix(3); }
     return text;
 }
 
-ObjLineReader::ObjLineReader(std::string_view text)
-    : rest_(without_byte_order_mark(text)) {}
+ObjLineReader::ObjLineReader(std::string_view text) : rest_(without_byte_order_mark(text)) {}
 
 /// Takes the next line off the rest, which must not be empty.
 std::string_view ObjLineReader::next_line() {
     ++lines_;
     const std::size_t end = rest_.find('\n');
     std::string_view line = rest_.substr(0, end);
-    if (line.ends_with('\r')) {
-        line.remove_suffix(1);
-    }
+    if (line.ends_with('\r')) { line.remove_suffix(1); }
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     return line;
 }
 
 bool ObjLineReader::next() {
-    if (rest_.empty()) {
-        return false;
-    }
+    if (rest_.empty()) { return false; }
     text_ = next_line();
     number_ = lines_;
-    if (is_comment(text_) || !goes_on(text_)) {
-        return true;
-    }
+    if (is_comment(text_) || !goes_on(text_)) { return true; }
     joined_ = text_;
     bool more = true;
     while (more && !rest_.empty()) {
@@ -82,17 +71,11 @@ std::string_view after_first_word(std::string_view line) {
 double obj_number(std::string_view word, const std::filesystem::path& path, int line) {
     const auto value = finite_number(word);
     if (!value) {
-        throw_error_at(
-            path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
+        throw_error_at(path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
     }
     if (std::abs(*value) > max_obj_coordinate_m) {
-        throw_error_at(
-            path,
-            line,
-            fmt::format(
-                "expected a number within {:g}, got '{}'",
-                max_obj_coordinate_m,
-                printable(std::string(word))));
+        throw_error_at(path, line,
+            fmt::format("expected a number within {:g}, got '{}'", max_obj_coordinate_m, printable(std::string(word))));
     }
     return *value;
 }

@@ -9,9 +9,8 @@ namespace octant::models::polygons {
 /// The text behind the three bytes (EF BB BF) that some editors put before UTF-8.
 std::string_view without_byte_order_mark(std::string_view text);
 
-/// The lines of an OBJ text. A line that ends in a backslash goes on in the next one, joined by a
-/// blank; a comment never does, since a path at its end may well end so. A byte order mark before
-/// the first line is no part of it.
+/// The lines of an OBJ text. A line that ends in a backslash goes on in the next one, joined by a blank; a comment
+/// never does, since a path at its end may well end so. A byte order mark before the first line is no part of it.
 class ObjLineReader {
 public:
     /// Keeps views into `text`.
@@ -36,8 +35,8 @@ private:
     int lines_ = 0; ///< so far
 };
 
-/// What follows the first word of a line, without blanks at either end: names in OBJ and MTL files
-/// may have blanks inside. A view into `line`.
+/// What follows the first word of a line, without blanks at either end: names in OBJ and MTL files may have blanks
+/// inside. A view into `line`.
 std::string_view after_first_word(std::string_view line);
 
 /// A finite number within max_obj_coordinate_m (obj_limits.h). Throws Error "file:line: ...".

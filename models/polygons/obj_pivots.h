@@ -18,13 +18,13 @@ struct PivotLine {
     int line = 0;
 };
 
-/// Reads a comment; nothing for one that is no pivot (does not begin with "# pivot" or lacks the
-/// word axis). Throws Error "file:line: ..." for one that cannot be read.
+/// Reads a comment; nothing for one that is no pivot (does not begin with "# pivot" or lacks the word axis). Throws
+/// Error "file:line: ..." for one that cannot be read.
 std::optional<PivotLine> pivot_line(
     std::string_view comment, const FileAxes& axes, const std::filesystem::path& path, int line);
 
-/// The comment that pivot_line reads back, with a line end. What pivot_line has made comes back bit
-/// for bit; other rates within rounding.
+/// The comment that pivot_line reads back, with a line end. What pivot_line has made comes back bit for bit; other
+/// rates within rounding.
 std::string pivot_text(const Pivot& pivot, std::string_view part, const FileAxes& axes);
 
 } // namespace octant::models::polygons

@@ -1,4 +1,5 @@
 #include "models/polygons/obj_reader.h"
+
 #include "models/polygons/convex_pieces.h"
 #include "models/polygons/mtl_reader.h"
 #include "models/polygons/obj_limits.h"
@@ -35,37 +36,26 @@ using CornerVertices = std::vector<std::uint32_t>;
 
 class PolygonCutting {
 public:
-    PolygonCutting(
-        PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines)
-        : model_(model)
-        , path_(path)
-        , lines_(lines)
-        , tolerance_m_(flatness_tolerance_m(model)) {}
+    PolygonCutting(PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines)
+        : model_(model), path_(path), lines_(lines), tolerance_m_(flatness_tolerance_m(model)) {}
 
     void cut() {
         const std::vector<Polygon> polygons = std::exchange(model_.polygons, {});
         const CornerVertices corner_vertices = std::exchange(model_.corner_vertices, {});
         std::vector<std::uint32_t> parents;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
-            const auto corners = std::span(corner_vertices)
-                                     .subspan(polygons[i].first_corner, polygons[i].corner_count);
+            const auto corners = std::span(corner_vertices).subspan(polygons[i].first_corner, polygons[i].corner_count);
             for (const CornerVertices& piece : pieces_of(corners, lines_[i])) {
                 add(polygons[i], piece);
                 parents.push_back(static_cast<std::uint32_t>(i));
             }
         }
-        if (changed_polygons_ > 0) {
-            model_.parents = std::move(parents);
-        }
+        if (changed_polygons_ > 0) { model_.parents = std::move(parents); }
         if (changed_polygons_ > max_notes_of_cuts) {
-            model_.notes.push_back(fmt::format(
-                "{}: {} more polygons are dented, bent or without an area",
-                path_.string(),
-                changed_polygons_ - max_notes_of_cuts));
+            model_.notes.push_back(fmt::format("{}: {} more polygons are dented, bent or without an area",
+                path_.string(), changed_polygons_ - max_notes_of_cuts));
         }
-        if (model_.polygons.empty()) {
-            throw_error_in(path_, "expected at least one polygon with an area, got none");
-        }
+        if (model_.polygons.empty()) { throw_error_in(path_, "expected at least one polygon with an area, got none"); }
     }
 
 private:
@@ -75,18 +65,14 @@ private:
             note(line, corners.size(), "has no area: left out");
             return {};
         }
-        if (!corners_fault(places_m_, tolerance_m_)) {
-            return {outline};
-        }
+        if (!corners_fault(places_m_, tolerance_m_)) { return {outline}; }
         const bool planar = is_planar(places_m_, tolerance_m_);
         const std::size_t count = outline.size();
         std::vector<CornerVertices> pieces;
         const ConvexPieces convex = convex_pieces(places_m_, tolerance_m_);
         for (const std::vector<std::size_t>& places : convex.pieces) {
             CornerVertices& piece = pieces.emplace_back();
-            for (const std::size_t place : places) {
-                piece.push_back(outline[place]);
-            }
+            for (const std::size_t place : places) { piece.push_back(outline[place]); }
         }
         const std::string_view fault = planar ? "dented" : "bent";
         if (convex.fault.empty()) {
@@ -118,14 +104,12 @@ private:
 
     bool has_area(const CornerVertices& outline) {
         places_m_.clear();
-        for (const std::uint32_t vertex : outline) {
-            places_m_.push_back(model_.vertices_m[vertex]);
-        }
+        for (const std::uint32_t vertex : outline) { places_m_.push_back(model_.vertices_m[vertex]); }
         return !is_line(places_m_);
     }
 
-    /// An outline whose sides meet, such as one that a doubled side leads around a hole: its
-    /// triangles that have an area.
+    /// An outline whose sides meet, such as one that a doubled side leads around a hole: its triangles that have an
+    /// area.
     std::vector<CornerVertices> triangles_of(const CornerVertices& outline) {
         std::vector<CornerVertices> triangles;
         for (const auto& [a, b, c] : triangulate_polygon(places_m_)) {
@@ -138,8 +122,7 @@ private:
 
     void note(int line, std::size_t corners, std::string_view what) {
         if (++changed_polygons_ <= max_notes_of_cuts) {
-            model_.notes.push_back(fmt::format(
-                "{}:{}: polygon of {} corners {}", path_.string(), line, corners, what));
+            model_.notes.push_back(fmt::format("{}:{}: polygon of {} corners {}", path_.string(), line, corners, what));
         }
     }
 
@@ -158,44 +141,37 @@ private:
     std::size_t changed_polygons_ = 0;
 };
 
-/// Makes all polygons of a model that was read from a file convex and planar within
-/// flatness_tolerance_m. A dented or bent one is replaced, where it stands, by its convex_pieces;
-/// then model.parents is filled and model.notes says "file:line: polygon of N corners is
-/// dented|bent: cut into K". One that meets itself, as around a hole, becomes triangles by
-/// triangulate_polygon, one without an area is left out; corners in the place of the one before do not
+/// Makes all polygons of a model that was read from a file convex and planar within flatness_tolerance_m. A dented or
+/// bent one is replaced, where it stands, by its convex_pieces; then model.parents is filled and model.notes says
+/// "file:line: polygon of N corners is dented|bent: cut into K". One that meets itself, as around a hole, becomes
+/// triangles by triangulate_polygon, one without an area is left out; corners in the place of the one before do not
 /// count. Notes say so. `lines` are the polygons' lines in the file.
 ///
 /// Throws Error "file: expected ..., got ..." when no polygon is left.
-void triangulate_faulty_polygons(
-    PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines) {
+void triangulate_faulty_polygons(PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines) {
     assert(lines.size() == model.polygons.size());
     PolygonCutting(model, path, lines).cut();
 }
 
 constexpr std::size_t largest_file_bytes = std::size_t{256} << 20U;
-/// All other keywords of the OBJ specification: lines and points, free-form curves and surfaces,
-/// display and rendering attributes, calls.
-constexpr std::array<std::string_view, 33> ignored_keywords{
-    "s",        "l",    "p",      "vt",     "vn",         "vp",        "mg",    "bevel", "c_interp",
-    "d_interp", "lod",  "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "cstype",
-    "deg",      "bmat", "step",   "curv",   "curv2",      "surf",      "parm",  "trim",  "hole",
-    "scrv",     "sp",   "end",    "con",    "call",       "csh"};
+/// All other keywords of the OBJ specification: lines and points, free-form curves and surfaces, display and rendering
+/// attributes, calls.
+constexpr std::array<std::string_view, 33> ignored_keywords{"s", "l", "p", "vt", "vn", "vp", "mg", "bevel", "c_interp",
+    "d_interp", "lod", "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg", "bmat", "step",
+    "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "call", "csh"};
 
 /// What version 3.0 of the specification lists as superseded: patches and curves.
 constexpr std::array<std::string_view, 5> old_keywords{"bsp", "bzp", "cdc", "cdp", "res"};
 
 using Words = std::vector<std::string_view>;
 
-std::string in_quotes(std::string_view text) {
-    return fmt::format("'{}'", printable(std::string(text)));
-}
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", printable(std::string(text))); }
 
 /// Names in the order of their first use, each with the line of that use.
 class Names {
 public:
     std::uint32_t index_of(const std::string& name, int line) {
-        const auto [at, added] =
-            index_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+        const auto [at, added] = index_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
         if (added) {
             names_.push_back(name);
             lines_.push_back(line);
@@ -220,9 +196,7 @@ private:
 
 class ObjReading {
 public:
-    ObjReading(const std::filesystem::path& path, const FileAxes& axes)
-        : path_(path)
-        , axes_(axes) {
+    ObjReading(const std::filesystem::path& path, const FileAxes& axes) : path_(path), axes_(axes) {
         model_.name = path.stem().string();
     }
 
@@ -233,9 +207,7 @@ public:
             line_ = lines.number();
             take(lines.text());
         }
-        if (model_.polygons.empty()) {
-            throw_error_in(path_, "expected at least one polygon (f), got none");
-        }
+        if (model_.polygons.empty()) { throw_error_in(path_, "expected at least one polygon (f), got none"); }
         triangulate_faulty_polygons(model_, path_, polygon_lines_);
         model_.parts = parts_.names();
         resolve_materials();
@@ -248,14 +220,10 @@ private:
 
     void take(std::string_view line) {
         const Words words = split_words(line);
-        if (words.empty()) {
-            return;
-        }
+        if (words.empty()) { return; }
         const std::string_view keyword = words[0];
         if (keyword.front() == '#') {
-            if (auto pivot = pivot_line(line, axes_, path_, line_)) {
-                pivots_.push_back(std::move(*pivot));
-            }
+            if (auto pivot = pivot_line(line, axes_, path_, line_)) { pivots_.push_back(std::move(*pivot)); }
         } else if (keyword == "v") {
             take_vertex(words);
         } else if (keyword == "f") {
@@ -271,16 +239,13 @@ private:
         } else if (std::ranges::find(old_keywords, keyword) != old_keywords.end()) {
             take_old_statement(keyword);
         } else if (std::ranges::find(ignored_keywords, keyword) == ignored_keywords.end()) {
-            refuse(fmt::format(
-                "expected an OBJ line (v, f, g, o, usemtl, mtllib), got {}", in_quotes(keyword)));
+            refuse(fmt::format("expected an OBJ line (v, f, g, o, usemtl, mtllib), got {}", in_quotes(keyword)));
         }
     }
 
     std::string name_after(std::string_view line, std::string_view what) const {
         const std::string_view name = after_first_word(line);
-        if (name.empty()) {
-            refuse(fmt::format("expected a {} name, got none", what));
-        }
+        if (name.empty()) { refuse(fmt::format("expected a {} name, got none", what)); }
         return std::string(name);
     }
 
@@ -290,9 +255,7 @@ private:
     }
 
     void take_vertex(const Words& words) {
-        if (words.size() < 4) {
-            refuse(fmt::format("expected three coordinates, got {}", words.size() - 1));
-        }
+        if (words.size() < 4) { refuse(fmt::format("expected three coordinates, got {}", words.size() - 1)); }
         if (model_.vertices_m.size() == max_obj_vertices) {
             refuse(fmt::format("expected at most {} vertices, got more", max_obj_vertices));
         }
@@ -308,30 +271,21 @@ private:
             good = good && (fields[i].empty() || whole_number(fields[i]));
         }
         if (!good) {
-            refuse(fmt::format(
-                "expected a corner such as 7, 7/1, 7//3 or 7/1/3, got {}", in_quotes(corner)));
+            refuse(fmt::format("expected a corner such as 7, 7/1, 7//3 or 7/1/3, got {}", in_quotes(corner)));
         }
         const long count = static_cast<long>(model_.vertices_m.size());
         if (*index == 0 || *index > count || *index < -count) {
-            refuse(
-                count == 0 ? fmt::format("expected vertices before a polygon, got {}", *index)
-                           : fmt::format(
-                                 "expected a vertex 1 to {} (or -{} to -1), got {}",
-                                 count,
-                                 count,
-                                 *index));
+            refuse(count == 0 ? fmt::format("expected vertices before a polygon, got {}", *index)
+                              : fmt::format("expected a vertex 1 to {} (or -{} to -1), got {}", count, count, *index));
         }
         return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
     }
 
     void take_polygon(const Words& words) {
         const std::size_t count = words.size() - 1;
-        if (count < 3) {
-            refuse(fmt::format("expected at least three corners, got {}", count));
-        }
+        if (count < 3) { refuse(fmt::format("expected at least three corners, got {}", count)); }
         if (count > max_obj_corners_of_polygon) {
-            refuse(fmt::format(
-                "expected at most {} corners, got {}", max_obj_corners_of_polygon, count));
+            refuse(fmt::format("expected at most {} corners, got {}", max_obj_corners_of_polygon, count));
         }
         if (model_.polygons.size() == max_obj_polygons) {
             refuse(fmt::format("expected at most {} polygons, got more", max_obj_polygons));
@@ -341,32 +295,22 @@ private:
         polygon.corner_count = static_cast<std::uint32_t>(count);
         polygon.part = parts_.index_of(part_, line_);
         polygon.material = materials_.index_of(material_, material_line_);
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            model_.corner_vertices.push_back(vertex_of(words[i]));
-        }
+        for (std::size_t i = 1; i < words.size(); ++i) { model_.corner_vertices.push_back(vertex_of(words[i])); }
         model_.polygons.push_back(polygon);
         polygon_lines_.push_back(line_);
     }
 
-    /// `all` is the line after its keyword: one name with blanks if there is such a file or none
-    /// of the words is one, else a name a word.
+    /// `all` is the line after its keyword: one name with blanks if there is such a file or none of the words is one,
+    /// else a name a word.
     void take_material_files(const std::string& all, const Words& words) {
-        if (take_material_file(all)) {
-            return;
-        }
+        if (take_material_file(all)) { return; }
         std::vector<std::string> missing;
         for (std::size_t i = 1; i < words.size(); ++i) {
             const std::string name(words[i]);
-            if (!take_material_file(name)) {
-                missing.push_back(name);
-            }
+            if (!take_material_file(name)) { missing.push_back(name); }
         }
-        if (missing.size() + 1 == words.size()) {
-            missing = {all};
-        }
-        for (const std::string& name : missing) {
-            note_missing(name);
-        }
+        if (missing.size() + 1 == words.size()) { missing = {all}; }
+        for (const std::string& name : missing) { note_missing(name); }
     }
 
     /// Reads a material file; false when there is no such file.
@@ -376,30 +320,23 @@ private:
         if (std::filesystem::is_directory(file, ignored)) {
             refuse(fmt::format("expected a material file, got the folder {}", in_quotes(name)));
         }
-        if (!std::filesystem::exists(file, ignored)) {
-            return false;
-        }
-        for (const Material& material : read_mtl(file)) {
-            colours_.insert_or_assign(material.name, material.colour);
-        }
+        if (!std::filesystem::exists(file, ignored)) { return false; }
+        for (const Material& material : read_mtl(file)) { colours_.insert_or_assign(material.name, material.colour); }
         has_material_file_ = true;
         return true;
     }
 
     void note_missing(const std::string& name) {
         if (missing_files_.insert(name).second) {
-            model_.notes.push_back(fmt::format(
-                "{}:{}: material file {} is missing, its materials are drawn grey",
-                path_.string(),
-                line_,
-                printable(name)));
+            model_.notes.push_back(fmt::format("{}:{}: material file {} is missing, its materials are drawn grey",
+                path_.string(), line_, printable(name)));
         }
     }
 
     void take_old_statement(std::string_view keyword) {
         if (old_statements_.insert(std::string(keyword)).second) {
-            model_.notes.push_back(fmt::format(
-                "{}:{}: {} is an old OBJ statement, ignored", path_.string(), line_, keyword));
+            model_.notes.push_back(
+                fmt::format("{}:{}: {} is an old OBJ statement, ignored", path_.string(), line_, keyword));
         }
     }
 
@@ -410,12 +347,8 @@ private:
             if (known != colours_.end()) {
                 material.colour = known->second;
             } else if (has_material_file_ && missing_files_.empty() && materials_.line_of(i) > 0) {
-                throw_error_at(
-                    path_,
-                    materials_.line_of(i),
-                    fmt::format(
-                        "expected a material of the material file, got {}",
-                        in_quotes(material.name)));
+                throw_error_at(path_, materials_.line_of(i),
+                    fmt::format("expected a material of the material file, got {}", in_quotes(material.name)));
             }
             model_.materials.push_back(material);
         }
@@ -426,17 +359,12 @@ private:
             const auto part = parts_.find(read.part);
             if (!part) {
                 throw_error_at(
-                    path_,
-                    read.line,
-                    fmt::format("expected a group with polygons, got {}", in_quotes(read.part)));
+                    path_, read.line, fmt::format("expected a group with polygons, got {}", in_quotes(read.part)));
             }
             for (const Pivot& known : model_.pivots) {
                 if (known.part == *part) {
-                    throw_error_at(
-                        path_,
-                        read.line,
-                        fmt::format(
-                            "expected one pivot a group, got {} again", in_quotes(read.part)));
+                    throw_error_at(path_, read.line,
+                        fmt::format("expected one pivot a group, got {} again", in_quotes(read.part)));
                 }
             }
             model_.pivots.push_back(read.pivot);
@@ -463,8 +391,6 @@ private:
 
 } // namespace
 
-PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes) {
-    return ObjReading(path, axes).read();
-}
+PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes) { return ObjReading(path, axes).read(); }
 
 } // namespace octant::models::polygons

@@ -15,13 +15,8 @@ namespace {
 std::string mtl_text(const PolygonModel& model) {
     std::string text;
     for (const Material& material : model.materials) {
-        fmt::format_to(
-            std::back_inserter(text),
-            "newmtl {}\nKd {} {} {}\n",
-            material.name,
-            material.colour.x,
-            material.colour.y,
-            material.colour.z);
+        fmt::format_to(std::back_inserter(text), "newmtl {}\nKd {} {} {}\n", material.name, material.colour.x,
+            material.colour.y, material.colour.z);
     }
     return text;
 }
@@ -40,9 +35,7 @@ void append_polygons(std::string& text, const PolygonModel& model) {
             text += fmt::format("usemtl {}\n", model.materials[polygon.material].name);
         }
         text += 'f';
-        for (const std::uint32_t vertex : model.corners(i)) {
-            text += fmt::format(" {}", vertex + 1);
-        }
+        for (const std::uint32_t vertex : model.corners(i)) { text += fmt::format(" {}", vertex + 1); }
         text += '\n';
     }
 }
@@ -53,15 +46,9 @@ ObjText obj_text(const PolygonModel& model, const FileAxes& axes, std::string_vi
     ObjText out;
     out.mtl = mtl_text(model);
     std::string& text = out.obj;
-    text = fmt::format(
-        "# {} vertices, {} polygons; metres, x y z = {}\nmtllib {}\n",
-        model.vertices_m.size(),
-        model.polygons.size(),
-        axes.text(),
-        mtl_name);
-    for (const Pivot& pivot : model.pivots) {
-        text += pivot_text(pivot, model.parts[pivot.part], axes);
-    }
+    text = fmt::format("# {} vertices, {} polygons; metres, x y z = {}\nmtllib {}\n", model.vertices_m.size(),
+        model.polygons.size(), axes.text(), mtl_name);
+    for (const Pivot& pivot : model.pivots) { text += pivot_text(pivot, model.parts[pivot.part], axes); }
     for (const glm::dvec3& vertex_m : model.vertices_m) {
         const glm::dvec3 in_file = axes.file_from_body(vertex_m);
         text += fmt::format("v {} {} {}\n", in_file.x, in_file.y, in_file.z);

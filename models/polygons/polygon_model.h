@@ -13,8 +13,8 @@
 
 namespace octant::models::polygons {
 
-/// A convex planar polygon seen from its front side only: its corners run counter-clockwise seen
-/// from there. `corners` is a range of PolygonModel::corner_vertices.
+/// A convex planar polygon seen from its front side only: its corners run counter-clockwise seen from there. `corners`
+/// is a range of PolygonModel::corner_vertices.
 struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0; ///< at least 3
@@ -55,8 +55,8 @@ struct PolygonModel {
     }
 };
 
-/// Unit normal of a polygon, pointing to the side from which it is seen (Newell's sum, so that no
-/// single corner decides).
+/// Unit normal of a polygon, pointing to the side from which it is seen (Newell's sum, so that no single corner
+/// decides).
 glm::dvec3 normal_of(const PolygonModel& model, std::size_t polygon);
 
 /// The plane of a polygon through the middle of its corners; its front is where it is seen from.

@@ -49,22 +49,15 @@ bool is_strictly_convex(std::span<const glm::dvec2> outline) {
 class EarCutting {
 public:
     explicit EarCutting(std::span<const glm::dvec2> outline)
-        : outline_(outline)
-        , before_(outline.size())
-        , after_(outline.size())
-        , dented_(outline.size())
-        , ear_(outline.size()) {
+        : outline_(outline), before_(outline.size()), after_(outline.size()), dented_(outline.size()),
+          ear_(outline.size()) {
         const std::size_t count = outline.size();
         for (std::size_t i = 0; i < count; ++i) {
             before_[i] = (i + count - 1) % count;
             after_[i] = (i + 1) % count;
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            dented_[i] = turn_at(i) <= 0.0;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            ear_[i] = is_ear(i);
-        }
+        for (std::size_t i = 0; i < count; ++i) { dented_[i] = turn_at(i) <= 0.0; }
+        for (std::size_t i = 0; i < count; ++i) { ear_[i] = is_ear(i); }
     }
 
     std::vector<Triangle> cut() {
@@ -80,21 +73,17 @@ public:
     }
 
 private:
-    double turn_at(std::size_t i) const {
-        return turn_of(outline_[before_[i]], outline_[i], outline_[after_[i]]);
-    }
+    double turn_at(std::size_t i) const { return turn_of(outline_[before_[i]], outline_[i], outline_[after_[i]]); }
 
     bool is_ear(std::size_t i) const {
-        if (dented_[i]) {
-            return false;
-        }
+        if (dented_[i]) { return false; }
         const glm::dvec2& a = outline_[before_[i]];
         const glm::dvec2& b = outline_[i];
         const glm::dvec2& c = outline_[after_[i]];
         for (std::size_t k = after_[after_[i]]; k != before_[i]; k = after_[k]) {
             const glm::dvec2& p = outline_[k];
-            if (dented_[k] && p != a && p != b && p != c && turn_of(a, b, p) >= 0.0 &&
-                turn_of(b, c, p) >= 0.0 && turn_of(c, a, p) >= 0.0) {
+            if (dented_[k] && p != a && p != b && p != c && turn_of(a, b, p) >= 0.0 && turn_of(b, c, p) >= 0.0 &&
+                turn_of(c, a, p) >= 0.0) {
                 return false;
             }
         }
@@ -105,9 +94,7 @@ private:
     std::size_t next_ear(std::size_t from, std::size_t left) const {
         std::size_t bulge = from;
         for (std::size_t tried = 0; tried < left; ++tried, from = after_[from]) {
-            if (ear_[from]) {
-                return from;
-            }
+            if (ear_[from]) { return from; }
             bulge = dented_[bulge] ? from : bulge;
         }
         return bulge;
@@ -138,13 +125,9 @@ private:
 std::vector<Triangle> triangulate_polygon(std::span<const glm::dvec3> corners_m) {
     assert(corners_m.size() >= 3);
     const std::vector<glm::dvec2> outline = seen_outline(corners_m);
-    if (!is_strictly_convex(outline)) {
-        return EarCutting(outline).cut();
-    }
+    if (!is_strictly_convex(outline)) { return EarCutting(outline).cut(); }
     std::vector<Triangle> pieces;
-    for (std::size_t i = 1; i + 1 < corners_m.size(); ++i) {
-        pieces.push_back({0, i, i + 1});
-    }
+    for (std::size_t i = 1; i + 1 < corners_m.size(); ++i) { pieces.push_back({0, i, i + 1}); }
     return pieces;
 }
 

@@ -15,8 +15,7 @@ constexpr double on_line = 1e-12;
 /// -1, 0 or 1: on which side of the line a -> b a point lies.
 int side_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
     const double turn = turn_of(a, b, point);
-    const double limit =
-        on_line * glm::distance(a, b) * std::max(glm::distance(a, point), glm::distance(b, point));
+    const double limit = on_line * glm::distance(a, b) * std::max(glm::distance(a, point), glm::distance(b, point));
     return std::abs(turn) <= limit ? 0 : (turn > 0.0 ? 1 : -1);
 }
 
@@ -30,11 +29,9 @@ bool meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const g
     const int d_side = side_of(a, b, d);
     const int a_side = side_of(c, d, a);
     const int b_side = side_of(c, d, b);
-    if (c_side * d_side < 0 && a_side * b_side < 0) {
-        return true;
-    }
-    return (c_side == 0 && within(a, b, c)) || (d_side == 0 && within(a, b, d)) ||
-           (a_side == 0 && within(c, d, a)) || (b_side == 0 && within(c, d, b));
+    if (c_side * d_side < 0 && a_side * b_side < 0) { return true; }
+    return (c_side == 0 && within(a, b, c)) || (d_side == 0 && within(a, b, d)) || (a_side == 0 && within(c, d, a)) ||
+           (b_side == 0 && within(c, d, b));
 }
 
 } // namespace
@@ -62,21 +59,16 @@ double turn_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return first.x * second.y - first.y * second.x;
 }
 
-std::optional<std::pair<std::size_t, std::size_t>>
-intersecting_sides(std::span<const glm::dvec2> outline) {
+std::optional<std::pair<std::size_t, std::size_t>> intersecting_sides(std::span<const glm::dvec2> outline) {
     const std::size_t count = outline.size();
     const auto corner = [&](std::size_t place) { return outline[place % count]; };
     for (std::size_t i = 0; i < count; ++i) {
         const bool folds = side_of(corner(i), corner(i + 1), corner(i + 2)) == 0 &&
                            glm::dot(corner(i + 1) - corner(i), corner(i + 2) - corner(i + 1)) < 0.0;
-        if (folds) {
-            return std::pair(i, (i + 1) % count);
-        }
+        if (folds) { return std::pair(i, (i + 1) % count); }
         for (std::size_t j = i + 2; j < count; ++j) {
             const bool neighbours = (j + 1) % count == i;
-            if (!neighbours && meet(corner(i), corner(i + 1), corner(j), corner(j + 1))) {
-                return std::pair(i, j);
-            }
+            if (!neighbours && meet(corner(i), corner(i + 1), corner(j), corner(j + 1))) { return std::pair(i, j); }
         }
     }
     return std::nullopt;

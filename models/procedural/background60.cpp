@@ -1,6 +1,6 @@
-// The 60-polygon background of E. K. Kim et al., "Hidden-Surface Removal in 3D Graphics for Real
-// Time Animation", 1989, section IV and table 6.
-// Deviations: the paper prints only the number of polygons; shapes and colours are made up here.
+// The 60-polygon background of E. K. Kim et al., "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989,
+// section IV and table 6. Deviations: the paper prints only the number of polygons; shapes and colours are made up
+// here.
 
 #include "models/procedural/background60.h"
 
@@ -28,8 +28,8 @@ constexpr double same_place_m = 1e-3;
 using MapPoint = glm::dvec2;
 using Piece = std::vector<MapPoint>;
 
-/// One mountain: its top on the left and on the right end of its side (seen from the middle), and
-/// a peak between them, `peak_at` of the way from left to right; no peak where peak_m is 0.
+/// One mountain: its top on the left and on the right end of its side (seen from the middle), and a peak between them,
+/// `peak_at` of the way from left to right; no peak where peak_m is 0.
 struct Mountain {
     double left_m = 0.0;
     double peak_m = 0.0;
@@ -38,18 +38,15 @@ struct Mountain {
 };
 
 // The right end of a mountain is the left end of the next one.
-constexpr std::array<Mountain, ring_sides> mountains{
-    {{180, 760, 0.45, 'p'},  {0, 430, 0.60, 'q'},    {240, 980, 0.55, 'r'},
-     {420, 1240, 0.40, 's'}, {520, 0, 0.0, 'q'},     {380, 690, 0.35, 'p'},
-     {0, 350, 0.50, 'q'},    {150, 560, 0.62, 'r'},  {350, 1120, 0.58, 's'},
-     {610, 1480, 0.48, 't'}, {700, 1210, 0.36, 's'}, {410, 640, 0.30, 'p'},
-     {0, 310, 0.55, 'q'},    {160, 0, 0.0, 'p'},     {330, 820, 0.44, 'r'},
-     {0, 540, 0.64, 'p'},    {290, 900, 0.52, 'r'},  {480, 1330, 0.57, 't'},
-     {640, 1050, 0.33, 's'}, {360, 0, 0.0, 'r'},     {310, 590, 0.66, 'q'},
-     {0, 470, 0.41, 'p'},    {220, 730, 0.53, 'r'},  {340, 610, 0.38, 'q'}}};
+constexpr std::array<Mountain, ring_sides> mountains{{{180, 760, 0.45, 'p'}, {0, 430, 0.60, 'q'}, {240, 980, 0.55, 'r'},
+    {420, 1240, 0.40, 's'}, {520, 0, 0.0, 'q'}, {380, 690, 0.35, 'p'}, {0, 350, 0.50, 'q'}, {150, 560, 0.62, 'r'},
+    {350, 1120, 0.58, 's'}, {610, 1480, 0.48, 't'}, {700, 1210, 0.36, 's'}, {410, 640, 0.30, 'p'}, {0, 310, 0.55, 'q'},
+    {160, 0, 0.0, 'p'}, {330, 820, 0.44, 'r'}, {0, 540, 0.64, 'p'}, {290, 900, 0.52, 'r'}, {480, 1330, 0.57, 't'},
+    {640, 1050, 0.33, 's'}, {360, 0, 0.0, 'r'}, {310, 590, 0.66, 'q'}, {0, 470, 0.41, 'p'}, {220, 730, 0.53, 'r'},
+    {340, 610, 0.38, 'q'}}};
 
-/// Cuts a piece along the line from -> to (kilometres east, north): what lies left of it stays,
-/// what lies right becomes the next new piece.
+/// Cuts a piece along the line from -> to (kilometres east, north): what lies left of it stays, what lies right becomes
+/// the next new piece.
 struct Cut {
     std::size_t piece;
     MapPoint from_km;
@@ -70,13 +67,27 @@ const std::array<Cut, 35> cuts{{
     {9, {1.2, 1.5}, {1.2, -1.5}},   // 11 west of the runway
     {9, {1.26, 1.5}, {1.26, -1.5}}, // 12 runway
     {0, {3, 5}, {4, 14}},           // from here on fields
-    {0, {-4, 9}, {3, 8.5}},         {13, {3, 9.5}, {12, 8}},      {15, {8, 5}, {8.6, 10}},
-    {3, {-14, 8}, {-4, 9}},         {17, {-8, 5}, {-8.5, 10}},    {5, {-14, 0.5}, {-3, 1.2}},
-    {5, {-8.5, 1}, {-8, 5}},        {19, {-7, -4}, {-7.6, 1}},    {1, {3.5, 1.5}, {3, 5}},
-    {22, {8.5, 1.5}, {9, 5}},       {10, {2, -4}, {2.2, -1.5}},   {24, {7.5, -4}, {7, -1.5}},
-    {11, {-4, 0.2}, {1.2, -0.1}},   {9, {4.5, -1.5}, {4.6, 1.5}}, {27, {4.5, 0.2}, {14, 0}},
-    {27, {9.5, 0}, {9.2, 1.5}},     {7, {-14, -8}, {-2, -8.6}},   {7, {-8, -8.5}, {-7.5, -4}},
-    {30, {-6, -14}, {-5.4, -8}},    {2, {-3, -8.2}, {14, -7.6}},  {2, {5, -8}, {5.4, -4}},
+    {0, {-4, 9}, {3, 8.5}},
+    {13, {3, 9.5}, {12, 8}},
+    {15, {8, 5}, {8.6, 10}},
+    {3, {-14, 8}, {-4, 9}},
+    {17, {-8, 5}, {-8.5, 10}},
+    {5, {-14, 0.5}, {-3, 1.2}},
+    {5, {-8.5, 1}, {-8, 5}},
+    {19, {-7, -4}, {-7.6, 1}},
+    {1, {3.5, 1.5}, {3, 5}},
+    {22, {8.5, 1.5}, {9, 5}},
+    {10, {2, -4}, {2.2, -1.5}},
+    {24, {7.5, -4}, {7, -1.5}},
+    {11, {-4, 0.2}, {1.2, -0.1}},
+    {9, {4.5, -1.5}, {4.6, 1.5}},
+    {27, {4.5, 0.2}, {14, 0}},
+    {27, {9.5, 0}, {9.2, 1.5}},
+    {7, {-14, -8}, {-2, -8.6}},
+    {7, {-8, -8.5}, {-7.5, -4}},
+    {30, {-6, -14}, {-5.4, -8}},
+    {2, {-3, -8.2}, {14, -7.6}},
+    {2, {5, -8}, {5.4, -4}},
     {33, {4, -14}, {3.6, -8}},
 }};
 
@@ -110,9 +121,7 @@ const std::array<Colour, 15> colours{{
 /// Corner of the ring, clockwise from north, on whole metres.
 MapPoint ring_corner(int index) {
     const double azimuth_rad = 2.0 * pi * (index % ring_sides) / ring_sides;
-    return {
-        std::round(ring_radius_m * std::sin(azimuth_rad)),
-        std::round(ring_radius_m * std::cos(azimuth_rad))};
+    return {std::round(ring_radius_m * std::sin(azimuth_rad)), std::round(ring_radius_m * std::cos(azimuth_rad))};
 }
 
 double side_of(const MapPoint& from, const MapPoint& to, const MapPoint& point) {
@@ -129,9 +138,7 @@ Piece left_part(const Piece& piece, const MapPoint& from, const MapPoint& to) {
         const MapPoint& next = piece[(i + 1) % piece.size()];
         const double side_here = side_of(from, to, here);
         const double side_next = side_of(from, to, next);
-        if (side_here >= 0.0) {
-            kept.push_back(here);
-        }
+        if (side_here >= 0.0) { kept.push_back(here); }
         if ((side_here > 0.0 && side_next < 0.0) || (side_here < 0.0 && side_next > 0.0)) {
             kept.push_back(here + (next - here) * (side_here / (side_here - side_next)));
         }
@@ -178,11 +185,9 @@ public:
     polygons::PolygonModel finished(std::string_view name) {
         for (std::size_t i = 0; i < outlines_.size(); ++i) {
             const Outline outline = with_neighbours_corners(outlines_[i]);
-            model_.polygons[i].first_corner =
-                static_cast<std::uint32_t>(model_.corner_vertices.size());
+            model_.polygons[i].first_corner = static_cast<std::uint32_t>(model_.corner_vertices.size());
             model_.polygons[i].corner_count = static_cast<std::uint32_t>(outline.size());
-            model_.corner_vertices.insert(
-                model_.corner_vertices.end(), outline.begin(), outline.end());
+            model_.corner_vertices.insert(model_.corner_vertices.end(), outline.begin(), outline.end());
         }
         model_.name = name;
         return std::move(model_);
@@ -193,9 +198,7 @@ private:
 
     std::uint32_t vertex_at(const glm::dvec3& place_m) {
         for (std::size_t i = 0; i < model_.vertices_m.size(); ++i) {
-            if (glm::distance(model_.vertices_m[i], place_m) < same_place_m) {
-                return static_cast<std::uint32_t>(i);
-            }
+            if (glm::distance(model_.vertices_m[i], place_m) < same_place_m) { return static_cast<std::uint32_t>(i); }
         }
         model_.vertices_m.push_back(place_m);
         return static_cast<std::uint32_t>(model_.vertices_m.size() - 1);
@@ -217,8 +220,7 @@ private:
         Outline out;
         for (std::size_t i = 0; i < outline.size(); ++i) {
             out.push_back(outline[i]);
-            for (const std::uint32_t vertex :
-                 vertices_between(outline[i], outline[(i + 1) % outline.size()])) {
+            for (const std::uint32_t vertex : vertices_between(outline[i], outline[(i + 1) % outline.size()])) {
                 out.push_back(vertex);
             }
         }
@@ -241,9 +243,7 @@ private:
         }
         std::ranges::sort(found);
         Outline vertices;
-        for (const auto& [at_m, vertex] : found) {
-            vertices.push_back(vertex);
-        }
+        for (const auto& [at_m, vertex] : found) { vertices.push_back(vertex); }
         return vertices;
     }
 
@@ -251,17 +251,14 @@ private:
     std::vector<Outline> outlines_;
 };
 
-glm::dvec3 body_from_map(const MapPoint& point, double height_m) {
-    return {point.y, point.x, 0.0 - height_m};
-}
+glm::dvec3 body_from_map(const MapPoint& point, double height_m) { return {point.y, point.x, 0.0 - height_m}; }
 
 void add_mountain(Builder& builder, int index) {
     const Mountain& mountain = mountains[static_cast<std::size_t>(index)];
     const double right_m = mountains[static_cast<std::size_t>((index + 1) % ring_sides)].left_m;
     const MapPoint left = ring_corner(index);
     const MapPoint right = ring_corner(index + 1);
-    std::vector<glm::dvec3> corners{
-        body_from_map(left, 0.0), body_from_map(right, 0.0), body_from_map(right, right_m)};
+    std::vector<glm::dvec3> corners{body_from_map(left, 0.0), body_from_map(right, 0.0), body_from_map(right, right_m)};
     if (mountain.peak_m > 0.0) {
         corners.push_back(body_from_map(left + (right - left) * mountain.peak_at, mountain.peak_m));
     }
@@ -274,16 +271,12 @@ void add_mountain(Builder& builder, int index) {
 polygons::PolygonModel background60() {
     Builder builder;
     builder.add_part("mountains");
-    for (int i = 0; i < ring_sides; ++i) {
-        add_mountain(builder, i);
-    }
+    for (int i = 0; i < ring_sides; ++i) { add_mountain(builder, i); }
     builder.add_part("ground");
     const std::vector<Piece> pieces = ground_pieces();
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         std::vector<glm::dvec3> corners;
-        for (const MapPoint& point : pieces[i]) {
-            corners.push_back(body_from_map(point, 0.0));
-        }
+        for (const MapPoint& point : pieces[i]) { corners.push_back(body_from_map(point, 0.0)); }
         builder.add(corners, ground_colours[i]);
     }
     return builder.finished("background60");

@@ -38,14 +38,10 @@ RowPoints winding_river(double extent_m, std::uint64_t seed) {
     const DomainWarp meanders = {seed + 307, 3600.0, 2};
     const int steps = static_cast<int>(extent_m * 1.2 / 40.0);
     RowPoints river(static_cast<std::size_t>(steps) + 1);
-    for (int i = 0; i <= steps; ++i) {
-        river.x_m[static_cast<std::size_t>(i)] = -0.1 * extent_m + i * 40.0;
-    }
+    for (int i = 0; i <= steps; ++i) { river.x_m[static_cast<std::size_t>(i)] = -0.1 * extent_m + i * 40.0; }
     std::vector<double> aside(river.x_m.size());
     course.at(river.x_m, river.y_m, aside);
-    for (std::size_t i = 0; i < aside.size(); ++i) {
-        river.y_m[i] = 0.5 * extent_m + 3000.0 * aside[i];
-    }
+    for (std::size_t i = 0; i < aside.size(); ++i) { river.y_m[i] = 0.5 * extent_m + 3000.0 * aside[i]; }
     meanders.move(river.x_m, river.y_m, 2.2);
     return river;
 }
@@ -80,9 +76,7 @@ Network first_network(double extent_m, std::uint64_t seed) {
         }
     }
     warp.move(river.x_m, river.y_m, bend);
-    for (std::size_t i = 0; i < river.x_m.size(); ++i) {
-        network.river.emplace_back(river.x_m[i], river.y_m[i]);
-    }
+    for (std::size_t i = 0; i < river.x_m.size(); ++i) { network.river.emplace_back(river.x_m[i], river.y_m[i]); }
     return network;
 }
 
@@ -91,15 +85,9 @@ Drainage grown(Network& network, std::uint64_t seed) {
     const std::vector<double> uplift(network.ground.values.size(), 1.0);
     const StreamPower power = {12.0, 60.0};
     for (int step = 0; step < 24; ++step) {
-        if (step % 6 == 0) {
-            fill_pits(network.ground, network.is_river);
-        }
+        if (step % 6 == 0) { fill_pits(network.ground, network.is_river); }
         const auto turn = static_cast<std::uint64_t>(step / 6);
-        erode(
-            network.ground,
-            compute_drainage(network.ground, network.is_river, seed + 331 + turn),
-            uplift,
-            power);
+        erode(network.ground, compute_drainage(network.ground, network.is_river, seed + 331 + turn), uplift, power);
     }
     fill_pits(network.ground, network.is_river);
     return compute_drainage(network.ground, network.is_river, seed + 337);
@@ -112,8 +100,7 @@ void straighten(std::vector<glm::dvec2>& places, const Drainage& water) {
         const auto i = static_cast<std::size_t>(cell);
         const auto receiver = static_cast<std::size_t>(water.receiver[i]);
         const int best = donor[receiver];
-        if (receiver != i &&
-            (best < 0 || water.area_m2[static_cast<std::size_t>(best)] < water.area_m2[i])) {
+        if (receiver != i && (best < 0 || water.area_m2[static_cast<std::size_t>(best)] < water.area_m2[i])) {
             donor[receiver] = cell;
         }
     }
@@ -122,8 +109,7 @@ void straighten(std::vector<glm::dvec2>& places, const Drainage& water) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const auto receiver = static_cast<std::size_t>(water.receiver[i]);
             if (receiver != i && donor[i] >= 0) {
-                places[i] =
-                    0.5 * old[i] + 0.25 * (old[receiver] + old[static_cast<std::size_t>(donor[i])]);
+                places[i] = 0.5 * old[i] + 0.25 * (old[receiver] + old[static_cast<std::size_t>(donor[i])]);
             }
         }
     }
@@ -147,30 +133,18 @@ std::vector<Reach> canyon_network(double field_m, std::uint64_t seed) {
     std::vector<Reach> reaches;
     for (std::size_t i = 1; i < network.river.size(); ++i) {
         reaches.push_back(
-            {in_field(network.river[i - 1], network),
-             in_field(network.river[i], network),
-             0.0,
-             0.0,
-             55.0});
+            {in_field(network.river[i - 1], network), in_field(network.river[i], network), 0.0, 0.0, 55.0});
     }
     std::vector<double> bed_m(network.places.size(), 0.0);
     for (const int cell : water.upstream) {
         const auto i = static_cast<std::size_t>(cell);
         const auto receiver = static_cast<std::size_t>(water.receiver[i]);
-        if (receiver == i) {
-            continue;
-        }
+        if (receiver == i) { continue; }
         const double area_m2 = water.area_m2[i];
         bed_m[i] = bed_m[receiver] + water.length_m[i] * steepness_m / std::sqrt(area_m2);
-        if (area_m2 < stream_area_m2 || bed_m[i] > highest_bed_m) {
-            continue;
-        }
-        reaches.push_back(
-            {in_field(network.places[i], network),
-             in_field(network.places[receiver], network),
-             bed_m[i],
-             bed_m[receiver],
-             std::min(40.0, 0.006 * std::sqrt(area_m2))});
+        if (area_m2 < stream_area_m2 || bed_m[i] > highest_bed_m) { continue; }
+        reaches.push_back({in_field(network.places[i], network), in_field(network.places[receiver], network), bed_m[i],
+            bed_m[receiver], std::min(40.0, 0.006 * std::sqrt(area_m2))});
     }
     return reaches;
 }

@@ -7,8 +7,8 @@
 
 namespace octant::models::procedural {
 
-/// A straight piece of a stream bed. Places in metres east and north of the field's centre; bed
-/// heights above the river, as even rock.
+/// A straight piece of a stream bed. Places in metres east and north of the field's centre; bed heights above the
+/// river, as even rock.
 struct Reach {
     glm::dvec2 from{0.0};
     glm::dvec2 to{0.0};

@@ -1,10 +1,9 @@
-// Source: J. Braun and S. Willett, A very efficient O(n), implicit and parallel method to solve the
-// stream power equation, Geomorphology 180-181, 2013 (receivers, stack order, implicit step with
-// n = 1, m = 0.5); R. Barnes, C. Lehman and D. Mulla, Priority-Flood, Computers & Geosciences 62,
-// 2014 (filling of pits, algorithm 3 with its trace of slope). The direction of descent is that of
-// flow_direction.cpp.
-// Deviations: the stack order is built breadth first. The priority queue has buckets of heights, of
-// which only the lowest is a heap: what is pushed is never lower than what was popped.
+// Source: J. Braun and S. Willett, A very efficient O(n), implicit and parallel method to solve the stream power
+// equation, Geomorphology 180-181, 2013 (receivers, stack order, implicit step with n = 1, m = 0.5); R. Barnes, C.
+// Lehman and D. Mulla, Priority-Flood, Computers & Geosciences 62, 2014 (filling of pits, algorithm 3 with its trace of
+// slope). The direction of descent is that of flow_direction.cpp. Deviations: the stack order is built breadth first.
+// The priority queue has buckets of heights, of which only the lowest is a heap: what is pushed is never lower than
+// what was popped.
 #include "models/procedural/drainage.h"
 
 #include "models/procedural/flow_direction.h"
@@ -53,8 +52,7 @@ std::vector<std::uint8_t> donors_of(const std::vector<int>& receiver, int side) 
     return donors;
 }
 
-/// Fills `upstream` from `receiver`: outlets and pits first, then always the donors of what stands
-/// already.
+/// Fills `upstream` from `receiver`: outlets and pits first, then always the donors of what stands already.
 void order_upstream(int side, Drainage& water) {
     const auto steps = steps_around(side);
     const std::vector<std::uint8_t> donors = donors_of(water.receiver, side);
@@ -74,8 +72,8 @@ void order_upstream(int side, Drainage& water) {
     }
 }
 
-/// The cells from which water is looked for uphill, lowest first, of equal ones the first of the
-/// grid. None is pushed that would have come before the last popped.
+/// The cells from which water is looked for uphill, lowest first, of equal ones the first of the grid. None is pushed
+/// that would have come before the last popped.
 class Front {
 public:
     struct Entry {
@@ -89,9 +87,7 @@ public:
 
     /// `cells`: above all numbers of cells.
     Front(double lowest_m, double highest_m, std::size_t cells)
-        : lowest_m_(lowest_m)
-        , first_(cells / cells_a_bucket + 2, none)
-        , waiting_(cells) {
+        : lowest_m_(lowest_m), first_(cells / cells_a_bucket + 2, none), waiting_(cells) {
         const double range_m = std::max(highest_m - lowest_m, 1e-6);
         per_m_ = static_cast<double>(first_.size() - 2) / range_m;
     }
@@ -117,9 +113,7 @@ public:
                 cell = one.next;
             }
         }
-        if (lowest_.empty()) {
-            return std::nullopt;
-        }
+        if (lowest_.empty()) { return std::nullopt; }
         const Entry entry = lowest_.top();
         lowest_.pop();
         return entry;
@@ -178,15 +172,12 @@ void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet) {
         }
     }
     for (int row = 0; row < ground.side; ++row) {
-        std::copy_n(
-            height_m.begin() + rimmed(row),
-            ground.side,
+        std::copy_n(height_m.begin() + rimmed(row), ground.side,
             ground.values.begin() + static_cast<std::ptrdiff_t>(ground.index(0, row)));
     }
 }
 
-Drainage
-compute_drainage(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint64_t seed) {
+Drainage compute_drainage(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint64_t seed) {
     Drainage water;
     const std::size_t count = ground.values.size();
     water.receiver.resize(count);
@@ -195,8 +186,7 @@ compute_drainage(const TerrainGrid& ground, const std::vector<char>& is_outlet, 
     by_rows(ground.side, [&](int row) {
         const std::size_t first = ground.index(0, row);
         const auto side = static_cast<std::size_t>(ground.side);
-        choose_receivers(
-            ground, row, seed, {{&water.receiver[first], side}, {&water.length_m[first], side}});
+        choose_receivers(ground, row, seed, {{&water.receiver[first], side}, {&water.length_m[first], side}});
         for (std::size_t i = first; i < first + side; ++i) {
             if (is_outlet[i] != 0) {
                 water.receiver[i] = static_cast<int>(i);
@@ -208,26 +198,17 @@ compute_drainage(const TerrainGrid& ground, const std::vector<char>& is_outlet, 
     for (std::size_t at = count; at-- > 0;) {
         const auto i = static_cast<std::size_t>(water.upstream[at]);
         const auto receiver = static_cast<std::size_t>(water.receiver[i]);
-        if (receiver != i) {
-            water.area_m2[receiver] += water.area_m2[i];
-        }
+        if (receiver != i) { water.area_m2[receiver] += water.area_m2[i]; }
     }
     return water;
 }
 
-void erode(
-    TerrainGrid& ground,
-    const Drainage& water,
-    const std::vector<double>& uplift,
-    const StreamPower& power) {
+void erode(TerrainGrid& ground, const Drainage& water, const std::vector<double>& uplift, const StreamPower& power) {
     for (const int cell : water.upstream) {
         const auto i = static_cast<std::size_t>(cell);
         const auto receiver = static_cast<std::size_t>(water.receiver[i]);
-        if (receiver == i) {
-            continue;
-        }
-        const double cut =
-            power.step / power.steepness_m * std::sqrt(water.area_m2[i]) / water.length_m[i];
+        if (receiver == i) { continue; }
+        const double cut = power.step / power.steepness_m * std::sqrt(water.area_m2[i]) / water.length_m[i];
         const double raised = ground.values[i] + power.step * uplift[i];
         ground.values[i] = (raised + cut * ground.values[receiver]) / (1.0 + cut);
     }

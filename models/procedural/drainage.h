@@ -18,9 +18,8 @@ struct Drainage {
 /// Raises every pit to its spill level plus a trace, so that all ground drains to an outlet.
 void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet);
 
-/// Routes each cell to one lower neighbour of eight in the direction of steepest descent: between
-/// the two neighbours next to that direction a hash of the seed decides, in such shares that water
-/// runs in that direction on average.
+/// Routes each cell to one lower neighbour of eight in the direction of steepest descent: between the two neighbours
+/// next to that direction a hash of the seed decides, in such shares that water runs in that direction on average.
 Drainage compute_drainage(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint64_t seed);
 
 /// How fast ground rises and streams cut, one step.
@@ -30,10 +29,6 @@ struct StreamPower {
 };
 
 /// One implicit step of dh/dt = uplift - (1 / steepness) sqrt(area) slope. Outlets stay.
-void erode(
-    TerrainGrid& ground,
-    const Drainage& water,
-    const std::vector<double>& uplift,
-    const StreamPower& power);
+void erode(TerrainGrid& ground, const Drainage& water, const std::vector<double>& uplift, const StreamPower& power);
 
 } // namespace octant::models::procedural

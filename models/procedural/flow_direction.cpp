@@ -1,9 +1,8 @@
-// The direction of descent is that of D. Tarboton, A new method for the determination of flow
-// directions and upslope areas in grid DEMs, Water Resources Research 33(2), 1997 (facets).
-// Deviations: water is not shared between the two neighbours of a facet but given to one of them,
-// with the chance that leads in the facet's direction on average (after Fairfield and Leymarie's
-// Rho8, 1991): streams do not run along the grid.
-// Compiled once for each instruction set; all give the same bits.
+// The direction of descent is that of D. Tarboton, A new method for the determination of flow directions and upslope
+// areas in grid DEMs, Water Resources Research 33(2), 1997 (facets). Deviations: water is not shared between the two
+// neighbours of a facet but given to one of them, with the chance that leads in the facet's direction on average (after
+// Fairfield and Leymarie's Rho8, 1991): streams do not run along the grid. Compiled once for each instruction set; all
+// give the same bits.
 #include "models/procedural/flow_direction.h"
 
 // SVE's vectors have no size that the compiler knows.
@@ -31,29 +30,24 @@ namespace HWY_NAMESPACE {
 
 constexpr double diagonal = 1.4142135623730951;
 
-/// A row and both its neighbours, with a cell more at either end and some more to read; NaN beyond
-/// the grid.
+/// A row and both its neighbours, with a cell more at either end and some more to read; NaN beyond the grid.
 class ThreeRows {
 public:
     HWY_INLINE ThreeRows(const TerrainGrid& ground, int row)
-        : wide_(static_cast<std::size_t>(ground.side) + 2 + lane_count)
-        , values_(3 * wide_, std::numeric_limits<double>::quiet_NaN()) {
+        : wide_(static_cast<std::size_t>(ground.side) + 2 + lane_count),
+          values_(3 * wide_, std::numeric_limits<double>::quiet_NaN()) {
         for (int k = 0; k < 3; ++k) {
             const int from = row + k - 1;
             if (from >= 0 && from < ground.side) {
-                std::copy_n(
-                    ground.values.begin() + static_cast<std::ptrdiff_t>(ground.index(0, from)),
-                    ground.side,
-                    values_.begin() +
-                        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * wide_ + 1));
+                std::copy_n(ground.values.begin() + static_cast<std::ptrdiff_t>(ground.index(0, from)), ground.side,
+                    values_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * wide_ + 1));
             }
         }
     }
 
     /// Of the cells so many columns and rows beside those from a column on.
     HWY_INLINE Real beside(std::size_t column, int dx, int dy) const {
-        const std::size_t at =
-            static_cast<std::size_t>(dy + 1) * wide_ + column + static_cast<std::size_t>(dx + 1);
+        const std::size_t at = static_cast<std::size_t>(dy + 1) * wide_ + column + static_cast<std::size_t>(dx + 1);
         return hn::LoadU(Reals(), values_.data() + at);
     }
 
@@ -71,8 +65,7 @@ struct Facet {
 
     /// The slope of the steepest descent within it, a cell; NaN where one of the drops is.
     HWY_INLINE Real slope() const {
-        const Real between =
-            hn::Sqrt(hn::Add(hn::Mul(to_side, to_side), hn::Mul(side_to_corner, side_to_corner)));
+        const Real between = hn::Sqrt(hn::Add(hn::Mul(to_side, to_side), hn::Mul(side_to_corner, side_to_corner)));
         const Real by_corner = hn::Div(hn::Add(to_side, side_to_corner), real(diagonal));
         const Real inner = hn::IfThenElse(hn::Ge(side_to_corner, to_side), by_corner, between);
         return hn::IfThenElse(hn::Le(side_to_corner, real(0.0)), to_side, inner);
@@ -80,8 +73,7 @@ struct Facet {
 
     /// Share of corner steps that leads in the direction of the steepest descent.
     HWY_INLINE Real corner_chance() const {
-        const Real inner = hn::IfThenElse(
-            hn::Ge(side_to_corner, to_side), real(1.0), hn::Div(side_to_corner, to_side));
+        const Real inner = hn::IfThenElse(hn::Ge(side_to_corner, to_side), real(1.0), hn::Div(side_to_corner, to_side));
         return hn::IfThenElse(hn::Le(side_to_corner, real(0.0)), real(0.0), inner);
     }
 
@@ -93,8 +85,7 @@ struct Facet {
     }
 };
 
-/// The facet of the steepest descent of cells, the first of equal ones; one without steps where
-/// nothing is lower.
+/// The facet of the steepest descent of cells, the first of equal ones; one without steps where nothing is lower.
 HWY_INLINE Facet steepest_facet(const ThreeRows& rows, std::size_t column, int side) {
     struct Step {
         int dx;
@@ -114,8 +105,7 @@ HWY_INLINE Facet steepest_facet(const ThreeRows& rows, std::size_t column, int s
         const Real beside = rows.beside(column, by_side.dx, by_side.dy);
         const Real corner = rows.beside(column, by_corner.dx, by_corner.dy);
         const auto step = [&](const Step& to) HWY_ATTR { return real(to.dy * side + to.dx); };
-        const Facet facet = {
-            hn::Sub(here, beside), hn::Sub(beside, corner), step(by_side), step(by_corner)};
+        const Facet facet = {hn::Sub(here, beside), hn::Sub(beside, corner), step(by_side), step(by_corner)};
         const Real slope = facet.slope();
         const auto is_steeper = hn::Gt(slope, steepest);
         best.take_where(is_steeper, facet);
@@ -132,8 +122,7 @@ HWY_INLINE Real chance_of(std::uint64_t seed, Word column, Word row) {
     return hn::Mul(hn::Add(high, low), real(1.0 / 9007199254740992.0));
 }
 
-void ChooseReceivers(
-    const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to) {
+void ChooseReceivers(const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to) {
     const ThreeRows rows(ground, row);
     const auto side = static_cast<std::size_t>(ground.side);
     const hn::Rebind<std::int32_t, Reals> whole;
@@ -143,11 +132,9 @@ void ChooseReceivers(
         const Real chance = chance_of(seed, columns, word(static_cast<std::uint64_t>(row)));
         const auto by_corner = hn::Lt(chance, facet.corner_chance());
         const Real step = hn::IfThenElse(by_corner, facet.corner_step, facet.side_step);
-        const Real here =
-            hn::Add(real(static_cast<double>(ground.index(0, row))), real_of_word(columns));
+        const Real here = hn::Add(real(static_cast<double>(ground.index(0, row))), real_of_word(columns));
         const auto receivers = hn::DemoteTo(whole, hn::Add(here, step));
-        const Real lengths =
-            hn::IfThenElse(by_corner, real(diagonal * ground.cell_m), real(ground.cell_m));
+        const Real lengths = hn::IfThenElse(by_corner, real(diagonal * ground.cell_m), real(ground.cell_m));
         alignas(64) std::array<std::int32_t, lane_count> some_receivers;
         alignas(64) std::array<double, lane_count> some_lengths;
         hn::Store(receivers, whole, some_receivers.data());
@@ -168,8 +155,7 @@ namespace octant::models::procedural {
 
 HWY_EXPORT(ChooseReceivers);
 
-void choose_receivers(
-    const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to) {
+void choose_receivers(const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to) {
     HWY_DYNAMIC_DISPATCH(ChooseReceivers)(ground, row, seed, to);
 }
 

@@ -13,9 +13,8 @@ struct RowReceivers {
     std::span<double> length_m; ///< way to it
 };
 
-/// Finds the lower neighbour that each cell of a row drains to, as compute_drainage() says; itself, a cell's
-/// width away, where none is lower.
-void choose_receivers(
-    const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to);
+/// Finds the lower neighbour that each cell of a row drains to, as compute_drainage() says; itself, a cell's width
+/// away, where none is lower.
+void choose_receivers(const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to);
 
 } // namespace octant::models::procedural

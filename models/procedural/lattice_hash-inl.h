@@ -1,5 +1,5 @@
-// Hashes of lattice points, several at once: SplitMix64's finalizer (Steele, Lea and Flood 2014).
-// Included once for each instruction set.
+// Hashes of lattice points, several at once: SplitMix64's finalizer (Steele, Lea and Flood 2014). Included once for
+// each instruction set.
 #if defined(OCTANT_MADE_LATTICE_HASH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_MADE_LATTICE_HASH_INL
 #undef OCTANT_MADE_LATTICE_HASH_INL
@@ -22,13 +22,9 @@ using Real = hn::Vec<Reals>;
 using Word = hn::Vec<Words>;
 constexpr std::size_t lane_count = hn::MaxLanes(Reals());
 
-HWY_INLINE Real real(double value) {
-    return hn::Set(Reals(), value);
-}
+HWY_INLINE Real real(double value) { return hn::Set(Reals(), value); }
 
-HWY_INLINE Word word(std::uint64_t value) {
-    return hn::Set(Words(), value);
-}
+HWY_INLINE Word word(std::uint64_t value) { return hn::Set(Words(), value); }
 
 /// Products of 64 bits, wrapping.
 HWY_INLINE Word times(Word value, std::uint64_t factor) {
@@ -45,8 +41,7 @@ HWY_INLINE Word times(Word value, std::uint64_t factor) {
 /// Whole numbers below 2^52.
 HWY_INLINE Real real_of_word(Word value) {
     constexpr double offset = 0x1p52;
-    return hn::Sub(
-        hn::BitCast(Reals(), hn::Or(value, hn::BitCast(Words(), real(offset)))), real(offset));
+    return hn::Sub(hn::BitCast(Reals(), hn::Or(value, hn::BitCast(Words(), real(offset)))), real(offset));
 }
 
 /// Whole numbers between -2^51 and 2^51, as signed ones of 64 bits.
@@ -56,9 +51,7 @@ HWY_INLINE Word word_of_real(Real value) {
 }
 
 /// A lattice point's share of its hash: by its column and by its row.
-HWY_INLINE Word column_part(Word column) {
-    return times(column, 0xd6e8feb86659fd93ULL);
-}
+HWY_INLINE Word column_part(Word column) { return times(column, 0xd6e8feb86659fd93ULL); }
 
 HWY_INLINE Word row_part(Word row) {
     const Word b = times(row, 0xa0761d6478bd642fULL);

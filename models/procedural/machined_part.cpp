@@ -1,5 +1,5 @@
-// Made for comparisons of simplifiers on shapes with sharp edges: rings of as many points each,
-// from one pole to the other, so that the mesh is closed.
+// Made for comparisons of simplifiers on shapes with sharp edges: rings of as many points each, from one pole to the
+// other, so that the mesh is closed.
 
 #include "models/procedural/machined_part.h"
 
@@ -23,26 +23,21 @@ using Outline = std::vector<glm::dvec2>; ///< counter-clockwise; seen from the o
 
 constexpr double step_m = 0.00125; ///< along the outline, about
 
-std::size_t steps_along(double length_m) {
-    return static_cast<std::size_t>(std::lround(length_m / step_m));
-}
+std::size_t steps_along(double length_m) { return static_cast<std::size_t>(std::lround(length_m / step_m)); }
 
 /// Adds the points of a line but for its end.
 void add_line(Outline& outline, const glm::dvec2& start, const glm::dvec2& end) {
     const std::size_t steps = steps_along(glm::distance(start, end));
     for (std::size_t i = 0; i < steps; ++i) {
-        outline.push_back(
-            glm::mix(start, end, static_cast<double>(i) / static_cast<double>(steps)));
+        outline.push_back(glm::mix(start, end, static_cast<double>(i) / static_cast<double>(steps)));
     }
 }
 
 /// Points of a part of a circle without its end.
-void add_arc(
-    Outline& outline, const glm::dvec2& middle, double radius_m, double from_rad, double to_rad) {
+void add_arc(Outline& outline, const glm::dvec2& middle, double radius_m, double from_rad, double to_rad) {
     const std::size_t steps = steps_along(std::abs(to_rad - from_rad) * radius_m);
     for (std::size_t i = 0; i < steps; ++i) {
-        const double angle =
-            from_rad + (to_rad - from_rad) * static_cast<double>(i) / static_cast<double>(steps);
+        const double angle = from_rad + (to_rad - from_rad) * static_cast<double>(i) / static_cast<double>(steps);
         outline.push_back(middle + radius_m * glm::dvec2(std::cos(angle), std::sin(angle)));
     }
 }
@@ -64,18 +59,14 @@ Outline block_outline() {
 
 Outline scaled(const Outline& outline, double factor) {
     Outline made;
-    for (const glm::dvec2& point : outline) {
-        made.push_back(factor * point);
-    }
+    for (const glm::dvec2& point : outline) { made.push_back(factor * point); }
     return made;
 }
 
 /// The same directions from the origin, all at one distance.
 Outline circle(const Outline& outline, double radius_m) {
     Outline made;
-    for (const glm::dvec2& point : outline) {
-        made.push_back(radius_m * glm::normalize(point));
-    }
+    for (const glm::dvec2& point : outline) { made.push_back(radius_m * glm::normalize(point)); }
     return made;
 }
 
@@ -89,8 +80,7 @@ struct Frame {
 
 class Rings {
 public:
-    explicit Rings(Outline outline)
-        : outline_(std::move(outline)) {
+    explicit Rings(Outline outline) : outline_(std::move(outline)) {
         mesh_.name = "machined part";
         mesh_.vertices_m.push_back(frame_.origin);
     }
@@ -102,9 +92,7 @@ public:
         for (int step = 1; step <= steps; ++step) {
             const double share = static_cast<double>(step) / steps;
             frame_.origin = start + share * way_m * frame_.z;
-            for (std::size_t i = 0; i < from.size(); ++i) {
-                outline_[i] = glm::mix(from[i], to[i], share);
-            }
+            for (std::size_t i = 0; i < from.size(); ++i) { outline_[i] = glm::mix(from[i], to[i], share); }
             add_ring();
         }
     }
@@ -161,9 +149,7 @@ private:
     void join_to_pole(std::size_t pole) {
         for (std::size_t i = 0; i < outline_.size(); ++i) {
             mesh_.triangles.push_back(
-                {number(rings_ - 1, i),
-                 number(rings_ - 1, i + 1),
-                 static_cast<std::uint32_t>(pole)});
+                {number(rings_ - 1, i), number(rings_ - 1, i + 1), static_cast<std::uint32_t>(pole)});
         }
     }
 

@@ -1,11 +1,10 @@
-// Source: own construction from known parts. A winding river and the network of its tributaries
-// come from stream-power erosion (see drainage.cpp); the tributaries' beds rise upstream by
-// slope = steepness / sqrt(drained area) (Flint 1974). Walls recede from the beds at a limited
-// slope: the distance equation |grad u| = slope is solved by fast sweeping (H. Zhao, A fast
-// sweeping method for Eikonal equations, Mathematics of Computation 74, 2005, section 2). The
-// result u is the height that even rock would have; layers of hard and soft rock turn it into
-// cliffs and benches, as in the Grand Canyon (order and thickness after its strata, Vishnu to
-// Kaibab). Deviations: two rounds of sweeps instead of a test for convergence.
+// Source: own construction from known parts. A winding river and the network of its tributaries come from stream-power
+// erosion (see drainage.cpp); the tributaries' beds rise upstream by slope = steepness / sqrt(drained area) (Flint
+// 1974). Walls recede from the beds at a limited slope: the distance equation |grad u| = slope is solved by fast
+// sweeping (H. Zhao, A fast sweeping method for Eikonal equations, Mathematics of Computation 74, 2005, section 2). The
+// result u is the height that even rock would have; layers of hard and soft rock turn it into cliffs and benches, as in
+// the Grand Canyon (order and thickness after its strata, Vishnu to Kaibab). Deviations: two rounds of sweeps instead
+// of a test for convergence.
 #include "models/procedural/canyon_network.h"
 #include "models/procedural/procedural_terrain.h"
 #include "models/procedural/terrain_grid.h"
@@ -40,13 +39,7 @@ constexpr std::array<Layer, 18> layers = {{
     {90.0, 0.75}, // Muav slope
     {165.0, 5.5}, // Redwall cliff
     {12.0, 0.25}, // Supai ledges from here
-    {24.0, 3.0},
-    {30.0, 0.65},
-    {46.0, 3.5},
-    {14.0, 0.35},
-    {20.0, 2.5},
-    {24.0, 0.7},
-    {36.0, 4.0},
+    {24.0, 3.0}, {30.0, 0.65}, {46.0, 3.5}, {14.0, 0.35}, {20.0, 2.5}, {24.0, 0.7}, {36.0, 4.0},
     {80.0, 0.6},  // Hermit slope
     {110.0, 6.0}, // Coconino cliff
     {45.0, 0.7},  // Toroweap slope
@@ -54,16 +47,14 @@ constexpr std::array<Layer, 18> layers = {{
     {35.0, 1.5},  // rim
 }};
 
-/// Height above the river of rock that would stand `even_m` above it were all layers alike. Above
-/// the layers lies the plateau, nearly level.
+/// Height above the river of rock that would stand `even_m` above it were all layers alike. Above the layers lies the
+/// plateau, nearly level.
 double layered(double even_m) {
     double height_m = 0.0;
     double left_m = even_m;
     for (const Layer& layer : layers) {
         const double even_thickness_m = layer.thickness_m / layer.steepness;
-        if (left_m <= even_thickness_m) {
-            return height_m + left_m * layer.steepness;
-        }
+        if (left_m <= even_thickness_m) { return height_m + left_m * layer.steepness; }
         left_m -= even_thickness_m;
         height_m += layer.thickness_m;
     }
@@ -92,9 +83,7 @@ EvenRock unlimited(double field_m, double spacing_m, std::uint64_t seed) {
         }
         const std::span<double> line = rock.slope.row(row);
         weathering.at(places.x_m, places.y_m, line);
-        for (double& value : line) {
-            value = wall_slope * std::clamp(1.0 + 1.4 * value, 0.5, 1.9);
-        }
+        for (double& value : line) { value = wall_slope * std::clamp(1.0 + 1.4 * value, 0.5, 1.9); }
     });
     return rock;
 }
@@ -105,15 +94,11 @@ void carve(EvenRock& rock, const Reach& reach, double half_field_m) {
     const double cell_m = ground.cell_m;
     const double shift_m = rock.margin_m + half_field_m;
     const double reach_m = reach.half_width_m + 1.5 * cell_m;
-    const auto cell = [&](double at_m) {
-        return static_cast<int>(std::floor((at_m + shift_m) / cell_m));
-    };
+    const auto cell = [&](double at_m) { return static_cast<int>(std::floor((at_m + shift_m) / cell_m)); };
     const int west = std::max(cell(std::min(reach.from.x, reach.to.x) - reach_m), 0);
-    const int east =
-        std::min(cell(std::max(reach.from.x, reach.to.x) + reach_m) + 1, ground.side - 1);
+    const int east = std::min(cell(std::max(reach.from.x, reach.to.x) + reach_m) + 1, ground.side - 1);
     const int south = std::max(cell(std::min(reach.from.y, reach.to.y) - reach_m), 0);
-    const int north =
-        std::min(cell(std::max(reach.from.y, reach.to.y) + reach_m) + 1, ground.side - 1);
+    const int north = std::min(cell(std::max(reach.from.y, reach.to.y) + reach_m) + 1, ground.side - 1);
     const glm::dvec2 along = reach.to - reach.from;
     const double length2 = std::max(along.x * along.x + along.y * along.y, 1e-9);
     for (int row = south; row <= north; ++row) {
@@ -123,13 +108,10 @@ void carve(EvenRock& rock, const Reach& reach, double half_field_m) {
             const double t = std::clamp((off.x * along.x + off.y * along.y) / length2, 0.0, 1.0);
             const glm::dvec2 gap = off - t * along;
             const double away_m = std::sqrt(gap.x * gap.x + gap.y * gap.y) - reach.half_width_m;
-            if (away_m > 1.5 * cell_m) {
-                continue;
-            }
+            if (away_m > 1.5 * cell_m) { continue; }
             const std::size_t i = ground.index(column, row);
             const double bed_m = reach.from_m + t * (reach.to_m - reach.from_m);
-            ground.values[i] =
-                std::min(ground.values[i], bed_m + rock.slope.values[i] * std::max(0.0, away_m));
+            ground.values[i] = std::min(ground.values[i], bed_m + rock.slope.values[i] * std::max(0.0, away_m));
         }
     }
 }
@@ -137,14 +119,10 @@ void carve(EvenRock& rock, const Reach& reach, double half_field_m) {
 /// The height that a slope limit allows a cell above its lower neighbours.
 double limited(const TerrainGrid& ground, double rise_m, int column, int row) {
     const int last = ground.side - 1;
-    const double a = std::min(
-        ground.at(std::max(column - 1, 0), row), ground.at(std::min(column + 1, last), row));
-    const double b = std::min(
-        ground.at(column, std::max(row - 1, 0)), ground.at(column, std::min(row + 1, last)));
+    const double a = std::min(ground.at(std::max(column - 1, 0), row), ground.at(std::min(column + 1, last), row));
+    const double b = std::min(ground.at(column, std::max(row - 1, 0)), ground.at(column, std::min(row + 1, last)));
     const double difference = a - b;
-    if (std::abs(difference) >= rise_m) {
-        return std::min(a, b) + rise_m;
-    }
+    if (std::abs(difference) >= rise_m) { return std::min(a, b) + rise_m; }
     return 0.5 * (a + b + std::sqrt(2.0 * rise_m * rise_m - difference * difference));
 }
 
@@ -158,8 +136,7 @@ void limit_slopes(EvenRock& rock) {
                 const int column = (sweep & 1) != 0 ? side - 1 - i : i;
                 const std::size_t at = ground.index(column, row);
                 const double rise_m = rock.slope.values[at] * ground.cell_m;
-                ground.values[at] =
-                    std::min(ground.values[at], limited(ground, rise_m, column, row));
+                ground.values[at] = std::min(ground.values[at], limited(ground, rise_m, column, row));
             }
         }
     }
@@ -169,12 +146,9 @@ void limit_slopes(EvenRock& rock) {
 class Surface {
 public:
     Surface(const EvenRock& rock, double half_field_m, std::uint64_t seed)
-        : rock_(rock)
-        , shift_m_(rock.margin_m + half_field_m)
-        , folds_{seed + 211, 7000.0, 5, 0.42}
-        , gullies_{seed + 223, 700.0, 4, 0.55}
-        , rubble_{seed + 225, 1600.0, 3, 0.5}
-        , stones_{seed + 227, 150.0, 3, 0.55} {}
+        : rock_(rock), shift_m_(rock.margin_m + half_field_m), folds_{seed + 211, 7000.0, 5, 0.42},
+          gullies_{seed + 223, 700.0, 4, 0.55}, rubble_{seed + 225, 1600.0, 3, 0.5}, stones_{
+                                                                                         seed + 227, 150.0, 3, 0.55} {}
 
     /// Heights at places from the field's centre, as many.
     void heights(const RowPoints& at, std::span<float> heights_m) const {
@@ -187,15 +161,14 @@ public:
         folds_.at(at.x_m, at.y_m, fold);
         stones_.at(at.x_m, at.y_m, stones);
         for (std::size_t i = 0; i < heights_m.size(); ++i) {
-            const double even_m =
-                std::max(0.0, rock_.height_m.smooth_at(at.x_m[i] + shift_m_, at.y_m[i] + shift_m_));
+            const double even_m = std::max(0.0, rock_.height_m.smooth_at(at.x_m[i] + shift_m_, at.y_m[i] + shift_m_));
             const double away = smooth_step(0.0, 220.0, even_m);
             const double rough_m = std::max(0.0, even_m + away * 75.0 * gully[i]);
             const double covered = away * smooth_step(0.0, 0.45, rubble[i]);
             const double top = smooth_step(900.0, 1500.0, even_m);
-            heights_m[i] = static_cast<float>(
-                river_m + (1.0 - covered) * layered(rough_m) + covered * blurred(rough_m) +
-                (away * 30.0 + top * 60.0) * fold[i] + (0.3 + away) * 4.0 * stones[i]);
+            heights_m[i] =
+                static_cast<float>(river_m + (1.0 - covered) * layered(rough_m) + covered * blurred(rough_m) +
+                                   (away * 30.0 + top * 60.0) * fold[i] + (0.3 + away) * 4.0 * stones[i]);
         }
     }
 
@@ -224,9 +197,7 @@ heights::HeightField procedural_canyon(const ProceduralTerrainOptions& options) 
     const double field_m = (options.size - 1) * options.spacing_m;
     const double half_m = 0.5 * field_m;
     EvenRock rock = unlimited(field_m, options.spacing_m, seed);
-    for (const Reach& reach : canyon_network(field_m, seed)) {
-        carve(rock, reach, half_m);
-    }
+    for (const Reach& reach : canyon_network(field_m, seed)) { carve(rock, reach, half_m); }
     limit_slopes(rock);
     const Surface surface(rock, half_m, seed);
     const auto size = static_cast<std::size_t>(options.size);

@@ -1,9 +1,8 @@
-// Source: ground in balance between uplift and stream power (see drainage.cpp), made from coarse to
-// fine as in G. Cordonnier et al., Large Scale Terrain Generation from Tectonic Uplift and Fluvial
-// Erosion, Computer Graphics Forum 35(2), 2016: the streams give the branching valleys, diffusion
-// rounds the tops.
-// Deviations: a regular grid with hashed receivers and warped sampling instead of an irregular
-// mesh; valley floors are flattened by the height above the nearest stream.
+// Source: ground in balance between uplift and stream power (see drainage.cpp), made from coarse to fine as in G.
+// Cordonnier et al., Large Scale Terrain Generation from Tectonic Uplift and Fluvial Erosion, Computer Graphics Forum
+// 35(2), 2016: the streams give the branching valleys, diffusion rounds the tops. Deviations: a regular grid with
+// hashed receivers and warped sampling instead of an irregular mesh; valley floors are flattened by the height above
+// the nearest stream.
 #include "models/procedural/drainage.h"
 #include "models/procedural/procedural_terrain.h"
 #include "models/procedural/terrain_grid.h"
@@ -44,9 +43,7 @@ TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
         const RowPoints places = points_of_row(ground, row);
         const std::span<double> line = ground.row(row);
         lowland.at(places.x_m, places.y_m, line);
-        for (double& value : line) {
-            value = 130.0 + 120.0 * value;
-        }
+        for (double& value : line) { value = 130.0 + 120.0 * value; }
     });
     return ground;
 }
@@ -59,9 +56,7 @@ std::vector<double> uplift_of(const TerrainGrid& ground, std::uint64_t seed) {
         const RowPoints places = points_of_row(ground, row);
         const std::span<double> line(&uplift[ground.index(0, row)], places.x_m.size());
         ranges.at(places.x_m, places.y_m, line);
-        for (double& value : line) {
-            value = 0.22 + 0.95 * smooth_step(-0.35, 0.5, value);
-        }
+        for (double& value : line) { value = 0.22 + 0.95 * smooth_step(-0.35, 0.5, value); }
     });
     return uplift;
 }
@@ -76,19 +71,14 @@ void shape(TerrainGrid& ground, const Level& level, std::uint64_t seed) {
     const std::vector<char> rim = rim_of(ground);
     const std::vector<double> uplift = uplift_of(ground, seed);
     for (int step = 0; step < level.steps; ++step) {
-        if (step % 8 == 0) {
-            fill_pits(ground, rim);
-        }
+        if (step % 8 == 0) { fill_pits(ground, rim); }
         const std::uint64_t turn = seed + 37 + static_cast<std::uint64_t>(step / 8);
         erode(ground, compute_drainage(ground, rim, turn), uplift, level.power);
-        if (level.diffusion > 0.0) {
-            diffuse(ground, level.diffusion);
-        }
+        if (level.diffusion > 0.0) { diffuse(ground, level.diffusion); }
     }
 }
 
-/// Lays flat floors beside streams: a height h above the nearest stream becomes about
-/// h - floor_m h / (h + 3 floor_m).
+/// Lays flat floors beside streams: a height h above the nearest stream becomes about h - floor_m h / (h + 3 floor_m).
 void flatten_floors(TerrainGrid& ground, std::uint64_t seed) {
     constexpr double stream_area_m2 = 6.0e5;
     const std::vector<char> rim = rim_of(ground);
@@ -124,9 +114,7 @@ heights::HeightField procedural_hills(const ProceduralTerrainOptions& options) {
         shape(ground, {5, {22.0, 58.0}, 0.22}, seed);
     }
     flatten_floors(ground, seed);
-    for (int i = 0; i < 4; ++i) {
-        diffuse(ground, 0.15);
-    }
+    for (int i = 0; i < 4; ++i) { diffuse(ground, 0.15); }
     const DomainWarp warp = {seed + 41, 10.0 * ground.cell_m, 3};
     const FractalNoise detail = {seed + 47, 500.0, 5, 0.5};
     const auto size = static_cast<std::size_t>(options.size);
@@ -144,8 +132,8 @@ heights::HeightField procedural_hills(const ProceduralTerrainOptions& options) {
         warp.move(places.x_m, places.y_m, 1.0);
         float* const line = heights_m.data() + static_cast<std::size_t>(row) * size;
         for (std::size_t column = 0; column < size; ++column) {
-            line[column] = static_cast<float>(
-                ground.smooth_at(places.x_m[column], places.y_m[column]) + 9.0 * rough[column]);
+            line[column] =
+                static_cast<float>(ground.smooth_at(places.x_m[column], places.y_m[column]) + 9.0 * rough[column]);
         }
     });
     heights::HeightField field(options.size, options.size, options.spacing_m, std::move(heights_m));

@@ -2,14 +2,9 @@
 
 namespace octant::models::procedural {
 
-std::optional<heights::HeightField>
-procedural_terrain(std::string_view name, const ProceduralTerrainOptions& options) {
-    if (name == "hills") {
-        return procedural_hills(options);
-    }
-    if (name == "canyon") {
-        return procedural_canyon(options);
-    }
+std::optional<heights::HeightField> procedural_terrain(std::string_view name, const ProceduralTerrainOptions& options) {
+    if (name == "hills") { return procedural_hills(options); }
+    if (name == "canyon") { return procedural_canyon(options); }
     return std::nullopt;
 }
 

@@ -12,11 +12,8 @@ namespace octant::models::procedural {
 namespace {
 
 std::array<double, 4> catmull_rom(double t) {
-    return {
-        0.5 * t * (-1.0 + t * (2.0 - t)),
-        0.5 * (2.0 + t * t * (-5.0 + 3.0 * t)),
-        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
-        0.5 * t * t * (t - 1.0)};
+    return {0.5 * t * (-1.0 + t * (2.0 - t)), 0.5 * (2.0 + t * t * (-5.0 + 3.0 * t)),
+        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)};
 }
 
 } // namespace

@@ -8,8 +8,8 @@
 
 namespace octant::models::procedural {
 
-/// Ground is made on a grid turned by the angle of (3, 4, 5) and larger than the field, so that
-/// neither its lattice nor its rim shows.
+/// Ground is made on a grid turned by the angle of (3, 4, 5) and larger than the field, so that neither its lattice nor
+/// its rim shows.
 inline constexpr double rotation_cos = 0.8;
 inline constexpr double rotation_sin = 0.6;
 inline constexpr double upscale_factor = 1.42;
@@ -23,20 +23,15 @@ struct TerrainGrid {
     TerrainGrid() = default;
 
     TerrainGrid(int samples, double cell)
-        : side(samples)
-        , cell_m(cell)
-        , values(static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples)) {}
+        : side(samples), cell_m(cell), values(static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples)) {}
 
     std::size_t index(int column, int row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
-               static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(column);
     }
 
     double at(int column, int row) const { return values[index(column, row)]; }
 
-    std::span<double> row(int number) {
-        return {&values[index(0, number)], static_cast<std::size_t>(side)};
-    }
+    std::span<double> row(int number) { return {&values[index(0, number)], static_cast<std::size_t>(side)}; }
 
     /// Smooth value (Catmull-Rom) at a place in metres from sample (0, 0); the rim's beyond it.
     double smooth_at(double x_m, double y_m) const;
@@ -47,9 +42,7 @@ struct RowPoints {
     std::vector<double> x_m;
     std::vector<double> y_m; ///< as many
 
-    explicit RowPoints(std::size_t count)
-        : x_m(count)
-        , y_m(count) {}
+    explicit RowPoints(std::size_t count) : x_m(count), y_m(count) {}
 };
 
 /// Of a row's samples, from sample (0, 0).
@@ -58,8 +51,8 @@ RowPoints points_of_row(const TerrainGrid& grid, int row);
 /// The same ground with half the cell, interpolated smoothly and bent by the warp.
 TerrainGrid refined(const TerrainGrid& grid, const DomainWarp& warp);
 
-/// One pass of diffusion: each inner value moves by `share` (0 to 0.25) of the sum of differences
-/// to its four neighbours. The grid has at least 3 samples a side.
+/// One pass of diffusion: each inner value moves by `share` (0 to 0.25) of the sum of differences to its four
+/// neighbours. The grid has at least 3 samples a side.
 void diffuse(TerrainGrid& grid, double share);
 
 } // namespace octant::models::procedural

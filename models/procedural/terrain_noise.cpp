@@ -1,8 +1,7 @@
-// Source: K. Perlin, Improving Noise, SIGGRAPH 2002 (quintic fade, gradients at lattice points).
-// Deviations: gradients are hashed vectors of any length up to 1.4, not a table of twelve, so that
-// no direction of the lattice is favoured.
-// Compiled once for each instruction set. Only + - * / and conversions are used, one by one: the
-// same bits in every build and on every processor.
+// Source: K. Perlin, Improving Noise, SIGGRAPH 2002 (quintic fade, gradients at lattice points). Deviations: gradients
+// are hashed vectors of any length up to 1.4, not a table of twelve, so that no direction of the lattice is favoured.
+// Compiled once for each instruction set. Only + - * / and conversions are used, one by one: the same bits in every
+// build and on every processor.
 #include "models/procedural/terrain_noise.h"
 
 // SVE's vectors have no size that the compiler knows.
@@ -35,9 +34,7 @@ HWY_INLINE Real fade(Real t) {
 /// The height that a lattice point's gradient gives a place so far from it.
 HWY_INLINE Real slope_term(Word bits, Real dx, Real dy) {
     constexpr double to_unit = 1.0 / 2147483648.0;
-    const auto unit = [](Word half) HWY_ATTR {
-        return hn::Sub(hn::Mul(real_of_word(half), real(to_unit)), real(1.0));
-    };
+    const auto unit = [](Word half) HWY_ATTR { return hn::Sub(hn::Mul(real_of_word(half), real(to_unit)), real(1.0)); };
     const Real gx = unit(hn::And(bits, word(0xffffffffU)));
     const Real gy = unit(hn::ShiftRight<32>(bits));
     return hn::Add(hn::Mul(gx, dx), hn::Mul(gy, dy));
@@ -56,8 +53,7 @@ HWY_INLINE Real gradient_noise(std::uint64_t seed, Real x, Real y) {
     const Real u = fade(dx);
     const auto along_row = [&](std::size_t upper, Real up) HWY_ATTR {
         const Real left = slope_term(hashed(seed, columns[0], rows[upper]), dx, up);
-        const Real right =
-            slope_term(hashed(seed, columns[1], rows[upper]), hn::Sub(dx, real(1.0)), up);
+        const Real right = slope_term(hashed(seed, columns[1], rows[upper]), hn::Sub(dx, real(1.0)), up);
         return hn::Add(hn::Mul(left, hn::Sub(real(1.0), u)), hn::Mul(right, u));
     };
     const Real low = along_row(0, dy);
@@ -91,9 +87,7 @@ HWY_INLINE Real fractal_at(const FractalNoise& fractal, Real x_m, Real y_m) {
 
 /// So many of the values from a place on, then zeros.
 HWY_INLINE Real load_some(const double* from, std::size_t count) {
-    if (count == lane_count) {
-        return hn::LoadU(Reals(), from);
-    }
+    if (count == lane_count) { return hn::LoadU(Reals(), from); }
     alignas(64) std::array<double, lane_count> room{};
     std::copy_n(from, count, room.begin());
     return hn::Load(Reals(), room.data());
@@ -110,10 +104,7 @@ HWY_INLINE void store_some(Real values, double* to, std::size_t count) {
 }
 
 void FractalAt(
-    const FractalNoise& fractal,
-    std::span<const double> x_m,
-    std::span<const double> y_m,
-    std::span<double> values) {
+    const FractalNoise& fractal, std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) {
     for (std::size_t i = 0; i < values.size(); i += lane_count) {
         const std::size_t count = std::min(values.size() - i, lane_count);
         const Real x = load_some(&x_m[i], count);
@@ -149,8 +140,7 @@ namespace octant::models::procedural {
 HWY_EXPORT(FractalAt);
 HWY_EXPORT(WarpMove);
 
-void FractalNoise::at(
-    std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) const {
+void FractalNoise::at(std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) const {
     assert(x_m.size() == values.size() && y_m.size() == values.size());
     HWY_DYNAMIC_DISPATCH(FractalAt)(*this, x_m, y_m, values);
 }

@@ -5,8 +5,8 @@
 
 namespace octant::models::procedural {
 
-/// Octaves of smooth noise from `wavelength_m` down, each half as long and `gain` times as high;
-/// about [-1, 1], zero on average.
+/// Octaves of smooth noise from `wavelength_m` down, each half as long and `gain` times as high; about [-1, 1], zero on
+/// average.
 struct FractalNoise {
     std::uint64_t seed = 0;
     double wavelength_m = 1000.0;
@@ -14,12 +14,11 @@ struct FractalNoise {
     double gain = 0.5;
 
     /// Values at many places, metres; all three are of one length.
-    void
-    at(std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) const;
+    void at(std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) const;
 };
 
-/// A sideways displacement that bends straight lines: three octaves from `wavelength_m` down, each
-/// shifting by up to about a seventh of its own wavelength, so that it never folds.
+/// A sideways displacement that bends straight lines: three octaves from `wavelength_m` down, each shifting by up to
+/// about a seventh of its own wavelength, so that it never folds.
 struct DomainWarp {
     std::uint64_t seed = 0;
     double wavelength_m = 1000.0;

@@ -20,9 +20,7 @@ constexpr double behind = 1e-5; ///< of the diagonal
 std::vector<Triangle> welded(const TriangleMesh& mesh, std::span<const std::uint32_t> firsts) {
     std::vector<Triangle> triangles = mesh.triangles;
     for (Triangle& triangle : triangles) {
-        for (std::uint32_t& vertex : triangle) {
-            vertex = firsts[vertex];
-        }
+        for (std::uint32_t& vertex : triangle) { vertex = firsts[vertex]; }
     }
     return triangles;
 }
@@ -37,32 +35,24 @@ std::vector<bool> in_open_piece(std::span<const Triangle> triangles, std::size_t
     std::vector<bool> is_open(vertices, false);
     const std::vector<TriangleEdge> sides = sorted_triangle_edges(triangles);
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
-        if (edge.size() == 1 && edge[0].least != edge[0].most) {
-            is_open[pieces.group_of(edge[0].least)] = true;
-        }
+        if (edge.size() == 1 && edge[0].least != edge[0].most) { is_open[pieces.group_of(edge[0].least)] = true; }
     });
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        is_open[v] = is_open[pieces.group_of(v)];
-    }
+    for (std::uint32_t v = 0; v < vertices; ++v) { is_open[v] = is_open[pieces.group_of(v)]; }
     return is_open;
 }
 
 class Backs {
 public:
     Backs(TriangleMesh& mesh, std::vector<glm::dvec3> fronts)
-        : mesh_(mesh)
-        , fronts_(std::move(fronts))
-        , behind_m_(behind * diagonal_m(mesh))
-        , backs_(mesh.vertices_m.size(), invalid_index)
-        , normals_(mesh.normals.size(), invalid_index) {}
+        : mesh_(mesh), fronts_(std::move(fronts)), behind_m_(behind * diagonal_m(mesh)),
+          backs_(mesh.vertices_m.size(), invalid_index), normals_(mesh.normals.size(), invalid_index) {}
 
     void add(std::size_t t) {
         const Triangle front = mesh_.triangles[t];
         mesh_.triangles.push_back({back_of(front[0]), back_of(front[2]), back_of(front[1])});
         if (!mesh_.corner_normals.empty()) {
             const Triangle normals = mesh_.corner_normals[t];
-            mesh_.corner_normals.push_back(
-                {turned(normals[0]), turned(normals[2]), turned(normals[1])});
+            mesh_.corner_normals.push_back({turned(normals[0]), turned(normals[2]), turned(normals[1])});
         }
         if (!mesh_.corner_texture_coordinates.empty()) {
             const auto [a, b, c] = mesh_.corner_texture_coordinates[t];
@@ -78,12 +68,9 @@ private:
         if (backs_[vertex] == invalid_index) {
             backs_[vertex] = static_cast<std::uint32_t>(mesh_.vertices_m.size());
             const double length = glm::length(fronts_[vertex]);
-            const glm::dvec3 off_m =
-                length > 0.0 ? fronts_[vertex] * (behind_m_ / length) : glm::dvec3(behind_m_);
+            const glm::dvec3 off_m = length > 0.0 ? fronts_[vertex] * (behind_m_ / length) : glm::dvec3(behind_m_);
             mesh_.vertices_m.push_back(mesh_.vertices_m[vertex] - off_m);
-            if (!mesh_.colours.empty()) {
-                mesh_.colours.push_back(glm::vec3(mesh_.colours[vertex]));
-            }
+            if (!mesh_.colours.empty()) { mesh_.colours.push_back(glm::vec3(mesh_.colours[vertex])); }
         }
         return backs_[vertex];
     }
@@ -113,18 +100,12 @@ std::size_t add_back_faces(TriangleMesh& mesh, const std::vector<bool>& two_side
     const std::vector<bool> is_open = in_open_piece(triangles, mesh.vertices_m.size());
     std::vector<glm::dvec3> sums(mesh.vertices_m.size(), glm::dvec3(0.0));
     for (std::size_t t = 0; t < count; ++t) {
-        for (const std::uint32_t vertex : triangles[t]) {
-            sums[vertex] += area_vector(mesh, triangles[t]);
-        }
+        for (const std::uint32_t vertex : triangles[t]) { sums[vertex] += area_vector(mesh, triangles[t]); }
     }
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        sums[v] = sums[firsts[v]];
-    }
+    for (std::size_t v = 0; v < sums.size(); ++v) { sums[v] = sums[firsts[v]]; }
     Backs backs(mesh, std::move(sums));
     for (std::size_t t = 0; t < count; ++t) {
-        if (two_sided[t] && is_open[triangles[t][0]]) {
-            backs.add(t);
-        }
+        if (two_sided[t] && is_open[triangles[t][0]]) { backs.add(t); }
     }
     return mesh.triangles.size() - count;
 }

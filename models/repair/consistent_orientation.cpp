@@ -1,7 +1,6 @@
-// Triangles that agree make pieces; pieces whose joints disagree are put together, the one turned
-// against the other. A patch that lies the wrong way round meets its surface along a good part of
-// its rim. Bodies that only touch, as a door does at its hinge, meet along few edges; each of them
-// looks the way the file has it.
+// Triangles that agree make pieces; pieces whose joints disagree are put together, the one turned against the other. A
+// patch that lies the wrong way round meets its surface along a good part of its rim. Bodies that only touch, as a door
+// does at its hinge, meet along few edges; each of them looks the way the file has it.
 #include "models/repair/consistent_orientation.h"
 
 #include "models/invalid_index.h"
@@ -15,8 +14,8 @@ namespace octant::models::repair {
 
 namespace {
 
-/// Pieces of triangles, put together one by one; each is turned or not against the one that names
-/// its group (union-find with parities).
+/// Pieces of triangles, put together one by one; each is turned or not against the one that names its group (union-find
+/// with parities).
 class TurnedPieces {
 public:
     struct Place {
@@ -24,12 +23,8 @@ public:
         std::uint8_t turned = 0;
     };
 
-    explicit TurnedPieces(std::vector<std::size_t> sizes)
-        : sizes_(std::move(sizes))
-        , parents_(sizes_.size()) {
-        for (std::uint32_t piece = 0; piece < parents_.size(); ++piece) {
-            parents_[piece].group = piece;
-        }
+    explicit TurnedPieces(std::vector<std::size_t> sizes) : sizes_(std::move(sizes)), parents_(sizes_.size()) {
+        for (std::uint32_t piece = 0; piece < parents_.size(); ++piece) { parents_[piece].group = piece; }
     }
 
     Place place_of(std::uint32_t piece) {
@@ -66,8 +61,8 @@ struct Joint {
     bool agree = true;
 };
 
-/// Whether so many edges make one surface of two pieces, by the size of the smaller: a patch of n
-/// triangles has a rim of about the root of n at the least.
+/// Whether so many edges make one surface of two pieces, by the size of the smaller: a patch of n triangles has a rim
+/// of about the root of n at the least.
 bool is_one_surface(std::size_t edges, std::size_t triangles) {
     constexpr std::size_t min_share = 2; // half of that root
     return min_share * edges * min_share * edges >= triangles;
@@ -81,16 +76,14 @@ public:
         for_each_joint(sides, named, [&](std::span<const TriangleEdge> edge) {
             turns_.non_manifold_edges += static_cast<std::size_t>(edge.size() > 2);
             if (edge.size() == 2) {
-                joints_.push_back(
-                    {edge[0].triangle, edge[1].triangle, edge[0].rises != edge[1].rises});
+                joints_.push_back({edge[0].triangle, edge[1].triangle, edge[0].rises != edge[1].rises});
             }
         });
     }
 
     ConsistentOrientation turns() {
         TurnedPieces pieces(agreeing_pieces());
-        while (put_together(pieces)) {
-        }
+        while (put_together(pieces)) {}
         turn_fewer(pieces);
         return std::move(turns_);
     }
@@ -100,18 +93,13 @@ private:
     std::vector<std::size_t> agreeing_pieces() {
         DisjointSets groups(piece_of_.size());
         for (const Joint& joint : joints_) {
-            if (joint.agree) {
-                groups.join(joint.one, joint.other);
-            }
+            if (joint.agree) { groups.join(joint.one, joint.other); }
         }
         std::vector<std::size_t> sizes;
         for (std::uint32_t t = 0; t < piece_of_.size(); ++t) {
             const std::uint32_t first = groups.group_of(t); // not behind t
-            if (first == t) {
-                sizes.push_back(0);
-            }
-            piece_of_[t] =
-                first == t ? static_cast<std::uint32_t>(sizes.size() - 1) : piece_of_[first];
+            if (first == t) { sizes.push_back(0); }
+            piece_of_[t] = first == t ? static_cast<std::uint32_t>(sizes.size() - 1) : piece_of_[first];
             ++sizes[piece_of_[t]];
         }
         std::erase_if(joints_, [](const Joint& joint) { return joint.agree; });
@@ -134,19 +122,13 @@ private:
         bool any = false;
         for (std::size_t first = 0, last = 0; first < links.size(); first = last) {
             last = first;
-            while (last < links.size() && links[last] == links[first]) {
-                ++last;
-            }
+            while (last < links.size() && links[last] == links[first]) { ++last; }
             const auto [least, most, turned] = links[first];
             const auto one = pieces.place_of(least);
             const auto other = pieces.place_of(most);
-            const std::size_t smaller =
-                std::min(pieces.size_of(one.group), pieces.size_of(other.group));
+            const std::size_t smaller = std::min(pieces.size_of(one.group), pieces.size_of(other.group));
             if (one.group != other.group && is_one_surface(last - first, smaller)) {
-                pieces.join(
-                    one.group,
-                    other.group,
-                    static_cast<std::uint8_t>(turned ^ one.turned ^ other.turned));
+                pieces.join(one.group, other.group, static_cast<std::uint8_t>(turned ^ one.turned ^ other.turned));
                 any = true;
             }
         }
@@ -175,9 +157,7 @@ private:
 } // namespace
 
 ConsistentOrientation consistent_orientation(
-    std::span<const Triangle> triangles,
-    std::span<const TriangleEdge> sides,
-    std::span<const Triangle> named) {
+    std::span<const Triangle> triangles, std::span<const TriangleEdge> sides, std::span<const Triangle> named) {
     return Turning(triangles.size(), sides, named).turns();
 }
 

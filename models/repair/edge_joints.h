@@ -10,10 +10,9 @@
 
 namespace octant::models::repair {
 
-/// Calls `take(std::span<const Side>)` for each edge of sorted sides, as for_each_edge does. An
-/// edge that more than two triangles share is several: one for each two triangles that alone named
-/// it by the same vertices in `named` (the triangles before vertices were welded), and one for the
-/// rest. So shells that touch along an edge stay whole.
+/// Calls `take(std::span<const Side>)` for each edge of sorted sides, as for_each_edge does. An edge that more than two
+/// triangles share is several: one for each two triangles that alone named it by the same vertices in `named` (the
+/// triangles before vertices were welded), and one for the rest. So shells that touch along an edge stay whole.
 template <typename Take>
 void for_each_joint(std::span<const TriangleEdge> sides, std::span<const Triangle> named, Take&& take) {
     const auto name_of = [&](const TriangleEdge& side) {
@@ -33,9 +32,7 @@ void for_each_joint(std::span<const TriangleEdge> sides, std::span<const Triangl
         rest.clear();
         for (std::size_t first = 0; first < sorted.size();) {
             std::size_t last = first + 1;
-            while (last < sorted.size() && name_of(sorted[last]) == name_of(sorted[first])) {
-                ++last;
-            }
+            while (last < sorted.size() && name_of(sorted[last]) == name_of(sorted[first])) { ++last; }
             const std::span<const TriangleEdge> alike(sorted.data() + first, last - first);
             if (alike.size() == 2) {
                 take(alike);
@@ -44,9 +41,7 @@ void for_each_joint(std::span<const TriangleEdge> sides, std::span<const Triangl
             }
             first = last;
         }
-        if (!rest.empty()) {
-            take(std::span<const TriangleEdge>(rest));
-        }
+        if (!rest.empty()) { take(std::span<const TriangleEdge>(rest)); }
     });
 }
 

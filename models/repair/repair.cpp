@@ -1,4 +1,5 @@
 #include "models/repair/repair.h"
+
 #include "models/invalid_index.h"
 #include "models/mesh_edges.h"
 #include "models/repair/consistent_orientation.h"
@@ -29,30 +30,19 @@ namespace octant::models::repair {
 std::vector<std::string> describe_counts(const RepairCounts& counts) {
     std::vector<std::string> lines;
     const auto add = [&](std::size_t count, std::string_view one, std::string_view many) {
-        if (count > 0) {
-            lines.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
-        }
+        if (count > 0) { lines.push_back(fmt::format("{} {}", count, count == 1 ? one : many)); }
     };
-    add(counts.unreferenced_vertices,
-        "vertex of no triangle taken out",
-        "vertices of no triangle taken out");
+    add(counts.unreferenced_vertices, "vertex of no triangle taken out", "vertices of no triangle taken out");
     add(counts.duplicate_vertices, "duplicate vertex welded", "duplicate vertices welded");
-    add(counts.degenerate_triangles,
-        "triangle without an area taken out",
-        "triangles without an area taken out");
+    add(counts.degenerate_triangles, "triangle without an area taken out", "triangles without an area taken out");
     add(counts.duplicate_triangles, "doubled triangle taken out", "doubled triangles taken out");
-    add(counts.flipped_triangles,
-        "triangle turned to agree with its neighbours",
+    add(counts.flipped_triangles, "triangle turned to agree with its neighbours",
         "triangles turned to agree with their neighbours");
-    add(counts.split_edges,
-        "edge split that more than two triangles or two that disagree share",
+    add(counts.split_edges, "edge split that more than two triangles or two that disagree share",
         "edges split that more than two triangles or two that disagree share");
-    add(counts.split_vertices,
-        "vertex split where several fans of triangles met",
+    add(counts.split_vertices, "vertex split where several fans of triangles met",
         "vertices split where several fans of triangles met");
-    add(counts.boundary_loops,
-        "hole or open rim left as it is",
-        "holes or open rims left as they are");
+    add(counts.boundary_loops, "hole or open rim left as it is", "holes or open rims left as they are");
     return lines;
 }
 
@@ -85,9 +75,7 @@ std::vector<std::uint32_t> rim_vertices(const TriangleMesh& mesh) {
     });
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < on_rim.size(); ++v) {
-        if (on_rim[v]) {
-            vertices.push_back(v);
-        }
+        if (on_rim[v]) { vertices.push_back(v); }
     }
     return vertices;
 }
@@ -106,16 +94,14 @@ void keep_corners_apart(const TriangleMesh& mesh, std::vector<std::uint32_t>& fi
     }
 }
 
-/// Rims of a mesh that touch but for rounding: for each vertex on an edge of one triangle only the
-/// first such one within a millionth of the mesh's diagonal, perhaps itself, where welding it
-/// makes no triangle's corners one. Itself for all other vertices.
+/// Rims of a mesh that touch but for rounding: for each vertex on an edge of one triangle only the first such one
+/// within a millionth of the mesh's diagonal, perhaps itself, where welding it makes no triangle's corners one. Itself
+/// for all other vertices.
 std::vector<std::uint32_t> close_boundaries(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> firsts(mesh.vertices_m.size());
     std::iota(firsts.begin(), firsts.end(), 0U);
     const double near_m = rounding * diagonal_m(mesh);
-    if (!(near_m > 0.0)) {
-        return firsts;
-    }
+    if (!(near_m > 0.0)) { return firsts; }
     const glm::dvec3 origin_m = bounds_of(mesh).min_m;
     std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> kept;
     for (const std::uint32_t vertex : rim_vertices(mesh)) {
@@ -124,58 +110,40 @@ std::vector<std::uint32_t> close_boundaries(const TriangleMesh& mesh) {
         const Cell own{std::llround(scaled.x), std::llround(scaled.y), std::llround(scaled.z)};
         std::uint32_t first = vertex;
         for (int i = 0; i < 27; ++i) {
-            const auto found =
-                kept.find({own[0] + i % 3 - 1, own[1] + i / 3 % 3 - 1, own[2] + i / 9 - 1});
-            if (found == kept.end()) {
-                continue;
-            }
+            const auto found = kept.find({own[0] + i % 3 - 1, own[1] + i / 3 % 3 - 1, own[2] + i / 9 - 1});
+            if (found == kept.end()) { continue; }
             for (const std::uint32_t other : found->second) {
-                if (glm::distance(mesh.vertices_m[other], place_m) <= near_m) {
-                    first = std::min(first, other);
-                }
+                if (glm::distance(mesh.vertices_m[other], place_m) <= near_m) { first = std::min(first, other); }
             }
         }
         firsts[vertex] = first;
-        if (first == vertex) {
-            kept[own].push_back(vertex);
-        }
+        if (first == vertex) { kept[own].push_back(vertex); }
     }
     keep_corners_apart(mesh, firsts);
     return firsts;
 }
 
-/// Twice a triangle's area, as a part of the square of its longest coordinate difference, up to
-/// which it has none: what rounding leaves of corners on a line.
+/// Twice a triangle's area, as a part of the square of its longest coordinate difference, up to which it has none: what
+/// rounding leaves of corners on a line.
 constexpr double no_area = 1e-13;
 
 bool has_area(const glm::dvec3& a_m, const glm::dvec3& b_m, const glm::dvec3& c_m) {
     const glm::dvec3 ab_m = b_m - a_m;
     const glm::dvec3 ac_m = c_m - a_m;
     double longest_m = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        longest_m = std::max({longest_m, std::abs(ab_m[k]), std::abs(ac_m[k])});
-    }
+    for (int k = 0; k < 3; ++k) { longest_m = std::max({longest_m, std::abs(ab_m[k]), std::abs(ac_m[k])}); }
     return longest_m > 0.0 && glm::length(glm::cross(ab_m / longest_m, ac_m / longest_m)) > no_area;
 }
 
 class Repairing {
 public:
-    Repairing(TriangleMesh&& mesh, Seams seams)
-        : mesh_(std::move(mesh))
-        , seams_(seams)
-        , named_(mesh_.triangles) {}
+    Repairing(TriangleMesh&& mesh, Seams seams) : mesh_(std::move(mesh)), seams_(seams), named_(mesh_.triangles) {}
 
     RepairedMesh repair() {
-        if (seams_ == Seams::Welded) {
-            take_corner_colours();
-        }
+        if (seams_ == Seams::Welded) { take_corner_colours(); }
         weld(first_duplicates(
-            mesh_.vertices_m,
-            seams_ == Seams::Welded ? std::vector<glm::vec3>() : mesh_.colours,
-            referenced()));
-        if (seams_ == Seams::Welded) {
-            weld(close_boundaries(mesh_));
-        }
+            mesh_.vertices_m, seams_ == Seams::Welded ? std::vector<glm::vec3>() : mesh_.colours, referenced()));
+        if (seams_ == Seams::Welded) { weld(close_boundaries(mesh_)); }
         split_at_junctions();
         take_out_triangles();
         orient();
@@ -183,9 +151,7 @@ public:
         take_out_vertices();
         counts_.shells = count_shells(mesh_);
         counts_.boundary_loops = count_boundary_loops(mesh_);
-        if (!colours_break()) {
-            corner_colours_.clear();
-        }
+        if (!colours_break()) { corner_colours_.clear(); }
         return {std::move(mesh_), std::move(corner_colours_), counts_};
     }
 
@@ -193,9 +159,7 @@ private:
     std::vector<bool> referenced() const {
         std::vector<bool> used(mesh_.vertices_m.size(), false);
         for (const Triangle& triangle : mesh_.triangles) {
-            for (const std::uint32_t vertex : triangle) {
-                used[vertex] = true;
-            }
+            for (const std::uint32_t vertex : triangle) { used[vertex] = true; }
         }
         return used;
     }
@@ -212,9 +176,7 @@ private:
         for (std::size_t t = 0; t < corner_colours_.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const glm::vec3 off = corner_colours_[t][k] - mesh_.colours[mesh_.triangles[t][k]];
-                if (glm::dot(off, off) > a_few_steps * a_few_steps) {
-                    return true;
-                }
+                if (glm::dot(off, off) > a_few_steps * a_few_steps) { return true; }
             }
         }
         return false;
@@ -224,41 +186,34 @@ private:
     void weld(const std::vector<std::uint32_t>& welded) {
         average_colours(mesh_.colours, welded);
         for (std::uint32_t v = 0; v < welded.size(); ++v) {
-            counts_.duplicate_vertices +=
-                static_cast<std::size_t>(welded[v] != v && welded[v] != invalid_index);
+            counts_.duplicate_vertices += static_cast<std::size_t>(welded[v] != v && welded[v] != invalid_index);
         }
         for (Triangle& triangle : mesh_.triangles) {
-            for (std::uint32_t& vertex : triangle) {
-                vertex = welded[vertex];
-            }
+            for (std::uint32_t& vertex : triangle) { vertex = welded[vertex]; }
         }
     }
 
     bool is_degenerate(const Triangle& triangle) const {
         const auto [a, b, c] = triangle;
-        return a == b || b == c || c == a ||
-               !has_area(mesh_.vertices_m[a], mesh_.vertices_m[b], mesh_.vertices_m[c]);
+        return a == b || b == c || c == a || !has_area(mesh_.vertices_m[a], mesh_.vertices_m[b], mesh_.vertices_m[c]);
     }
 
     /// The triangles at each edge between vertices that are marked, but for those left out.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>
-    triangles_at_edges(const std::vector<bool>& marked, const std::vector<bool>& left_out) const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> triangles_at_edges(
+        const std::vector<bool>& marked, const std::vector<bool>& left_out) const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> found;
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3 && !(t < left_out.size() && left_out[t]); ++i) {
                 const std::uint32_t from = mesh_.triangles[t][i];
                 const std::uint32_t to = mesh_.triangles[t][(i + 1) % 3];
-                if (marked[from] && marked[to]) {
-                    found[std::minmax(from, to)].push_back(t);
-                }
+                if (marked[from] && marked[to]) { found[std::minmax(from, to)].push_back(t); }
             }
         }
         return found;
     }
 
-    /// A triangle without an area that has three vertices closes a T-junction: its middle vertex
-    /// lies on its longest side. The neighbour at that side is split at the vertex, so that nothing
-    /// opens when the triangle is taken out.
+    /// A triangle without an area that has three vertices closes a T-junction: its middle vertex lies on its longest
+    /// side. The neighbour at that side is split at the vertex, so that nothing opens when the triangle is taken out.
     void split_at_junctions() {
         std::vector<std::uint32_t> thin;
         std::vector<bool> marked(mesh_.vertices_m.size(), false);
@@ -288,8 +243,8 @@ private:
         glm::vec3 colour;       ///< of the corners there
     };
 
-    /// Divides a triangle at a vertex on its side from corner `from` to the next one. The part at
-    /// `from` stays in place, the other one comes last.
+    /// Divides a triangle at a vertex on its side from corner `from` to the next one. The part at `from` stays in
+    /// place, the other one comes last.
     void divide_side(std::uint32_t triangle, std::size_t from, const OnSide& middle) {
         const std::size_t to = (from + 1) % 3;
         const auto divide_corners = [&](auto& list, const auto& at_middle) {
@@ -299,12 +254,9 @@ private:
         };
         divide_corners(mesh_.triangles, middle.vertex);
         divide_corners(named_, middle.name);
-        if (!corner_colours_.empty()) {
-            divide_corners(corner_colours_, middle.colour);
-        }
+        if (!corner_colours_.empty()) { divide_corners(corner_colours_, middle.colour); }
         if (!mesh_.corner_normals.empty()) {
-            divide_corners(
-                mesh_.corner_normals, std::uint32_t(mesh_.corner_normals[triangle][from]));
+            divide_corners(mesh_.corner_normals, std::uint32_t(mesh_.corner_normals[triangle][from]));
         }
         if (!mesh_.corner_texture_coordinates.empty()) {
             const Triangle corners = mesh_.corner_texture_coordinates[triangle];
@@ -312,9 +264,7 @@ private:
             if (corners[from] != invalid_index && corners[to] != invalid_index) {
                 at_middle = static_cast<std::uint32_t>(mesh_.texture_coordinates.size());
                 mesh_.texture_coordinates.push_back(glm::mix(
-                    mesh_.texture_coordinates[corners[from]],
-                    mesh_.texture_coordinates[corners[to]],
-                    middle.part));
+                    mesh_.texture_coordinates[corners[from]], mesh_.texture_coordinates[corners[to]], middle.part));
             }
             divide_corners(mesh_.corner_texture_coordinates, at_middle);
         }
@@ -323,32 +273,22 @@ private:
         }
     }
 
-    /// Splits the neighbour at the longest side of a triangle without an area, if it is the only
-    /// one there, has an area and was not split in this round.
-    bool split_neighbour(
-        std::uint32_t thin,
-        const std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>&
-            at_edges,
-        std::vector<bool>& touched,
-        std::vector<bool>& done) {
+    /// Splits the neighbour at the longest side of a triangle without an area, if it is the only one there, has an area
+    /// and was not split in this round.
+    bool split_neighbour(std::uint32_t thin,
+        const std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>& at_edges,
+        std::vector<bool>& touched, std::vector<bool>& done) {
         const Triangle corners = mesh_.triangles[thin];
         const auto length_m = [&](std::size_t i) {
-            return glm::distance(
-                mesh_.vertices_m[corners[i]], mesh_.vertices_m[corners[(i + 1) % 3]]);
+            return glm::distance(mesh_.vertices_m[corners[i]], mesh_.vertices_m[corners[(i + 1) % 3]]);
         };
         std::size_t side = 0;
-        for (const std::size_t i : {1U, 2U}) {
-            side = length_m(i) > length_m(side) ? i : side;
-        }
+        for (const std::size_t i : {1U, 2U}) { side = length_m(i) > length_m(side) ? i : side; }
         const std::size_t middle = (side + 2) % 3;
         const auto found = at_edges.find(std::minmax(corners[side], corners[(side + 1) % 3]));
-        if (found == at_edges.end() || found->second.size() != 2) {
-            return false;
-        }
+        if (found == at_edges.end() || found->second.size() != 2) { return false; }
         const std::uint32_t other = found->second[0] == thin ? found->second[1] : found->second[0];
-        if (other == thin || touched[other] || is_degenerate(mesh_.triangles[other])) {
-            return false;
-        }
+        if (other == thin || touched[other] || is_degenerate(mesh_.triangles[other])) { return false; }
         std::size_t from = 0;
         while (mesh_.triangles[other][(from + 2) % 3] == corners[side] ||
                mesh_.triangles[other][(from + 2) % 3] == corners[(side + 1) % 3]) {
@@ -356,30 +296,25 @@ private:
         }
         touched[other] = done[thin] = true;
         const std::uint32_t begin = mesh_.triangles[other][from];
-        divide_side(
-            other,
-            from,
-            {corners[middle],
-             named_[thin][middle],
-             static_cast<float>(
-                 glm::distance(mesh_.vertices_m[begin], mesh_.vertices_m[corners[middle]]) /
-                 length_m(side)),
-             corner_colours_.empty() ? glm::vec3(0.0F) : corner_colours_[thin][middle]});
+        divide_side(other, from,
+            {corners[middle], named_[thin][middle],
+                static_cast<float>(
+                    glm::distance(mesh_.vertices_m[begin], mesh_.vertices_m[corners[middle]]) / length_m(side)),
+                corner_colours_.empty() ? glm::vec3(0.0F) : corner_colours_[thin][middle]});
         return true;
     }
 
     /// Whether a triangle names its vertices in the order of `rising` or of a rotation of it.
     bool turns_as(std::uint32_t triangle, const Triangle& rising) const {
         const Triangle& corners = mesh_.triangles[triangle];
-        const auto at =
-            static_cast<std::size_t>(std::ranges::find(corners, rising[0]) - corners.begin());
+        const auto at = static_cast<std::size_t>(std::ranges::find(corners, rising[0]) - corners.begin());
         return corners[(at + 1) % 3] == rising[1];
     }
 
     /// Triangles with the same three vertices.
     struct Doubles {
         std::span<const std::pair<Triangle, std::uint32_t>> all; ///< sorted vertices, triangle
-        std::ptrdiff_t rising = 0; ///< as many more turn as the sorted vertices do
+        std::ptrdiff_t rising = 0;                               ///< as many more turn as the sorted vertices do
     };
 
     /// Triangles that hang together by edges.
@@ -389,20 +324,15 @@ private:
     };
 
     /// By the group of their triangles.
-    std::vector<WrittenShell>
-    written_shells(std::span<const Doubles> doubles, DisjointSets& groups) const {
+    std::vector<WrittenShell> written_shells(std::span<const Doubles> doubles, DisjointSets& groups) const {
         std::vector<WrittenShell> shells(mesh_.triangles.size());
         const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh_.triangles);
         for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
-            for (const TriangleEdge& side : edge) {
-                groups.join(edge[0].triangle, side.triangle);
-            }
+            for (const TriangleEdge& side : edge) { groups.join(edge[0].triangle, side.triangle); }
         });
         for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
             const auto rising = std::ranges::count_if(edge, &TriangleEdge::rises);
-            if (2 * rising != std::ranges::ssize(edge)) {
-                shells[groups.group_of(edge[0].triangle)].is_closed = false;
-            }
+            if (2 * rising != std::ranges::ssize(edge)) { shells[groups.group_of(edge[0].triangle)].is_closed = false; }
         });
         for (const Doubles& one : doubles) {
             std::ptrdiff_t& times = shells[groups.group_of(one.all[0].second)].times;
@@ -411,18 +341,15 @@ private:
         return shells;
     }
 
-    /// Of triangles of a closed shell with the same three vertices as many stay as keep it closed:
-    /// a triangle and its back are a wall between two bodies, or a sheet. A shell that was written
-    /// several times stays once. Of an open shell the first one of the turn that more of them have
-    /// stays.
+    /// Of triangles of a closed shell with the same three vertices as many stay as keep it closed: a triangle and its
+    /// back are a wall between two bodies, or a sheet. A shell that was written several times stays once. Of an open
+    /// shell the first one of the turn that more of them have stays.
     void take_out_doubles(std::span<const Doubles> found) {
         std::vector<bool> stays(mesh_.triangles.size(), true);
         DisjointSets groups(mesh_.triangles.size());
         const std::vector<WrittenShell> shells = written_shells(found, groups);
         for (const auto& [all, rising] : found) {
-            if (all.size() == 1) {
-                continue;
-            }
+            if (all.size() == 1) { continue; }
             const auto turns = [&](const auto& one) { return turns_as(one.second, one.first); };
             const bool most = rising == 0 ? turns(all.front()) : rising > 0;
             const WrittenShell& shell = shells[groups.group_of(all.front().second)];
@@ -462,21 +389,15 @@ private:
             }
             found.back().all = std::span(sorted).subspan(first, last - first);
         }
-        if (found.size() < sorted.size()) {
-            take_out_doubles(found);
-        }
+        if (found.size() < sorted.size()) { take_out_doubles(found); }
     }
 
     template <typename T>
     static void keep(std::vector<T>& things, const std::vector<bool>& stays) {
-        if (things.empty()) {
-            return;
-        }
+        if (things.empty()) { return; }
         std::size_t kept = 0;
         for (std::size_t i = 0; i < things.size(); ++i) {
-            if (stays[i]) {
-                things[kept++] = things[i];
-            }
+            if (stays[i]) { things[kept++] = things[i]; }
         }
         things.resize(kept);
     }
@@ -500,9 +421,9 @@ private:
         turn_triangles();
     }
 
-    /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere,
-    /// so that a side would come twice: then a pair of triangles is divided at the middle of the
-    /// side, so that nothing opens, and a triangle without a neighbour there stays apart.
+    /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere, so that a side would
+    /// come twice: then a pair of triangles is divided at the middle of the side, so that nothing opens, and a triangle
+    /// without a neighbour there stays apart.
     void join_fans() {
         is_apart_.assign(mesh_.triangles.size(), false);
         const std::size_t split_before = counts_.split_edges;
@@ -515,8 +436,8 @@ private:
     /// Whether a side runs from its smaller vertex to its larger one once its triangle is turned.
     bool rises(const TriangleEdge& side) const { return side.rises != (turned_[side.triangle] != 0); }
 
-    /// Joins the corners of two triangles at both ends of the edge they share and agree about. A
-    /// corner's number is three times its triangle's plus its place.
+    /// Joins the corners of two triangles at both ends of the edge they share and agree about. A corner's number is
+    /// three times its triangle's plus its place.
     void join_but_apart(const std::vector<TriangleEdge>& sides) {
         fans_ = DisjointSets(mesh_.triangles.size() * 3);
         mates_.assign(mesh_.triangles.size(), {invalid_index, invalid_index, invalid_index});
@@ -530,9 +451,7 @@ private:
     }
 
     bool join(const TriangleEdge& one, const TriangleEdge& other) {
-        if (rises(one) == rises(other) || is_apart_[one.triangle] || is_apart_[other.triangle]) {
-            return false;
-        }
+        if (rises(one) == rises(other) || is_apart_[one.triangle] || is_apart_[other.triangle]) { return false; }
         fans_.join(corner_of(one, true), corner_of(other, true));
         fans_.join(corner_of(one, false), corner_of(other, false));
         mates_[one.triangle][one.corner] = other.triangle;
@@ -540,14 +459,13 @@ private:
         return true;
     }
 
-    /// Joins two triangles each at an edge where bodies touch: those with the inside of one body
-    /// between them. Nothing where the triangles at the edge bound no bodies.
+    /// Joins two triangles each at an edge where bodies touch: those with the inside of one body between them. Nothing
+    /// where the triangles at the edge bound no bodies.
     void join_bodies(std::span<const TriangleEdge> edge) {
         const glm::dvec3& from_m = mesh_.vertices_m[edge[0].least];
         const glm::dvec3 along_m = mesh_.vertices_m[edge[0].most] - from_m;
         const auto outwards_m = [&](const TriangleEdge& side) {
-            return mesh_.vertices_m[mesh_.triangles[side.triangle][(side.corner + 2U) % 3U]] -
-                   from_m;
+            return mesh_.vertices_m[mesh_.triangles[side.triangle][(side.corner + 2U) % 3U]] - from_m;
         };
         const glm::dvec3 up = glm::cross(along_m, outwards_m(edge[0]));
         const glm::dvec3 right = glm::cross(up, along_m) / glm::length(along_m);
@@ -563,25 +481,19 @@ private:
             const glm::dvec3 out_m = outwards_m(side);
             const double x = glm::dot(out_m, right);
             const double y = glm::dot(out_m, up);
-            const double part =
-                y / std::max(std::abs(x) + std::abs(y), std::numeric_limits<double>::min());
-            around.push_back(
-                {x < 0.0 ? 2.0 - part : (y < 0.0 ? 4.0 + part : part), !rises(side), side});
+            const double part = y / std::max(std::abs(x) + std::abs(y), std::numeric_limits<double>::min());
+            around.push_back({x < 0.0 ? 2.0 - part : (y < 0.0 ? 4.0 + part : part), !rises(side), side});
         }
         // Of two that coincide the one that leaves a body comes first: none has its back in it.
-        std::ranges::stable_sort(
-            around, {}, [](const Turn& one) { return std::pair(one.turn, one.enters); });
-        if (2 * std::ranges::count_if(around, &Turn::enters) != std::ranges::ssize(around)) {
-            return;
-        }
+        std::ranges::stable_sort(around, {}, [](const Turn& one) { return std::pair(one.turn, one.enters); });
+        if (2 * std::ranges::count_if(around, &Turn::enters) != std::ranges::ssize(around)) { return; }
         std::vector<TriangleEdge> entered;
         for (int round = 0; round < 2; ++round) {
             for (const Turn& one : around) {
                 if (one.enters && round == 0) {
                     entered.push_back(one.side);
-                } else if (
-                    !one.enters && !entered.empty() &&
-                    mates_[one.side.triangle][one.side.corner] == invalid_index) {
+                } else if (!one.enters && !entered.empty() &&
+                           mates_[one.side.triangle][one.side.corner] == invalid_index) {
                     join(entered.back(), one.side);
                     entered.pop_back();
                 }
@@ -597,16 +509,13 @@ private:
             const std::uint32_t t = corner / 3;
             const std::uint32_t from = fans_.group_of(corner);
             const std::uint32_t to = fans_.group_of(t * 3 + (corner + 1) % 3);
-            ends.push_back(
-                turned_[t] != 0 ? std::array{to, from, corner} : std::array{from, to, corner});
+            ends.push_back(turned_[t] != 0 ? std::array{to, from, corner} : std::array{from, to, corner});
         }
         std::ranges::sort(ends);
         bool any = false;
         std::vector<bool> touched(mesh_.triangles.size(), false);
         for (std::size_t i = 1; i < ends.size(); ++i) {
-            if (ends[i][0] != ends[i - 1][0] || ends[i][1] != ends[i - 1][1]) {
-                continue;
-            }
+            if (ends[i][0] != ends[i - 1][0] || ends[i][1] != ends[i - 1][1]) { continue; }
             any = true;
             const auto mate_of = [&](const std::array<std::uint32_t, 3>& end) {
                 return mates_[end[2] / 3][end[2] % 3];
@@ -632,22 +541,17 @@ private:
         const std::uint32_t from = mesh_.triangles[triangle][corner % 3];
         const std::uint32_t to = mesh_.triangles[triangle][(corner + 1) % 3];
         std::size_t mate_from = 0;
-        while (std::minmax(
-                   mesh_.triangles[mate][mate_from], mesh_.triangles[mate][(mate_from + 1) % 3]) !=
+        while (std::minmax(mesh_.triangles[mate][mate_from], mesh_.triangles[mate][(mate_from + 1) % 3]) !=
                std::minmax(from, to)) {
             ++mate_from;
         }
         const std::uint32_t middle = copy_of(from);
         mesh_.vertices_m[middle] = 0.5 * (mesh_.vertices_m[from] + mesh_.vertices_m[to]);
-        if (!mesh_.colours.empty()) {
-            mesh_.colours[middle] = 0.5F * (mesh_.colours[from] + mesh_.colours[to]);
-        }
-        for (const auto& [at, k] :
-             {std::pair<std::uint32_t, std::size_t>(triangle, corner % 3), {mate, mate_from}}) {
-            const glm::vec3 colour =
-                corner_colours_.empty()
-                    ? glm::vec3(0.0F)
-                    : 0.5F * (corner_colours_[at][k] + corner_colours_[at][(k + 1) % 3]);
+        if (!mesh_.colours.empty()) { mesh_.colours[middle] = 0.5F * (mesh_.colours[from] + mesh_.colours[to]); }
+        for (const auto& [at, k] : {std::pair<std::uint32_t, std::size_t>(triangle, corner % 3), {mate, mate_from}}) {
+            const glm::vec3 colour = corner_colours_.empty()
+                                         ? glm::vec3(0.0F)
+                                         : 0.5F * (corner_colours_[at][k] + corner_colours_[at][(k + 1) % 3]);
             divide_side(at, k, {middle, middle, 0.5F, colour});
             turned_.push_back(std::uint8_t(turned_[at]));
             is_apart_.push_back(false);
@@ -688,21 +592,15 @@ private:
 
     std::uint32_t copy_of(std::uint32_t vertex) {
         mesh_.vertices_m.push_back(glm::dvec3(mesh_.vertices_m[vertex]));
-        if (!mesh_.colours.empty()) {
-            mesh_.colours.push_back(glm::vec3(mesh_.colours[vertex]));
-        }
+        if (!mesh_.colours.empty()) { mesh_.colours.push_back(glm::vec3(mesh_.colours[vertex])); }
         return static_cast<std::uint32_t>(mesh_.vertices_m.size() - 1);
     }
 
     void turn_triangles() {
         for (std::size_t t = 0; t < turned_.size(); ++t) {
-            if (turned_[t] == 0) {
-                continue;
-            }
+            if (turned_[t] == 0) { continue; }
             std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
-            if (!corner_colours_.empty()) {
-                std::swap(corner_colours_[t][1], corner_colours_[t][2]);
-            }
+            if (!corner_colours_.empty()) { std::swap(corner_colours_[t][1], corner_colours_[t][2]); }
             if (!mesh_.corner_texture_coordinates.empty()) {
                 Triangle& corners = mesh_.corner_texture_coordinates[t];
                 std::swap(corners[1], corners[2]);
@@ -721,9 +619,7 @@ private:
             if (glm::dot(front, glm::dvec3(mesh_.normals[normal])) < 0.0) {
                 const auto next = static_cast<std::uint32_t>(mesh_.normals.size());
                 const auto [at, is_new] = turned_normals_.try_emplace(normal, next);
-                if (is_new) {
-                    mesh_.normals.push_back(-mesh_.normals[normal]);
-                }
+                if (is_new) { mesh_.normals.push_back(-mesh_.normals[normal]); }
                 normal = at->second;
             }
         }
@@ -743,9 +639,7 @@ private:
         keep(mesh_.vertices_m, stays);
         keep(mesh_.colours, stays);
         for (Triangle& triangle : mesh_.triangles) {
-            for (std::uint32_t& vertex : triangle) {
-                vertex = places[vertex];
-            }
+            for (std::uint32_t& vertex : triangle) { vertex = places[vertex]; }
         }
     }
 
@@ -756,16 +650,13 @@ private:
     std::vector<CornerColours> corner_colours_;
     std::vector<std::uint8_t> turned_; ///< 1 for triangles that are to be turned
     std::vector<bool> is_apart_;       ///< triangles that share no vertex with others
-    std::vector<Triangle>
-        mates_; ///< the triangle joined at each side that a corner begins, or invalid_index
+    std::vector<Triangle> mates_;      ///< the triangle joined at each side that a corner begins, or invalid_index
     std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;
     DisjointSets fans_{0}; ///< of corners
 };
 
 } // namespace
 
-RepairedMesh repaired(TriangleMesh mesh, Seams seams) {
-    return Repairing(std::move(mesh), seams).repair();
-}
+RepairedMesh repaired(TriangleMesh mesh, Seams seams) { return Repairing(std::move(mesh), seams).repair(); }
 
 } // namespace octant::models::repair

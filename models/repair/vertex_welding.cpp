@@ -33,23 +33,17 @@ struct KeyHash {
 } // namespace
 
 std::vector<std::uint32_t> first_duplicates(
-    std::span<const glm::dvec3> vertices_m,
-    std::span<const glm::vec3> colours,
-    const std::vector<bool>& used) {
+    std::span<const glm::dvec3> vertices_m, std::span<const glm::vec3> colours, const std::vector<bool>& used) {
     std::unordered_map<Key, std::uint32_t, KeyHash> first_of;
     first_of.reserve(vertices_m.size());
     std::vector<std::uint32_t> firsts(vertices_m.size(), invalid_index);
     for (std::uint32_t v = 0; v < firsts.size(); ++v) {
-        if (!used[v]) {
-            continue;
-        }
+        if (!used[v]) { continue; }
         Key key;
         for (int k = 0; k < 3; ++k) {
             const auto part = static_cast<std::size_t>(k);
             key.place[part] = std::bit_cast<std::uint64_t>(vertices_m[v][k] + 0.0); // -0 + 0 is 0
-            if (!colours.empty()) {
-                key.colour[part] = std::bit_cast<std::uint32_t>(colours[v][k] + 0.0F);
-            }
+            if (!colours.empty()) { key.colour[part] = std::bit_cast<std::uint32_t>(colours[v][k] + 0.0F); }
         }
         firsts[v] = first_of.try_emplace(key, v).first->second;
     }
@@ -66,9 +60,7 @@ void average_colours(std::vector<glm::vec3>& colours, std::span<const std::uint3
         }
     }
     for (std::uint32_t v = 0; v < colours.size(); ++v) {
-        if (counts[v] > 1) {
-            colours[v] = sums[v] / static_cast<float>(counts[v]);
-        }
+        if (counts[v] > 1) { colours[v] = sums[v] / static_cast<float>(counts[v]); }
     }
 }
 

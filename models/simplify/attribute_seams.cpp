@@ -1,16 +1,15 @@
-// Files have a vertex twice where colours or texture coordinates break. Welded it is one vertex of
-// the surface with several corners, the wedges of H. Hoppe, "Efficient Implementation of
-// Progressive Meshes", 1998. Here a wedge is a vertex and the chart it is seen from; its attributes
-// are those of the original's nearest point in that chart, so that nothing runs over a seam,
-// however the seam was simplified.
+// Files have a vertex twice where colours or texture coordinates break. Welded it is one vertex of the surface with
+// several corners, the wedges of H. Hoppe, "Efficient Implementation of Progressive Meshes", 1998. Here a wedge is a
+// vertex and the chart it is seen from; its attributes are those of the original's nearest point in that chart, so that
+// nothing runs over a seam, however the seam was simplified.
 //
-// A seam may have one and the same chart on both sides, such as the seam of a cylinder's mantle.
-// The nearest point would then be found on either side of it, so such a chart is cut in two or
-// more, none of which meets itself at a seam.
+// A seam may have one and the same chart on both sides, such as the seam of a cylinder's mantle. The nearest point
+// would then be found on either side of it, so such a chart is cut in two or more, none of which meets itself at a
+// seam.
 #include "models/simplify/attribute_seams.h"
 
-#include "models/mesh_edges.h"
 #include "models/invalid_index.h"
+#include "models/mesh_edges.h"
 
 #include <glm/geometric.hpp>
 
@@ -32,16 +31,14 @@ namespace {
 
 /// Colours break where a part of them differs by more: a few steps of eight bits do not show.
 constexpr float colours_alike = 0.02F;
-/// Texture coordinates break where one of them differs by more: the hundredth part of a pixel of a
-/// picture 1,000 pixels wide.
+/// Texture coordinates break where one of them differs by more: the hundredth part of a pixel of a picture 1,000 pixels
+/// wide.
 constexpr float textures_alike = 1e-5F;
 
 template <typename Vector>
 bool is_alike(const Vector& a, const Vector& b, float within) {
     for (int part = 0; part < Vector::length(); ++part) {
-        if (!(std::abs(a[part] - b[part]) <= within)) {
-            return false;
-        }
+        if (!(std::abs(a[part] - b[part]) <= within)) { return false; }
     }
     return true;
 }
@@ -56,16 +53,12 @@ struct Attributes {
 
     /// Whether they agree at a corner of one triangle and a corner of another.
     bool agree(std::uint32_t t, std::size_t k, std::uint32_t other, std::size_t j) const {
-        if (!colours.empty() && !is_alike(colours[t][k], colours[other][j], colours_alike)) {
-            return false;
-        }
-        if (corner_textures.empty()) {
-            return true;
-        }
+        if (!colours.empty() && !is_alike(colours[t][k], colours[other][j], colours_alike)) { return false; }
+        if (corner_textures.empty()) { return true; }
         const std::uint32_t a = corner_textures[t][k];
         const std::uint32_t b = corner_textures[other][j];
-        return a == b || (a != invalid_index && b != invalid_index &&
-                          is_alike(textures[a], textures[b], textures_alike));
+        return a == b ||
+               (a != invalid_index && b != invalid_index && is_alike(textures[a], textures[b], textures_alike));
     }
 };
 
@@ -85,9 +78,8 @@ std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, const Attributes
             const TriangleEdge& other = edge[i];
             const std::uint32_t first = one.triangle;
             const std::uint32_t second = other.triangle;
-            const bool agree =
-                attributes.agree(first, one.min_corner(), second, other.min_corner()) &&
-                attributes.agree(first, one.max_corner(), second, other.max_corner());
+            const bool agree = attributes.agree(first, one.min_corner(), second, other.min_corner()) &&
+                               attributes.agree(first, one.max_corner(), second, other.max_corner());
             neighbours.push_back({first, second, agree});
         }
     });
@@ -98,25 +90,17 @@ std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, const Attributes
 class ChartCuts {
 public:
     ChartCuts(std::span<const Neighbours> neighbours, std::size_t triangles)
-        : neighbours_(neighbours)
-        , sets_(triangles)
-        , cells_(triangles, invalid_index) {
+        : neighbours_(neighbours), sets_(triangles), cells_(triangles, invalid_index) {
         for (const Neighbours& pair : neighbours) {
-            if (pair.agree) {
-                sets_.join(pair.first, pair.second);
-            }
+            if (pair.agree) { sets_.join(pair.first, pair.second); }
         }
     }
 
     /// For each triangle a number that all triangles of its chart have, and no others.
     std::vector<std::uint32_t> charts() {
         std::vector<std::uint32_t> whole(cells_.size());
-        for (std::uint32_t t = 0; t < whole.size(); ++t) {
-            whole[t] = sets_.group_of(t);
-        }
-        if (!find_self_meetings(whole)) {
-            return whole;
-        }
+        for (std::uint32_t t = 0; t < whole.size(); ++t) { whole[t] = sets_.group_of(t); }
+        if (!find_self_meetings(whole)) { return whole; }
         grow_cells();
         join_cells();
         for (std::uint32_t t = 0; t < whole.size(); ++t) {
@@ -149,9 +133,7 @@ private:
             }
         }
         std::deque<std::uint32_t> waiting;
-        for (const auto& [triangle, others] : meetings_) {
-            waiting.push_back(triangle);
-        }
+        for (const auto& [triangle, others] : meetings_) { waiting.push_back(triangle); }
         while (!waiting.empty()) {
             const std::uint32_t triangle = waiting.front();
             waiting.pop_front();
@@ -182,9 +164,7 @@ private:
     }
 
     void join(std::uint32_t a, std::uint32_t b) {
-        if (a == b || meetings_[a].contains(b)) {
-            return;
-        }
+        if (a == b || meetings_[a].contains(b)) { return; }
         const auto [first, later] = std::minmax(a, b);
         sets_.join(first, later);
         for (const std::uint32_t other : meetings_[later]) {
@@ -208,22 +188,19 @@ std::vector<bool> near_seams(const TriangleMesh& made) {
     std::vector<bool> on_seam(made.vertices_m.size(), false);
     for (std::size_t t = 0; t < made.triangles.size(); ++t) {
         for (const std::uint32_t vertex : made.triangles[t]) {
-            on_seam[vertex] = on_seam[vertex] || (mark_at[vertex] != invalid_index &&
-                                                  mark_at[vertex] != made.triangle_materials[t]);
+            on_seam[vertex] =
+                on_seam[vertex] || (mark_at[vertex] != invalid_index && mark_at[vertex] != made.triangle_materials[t]);
             mark_at[vertex] = made.triangle_materials[t];
         }
     }
     std::vector<bool> near = on_seam;
     for (const auto& [a, b, c] : made.triangles) {
-        if (on_seam[a] || on_seam[b] || on_seam[c]) {
-            near[a] = near[b] = near[c] = true;
-        }
+        if (on_seam[a] || on_seam[b] || on_seam[c]) { near[a] = near[b] = near[c] = true; }
     }
     return near;
 }
 
-/// Where texture coordinates are looked at in a triangle, besides its corners, where they are
-/// right.
+/// Where texture coordinates are looked at in a triangle, besides its corners, where they are right.
 std::vector<glm::dvec3> sample_weights() {
     constexpr int fields = 4;
     std::vector<glm::dvec3> weights;
@@ -247,11 +224,8 @@ glm::dvec3 place_m(const TriangleMesh& mesh, const Triangle& triangle, const glm
 std::pair<std::size_t, double> longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
     std::pair<std::size_t, double> longest(0, -1.0);
     for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 side =
-            mesh.vertices_m[triangle[(k + 1) % 3]] - mesh.vertices_m[triangle[k]];
-        if (glm::dot(side, side) > longest.second) {
-            longest = {k, glm::dot(side, side)};
-        }
+        const glm::dvec3 side = mesh.vertices_m[triangle[(k + 1) % 3]] - mesh.vertices_m[triangle[k]];
+        if (glm::dot(side, side) > longest.second) { longest = {k, glm::dot(side, side)}; }
     }
     return longest;
 }
@@ -259,9 +233,7 @@ std::pair<std::size_t, double> longest_side(const TriangleMesh& mesh, const Tria
 /// Divides edges of a mesh at their midpoints, each triangle at most once.
 class EdgeDivision {
 public:
-    explicit EdgeDivision(TriangleMesh& mesh)
-        : mesh_(mesh)
-        , is_divided_(mesh.triangles.size(), false) {
+    explicit EdgeDivision(TriangleMesh& mesh) : mesh_(mesh), is_divided_(mesh.triangles.size(), false) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
                 sides_[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = {t, k};
@@ -273,27 +245,19 @@ public:
         const std::uint32_t from = mesh_.triangles[triangle][side];
         const std::uint32_t to = mesh_.triangles[triangle][(side + 1) % 3];
         const auto other = sides_.find({to, from});
-        if (is_divided_[triangle] || (other != sides_.end() && is_divided_[other->second.first])) {
-            return;
-        }
+        if (is_divided_[triangle] || (other != sides_.end() && is_divided_[other->second.first])) { return; }
         const auto middle = static_cast<std::uint32_t>(mesh_.vertices_m.size());
         mesh_.vertices_m.push_back(0.5 * (mesh_.vertices_m[from] + mesh_.vertices_m[to]));
-        if (!mesh_.colours.empty()) {
-            mesh_.colours.push_back(0.5F * (mesh_.colours[from] + mesh_.colours[to]));
-        }
+        if (!mesh_.colours.empty()) { mesh_.colours.push_back(0.5F * (mesh_.colours[from] + mesh_.colours[to])); }
         cut(triangle, side, middle);
-        if (other != sides_.end()) {
-            cut(other->second.first, other->second.second, middle);
-        }
+        if (other != sides_.end()) { cut(other->second.first, other->second.second, middle); }
     }
 
     /// Triangles that were divided, and the new ones.
     std::vector<std::uint32_t> changed() const {
         std::vector<std::uint32_t> triangles;
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-            if (t >= is_divided_.size() || is_divided_[t]) {
-                triangles.push_back(t);
-            }
+            if (t >= is_divided_.size() || is_divided_[t]) { triangles.push_back(t); }
         }
         return triangles;
     }
@@ -320,17 +284,14 @@ private:
 } // namespace
 
 AttributeSeams::AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> corner_colours)
-    : marked_(std::move(mesh))
-    , corner_colours_(std::move(corner_colours))
-    , textures_(std::exchange(marked_.texture_coordinates, {}))
-    , corner_textures_(std::exchange(marked_.corner_texture_coordinates, {}))
-    , normals_(std::exchange(marked_.normals, {}))
-    , corner_normals_(std::exchange(marked_.corner_normals, {})) {
+    : marked_(std::move(mesh)), corner_colours_(std::move(corner_colours)),
+      textures_(std::exchange(marked_.texture_coordinates, {})),
+      corner_textures_(std::exchange(marked_.corner_texture_coordinates, {})),
+      normals_(std::exchange(marked_.normals, {})), corner_normals_(std::exchange(marked_.corner_normals, {})) {
     if (!corner_colours_.empty() || has_texture_coordinates()) {
         const std::vector<Neighbours> neighbours =
             neighbours_of(marked_, {corner_colours_, textures_, corner_textures_});
-        const std::vector<std::uint32_t> charts =
-            ChartCuts(neighbours, marked_.triangles.size()).charts();
+        const std::vector<std::uint32_t> charts = ChartCuts(neighbours, marked_.triangles.size()).charts();
         mark(charts);
         next_to_.assign(marked_.triangles.size(), {invalid_index, invalid_index, invalid_index});
         for (const Neighbours& pair : neighbours) {
@@ -362,9 +323,7 @@ void AttributeSeams::mark(const std::vector<std::uint32_t>& charts) {
         marked_.triangle_materials.push_back(at->second);
         triangles[at->second].push_back(t);
     }
-    for (std::vector<std::uint32_t>& of_chart : triangles) {
-        charts_.push_back(chart_of(std::move(of_chart)));
-    }
+    for (std::vector<std::uint32_t>& of_chart : triangles) { charts_.push_back(chart_of(std::move(of_chart))); }
     if (charts_.size() == 1 && materials_.empty()) {
         marked_.materials.clear();
         marked_.triangle_materials.clear();
@@ -373,41 +332,32 @@ void AttributeSeams::mark(const std::vector<std::uint32_t>& charts) {
 
 AttributeSeams::Chart AttributeSeams::chart_of(std::vector<std::uint32_t> triangles) const {
     std::vector<Triangle> corners;
-    for (const std::uint32_t t : triangles) {
-        corners.push_back(marked_.triangles[t]);
-    }
+    for (const std::uint32_t t : triangles) { corners.push_back(marked_.triangles[t]); }
     measure::TriangleBvh bvh(marked_.vertices_m, corners);
     return {std::move(triangles), std::move(bvh)};
 }
 
-/// Where a triangle has moved off its chart a little, its corners may be nearest to another end of
-/// the chart. Texture coordinates then change more within the triangle than between its corners.
-std::optional<AttributeSeams::Chart>
-AttributeSeams::discontinuous_part(const TriangleMesh& made, std::size_t triangle) const {
+/// Where a triangle has moved off its chart a little, its corners may be nearest to another end of the chart. Texture
+/// coordinates then change more within the triangle than between its corners.
+std::optional<AttributeSeams::Chart> AttributeSeams::discontinuous_part(
+    const TriangleMesh& made, std::size_t triangle) const {
     constexpr double jump2 = 0.0625; // of the squared difference between corners
     const Chart& chart = charts_[chart_at(made, triangle)];
-    const auto at = [&](const glm::dvec3& at_m) {
-        return texture_at(chart, chart.bvh.nearest(at_m));
-    };
+    const auto at = [&](const glm::dvec3& at_m) { return texture_at(chart, chart.bvh.nearest(at_m)); };
     const Triangle& corners = made.triangles[triangle];
     std::array<glm::dvec2, 3> places;
-    for (std::size_t k = 0; k < 3; ++k) {
-        places.at(k) = at(made.vertices_m[corners[k]]);
-    }
+    for (std::size_t k = 0; k < 3; ++k) { places.at(k) = at(made.vertices_m[corners[k]]); }
     double largest2 = 0.0;
     double off2 = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
         const glm::dvec2 side = places.at(next) - places.at(k);
-        const glm::dvec3 middle_m =
-            0.5 * (made.vertices_m[corners[k]] + made.vertices_m[corners[next]]);
+        const glm::dvec3 middle_m = 0.5 * (made.vertices_m[corners[k]] + made.vertices_m[corners[next]]);
         const glm::dvec2 off = 0.5 * (places.at(next) + places.at(k)) - at(middle_m);
         largest2 = std::max(largest2, glm::dot(side, side));
         off2 = std::max(off2, glm::dot(off, off));
     }
-    if (off2 <= jump2 * largest2) {
-        return std::nullopt;
-    }
+    if (off2 <= jump2 * largest2) { return std::nullopt; }
     const glm::dvec3 centre_m = place_m(made, corners, glm::dvec3(1.0 / 3.0));
     double reach_m = 0.0;
     for (const std::uint32_t corner : corners) {
@@ -420,13 +370,10 @@ AttributeSeams::discontinuous_part(const TriangleMesh& made, std::size_t triangl
     for (std::size_t i = 0; i < part.size(); ++i) {
         for (const std::uint32_t other : next_to_[part[i]]) {
             const bool is_near =
-                other != invalid_index &&
-                std::ranges::any_of(marked_.triangles[other], [&](std::uint32_t vertex) {
+                other != invalid_index && std::ranges::any_of(marked_.triangles[other], [&](std::uint32_t vertex) {
                     return glm::distance(marked_.vertices_m[vertex], centre_m) <= reach_m;
                 });
-            if (is_near && is_met.insert(other).second) {
-                part.push_back(other);
-            }
+            if (is_near && is_met.insert(other).second) { part.push_back(other); }
         }
     }
     return chart_of(std::move(part));
@@ -440,51 +387,43 @@ bool AttributeSeams::is_textured(const Chart& chart) const {
     return has_texture_coordinates() && corner_textures_[chart.triangles.front()][0] != invalid_index;
 }
 
-AttributeSeams::Lookup
-AttributeSeams::lookup(const TriangleMesh& made, std::size_t triangle) const {
+AttributeSeams::Lookup AttributeSeams::lookup(const TriangleMesh& made, std::size_t triangle) const {
     Lookup found;
     found.chart = &charts_[chart_at(made, triangle)];
     found.is_textured = is_textured(*found.chart);
-    if (found.is_textured) {
-        found.part = discontinuous_part(made, triangle);
-    }
+    if (found.is_textured) { found.part = discontinuous_part(made, triangle); }
     found.facing = normal_of(made, made.triangles[triangle]);
     found.middle_m = place_m(made, made.triangles[triangle], glm::dvec3(1.0 / 3.0));
     return found;
 }
 
-glm::dvec2
-AttributeSeams::texture_at(const Chart& chart, const measure::NearestOnMesh& nearest) const {
+glm::dvec2 AttributeSeams::texture_at(const Chart& chart, const measure::NearestOnMesh& nearest) const {
     const auto [a, b, c] = corner_textures_[chart.triangles[nearest.triangle]];
-    return nearest.weights.x * glm::dvec2(textures_[a]) +
-           nearest.weights.y * glm::dvec2(textures_[b]) +
+    return nearest.weights.x * glm::dvec2(textures_[a]) + nearest.weights.y * glm::dvec2(textures_[b]) +
            nearest.weights.z * glm::dvec2(textures_[c]);
 }
 
-glm::dvec3
-AttributeSeams::colour_at(const Chart& chart, const measure::NearestOnMesh& nearest) const {
+glm::dvec3 AttributeSeams::colour_at(const Chart& chart, const measure::NearestOnMesh& nearest) const {
     const std::uint32_t triangle = chart.triangles[nearest.triangle];
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
-        const glm::vec3& colour = corner_colours_.empty()
-                                      ? marked_.colours[marked_.triangles[triangle][k]]
-                                      : corner_colours_[triangle][k];
+        const glm::vec3& colour =
+            corner_colours_.empty() ? marked_.colours[marked_.triangles[triangle][k]] : corner_colours_[triangle][k];
         sum += nearest.weights[static_cast<int>(k)] * glm::dvec3(colour);
     }
     return sum;
 }
 
-/// At a crease the nearest point (`known`, if not null) may lie on the wrong side. Where the
-/// triangle there faces another way, points further inside the triangle of the result are asked.
+/// At a crease the nearest point (`known`, if not null) may lie on the wrong side. Where the triangle there faces
+/// another way, points further inside the triangle of the result are asked.
 glm::dvec3 AttributeSeams::normal_at(
     const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const {
     constexpr double agreeing_cosine = 0.7;
     constexpr std::array<double, 4> pulls = {0.0, 0.1, 0.4, 1.0}; // shares of the way to the middle
     for (const double pull : pulls) {
-        const measure::NearestOnMesh nearest =
-            known != nullptr && pull == 0.0
-                ? *known
-                : lookup.chart->bvh.nearest(at_m + pull * (lookup.middle_m - at_m));
+        const measure::NearestOnMesh nearest = known != nullptr && pull == 0.0
+                                                   ? *known
+                                                   : lookup.chart->bvh.nearest(at_m + pull * (lookup.middle_m - at_m));
         const std::uint32_t triangle = lookup.chart->triangles[nearest.triangle];
         const auto [a, b, c] = corner_normals_[triangle];
         const glm::dvec3 sum = nearest.weights.x * glm::dvec3(normals_[a]) +
@@ -492,38 +431,26 @@ glm::dvec3 AttributeSeams::normal_at(
                                nearest.weights.z * glm::dvec3(normals_[c]);
         const double length = glm::length(sum);
         if (length > 0.0 &&
-            glm::dot(normal_of(marked_, marked_.triangles[triangle]), lookup.facing) >=
-                agreeing_cosine) {
+            glm::dot(normal_of(marked_, marked_.triangles[triangle]), lookup.facing) >= agreeing_cosine) {
             return sum / length;
         }
     }
     return lookup.facing;
 }
 
-AttributeSeams::Values
-AttributeSeams::values_at(const Lookup& lookup, const glm::dvec3& at_m) const {
+AttributeSeams::Values AttributeSeams::values_at(const Lookup& lookup, const glm::dvec3& at_m) const {
     const Chart& own = lookup.own();
     const measure::NearestOnMesh nearest = own.bvh.nearest(at_m);
     Values values;
-    if (lookup.is_textured) {
-        values.texture = texture_at(own, nearest);
-    }
-    if (has_normals()) {
-        values.normal = normal_at(lookup, at_m, lookup.part ? nullptr : &nearest);
-    }
-    if (has_colours()) {
-        values.colour = colour_at(own, nearest);
-    }
+    if (lookup.is_textured) { values.texture = texture_at(own, nearest); }
+    if (has_normals()) { values.normal = normal_at(lookup, at_m, lookup.part ? nullptr : &nearest); }
+    if (has_colours()) { values.colour = colour_at(own, nearest); }
     return values;
 }
 
 TriangleMesh AttributeSeams::with_colours(TriangleMesh made) const {
-    if (!corner_colours_.empty()) {
-        take_colours(made);
-    }
-    if (!charts_.empty()) {
-        take_materials(made);
-    }
+    if (!corner_colours_.empty()) { take_colours(made); }
+    if (!charts_.empty()) { take_materials(made); }
     return made;
 }
 
@@ -544,8 +471,8 @@ bool AttributeSeams::is_marked(const TriangleMesh& made) const {
     return made.triangles == marked_.triangles && made.vertices_m == marked_.vertices_m;
 }
 
-/// Gives wedges near seams the colour of their chart: the vertex itself for the first chart, a copy
-/// of it for each other one.
+/// Gives wedges near seams the colour of their chart: the vertex itself for the first chart, a copy of it for each
+/// other one.
 void AttributeSeams::take_colours(TriangleMesh& made) const {
     const std::vector<bool> near = near_seams(made);
     std::vector<bool> is_taken(made.vertices_m.size(), false);
@@ -553,9 +480,7 @@ void AttributeSeams::take_colours(TriangleMesh& made) const {
     for (std::size_t t = 0; t < made.triangles.size(); ++t) {
         const std::uint32_t chart = made.triangle_materials[t];
         for (std::uint32_t& vertex : made.triangles[t]) {
-            if (!near[vertex]) {
-                continue;
-            }
+            if (!near[vertex]) { continue; }
             const auto [at, is_new] = wedges.try_emplace({chart, vertex}, vertex);
             if (is_new && is_taken[vertex]) {
                 at->second = static_cast<std::uint32_t>(made.vertices_m.size());
@@ -565,8 +490,7 @@ void AttributeSeams::take_colours(TriangleMesh& made) const {
             if (is_new) {
                 is_taken[vertex] = true;
                 const Chart& own = charts_[chart];
-                made.colours[at->second] =
-                    glm::vec3(colour_at(own, own.bvh.nearest(made.vertices_m[vertex])));
+                made.colours[at->second] = glm::vec3(colour_at(own, own.bvh.nearest(made.vertices_m[vertex])));
             }
             vertex = at->second;
         }
@@ -589,22 +513,17 @@ void AttributeSeams::take_corners(TriangleMesh& made) const {
             if (from.is_textured) {
                 const auto next = static_cast<std::uint32_t>(made.texture_coordinates.size());
                 const auto [at, is_new] =
-                    from.part ? std::pair(wedges.end(), true)
-                              : wedges.try_emplace({chart_at(made, t), vertex}, next);
+                    from.part ? std::pair(wedges.end(), true) : wedges.try_emplace({chart_at(made, t), vertex}, next);
                 if (is_new) {
-                    made.texture_coordinates.push_back(
-                        glm::vec2(texture_at(from.own(), from.own().bvh.nearest(at_m))));
+                    made.texture_coordinates.push_back(glm::vec2(texture_at(from.own(), from.own().bvh.nearest(at_m))));
                 }
                 made.corner_texture_coordinates[t][k] = from.part ? next : at->second;
             }
             if (has_normals()) {
                 const glm::vec3 normal(normal_at(from, at_m, nullptr));
                 const auto [at, is_new] = known_normals.try_emplace(
-                    {normal.x, normal.y, normal.z},
-                    static_cast<std::uint32_t>(made.normals.size()));
-                if (is_new) {
-                    made.normals.push_back(normal);
-                }
+                    {normal.x, normal.y, normal.z}, static_cast<std::uint32_t>(made.normals.size()));
+                if (is_new) { made.normals.push_back(normal); }
                 made.corner_normals[t][k] = at->second;
             }
         }
@@ -613,17 +532,11 @@ void AttributeSeams::take_corners(TriangleMesh& made) const {
 
 void AttributeSeams::take_materials(TriangleMesh& made) const {
     made.materials = materials_;
-    for (std::uint32_t& mark : made.triangle_materials) {
-        mark = material_of_mark_[mark];
-    }
-    if (materials_.empty()) {
-        made.triangle_materials.clear();
-    }
+    for (std::uint32_t& mark : made.triangle_materials) { mark = material_of_mark_[mark]; }
+    if (materials_.empty()) { made.triangle_materials.clear(); }
 }
 
-std::array<AttributeSeams::SquaredErrors, 3> AttributeSeams::squares(
-    const TriangleMesh& made,
-    std::size_t triangle,
+std::array<AttributeSeams::SquaredErrors, 3> AttributeSeams::squares(const TriangleMesh& made, std::size_t triangle,
     const std::vector<std::optional<glm::dvec3>>& vertex_colours) const {
     static const std::vector<glm::dvec3> samples = sample_weights();
     const Triangle& corners = made.triangles[triangle];
@@ -646,14 +559,10 @@ std::array<AttributeSeams::SquaredErrors, 3> AttributeSeams::squares(
             off.normal += weight * at_corners.at(k).normal;
             off.colour -= weight * at_corners.at(k).colour;
         }
-        const double angle_deg =
-            degrees_per_radian * std::atan2(
-                                     glm::length(glm::cross(right_normal, off.normal)),
-                                     glm::dot(right_normal, off.normal));
+        const double angle_deg = degrees_per_radian * std::atan2(glm::length(glm::cross(right_normal, off.normal)),
+                                                          glm::dot(right_normal, off.normal));
         const std::array<double, 3> squared = {
-            glm::dot(off.texture, off.texture),
-            angle_deg * angle_deg,
-            glm::dot(off.colour, off.colour)};
+            glm::dot(off.texture, off.texture), angle_deg * angle_deg, glm::dot(off.colour, off.colour)};
         for (std::size_t kind = 0; kind < 3; ++kind) {
             squares.at(kind).max = std::max(squares.at(kind).max, squared.at(kind));
             squares.at(kind).mean += squared.at(kind) / static_cast<double>(samples.size());
@@ -664,30 +573,22 @@ std::array<AttributeSeams::SquaredErrors, 3> AttributeSeams::squares(
 
 AttributeErrors AttributeSeams::errors(const TriangleMesh& made, LookAt which) const {
     constexpr std::size_t enough = 8'000;
-    if (charts_.empty() || is_marked(made)) {
-        return {};
-    }
+    if (charts_.empty() || is_marked(made)) { return {}; }
     const std::vector<bool> near = corner_colours_.empty() ? std::vector<bool>() : near_seams(made);
     std::vector<std::optional<glm::dvec3>> colours(made.colours.size());
     for (std::size_t vertex = 0; vertex < colours.size(); ++vertex) {
-        if (near.empty() || !near[vertex]) {
-            colours[vertex] = glm::dvec3(made.colours[vertex]);
-        }
+        if (near.empty() || !near[vertex]) { colours[vertex] = glm::dvec3(made.colours[vertex]); }
     }
-    const std::size_t stride = which == LookAt::AllTriangles
-                                   ? 1
-                                   : std::max<std::size_t>(1, made.triangles.size() / enough);
+    const std::size_t stride =
+        which == LookAt::AllTriangles ? 1 : std::max<std::size_t>(1, made.triangles.size() / enough);
     AttributeErrors errors;
-    const std::array<AttributeError*, 3> kinds = {
-        &errors.texture, &errors.normal_deg, &errors.colour};
+    const std::array<AttributeError*, 3> kinds = {&errors.texture, &errors.normal_deg, &errors.colour};
     std::array<double, 3> areas{};
     for (std::size_t t = 0; t < made.triangles.size(); t += stride) {
         const std::array<SquaredErrors, 3> found = squares(made, t, colours);
         const double area = glm::length(area_vector(made, made.triangles[t]));
         for (std::size_t kind = 0; kind < 3; ++kind) {
-            if (kind == 0 && !is_textured(charts_[chart_at(made, t)])) {
-                continue;
-            }
+            if (kind == 0 && !is_textured(charts_[chart_at(made, t)])) { continue; }
             kinds.at(kind)->max = std::max(kinds.at(kind)->max, std::sqrt(found.at(kind).max));
             kinds.at(kind)->rms += area * found.at(kind).mean;
             areas.at(kind) += area;
@@ -700,11 +601,8 @@ AttributeErrors AttributeSeams::errors(const TriangleMesh& made, LookAt which) c
     return errors;
 }
 
-TriangleMesh AttributeSeams::divided(
-    TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const {
-    if (charts_.empty() || is_marked(made)) {
-        return made;
-    }
+TriangleMesh AttributeSeams::divided(TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const {
+    if (charts_.empty() || is_marked(made)) { return made; }
     // Where an attribute breaks within a triangle, dividing it again and again does not help.
     constexpr double smallest2 = 1.0 / 1024.0;
     const auto is_large = [&](std::size_t t) {
@@ -716,8 +614,7 @@ TriangleMesh AttributeSeams::divided(
     };
     const auto is_off = [&](std::size_t t) {
         const std::array<SquaredErrors, 3> found = squares(made, t, {});
-        return found[0].max > bounds.texture * bounds.texture ||
-               found[1].max > bounds.normal_deg * bounds.normal_deg ||
+        return found[0].max > bounds.texture * bounds.texture || found[1].max > bounds.normal_deg * bounds.normal_deg ||
                (std::isfinite(bounds.colour) && found[2].max > bounds.colour * bounds.colour);
     };
     std::vector<std::uint32_t> waiting(made.triangles.size()); // Triangles that may be off.
@@ -725,18 +622,12 @@ TriangleMesh AttributeSeams::divided(
     while (made.triangles.size() < max_faces) {
         std::vector<std::uint32_t> off;
         for (const std::uint32_t t : waiting) {
-            if (is_off(t) && is_large(t)) {
-                off.push_back(t);
-            }
+            if (is_off(t) && is_large(t)) { off.push_back(t); }
         }
-        if (off.empty()) {
-            break;
-        }
+        if (off.empty()) { break; }
         EdgeDivision division(made);
         for (const std::uint32_t t : off) {
-            if (made.triangles.size() < max_faces) {
-                division.divide(t, longest_side(made, made.triangles[t]).first);
-            }
+            if (made.triangles.size() < max_faces) { division.divide(t, longest_side(made, made.triangles[t]).first); }
         }
         waiting = division.changed();
         waiting.insert(waiting.end(), off.begin(), off.end());
@@ -747,8 +638,7 @@ TriangleMesh AttributeSeams::divided(
     for (std::size_t t = 0; t < made.triangles.size() && std::isfinite(bounds.colour); ++t) {
         const Chart& chart = charts_[chart_at(made, t)];
         for (const std::uint32_t vertex : made.triangles[t]) {
-            made.colours[vertex] =
-                glm::vec3(colour_at(chart, chart.bvh.nearest(made.vertices_m[vertex])));
+            made.colours[vertex] = glm::vec3(colour_at(chart, chart.bvh.nearest(made.vertices_m[vertex])));
         }
     }
     return made;

@@ -34,22 +34,21 @@ struct AttributeBounds {
     double colour = std::numeric_limits<double>::infinity();
 };
 
-/// Where errors of attributes are looked for: in at least 8,000 triangles (in all where there are
-/// fewer), which takes less time on large meshes, or in all, so that a bound is known to be kept.
+/// Where errors of attributes are looked for: in at least 8,000 triangles (in all where there are fewer), which takes
+/// less time on large meshes, or in all, so that a bound is known to be kept.
 enum class LookAt : std::uint8_t { SomeTriangles, AllTriangles };
 
-/// Attributes of a mesh, and the seams along which its colours or texture coordinates break, kept
-/// through its simplification. Seams part the surface into charts. The simplifier sees them as
-/// borders of materials, which it keeps where they are; its result then takes the attributes of
-/// each side of a seam from the chart on that side.
+/// Attributes of a mesh, and the seams along which its colours or texture coordinates break, kept through its
+/// simplification. Seams part the surface into charts. The simplifier sees them as borders of materials, which it keeps
+/// where they are; its result then takes the attributes of each side of a seam from the chart on that side.
 class AttributeSeams {
 public:
-    /// `corner_colours` has one entry a triangle, or none where no colours break. The mesh must be
-    /// a manifold with colours where there are corner colours.
+    /// `corner_colours` has one entry a triangle, or none where no colours break. The mesh must be a manifold with
+    /// colours where there are corner colours.
     AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> corner_colours);
 
-    /// The mesh to be simplified: its materials tell charts apart as well, and it has neither
-    /// texture coordinates nor normals.
+    /// The mesh to be simplified: its materials tell charts apart as well, and it has neither texture coordinates nor
+    /// normals.
     const TriangleMesh& marked() const { return marked_; }
 
     bool has_texture_coordinates() const { return !corner_textures_.empty(); }
@@ -58,24 +57,22 @@ public:
 
     bool has_colours() const { return !marked_.colours.empty(); }
 
-    /// A result of simplifying marked() with the materials and colours of the mesh. Where charts
-    /// meet and colours break, it has a vertex for each chart, at the same place to the bit and in
-    /// the colour of its side.
+    /// A result of simplifying marked() with the materials and colours of the mesh. Where charts meet and colours
+    /// break, it has a vertex for each chart, at the same place to the bit and in the colour of its side.
     TriangleMesh with_colours(TriangleMesh made) const;
 
-    /// The same with texture coordinates and normals, too. Normals come from triangles that face as
-    /// those of the result do, so that sharp edges stay sharp.
+    /// The same with texture coordinates and normals, too. Normals come from triangles that face as those of the result
+    /// do, so that sharp edges stay sharp.
     TriangleMesh with_attributes(TriangleMesh made) const;
 
     /// The errors of the attributes that with_attributes gives to a result of simplifying marked().
     AttributeErrors errors(const TriangleMesh& made, LookAt which = LookAt::SomeTriangles) const;
 
-    /// Divides triangles of a result of simplifying marked() at the midpoints of edges, which moves
-    /// no point of its surface, until no sample of an attribute is farther off than its bound, or
-    /// they are much smaller than those of the mesh, or there are `max_faces`. With a bound of
-    /// colours all vertices get the colours of the mesh at the nearest points.
-    TriangleMesh
-    divided(TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const;
+    /// Divides triangles of a result of simplifying marked() at the midpoints of edges, which moves no point of its
+    /// surface, until no sample of an attribute is farther off than its bound, or they are much smaller than those of
+    /// the mesh, or there are `max_faces`. With a bound of colours all vertices get the colours of the mesh at the
+    /// nearest points.
+    TriangleMesh divided(TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const;
 
 private:
     /// The triangles of one material of marked().
@@ -117,32 +114,29 @@ private:
     Lookup lookup(const TriangleMesh& made, std::size_t triangle) const;
     glm::dvec2 texture_at(const Chart& chart, const measure::NearestOnMesh& nearest) const;
     glm::dvec3 colour_at(const Chart& chart, const measure::NearestOnMesh& nearest) const;
-    glm::dvec3 normal_at(
-        const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const;
+    glm::dvec3 normal_at(const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const;
     Values values_at(const Lookup& lookup, const glm::dvec3& at_m) const;
     Chart chart_of(std::vector<std::uint32_t> triangles) const;
-    /// The part of its chart that a triangle of a result lies on, where nearest points in the chart
-    /// jump from one end of it to another.
+    /// The part of its chart that a triangle of a result lies on, where nearest points in the chart jump from one end
+    /// of it to another.
     std::optional<Chart> discontinuous_part(const TriangleMesh& made, std::size_t triangle) const;
 
-    /// Of texture coordinates, normals and colours. Corners take the colours of vertices in
-    /// `vertex_colours`, or of the mesh where it is empty.
-    std::array<SquaredErrors, 3> squares(
-        const TriangleMesh& made,
-        std::size_t triangle,
+    /// Of texture coordinates, normals and colours. Corners take the colours of vertices in `vertex_colours`, or of the
+    /// mesh where it is empty.
+    std::array<SquaredErrors, 3> squares(const TriangleMesh& made, std::size_t triangle,
         const std::vector<std::optional<glm::dvec3>>& vertex_colours) const;
 
     TriangleMesh marked_;
     std::vector<CornerColours> corner_colours_;
-    std::vector<glm::vec2> textures_;               ///< the mesh's texture coordinates
-    std::vector<Triangle> corner_textures_;         ///< one a triangle of marked(), or none
-    std::vector<glm::vec3> normals_;                ///< the mesh's
-    std::vector<Triangle> corner_normals_;          ///< one a triangle of marked(), or none
-    std::vector<Material> materials_;               ///< the mesh's own
+    std::vector<glm::vec2> textures_;             ///< the mesh's texture coordinates
+    std::vector<Triangle> corner_textures_;       ///< one a triangle of marked(), or none
+    std::vector<glm::vec3> normals_;              ///< the mesh's
+    std::vector<Triangle> corner_normals_;        ///< one a triangle of marked(), or none
+    std::vector<Material> materials_;             ///< the mesh's own
     std::vector<std::uint32_t> material_of_mark_; ///< for each material of marked()
-    std::vector<Chart> charts_;                     ///< likewise; empty without attributes
-    /// For each triangle of marked() those of its chart across its sides, invalid_index where there are
-    /// fewer; empty without texture coordinates.
+    std::vector<Chart> charts_;                   ///< likewise; empty without attributes
+    /// For each triangle of marked() those of its chart across its sides, invalid_index where there are fewer; empty
+    /// without texture coordinates.
     std::vector<Triangle> next_to_;
 };
 

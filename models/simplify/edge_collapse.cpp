@@ -1,5 +1,5 @@
-// Edge collapses, the cheapest first. The new vertex lies where quadrics are least
-// (vertex_quadrics.cpp); the cost decides the order.
+// Edge collapses, the cheapest first. The new vertex lies where quadrics are least (vertex_quadrics.cpp); the cost
+// decides the order.
 //
 // - By quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
 //   Simplification Using Quadric Error Metrics", 1997, weighted by area. It is cheap and serves
@@ -43,14 +43,10 @@ std::vector<std::uint32_t> counted(std::size_t count) {
 
 } // namespace
 
-CollapsingSurface::CollapsingSurface(
-    WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights)
-    : surface_(std::move(surface))
-    , units_(units)
-    , quadrics_(surface_, weights)
-    , vertex_numbers_(counted(surface_.mesh.vertex_slots()))
-    , face_numbers_(counted(surface_.mesh.face_slots()))
-    , first_vertices_(surface_.mesh.vertex_slots()) {}
+CollapsingSurface::CollapsingSurface(WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights)
+    : surface_(std::move(surface)), units_(units), quadrics_(surface_, weights),
+      vertex_numbers_(counted(surface_.mesh.vertex_slots())), face_numbers_(counted(surface_.mesh.face_slots())),
+      first_vertices_(surface_.mesh.vertex_slots()) {}
 
 CollapseEffect CollapsingSurface::collapse(HalfEdge h, const VertexPlacement& placement, double error) {
     CollapsibleMesh& mesh = surface_.mesh;
@@ -72,9 +68,7 @@ CollapseEffect CollapsingSurface::collapse(HalfEdge h, const VertexPlacement& pl
         made.colour = units_.colour_to_file(placement.colour);
     }
     vertex_numbers_[kept] = static_cast<std::uint32_t>(first_vertices_ + collapses_.size());
-    if (effect.kind == CollapseEffect::Kind::ClosesHole) {
-        ++holes_closed_;
-    }
+    if (effect.kind == CollapseEffect::Kind::ClosesHole) { ++holes_closed_; }
     collapses_.push_back(made);
     if (effect.kind == CollapseEffect::Kind::CutsHandle) {
         ++handles_cut_;
@@ -108,14 +102,11 @@ constexpr double max_shell_distance = 0.5;
 /// The connected pieces of a surface that collapses, and what it costs to drop one.
 class Shells {
 public:
-    /// A shell with a sample that is farther than `max_distance` from the others is not dropped:
-    /// the usual max_shell_distance, for which only some samples are looked at, or less. The
-    /// samples must be in lists. All must outlive this.
+    /// A shell with a sample that is farther than `max_distance` from the others is not dropped: the usual
+    /// max_shell_distance, for which only some samples are looked at, or less. The samples must be in lists. All must
+    /// outlive this.
     Shells(
-        CollapsingSurface& collapsing,
-        SurfaceSamples& samples,
-        const OriginalSurface& original,
-        double max_distance);
+        CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original, double max_distance);
 
     std::size_t count() const { return faces_.size(); }
 
@@ -130,12 +121,12 @@ public:
     /// Counts triangles of a shell that went.
     void lose(std::uint32_t shell, std::size_t faces) { face_counts_[shell] -= faces; }
 
-    /// How much the error grows when a shell is dropped: its samples are then as far off as the
-    /// nearest other shell of the original. Infinite where there is none, or where that is far.
+    /// How much the error grows when a shell is dropped: its samples are then as far off as the nearest other shell of
+    /// the original. Infinite where there is none, or where that is far.
     double cost(std::uint32_t shell) const;
 
-    /// Drops a shell. `gone` is called with each of its triangles before. Its samples go to the
-    /// triangles that are then nearest.
+    /// Drops a shell. `gone` is called with each of its triangles before. Its samples go to the triangles that are then
+    /// nearest.
     template <typename Gone>
     void drop(std::uint32_t shell, const Gone& gone) {
         std::vector<std::uint32_t> numbers;
@@ -154,8 +145,7 @@ public:
 
 private:
     void move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers);
-    measure::NearestOnMesh
-    nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const;
+    measure::NearestOnMesh nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const;
 
     WorkingSurface& surface_;
     SurfaceSamples& samples_;
@@ -176,21 +166,12 @@ constexpr std::size_t asked_samples = 48;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Shells::Shells(
-    CollapsingSurface& collapsing,
-    SurfaceSamples& samples,
-    const OriginalSurface& original,
-    double max_distance)
-    : surface_(collapsing.surface())
-    , samples_(samples)
-    , original_(original)
-    , max_distance_(max_distance)
-    , of_face_(surface_.mesh.face_slots(), none)
-    , of_original_(original.size(), none) {
+    CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original, double max_distance)
+    : surface_(collapsing.surface()), samples_(samples), original_(original), max_distance_(max_distance),
+      of_face_(surface_.mesh.face_slots(), none), of_original_(original.size(), none) {
     std::vector<std::uint32_t> waiting;
     for (std::uint32_t triangle = 0; triangle < of_original_.size(); ++triangle) {
-        if (of_original_[triangle] != none) {
-            continue;
-        }
+        if (of_original_[triangle] != none) { continue; }
         const auto shell = static_cast<std::uint32_t>(faces_.size());
         faces_.emplace_back();
         of_original_[triangle] = shell;
@@ -215,9 +196,7 @@ Shells::Shells(
         }
     }
     count_left_ = faces_.size() - static_cast<std::size_t>(std::ranges::count(face_counts_, 0U));
-    if (count_left_ < 2) {
-        return;
-    }
+    if (count_left_ < 2) { return; }
     sample_near_.assign(of_original_.size(), none);
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
         const std::uint32_t triangle = samples[sample].triangle;
@@ -236,23 +215,18 @@ Shells::Shells(
     }
 }
 
-/// The nearest point of another shell of the original that was not dropped. There may be none where
-/// it is farther than `max_distance`.
-measure::NearestOnMesh
-Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
+/// The nearest point of another shell of the original that was not dropped. There may be none where it is farther than
+/// `max_distance`.
+measure::NearestOnMesh Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
     measure::NearestOnMesh found;
-    for (double within = std::min(1e-3, max_distance);
-         found.triangle == none && within < 4.0 * max_distance;
+    for (double within = std::min(1e-3, max_distance); found.triangle == none && within < 4.0 * max_distance;
          within *= 4.0) {
         found.distance2 = within * within;
         original_.for_each_near(place, within, [&](std::uint32_t triangle) {
             const std::uint32_t other = of_original_[triangle];
-            if (other == shell || face_counts_[other] == 0) {
-                return;
-            }
+            if (other == shell || face_counts_[other] == 0) { return; }
             const double distance2 = original_.distance2(triangle, place);
-            if (distance2 < found.distance2 ||
-                (distance2 == found.distance2 && triangle < found.triangle)) {
+            if (distance2 < found.distance2 || (distance2 == found.distance2 && triangle < found.triangle)) {
                 found.distance2 = distance2;
                 found.triangle = triangle;
             }
@@ -262,15 +236,11 @@ Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_d
 }
 
 double Shells::cost(std::uint32_t shell) const {
-    if (count_left_ < 2) {
-        return infinite;
-    }
+    if (count_left_ < 2) { return infinite; }
     std::size_t all = 0;
     double present = 0.0;
     for (const std::uint32_t face : faces_[shell]) {
-        if (surface_.mesh.has_face(face)) {
-            all += samples_.count(face);
-        }
+        if (surface_.mesh.has_face(face)) { all += samples_.count(face); }
     }
     const std::size_t stride = max_distance_ < max_shell_distance ? 1 : all / asked_samples + 1;
     double weights = 0.0;
@@ -279,14 +249,12 @@ double Shells::cost(std::uint32_t shell) const {
     bool is_far = all == 0; // Nothing is known of where it is.
     std::size_t place = 0;
     for (const std::uint32_t face : faces_[shell]) {
-        if (!surface_.mesh.has_face(face)) {
-            continue;
-        }
+        if (!surface_.mesh.has_face(face)) { continue; }
         samples_.for_each(face, [&](std::uint32_t number) {
             const SurfaceSample& sample = samples_[number];
             weights += static_cast<double>(sample.weight);
-            present += static_cast<double>(sample.weight) *
-                       samples_.penalty().of(static_cast<double>(sample.distance2));
+            present +=
+                static_cast<double>(sample.weight) * samples_.penalty().of(static_cast<double>(sample.distance2));
             if (!is_far && place++ % stride == 0) {
                 const glm::dvec3 at(sample.place[0], sample.place[1], sample.place[2]);
                 const measure::NearestOnMesh other = nearest_other(shell, at, max_distance_);
@@ -296,20 +264,16 @@ double Shells::cost(std::uint32_t shell) const {
             }
         });
     }
-    if (is_far) {
-        return infinite;
-    }
+    if (is_far) { return infinite; }
     return asked_weights > 0.0 ? sum * weights / asked_weights - present : 0.0;
 }
 
-/// Puts the samples of a shell that was dropped into the lists of triangles of the others: from the
-/// nearest point of the original to a sample near it, and from the triangle of that to the nearest
-/// around.
+/// Puts the samples of a shell that was dropped into the lists of triangles of the others: from the nearest point of
+/// the original to a sample near it, and from the triangle of that to the nearest around.
 void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers) {
     for (const std::uint32_t number : numbers) {
         const std::array<float, 3>& at = samples_[number].place;
-        // No two points are farther apart than the diagonal, which is 1, and each shell has
-        // samples.
+        // No two points are farther apart than the diagonal, which is 1, and each shell has samples.
         const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]}, 1.0);
         assert(other.triangle != none && sample_near_[other.triangle] != none);
         const std::uint32_t start = samples_[sample_near_[other.triangle]].face;
@@ -320,35 +284,23 @@ void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> nu
     }
 }
 
-/// Of collapses at the same cost, as in a plane, short edges go first: this share of an edge's
-/// squared length counts as a squared distance.
+/// Of collapses at the same cost, as in a plane, short edges go first: this share of an edge's squared length counts as
+/// a squared distance.
 constexpr double length_share2 = 1e-7;
 
-/// An edge is first put into the heap with this share of its quadric, which mostly is less than its
-/// cost by samples: only what comes to the top is measured.
+/// An edge is first put into the heap with this share of its quadric, which mostly is less than its cost by samples:
+/// only what comes to the top is measured.
 constexpr double guessed_share = 0.1;
 
 class EdgeCollapse {
 public:
-    EdgeCollapse(
-        CollapsingSurface& collapsing,
-        LocalError* local,
-        Shells* shells,
-        const SimplifyOptions& options)
-        : collapsing_(collapsing)
-        , surface_(collapsing.surface())
-        , local_(local)
-        , shells_(shells)
-        , length_share2_(std::max(
-              local == nullptr ? options.length_share * options.length_share : 0.0, length_share2))
-        , costs_only_grow_(local == nullptr && length_share2_ == length_share2)
-        , show_progress_(options.show_progress)
-        , changes_(allowed_changes(local, options))
-        , edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3))
-        , heap_(edges_ + (shells == nullptr ? 0 : shells->count()))
-        , known_(edges_, Known::Old)
-        , first_(local == nullptr ? Known::There : Known::Old)
-        , has_refused_(surface_.mesh.vertex_slots(), 0) {
+    EdgeCollapse(CollapsingSurface& collapsing, LocalError* local, Shells* shells, const SimplifyOptions& options)
+        : collapsing_(collapsing), surface_(collapsing.surface()), local_(local), shells_(shells),
+          length_share2_(std::max(local == nullptr ? options.length_share * options.length_share : 0.0, length_share2)),
+          costs_only_grow_(local == nullptr && length_share2_ == length_share2), show_progress_(options.show_progress),
+          changes_(allowed_changes(local, options)), edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3)),
+          heap_(edges_ + (shells == nullptr ? 0 : shells->count())), known_(edges_, Known::Old),
+          first_(local == nullptr ? Known::There : Known::Old), has_refused_(surface_.mesh.vertex_slots(), 0) {
         if (!collapsing.collapses().empty()) {
             error_ = collapsing.collapses().back().error_m / collapsing.units().diagonal_m;
         }
@@ -361,11 +313,8 @@ public:
 
 private:
     /// Handles are cut only where samples tell what that costs.
-    static TopologyChanges
-    allowed_changes(const LocalError* local, const SimplifyOptions& options) {
-        if (options.keep_topology) {
-            return TopologyChanges::None;
-        }
+    static TopologyChanges allowed_changes(const LocalError* local, const SimplifyOptions& options) {
+        if (options.keep_topology) { return TopologyChanges::None; }
         return local == nullptr ? TopologyChanges::Holes : TopologyChanges::HolesAndHandles;
     }
 
@@ -398,8 +347,8 @@ private:
     std::vector<double> shell_costs_;
     std::size_t wanted_faces_ = 0;
     double length_share2_;
-    /// Sums of quadrics only grow, so that a cost found before is a lower bound of the present one:
-    /// an edge is evaluated anew when that is the least of all.
+    /// Sums of quadrics only grow, so that a cost found before is a lower bound of the present one: an edge is
+    /// evaluated anew when that is the least of all.
     bool costs_only_grow_;
     const ShowProgress& show_progress_;
     TopologyChanges changes_; ///< Those that are allowed.
@@ -431,9 +380,7 @@ bool EdgeCollapse::is_met(const Goal& goal) const {
 void EdgeCollapse::fill() {
     const CollapsibleMesh& mesh = surface_.mesh;
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
-        if (mesh.has_face(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) {
-            update(h, first_);
-        }
+        if (mesh.has_face(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) { update(h, first_); }
     }
 }
 
@@ -452,9 +399,7 @@ void EdgeCollapse::run(const Goal& goal) {
             drop(h - edges_);
             continue;
         }
-        if (h == none) {
-            return;
-        }
+        if (h == none) { return; }
         if (goal.error_m && local_ == nullptr) {
             const VertexPlacement next = collapsing_.quadrics().placement(surface_, h);
             const double limit = *goal.error_m / collapsing_.units().diagonal_m;
@@ -468,10 +413,8 @@ void EdgeCollapse::run(const Goal& goal) {
         }
         collapse(h);
         if (++done % 256 == 0 && show_progress_ && start > wanted_faces_) {
-            show_progress_(std::min(
-                1.0,
-                static_cast<double>(start - surface_.mesh.face_count()) /
-                    static_cast<double>(start - wanted_faces_)));
+            show_progress_(std::min(1.0,
+                static_cast<double>(start - surface_.mesh.face_count()) / static_cast<double>(start - wanted_faces_)));
         }
     }
 }
@@ -480,15 +423,12 @@ void EdgeCollapse::run(const Goal& goal) {
 HalfEdge EdgeCollapse::next_edge() {
     while (!heap_.empty()) {
         const HalfEdge h = heap_.top();
-        if (h >= edges_) {
-            return h;
-        }
+        if (h >= edges_) { return h; }
         if (known_[h] == Known::Old) {
             update(h, Known::There);
         } else if (local_ != nullptr && known_[h] == Known::There) {
             update(h, Known::BothWays);
-        } else if (
-            local_ != nullptr || is_allowed(h, collapsing_.quadrics().placement(surface_, h))) {
+        } else if (local_ != nullptr || is_allowed(h, collapsing_.quadrics().placement(surface_, h))) {
             return h;
         } else {
             heap_.remove(h);
@@ -499,15 +439,12 @@ HalfEdge EdgeCollapse::next_edge() {
     return none;
 }
 
-/// The edge to collapse where one triangle is to go: `h`, the cheapest edge, if it is on a
-/// boundary, else the cheapest boundary edge, unless that costs more than `max_factor` times as
-/// much as `h`.
+/// The edge to collapse where one triangle is to go: `h`, the cheapest edge, if it is on a boundary, else the cheapest
+/// boundary edge, unless that costs more than `max_factor` times as much as `h`.
 HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
     constexpr float max_factor = 100.0F; // Some ten times as far off there.
     const CollapsibleMesh& mesh = surface_.mesh;
-    if (mesh.twin(h) == none) {
-        return h;
-    }
+    if (mesh.twin(h) == none) { return h; }
     const float limit = max_factor * heap_.cost(h);
     HalfEdge best = none;
     for (HalfEdge side = 0; side < edges_; ++side) {
@@ -525,9 +462,7 @@ HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
 /// Whether an edge may collapse: the topology first, then the guard against fold-overs.
 bool EdgeCollapse::is_allowed(HalfEdge h, const VertexPlacement& placement) {
     effect_ = surface_.effect_of(h, changes_);
-    if (effect_.kind == CollapseEffect::Kind::NotAllowed) {
-        return false;
-    }
+    if (effect_.kind == CollapseEffect::Kind::NotAllowed) { return false; }
     surface_.mesh.ring_of(h, ring_);
     return may_move(surface_, ring_, placement.place);
 }
@@ -543,11 +478,10 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
         cost += guessed_share * placement.cost;
     } else if (is_allowed(edge, placement)) {
         measure(edge, placement, ways);
-        cost += ways == Known::There ? there_ - local_->current_forward_error()
-                                     : there_ + back_ - local_->present();
+        cost += ways == Known::There ? there_ - local_->current_forward_error() : there_ + back_ - local_->present();
         if (effect_.kind != CollapseEffect::Kind::ClosesHole &&
             (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
-             surface_.is_border_vertex(surface_.mesh.target(edge)))) {
+                surface_.is_border_vertex(surface_.mesh.target(edge)))) {
             cost = std::max(cost, placement.cost); // Samples hardly see where borders are.
         }
     } else {
@@ -560,8 +494,8 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
     heap_.set(edge, static_cast<float>(cost));
 }
 
-/// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was
-/// measured last stays valid until the mesh changes.
+/// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was measured last stays valid
+/// until the mesh changes.
 void EdgeCollapse::measure(HalfEdge h, const VertexPlacement& placement, Known ways) {
     if (measured_ != h) {
         load(h, placement);
@@ -575,14 +509,11 @@ void EdgeCollapse::measure(HalfEdge h, const VertexPlacement& placement, Known w
     }
 }
 
-/// Loads the samples around an edge, whose ring must be in ring_, and the triangles that its
-/// collapse would leave.
+/// Loads the samples around an edge, whose ring must be in ring_, and the triangles that its collapse would leave.
 void EdgeCollapse::load(HalfEdge h, const VertexPlacement& placement) {
     faces_.clear();
     faces_.push_back(face_of(h));
-    if (surface_.mesh.twin(h) != none) {
-        faces_.push_back(face_of(surface_.mesh.twin(h)));
-    }
+    if (surface_.mesh.twin(h) != none) { faces_.push_back(face_of(surface_.mesh.twin(h))); }
     ring_faces_.clear();
     for (const RingFace& face : ring_) {
         faces_.push_back(face.face);
@@ -594,13 +525,11 @@ void EdgeCollapse::load(HalfEdge h, const VertexPlacement& placement) {
 
 double EdgeCollapse::length_cost(HalfEdge edge, const VertexPlacement& placement) const {
     const CollapsibleMesh& mesh = surface_.mesh;
-    const glm::dvec3 along =
-        surface_.places[mesh.target(edge)] - surface_.places[mesh.origin(edge)];
+    const glm::dvec3 along = surface_.places[mesh.target(edge)] - surface_.places[mesh.origin(edge)];
     return length_share2_ * placement.weight * glm::dot(along, along);
 }
 
-/// Collapses an edge, moves the samples to their new nearest triangles and updates the costs around
-/// it.
+/// Collapses an edge, moves the samples to their new nearest triangles and updates the costs around it.
 void EdgeCollapse::collapse(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
@@ -627,9 +556,7 @@ void EdgeCollapse::collapse(HalfEdge h) {
         }
     }
     for (const HalfEdge joined : {effect_.second, effect_.third}) {
-        if (joined != none) {
-            heap_.remove(mesh.edge_of(joined));
-        }
+        if (joined != none) { heap_.remove(mesh.edge_of(joined)); }
     }
     const std::size_t before = mesh.face_count();
     const std::uint32_t shell = shells_ == nullptr ? none : shells_->shell_of(face_of(h));
@@ -638,64 +565,50 @@ void EdgeCollapse::collapse(HalfEdge h) {
         shells_->lose(shell, before - mesh.face_count());
         update_shell(shell);
     }
-    if (local_ != nullptr) {
-        local_->keep(faces_, ring_faces_, kept);
-    }
+    if (local_ != nullptr) { local_->keep(faces_, ring_faces_, kept); }
     if (effect_.kind == CollapseEffect::Kind::CutsHandle) {
         const std::uint32_t c = mesh.origin(effect_.third);
         const std::uint32_t made = effect_.made;
         local_->copy_vertex(kept, gone);
         local_->copy_vertex(c, made);
-        for (const std::uint32_t vertex : {kept, gone, c, made}) {
-            part(vertex);
-        }
-        for (const std::uint32_t vertex : {gone, c, made}) {
-            update_around(vertex);
-        }
+        for (const std::uint32_t vertex : {kept, gone, c, made}) { part(vertex); }
+        for (const std::uint32_t vertex : {gone, c, made}) { update_around(vertex); }
     }
     update_around(kept);
 }
 
-/// Moves a vertex of a cut, where both sides lie at the same place, a little towards its
-/// neighbours, so that the sides do not touch.
+/// Moves a vertex of a cut, where both sides lie at the same place, a little towards its neighbours, so that the sides
+/// do not touch.
 void EdgeCollapse::part(std::uint32_t vertex) {
     constexpr double share = 0.01;
-    if (surface_.is_border_vertex(vertex)) {
-        return;
-    }
+    if (surface_.is_border_vertex(vertex)) { return; }
     surface_.mesh.ring_at(vertex, ring_, ring_faces_);
     glm::dvec3 sum(0.0);
     for (const RingFace& face : ring_) {
         sum += surface_.places[surface_.mesh.target(face.half_edge)] - surface_.places[vertex];
     }
-    const glm::dvec3 place =
-        surface_.places[vertex] + share / static_cast<double>(ring_.size()) * sum;
+    const glm::dvec3 place = surface_.places[vertex] + share / static_cast<double>(ring_.size()) * sum;
     if (may_move(surface_, ring_, place)) {
         local_->gather(ring_faces_);
-        local_->set_ring(
-            ring_, place, surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0));
+        local_->set_ring(ring_, place, surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0));
         local_->measured();
         surface_.places[vertex] = place;
         local_->keep(ring_faces_, ring_faces_, vertex);
     }
 }
 
-/// Updates the edges at a vertex. Edges one ring further are marked as unchecked where samples
-/// count, and where edges were refused, which may collapse now.
+/// Updates the edges at a vertex. Edges one ring further are marked as unchecked where samples count, and where edges
+/// were refused, which may collapse now.
 void EdgeCollapse::update_around(std::uint32_t vertex) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.edges_around(vertex, [&](HalfEdge h) {
         const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
-        if (local_ == nullptr && has_refused_[other] == 0) {
-            return;
-        }
+        if (local_ == nullptr && has_refused_[other] == 0) { return; }
         has_refused_[other] = 0;
         mesh.edges_around(other, [&](HalfEdge far) {
             const HalfEdge edge = mesh.edge_of(far);
             known_[edge] = Known::Old;
-            if (!heap_.holds(edge)) {
-                heap_.set(edge, heap_.cost(edge));
-            }
+            if (!heap_.holds(edge)) { heap_.set(edge, heap_.cost(edge)); }
         });
     });
     mesh.edges_around(vertex, [&](HalfEdge h) {
@@ -717,19 +630,14 @@ void EdgeCollapse::update_shell(std::uint32_t shell) {
         heap_.remove(edges_ + shell);
         return;
     }
-    if (!(shell_costs_[shell] > 0.0)) {
-        shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30);
-    }
+    if (!(shell_costs_[shell] > 0.0)) { shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30); }
     if (!std::isfinite(shell_costs_[shell])) {
         heap_.remove(edges_ + shell);
         return;
     }
-    const std::size_t too_many =
-        surface_.mesh.face_count() - std::min(surface_.mesh.face_count() - 1, wanted_faces_);
+    const std::size_t too_many = surface_.mesh.face_count() - std::min(surface_.mesh.face_count() - 1, wanted_faces_);
     heap_.set(
-        edges_ + shell,
-        static_cast<float>(
-            shell_costs_[shell] * 2.0 / static_cast<double>(std::min(faces, too_many))));
+        edges_ + shell, static_cast<float>(shell_costs_[shell] * 2.0 / static_cast<double>(std::min(faces, too_many))));
 }
 
 /// Drops a shell if that still costs as little as was found before.
@@ -737,15 +645,11 @@ void EdgeCollapse::drop(std::uint32_t shell) {
     const float before = heap_.cost(edges_ + shell);
     shell_costs_[shell] = 0.0;
     update_shell(shell);
-    if (!heap_.holds(edges_ + shell) || heap_.cost(edges_ + shell) > 1.01F * before) {
-        return;
-    }
+    if (!heap_.holds(edges_ + shell) || heap_.cost(edges_ + shell) > 1.01F * before) { return; }
     heap_.remove(edges_ + shell);
     measured_ = none;
     shells_->drop(shell, [&](std::uint32_t face) {
-        for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) {
-            heap_.remove(h);
-        }
+        for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) { heap_.remove(h); }
     });
 }
 
@@ -753,43 +657,29 @@ void EdgeCollapse::drop_shells() {
     for (std::uint32_t shell = 0; shell < shell_costs_.size(); ++shell) {
         if (shells_->face_count(shell) > 0) {
             shell_costs_[shell] = shells_->cost(shell);
-            if (std::isfinite(shell_costs_[shell])) {
-                drop(shell);
-            }
+            if (std::isfinite(shell_costs_[shell])) { drop(shell); }
         }
     }
 }
 
 } // namespace
 
-void collapse_by_quadrics(
-    CollapsingSurface& collapsing, const Goal& goal, const SimplifyOptions& options) {
+void collapse_by_quadrics(CollapsingSurface& collapsing, const Goal& goal, const SimplifyOptions& options) {
     EdgeCollapse(collapsing, nullptr, nullptr, options).run(goal);
 }
 
-std::size_t collapse_by_samples(
-    CollapsingSurface& collapsing,
-    SurfaceSamples& samples,
-    const OriginalSurface& original,
-    const Goal& goal,
-    const SimplifyOptions& options) {
+std::size_t collapse_by_samples(CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original,
+    const Goal& goal, const SimplifyOptions& options) {
     LocalError local(collapsing.surface(), samples, original);
     std::optional<Shells> shells;
     if (!options.keep_shells && !options.keep_topology) {
         // A shell that is dropped must keep a wanted error with what is left of it for other steps.
         const double error = options.goal.error_m.value_or(1e30) / collapsing.units().diagonal_m;
-        shells.emplace(
-            collapsing,
-            samples,
-            original,
-            std::min(max_shell_distance, options.shell_error_share * error));
+        shells.emplace(collapsing, samples, original, std::min(max_shell_distance, options.shell_error_share * error));
     }
-    EdgeCollapse collapse(
-        collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options);
+    EdgeCollapse collapse(collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options);
     collapse.run(goal);
-    if (shells && options.goal.error_m) {
-        collapse.drop_shells();
-    }
+    if (shells && options.goal.error_m) { collapse.drop_shells(); }
     return shells ? shells->count() - shells->count_left() : 0;
 }
 

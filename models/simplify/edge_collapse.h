@@ -13,12 +13,11 @@
 
 namespace octant::models::simplify {
 
-/// A surface whose edges collapse one after the other: with it go the quadrics of its vertices and
-/// the record of what collapsed, in the numbers of the mesh that it was at first.
+/// A surface whose edges collapse one after the other: with it go the quadrics of its vertices and the record of what
+/// collapsed, in the numbers of the mesh that it was at first.
 class CollapsingSurface {
 public:
-    CollapsingSurface(
-        WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights);
+    CollapsingSurface(WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights);
 
     WorkingSurface& surface() { return surface_; }
 
@@ -28,9 +27,8 @@ public:
 
     const VertexQuadrics& quadrics() const { return quadrics_; }
 
-    /// Collapses an edge that may collapse, merges the quadrics of its ends and records it. `error`
-    /// is the estimated error so far, in working units. Where that cuts a handle, the record is no
-    /// sequence of collapses any more.
+    /// Collapses an edge that may collapse, merges the quadrics of its ends and records it. `error` is the estimated
+    /// error so far, in working units. Where that cuts a handle, the record is no sequence of collapses any more.
     CollapseEffect collapse(HalfEdge h, const VertexPlacement& placement, double error);
 
     /// The number of holes closed and of handles cut so far.
@@ -70,18 +68,13 @@ private:
 };
 
 /// Collapses edges, the cheapest first by quadrics, until the goal is met or no edge can collapse.
-void collapse_by_quadrics(
-    CollapsingSurface& collapsing, const Goal& goal, const SimplifyOptions& options);
+void collapse_by_quadrics(CollapsingSurface& collapsing, const Goal& goal, const SimplifyOptions& options);
 
-/// The same, the cheapest first by the growth of the error against samples of the original. Each
-/// sample must be in the list of a triangle that is near. Holes are closed, handles cut and shells
-/// dropped where that is cheaper, unless the options keep them. For a wanted error only holes are
-/// closed, as a record of collapses cannot hold the rest. Returns how many shells were dropped.
-std::size_t collapse_by_samples(
-    CollapsingSurface& collapsing,
-    SurfaceSamples& samples,
-    const OriginalSurface& original,
-    const Goal& goal,
-    const SimplifyOptions& options);
+/// The same, the cheapest first by the growth of the error against samples of the original. Each sample must be in the
+/// list of a triangle that is near. Holes are closed, handles cut and shells dropped where that is cheaper, unless the
+/// options keep them. For a wanted error only holes are closed, as a record of collapses cannot hold the rest. Returns
+/// how many shells were dropped.
+std::size_t collapse_by_samples(CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original,
+    const Goal& goal, const SimplifyOptions& options);
 
 } // namespace octant::models::simplify

@@ -9,14 +9,12 @@
 
 namespace octant::models::simplify {
 
-/// A priority queue of edges by cost, the least first; equal costs go by the edges' numbers. Each
-/// edge is in it at most once, and its cost can be changed. It is a heap with four children to a
-/// node, which takes fewer cache misses than two.
+/// A priority queue of edges by cost, the least first; equal costs go by the edges' numbers. Each edge is in it at most
+/// once, and its cost can be changed. It is a heap with four children to a node, which takes fewer cache misses than
+/// two.
 class EdgeHeap {
 public:
-    explicit EdgeHeap(std::size_t edges)
-        : places_(edges, none)
-        , costs_(edges, 0.0F) {}
+    explicit EdgeHeap(std::size_t edges) : places_(edges, none), costs_(edges, 0.0F) {}
 
     bool empty() const { return heap_.empty(); }
 
@@ -42,9 +40,7 @@ public:
     /// Takes an edge out; does nothing when it is not in.
     void remove(std::uint32_t edge) {
         const std::uint32_t place = places_[edge];
-        if (place == none) {
-            return;
-        }
+        if (place == none) { return; }
         places_[edge] = none;
         const Entry last = heap_.back();
         heap_.pop_back();
@@ -60,9 +56,7 @@ private:
         float cost = 0.0F;
         std::uint32_t edge = none;
 
-        bool operator<(const Entry& other) const {
-            return cost != other.cost ? cost < other.cost : edge < other.edge;
-        }
+        bool operator<(const Entry& other) const { return cost != other.cost ? cost < other.cost : edge < other.edge; }
     };
 
     void put(std::uint32_t place, const Entry& entry) {
@@ -89,9 +83,7 @@ private:
             for (std::size_t child = first + 1; child < end; ++child) {
                 best = heap_[child] < heap_[best] ? child : best;
             }
-            if (best >= heap_.size() || !(heap_[best] < entry)) {
-                break;
-            }
+            if (best >= heap_.size() || !(heap_[best] < entry)) { break; }
             put(place, heap_[best]);
             place = static_cast<std::uint32_t>(best);
         }

@@ -19,22 +19,18 @@
 
 namespace octant::models::simplify {
 
-/// A least-squares fit of one vertex: the step of its position, and the change of its colour, that
-/// lessen a sum of squared distances most, as far as distances are linear functions of both.
+/// A least-squares fit of one vertex: the step of its position, and the change of its colour, that lessen a sum of
+/// squared distances most, as far as distances are linear functions of both.
 class VertexFit {
 public:
-    /// Adds a pair of a point and its nearest point on a triangle whose corner 0 is the vertex.
-    /// `off` runs from the nearest point to the point; `share` is the vertex's barycentric weight
-    /// in the nearest point; `normal` is the triangle's unit normal.
+    /// Adds a pair of a point and its nearest point on a triangle whose corner 0 is the vertex. `off` runs from the
+    /// nearest point to the point; `share` is the vertex's barycentric weight in the nearest point; `normal` is the
+    /// triangle's unit normal.
     void add(const glm::dvec3& off, const glm::dvec3& normal, double share, double weight);
 
-    /// Adds the colour of such a pair. `off` is the point's colour less that of the nearest point,
-    /// and `gradient` how the latter grows with position on the triangle.
-    void add_colour(
-        const glm::dvec3& off,
-        const std::array<glm::dvec3, 3>& gradient,
-        double share,
-        double weight);
+    /// Adds the colour of such a pair. `off` is the point's colour less that of the nearest point, and `gradient` how
+    /// the latter grows with position on the triangle.
+    void add_colour(const glm::dvec3& off, const std::array<glm::dvec3, 3>& gradient, double share, double weight);
 
     /// The step of the position.
     glm::dvec3 way() const;
@@ -56,33 +52,28 @@ struct ColouredTriangle {
     std::array<glm::dvec3, 3> colours{};
 };
 
-/// The error around a step, both ways: of the samples whose triangles change, to the triangles as
-/// they would be, and of points of these triangles back to the original. A step that moves or makes
-/// a vertex has it as corner 0 of every new triangle.
+/// The error around a step, both ways: of the samples whose triangles change, to the triangles as they would be, and of
+/// points of these triangles back to the original. A step that moves or makes a vertex has it as corner 0 of every new
+/// triangle.
 class LocalError {
 public:
-    LocalError(
-        const WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
-        : surface_(surface)
-        , samples_(samples)
-        , original_(original) {}
+    LocalError(const WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
+        : surface_(surface), samples_(samples), original_(original) {}
 
     /// Loads the samples of the triangles that change.
     void gather(std::span<const std::uint32_t> faces);
 
     /// Sets the new triangles: those of a ring with their moving corner at `place`, in `colour`.
-    void
-    set_ring(std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour);
+    void set_ring(std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour);
 
     /// Moves corner 0 of all new triangles.
     void move_corner(const glm::dvec3& place, const glm::dvec3& colour);
 
     /// Sets the new triangles. Each is expected to be near the present one of `near`.
-    void
-    set_triangles(std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
+    void set_triangles(std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
-    /// Measures the ways back of all present triangles, and the colours of their samples. Returns
-    /// the largest squared distance.
+    /// Measures the ways back of all present triangles, and the colours of their samples. Returns the largest squared
+    /// distance.
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
@@ -105,20 +96,19 @@ public:
     /// Below this an error may be nothing but the rounding of the samples.
     double rounding() const { return sample_rounding * sample_rounding * area_; }
 
-    /// The least-squares step of corner 0, from what forward_error() saw last; with the present
-    /// ways back where the new triangles are still the present ones.
+    /// The least-squares step of corner 0, from what forward_error() saw last; with the present ways back where the new
+    /// triangles are still the present ones.
     VertexFit fit(bool with_back) const;
 
-    /// From now on ways back start from points of the edges too, and the largest distance is that
-    /// from the whole of the other surface. The error stays as it is.
+    /// From now on ways back start from points of the edges too, and the largest distance is that from the whole of the
+    /// other surface. The error stays as it is.
     void measure_densely();
 
-    /// Measured closely, only squared distances above this one are looked up in the whole of the
-    /// other surface.
+    /// Measured closely, only squared distances above this one are looked up in the whole of the other surface.
     void set_trusted2(double distance2) { trusted2_ = distance2; }
 
-    /// The step of corner 0 that lowers the largest distance, both ways, of what was measured
-    /// closely last: a least-squares fit in which far points weigh most.
+    /// The step of corner 0 that lowers the largest distance, both ways, of what was measured closely last: a
+    /// least-squares fit in which far points weigh most.
     glm::dvec3 max_error_step();
 
     /// About how many distances to triangles one measurement takes.
@@ -127,19 +117,13 @@ public:
     /// The sum of that over all measurements so far.
     double work_done() const { return work_done_; }
 
-    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the
-    /// samples to the lists of `faces`, the numbers of the new triangles in their order. `emptied`
-    /// are those that were loaded, and `vertex` is the number of the vertex that is new or moves,
-    /// or none.
-    void keep(
-        std::span<const std::uint32_t> emptied,
-        std::span<const std::uint32_t> faces,
-        std::uint32_t vertex);
+    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of
+    /// `faces`, the numbers of the new triangles in their order. `emptied` are those that were loaded, and `vertex` is
+    /// the number of the vertex that is new or moves, or none.
+    void keep(std::span<const std::uint32_t> emptied, std::span<const std::uint32_t> faces, std::uint32_t vertex);
 
     /// Lets the way back from a new vertex start where that from another one at its place ends.
-    void copy_vertex(std::uint32_t from, std::uint32_t to) {
-        samples_.from_vertex(to) = samples_.from_vertex(from);
-    }
+    void copy_vertex(std::uint32_t from, std::uint32_t to) { samples_.from_vertex(to) = samples_.from_vertex(from); }
 
 private:
     double max_there2();
@@ -167,7 +151,7 @@ private:
     /// The corner of that one which is corner 0 of the new one, where known.
     std::vector<std::uint32_t> turns_;
     std::vector<FlatTriangle> flat_;
-    std::vector<double> back_errors_;                 ///< For each new triangle.
+    std::vector<double> back_errors_;                      ///< For each new triangle.
     std::vector<std::array<BackwardFoot, 3>> from_points_; ///< By the corners of each new triangle.
     BackwardFoot from_moving_;                             ///< From corner 0 where that is new or moves.
     /// The vertex that moves, or is merged with another one; none = it is new.
@@ -175,8 +159,8 @@ private:
     double max_back2_ = 0.0;
     bool is_dense_ = false;
     double trusted2_ = 0.0;
-    /// Of the present triangles when measure_densely() was called, their numbers, and for each
-    /// number whether it changed since.
+    /// Of the present triangles when measure_densely() was called, their numbers, and for each number whether it
+    /// changed since.
     std::unique_ptr<const measure::TriangleBvh> present_tree_;
     std::vector<std::uint32_t> present_faces_;
     std::vector<std::uint8_t> face_changed_;
@@ -186,9 +170,9 @@ private:
     double current_forward_error_ = 0.0;
     double current_backward_error_ = 0.0;
     double area_ = 0.0;
-    std::vector<std::uint32_t> start_candidates_;     ///< The triangles that start_near() looks at.
-    std::vector<std::uint32_t> face_marks_; ///< For each triangle slot the last search that met it.
-    std::uint32_t face_mark_ = 0;           ///< The number of the last search.
+    std::vector<std::uint32_t> start_candidates_; ///< The triangles that start_near() looks at.
+    std::vector<std::uint32_t> face_marks_;       ///< For each triangle slot the last search that met it.
+    std::uint32_t face_mark_ = 0;                 ///< The number of the last search.
 };
 
 } // namespace octant::models::simplify

@@ -1,14 +1,12 @@
-// Lowers the error of a simplified surface by local steps, after H. Hoppe, T. DeRose, T. Duchamp,
-// J. McDonald, W. Stuetzle, "Mesh Optimization", 1993: a vertex moves to where a least-squares fit
-// leads, an edge flips, or a vertex is relocated (the cheapest edge collapses, and one splits where
-// that helps most).
+// Lowers the error of a simplified surface by local steps, after H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W.
+// Stuetzle, "Mesh Optimization", 1993: a vertex moves to where a least-squares fit leads, an edge flips, or a vertex is
+// relocated (the cheapest edge collapses, and one splits where that helps most).
 //
-// Deviations: the error is two-sided, and penalties rise faster than squares (Penalty), which
-// lowers the largest distance too. Steps are not tried at random: a queue orders them by the
-// expected reduction per unit of work. What a step achieved is what the next one nearby is expected
-// to achieve, less a part. The number of triangles stays instead of being weighed against the
-// error. At the end the same steps are made where the distance is largest, as long as that lowers
-// it.
+// Deviations: the error is two-sided, and penalties rise faster than squares (Penalty), which lowers the largest
+// distance too. Steps are not tried at random: a queue orders them by the expected reduction per unit of work. What a
+// step achieved is what the next one nearby is expected to achieve, less a part. The number of triangles stays instead
+// of being weighed against the error. At the end the same steps are made where the distance is largest, as long as that
+// lowers it.
 #include "models/simplify/optimize.h"
 
 #include "models/simplify/edge_heap.h"
@@ -35,17 +33,16 @@ constexpr double high = 1.5;
 constexpr double expected_of_move = 0.1;
 constexpr double expected_of_flip = 0.05;
 constexpr double expected_of_split = 0.6;
-/// The next move of the same vertex is expected to achieve this share of the last one, and the
-/// moves and flips around it these.
+/// The next move of the same vertex is expected to achieve this share of the last one, and the moves and flips around
+/// it these.
 constexpr double expected_again = 0.5;
 constexpr double expected_nearby = 0.25;
 /// At most so many distances count as one step; mostly there are some 2,000.
 constexpr double work_of_step = 20'000.0;
 /// A step is made only if it takes away this share of the error around it.
 constexpr double min_share = 1e-3;
-/// A step against the largest distance is made only if less than this share of its square is left,
-/// and all of them may raise the error by a share of it, and of what other steps gained. They end
-/// when so many distances stay.
+/// A step against the largest distance is made only if less than this share of its square is left, and all of them may
+/// raise the error by a share of it, and of what other steps gained. They end when so many distances stay.
 constexpr double lowered = 0.985;
 constexpr double spare_share = 0.05;
 constexpr double gain_share = 0.25;
@@ -54,15 +51,9 @@ constexpr int max_failed = 8;
 class Optimizer {
 public:
     Optimizer(WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
-        : surface_(surface)
-        , samples_(samples)
-        , local_(surface, samples, original)
-        , vertices_(surface.mesh.vertex_slots())
-        , edges_(surface.mesh.face_slots() * 3)
-        , queue_(vertices_ + 2 * edges_)
-        , collapses_(edges_)
-        , collapse_is_checked_(edges_, 0)
-        , split_is_checked_(edges_, 0) {}
+        : surface_(surface), samples_(samples), local_(surface, samples, original),
+          vertices_(surface.mesh.vertex_slots()), edges_(surface.mesh.face_slots() * 3), queue_(vertices_ + 2 * edges_),
+          collapses_(edges_), collapse_is_checked_(edges_, 0), split_is_checked_(edges_, 0) {}
 
     std::size_t run(const OptimizeOptions& options);
 
@@ -97,10 +88,7 @@ private:
     };
 
     void lower_max_by_corner(
-        MadeVertex& made,
-        double limit,
-        std::uint32_t vertex,
-        const std::function<bool(const glm::dvec3&)>& may_be_at);
+        MadeVertex& made, double limit, std::uint32_t vertex, const std::function<bool(const glm::dvec3&)>& may_be_at);
     void fit_corner(glm::dvec3& place, glm::dvec3& colour);
     MadeVertex split_vertex(HalfEdge h);
     MadeVertex collapsed_vertex(HalfEdge h);
@@ -149,17 +137,14 @@ double Optimizer::error_at(HalfEdge edge) const {
 double Optimizer::work_at(HalfEdge edge) const {
     constexpr double fixed = 100.0;
     const HalfEdge twin = surface_.mesh.twin(edge);
-    const std::size_t count =
-        samples_.count(face_of(edge)) + (twin == none ? 0 : samples_.count(face_of(twin)));
+    const std::size_t count = samples_.count(face_of(edge)) + (twin == none ? 0 : samples_.count(face_of(twin)));
     return fixed + 8.0 * static_cast<double>(count);
 }
 
 /// Puts a step into the queue, or raises what is expected of it.
 void Optimizer::expect(Id id, double gain, double work) {
     const auto key = static_cast<float>(-gain / work);
-    if (gain > 0.0 && (!queue_.holds(id) || key < queue_.cost(id))) {
-        queue_.set(id, key);
-    }
+    if (gain > 0.0 && (!queue_.holds(id) || key < queue_.cost(id))) { queue_.set(id, key); }
 }
 
 void Optimizer::expect_split(HalfEdge edge) {
@@ -170,9 +155,7 @@ void Optimizer::expect_split(HalfEdge edge) {
 void Optimizer::fill() {
     const CollapsibleMesh& mesh = surface_.mesh;
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
-        if (!mesh.has_vertex(vertex)) {
-            continue;
-        }
+        if (!mesh.has_vertex(vertex)) { continue; }
         double error = 0.0;
         double work = 0.0;
         mesh.around(vertex, [&](HalfEdge h) {
@@ -196,20 +179,15 @@ std::size_t Optimizer::run(const OptimizeOptions& options) {
     fill();
     std::size_t steps = 0;
     while (steps < options.max_steps && !queue_.empty()) {
-        if (steps % 64 == 0 && options.has_timed_out && options.has_timed_out()) {
-            break;
-        }
+        if (steps % 64 == 0 && options.has_timed_out && options.has_timed_out()) { break; }
         if (steps % 1024 == 0 && options.show_progress) {
-            options.show_progress(
-                static_cast<double>(steps) / static_cast<double>(options.max_steps));
+            options.show_progress(static_cast<double>(steps) / static_cast<double>(options.max_steps));
         }
         try_step(queue_.top());
         // Steps among very many triangles or samples count several times.
         steps = std::max(steps + 1, static_cast<std::size_t>(local_.work_done() / work_of_step));
     }
-    if (steps > 0) {
-        lower_max(mean2_before);
-    }
+    if (steps > 0) { lower_max(mean2_before); }
     return steps;
 }
 
@@ -224,9 +202,8 @@ double Optimizer::max_distance2_of(std::uint32_t face, double trusted2) {
     return local_.max_distance2();
 }
 
-/// Lowers the largest distance where it is, again and again, until some of the largest ones stay.
-/// All steps together raise the mean square by no more than a small share, and a share of what has
-/// been gained on `mean2_before`.
+/// Lowers the largest distance where it is, again and again, until some of the largest ones stay. All steps together
+/// raise the mean square by no more than a small share, and a share of what has been gained on `mean2_before`.
 void Optimizer::lower_max(double mean2_before) {
     constexpr double untrusted = std::numeric_limits<double>::max();
     const CollapsibleMesh& mesh = surface_.mesh;
@@ -246,8 +223,7 @@ void Optimizer::lower_max(double mean2_before) {
     spare_ = error * std::clamp(gain_share * gained, 0.0, spare_share);
     const std::size_t max_steps = 32 + mesh.face_count() / 4;
     int failed = 0;
-    for (std::size_t step = 0; step < max_steps && failed < max_failed && !largest.empty();
-         ++step) {
+    for (std::size_t step = 0; step < max_steps && failed < max_failed && !largest.empty(); ++step) {
         const std::uint32_t face = largest.top();
         const auto told2 = -static_cast<double>(largest.cost(face));
         const double max2 = max_distance2_of(face, 0.5 * told2);
@@ -268,40 +244,29 @@ void Optimizer::lower_max(double mean2_before) {
     }
 }
 
-/// Makes the first step at a triangle that leaves no distance around it above the largest one
-/// allowed: a vertex moves, an edge flips, or an edge splits. False if there is none.
+/// Makes the first step at a triangle that leaves no distance around it above the largest one allowed: a vertex moves,
+/// an edge flips, or an edge splits. False if there is none.
 bool Optimizer::lower_max_at(std::uint32_t face) {
     changed_.clear();
     const CollapsibleMesh& mesh = surface_.mesh;
     for (const std::uint32_t vertex : Triangle(mesh.corners(face))) {
         move_to_lower_max(vertex);
-        if (!changed_.empty()) {
-            return true;
-        }
+        if (!changed_.empty()) { return true; }
     }
-    for (std::uint32_t side = 0; side < 3 && changed_.empty(); ++side) {
-        try_flip(mesh.edge_of(3 * face + side));
-    }
+    for (std::uint32_t side = 0; side < 3 && changed_.empty(); ++side) { try_flip(mesh.edge_of(3 * face + side)); }
     for (std::uint32_t side = 0; side < 3 && changed_.empty(); ++side) {
         const HalfEdge edge = mesh.edge_of(3 * face + side);
-        const HalfEdge collapse =
-            surface_.is_border(edge) ? none : cheapest_collapse_away_from(edge);
-        if (collapse != none) {
-            relocate(edge, collapse);
-        }
+        const HalfEdge collapse = surface_.is_border(edge) ? none : cheapest_collapse_away_from(edge);
+        if (collapse != none) { relocate(edge, collapse); }
     }
     return !changed_.empty();
 }
 
-/// Looks for a place of corner 0 of the new triangles at which no distance is above the largest one
-/// allowed and the error is at most `limit`, from `made.place` on. `vertex` is the one that moves,
-/// or none. The place is the one that was measured last; `made.change` becomes the error there, or
-/// infinite where there is no such place.
+/// Looks for a place of corner 0 of the new triangles at which no distance is above the largest one allowed and the
+/// error is at most `limit`, from `made.place` on. `vertex` is the one that moves, or none. The place is the one that
+/// was measured last; `made.change` becomes the error there, or infinite where there is no such place.
 void Optimizer::lower_max_by_corner(
-    MadeVertex& made,
-    double limit,
-    std::uint32_t vertex,
-    const std::function<bool(const glm::dvec3&)>& may_be_at) {
+    MadeVertex& made, double limit, std::uint32_t vertex, const std::function<bool(const glm::dvec3&)>& may_be_at) {
     constexpr int max_tries = 8;
     constexpr double min_length = 0.05;
     constexpr double shorter = 0.4;
@@ -348,9 +313,8 @@ void Optimizer::move_to_lower_max(std::uint32_t vertex) {
     local_.gather(faces_);
     local_.set_ring(ring_, moved.place, moved.colour);
     const double limit = local_.present() + spare_;
-    lower_max_by_corner(moved, limit, vertex, [&](const glm::dvec3& place) {
-        return may_move(surface_, ring_, place);
-    });
+    lower_max_by_corner(
+        moved, limit, vertex, [&](const glm::dvec3& place) { return may_move(surface_, ring_, place); });
     if (std::isfinite(moved.change)) {
         surface_.places[vertex] = moved.place;
         local_.keep(faces_, faces_, vertex);
@@ -371,17 +335,14 @@ void Optimizer::try_step(Id id) {
     }
 }
 
-/// Moves a vertex, and changes its colour, if a full or a shorter step of the fit lessens the
-/// error.
+/// Moves a vertex, and changes its colour, if a full or a shorter step of the fit lessens the error.
 void Optimizer::try_move(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
     const glm::dvec3 place = surface_.places[vertex];
     const glm::dvec3 colour = surface_.colour_of(vertex);
     local_.gather(faces_);
     const double before = local_.present();
-    if (before <= local_.rounding()) {
-        return;
-    }
+    if (before <= local_.rounding()) { return; }
     local_.set_ring(ring_, place, colour);
     local_.forward_error();
     const VertexFit fit = local_.fit(true);
@@ -390,9 +351,7 @@ void Optimizer::try_move(std::uint32_t vertex) {
     for (const double step : {1.0, 0.4}) {
         const glm::dvec3 there = place + step * way;
         const glm::dvec3 new_colour = colour + step * fit.colour_change();
-        if (!may_move(surface_, ring_, there)) {
-            continue;
-        }
+        if (!may_move(surface_, ring_, there)) { continue; }
         local_.move_corner(there, new_colour);
         const double limit = (1.0 - min_share) * before;
         const double after = local_.measured(limit);
@@ -428,79 +387,58 @@ void Optimizer::changed_around(std::uint32_t vertex, double gain, double work, b
             expect(mesh.target(h), expected_nearby * gain, work);
         }
     });
-    if (connectivity) {
-        expect(vertex, expected_again * gain, work);
-    }
+    if (connectivity) { expect(vertex, expected_again * gain, work); }
 }
 
 void Optimizer::try_flip(HalfEdge h) {
     CollapsibleMesh& mesh = surface_.mesh;
-    if (mesh.twin(h) == none || surface_.is_material_border(h) || !mesh.may_flip(h)) {
-        return;
-    }
+    if (mesh.twin(h) == none || surface_.is_material_border(h) || !mesh.may_flip(h)) { return; }
     const std::uint32_t u = mesh.origin(h);
     const std::uint32_t w = mesh.target(h);
     const std::uint32_t x = mesh.origin(previous_of(h));
     const std::uint32_t y = mesh.origin(previous_of(mesh.twin(h)));
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        return ColouredTriangle{
-            {a, b, c},
-            {surface_.places[a], surface_.places[b], surface_.places[c]},
+        return ColouredTriangle{{a, b, c}, {surface_.places[a], surface_.places[b], surface_.places[c]},
             {surface_.colour_of(a), surface_.colour_of(b), surface_.colour_of(c)}};
     };
     const std::array old = {triangle(u, w, x), triangle(w, u, y)};
     const std::array made = {triangle(y, x, u), triangle(x, y, w)};
-    if (!may_flip_to({old[0].places, old[1].places}, {made[0].places, made[1].places})) {
-        return;
-    }
+    if (!may_flip_to({old[0].places, old[1].places}, {made[0].places, made[1].places})) { return; }
     faces_.assign({face_of(h), face_of(mesh.twin(h))});
     local_.gather(faces_);
     const double before = local_.present();
-    if (before <= local_.rounding()) {
-        return;
-    }
+    if (before <= local_.rounding()) { return; }
     local_.set_triangles(made, faces_);
     const double limit = is_lowering_max_ ? before + spare_ : 0.99 * before;
     const double after = local_.measured(limit);
-    if (!(after < limit) || local_.max_distance2() > max_distance2_) {
-        return;
-    }
+    if (!(after < limit) || local_.max_distance2() > max_distance2_) { return; }
     mesh.flip(h);
     local_.keep(faces_, faces_, none);
     changed_ = faces_;
     spare_ = is_lowering_max_ ? std::max(0.0, spare_ + before - after) : 0.0;
     const double work = local_.work();
-    for (const std::uint32_t vertex : {u, w, x, y}) {
-        expect(vertex, expected_nearby * (before - after), work);
-    }
+    for (const std::uint32_t vertex : {u, w, x, y}) { expect(vertex, expected_nearby * (before - after), work); }
     for (const std::uint32_t face : faces_) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             const HalfEdge edge = mesh.edge_of(3 * face + corner);
             expect(flip_of(edge), expected_nearby * (before - after), work);
             split_is_checked_[edge] = 0;
             collapse_is_checked_[edge] = 0;
-            if (!collapses_.holds(edge)) {
-                collapses_.set(edge, 0.0F);
-            }
+            if (!collapses_.holds(edge)) { collapses_.set(edge, 0.0F); }
         }
     }
 }
 
-/// Loads the triangles around an edge that would split, no border, into a fan around the new
-/// vertex.
+/// Loads the triangles around an edge that would split, no border, into a fan around the new vertex.
 void Optimizer::load_split(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     faces_.clear();
     fan_.clear();
-    const glm::dvec3 middle =
-        0.5 * (surface_.places[mesh.origin(h)] + surface_.places[mesh.target(h)]);
-    const glm::dvec3 colour =
-        0.5 * (surface_.colour_of(mesh.origin(h)) + surface_.colour_of(mesh.target(h)));
+    const glm::dvec3 middle = 0.5 * (surface_.places[mesh.origin(h)] + surface_.places[mesh.target(h)]);
+    const glm::dvec3 colour = 0.5 * (surface_.colour_of(mesh.origin(h)) + surface_.colour_of(mesh.target(h)));
     const auto add = [&](std::uint32_t b, std::uint32_t c) {
-        fan_.push_back(
-            {{none, b, c},
-             {middle, surface_.places[b], surface_.places[c]},
-             {colour, surface_.colour_of(b), surface_.colour_of(c)}});
+        fan_.push_back({{none, b, c}, {middle, surface_.places[b], surface_.places[c]},
+            {colour, surface_.colour_of(b), surface_.colour_of(c)}});
     };
     // In the order of CollapsibleMesh::split.
     for (const HalfEdge side : {h, mesh.twin(h)}) {
@@ -511,9 +449,7 @@ void Optimizer::load_split(HalfEdge h) {
     }
     local_.gather(faces_);
     near_.clear();
-    for (std::size_t i = 0; i < fan_.size(); ++i) {
-        near_.push_back(faces_[i / 2]);
-    }
+    for (std::size_t i = 0; i < fan_.size(); ++i) { near_.push_back(faces_[i / 2]); }
     local_.set_triangles(fan_, near_);
 }
 
@@ -533,16 +469,12 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
     load_split(h);
     MadeVertex made{fan_[0].places[0], fan_[0].colours[0], std::numeric_limits<double>::infinity()};
     const double present = local_.present();
-    if (present <= local_.rounding()) {
-        return made;
-    }
+    if (present <= local_.rounding()) { return made; }
     const auto is_allowed = [&](const glm::dvec3& place) {
         for (std::size_t i = 0; i < fan_.size(); ++i) {
             std::array<glm::dvec3, 3> corners = fan_[i].places;
             corners[0] = place;
-            if (!is_valid_deformation(surface_.corner_places(faces_[i / 2]), corners)) {
-                return false;
-            }
+            if (!is_valid_deformation(surface_.corner_places(faces_[i / 2]), corners)) { return false; }
         }
         return true;
     };
@@ -558,9 +490,7 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
     fit_corner(place, colour);
     if (is_allowed(place)) {
         const double after = local_.measured(present);
-        if (after < present && local_.max_distance2() <= max_distance2_) {
-            made = {place, colour, after - present};
-        }
+        if (after < present && local_.max_distance2() <= max_distance2_) { made = {place, colour, after - present}; }
     }
     return made;
 }
@@ -594,9 +524,7 @@ Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
     fit_corner(place, colour);
     if (may_move(surface_, ring_, place)) {
         const double after = local_.measured();
-        if (local_.max_distance2() <= max_distance2_) {
-            made = {place, colour, after - local_.present()};
-        }
+        if (local_.max_distance2() <= max_distance2_) { made = {place, colour, after - local_.present()}; }
     }
     return made;
 }
@@ -605,14 +533,10 @@ Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
 HalfEdge Optimizer::cheapest_collapse() {
     while (!collapses_.empty()) {
         const HalfEdge edge = collapses_.top();
-        if (collapse_is_checked_[edge] != 0) {
-            return edge;
-        }
+        if (collapse_is_checked_[edge] != 0) { return edge; }
         collapse_is_checked_[edge] = 1;
-        const bool is_edge =
-            surface_.mesh.has_face(face_of(edge)) && surface_.mesh.edge_of(edge) == edge;
-        const double change =
-            is_edge ? collapsed_vertex(edge).change : std::numeric_limits<double>::infinity();
+        const bool is_edge = surface_.mesh.has_face(face_of(edge)) && surface_.mesh.edge_of(edge) == edge;
+        const double change = is_edge ? collapsed_vertex(edge).change : std::numeric_limits<double>::infinity();
         if (std::isinf(change)) {
             collapses_.remove(edge);
         } else {
@@ -641,8 +565,8 @@ bool Optimizer::touch(HalfEdge split, HalfEdge collapsed) const {
     return found;
 }
 
-/// The edge whose collapse costs least and does not touch the triangles of one that splits; none
-/// where several of the cheapest ones touch them.
+/// The edge whose collapse costs least and does not touch the triangles of one that splits; none where several of the
+/// cheapest ones touch them.
 HalfEdge Optimizer::cheapest_collapse_away_from(HalfEdge split) {
     constexpr std::size_t max_tries = 8;
     std::vector<std::pair<HalfEdge, float>> touching;
@@ -652,14 +576,12 @@ HalfEdge Optimizer::cheapest_collapse_away_from(HalfEdge split) {
         collapses_.remove(found);
         found = touching.size() < max_tries ? cheapest_collapse() : none;
     }
-    for (const auto& [edge, cost] : touching) {
-        collapses_.set(edge, cost);
-    }
+    for (const auto& [edge, cost] : touching) { collapses_.set(edge, cost); }
     return found;
 }
 
-/// Splits an edge if that takes more away than the cheapest collapse elsewhere costs. The first
-/// time only finds out what it is worth.
+/// Splits an edge if that takes more away than the cheapest collapse elsewhere costs. The first time only finds out
+/// what it is worth.
 void Optimizer::try_split(HalfEdge h) {
     const Id id = split_of(h);
     const CollapsibleMesh& mesh = surface_.mesh;
@@ -684,14 +606,11 @@ void Optimizer::try_split(HalfEdge h) {
         return;
     }
     queue_.remove(id);
-    if (touch(h, cheapest)) {
-        return;
-    }
+    if (touch(h, cheapest)) { return; }
     relocate(h, cheapest);
 }
 
-/// Collapses one edge and splits another one, neither of them a border, with the triangles that are
-/// free then.
+/// Collapses one edge and splits another one, neither of them a border, with the triangles that are free then.
 void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     CollapsibleMesh& mesh = surface_.mesh;
     const MadeVertex apart = split_vertex(split);
@@ -746,10 +665,7 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
 } // namespace
 
 std::size_t optimize(
-    WorkingSurface& surface,
-    SurfaceSamples& samples,
-    const OriginalSurface& original,
-    const OptimizeOptions& options) {
+    WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original, const OptimizeOptions& options) {
     return Optimizer(surface, samples, original).run(options);
 }
 

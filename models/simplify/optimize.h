@@ -17,13 +17,10 @@ struct OptimizeOptions {
     std::function<void(double share)> show_progress; ///< May be empty.
 };
 
-/// Lowers the error of a surface against samples of its original, both ways, without changing its
-/// number of triangles: applies the step with the best reduction per unit of work. Returns how many
-/// steps were tried, where very large ones count several times.
+/// Lowers the error of a surface against samples of its original, both ways, without changing its number of triangles:
+/// applies the step with the best reduction per unit of work. Returns how many steps were tried, where very large ones
+/// count several times.
 std::size_t optimize(
-    WorkingSurface& surface,
-    SurfaceSamples& samples,
-    const OriginalSurface& original,
-    const OptimizeOptions& options);
+    WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original, const OptimizeOptions& options);
 
 } // namespace octant::models::simplify

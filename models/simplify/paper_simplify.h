@@ -8,8 +8,8 @@
 
 namespace octant::models::simplify {
 
-/// A position and a weighted colour as one point: x, y, z (metres), w r, w g, w b; the last three 0
-/// where colour does not count.
+/// A position and a weighted colour as one point: x, y, z (metres), w r, w g, w b; the last three 0 where colour does
+/// not count.
 using Point6 = std::array<double, 6>;
 
 using Corners = std::array<Point6, 3>;
@@ -25,12 +25,12 @@ struct Foot {
 /// Drops the perpendicular from `x`. A triangle without area has no inside.
 Foot foot_on(const Corners& triangle, const Point6& x);
 
-/// A quadric error metric in six dimensions: the sum of squared distances to planes, x^T A x + 2
-/// b^T x + c with a symmetric A. The default one has no plane and is 0 everywhere.
+/// A quadric error metric in six dimensions: the sum of squared distances to planes, x^T A x + 2 b^T x + c with a
+/// symmetric A. The default one has no plane and is 0 everywhere.
 class PlaneQuadric {
 public:
-    /// The quadric of the plane in space through a triangle's corners, whatever their colours; that
-    /// of no plane for a triangle without area.
+    /// The quadric of the plane in space through a triangle's corners, whatever their colours; that of no plane for a
+    /// triangle without area.
     static PlaneQuadric of_plane(const Corners& triangle);
 
     /// The quadric of the plane that a triangle spans in six dimensions, colours included.
@@ -57,8 +57,8 @@ enum class PaperMeasure {
 /// How to simplify as printed in the paper.
 struct PaperOptions {
     PaperMeasure measure = PaperMeasure::Bidirectional;
-    /// Vertices or faces; error_m must be empty (asserted). As in the paper, vertices that no
-    /// triangle uses are counted.
+    /// Vertices or faces; error_m must be empty (asserted). As in the paper, vertices that no triangle uses are
+    /// counted.
     Goal goal;
     std::size_t uncounted = 0; ///< How many such vertices of the file the mesh no longer has.
     /// w of distances in the six dimensions (position, w rgb), in metres; 0 = position only.
@@ -68,8 +68,8 @@ struct PaperOptions {
     ShowProgress show_progress;
 };
 
-/// The costs of the chosen contractions, each against the mesh before it, summed over all of them:
-/// the paper's error, in square metres.
+/// The costs of the chosen contractions, each against the mesh before it, summed over all of them: the paper's error,
+/// in square metres.
 struct PaperSums {
     double plane_m2 = 0.0;         ///< Quadrics at the new vertices.
     double triangle_m2 = 0.0;      ///< From the new vertices to the triangles that they replace.
@@ -81,14 +81,14 @@ struct PaperResult {
     TriangleMesh mesh;
     std::size_t contractions = 0;
     std::size_t counted_vertices = 0; ///< How many vertices are left, as the paper counts them.
-    std::size_t feet = 0; ///< How many perpendiculars were dropped on triangles to choose.
+    std::size_t feet = 0;             ///< How many perpendiculars were dropped on triangles to choose.
     /// How many of their feet lie outside, by the strict test 0 < a, b, c < 1.
     std::size_t feet_outside = 0;
     PaperSums sums; ///< By all measures, whichever of them chose.
 };
 
-/// Iterative edge contraction as printed in the paper: the shortest edge first, to the best of both
-/// ends and the midpoint, without any test that keeps a manifold. Takes any mesh.
+/// Iterative edge contraction as printed in the paper: the shortest edge first, to the best of both ends and the
+/// midpoint, without any test that keeps a manifold. Takes any mesh.
 PaperResult paper_simplified(const TriangleMesh& original, const PaperOptions& options);
 
 } // namespace octant::models::simplify

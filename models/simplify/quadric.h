@@ -6,8 +6,7 @@
 
 namespace octant::models::simplify {
 
-/// A quadric error metric in space: the weighted sum of squared distances to planes, p^T A p + 2
-/// b^T p + c.
+/// A quadric error metric in space: the weighted sum of squared distances to planes, p^T A p + 2 b^T p + c.
 struct Quadric {
     double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0; ///< The symmetric matrix A.
     glm::dvec3 b{0.0};
@@ -23,9 +22,8 @@ struct Quadric {
     double trace() const { return xx + yy + zz; }
 };
 
-/// The part that H. Hoppe (1999) adds for three colours that are linear functions of position on
-/// each triangle: weight * (gradient^T p + offset - colour)^2, summed. Its part without the colour
-/// is kept in the Quadric.
+/// The part that H. Hoppe (1999) adds for three colours that are linear functions of position on each triangle: weight
+/// * (gradient^T p + offset - colour)^2, summed. Its part without the colour is kept in the Quadric.
 struct ColourQuadric {
     std::array<glm::dvec3, 3> gradient{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
     glm::dvec3 offset{0.0};
@@ -38,18 +36,14 @@ struct ColourQuadric {
 };
 
 /// Adds the colours of one triangle to both quadrics.
-void add_colours(
-    Quadric& quadric,
-    ColourQuadric& colours,
-    const std::array<glm::dvec3, 3>& corners,
-    const std::array<glm::dvec3, 3>& corner_colours,
-    double weight);
+void add_colours(Quadric& quadric, ColourQuadric& colours, const std::array<glm::dvec3, 3>& corners,
+    const std::array<glm::dvec3, 3>& corner_colours, double weight);
 
 /// The quadric that is left when at each position the best colours are chosen.
 Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours);
 
-/// The position of the least sum, drawn slightly towards `middle`, so that flat and straight
-/// surroundings have one answer, too.
+/// The position of the least sum, drawn slightly towards `middle`, so that flat and straight surroundings have one
+/// answer, too.
 glm::dvec3 min_place(const Quadric& quadric, const glm::dvec3& middle);
 
 /// The product of the 3 x 3 matrix and a vector.

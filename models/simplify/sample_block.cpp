@@ -1,8 +1,7 @@
-// Point-to-triangle distances, many at a time. This is where simplification spends its time: each
-// collapse asks for the distances of some dozens of samples to some dozen triangles. The inner loop
-// has no branches and is written once for vectors of 4 (any processor) and 8 floats (with AVX2,
-// chosen when the program runs). Every lane computes the same operations in the same order, so that
-// results do not depend on the width.
+// Point-to-triangle distances, many at a time. This is where simplification spends its time: each collapse asks for the
+// distances of some dozens of samples to some dozen triangles. The inner loop has no branches and is written once for
+// vectors of 4 (any processor) and 8 floats (with AVX2, chosen when the program runs). Every lane computes the same
+// operations in the same order, so that results do not depend on the width.
 #include "models/simplify/sample_block.h"
 
 #include <algorithm>
@@ -38,14 +37,12 @@ OCTANT_INLINE void store(const V& value, T* to) {
     std::memcpy(to, &value, sizeof(V));
 }
 
-/// The squared differences between the colours of samples and those at positions (x, y) of a
-/// triangle.
+/// The squared differences between the colours of samples and those at positions (x, y) of a triangle.
 template <typename F>
 OCTANT_INLINE void colour_errors(
     F& error2, SampleBlock& samples, std::size_t i, const FlatTriangle& t, const F& x, const F& y) {
     error2 = F{};
-    const std::array<const float*, 3> colours = {
-        &samples.red[i], &samples.green[i], &samples.blue[i]};
+    const std::array<const float*, 3> colours = {&samples.red[i], &samples.green[i], &samples.blue[i]};
     for (std::size_t part = 0; part < 3; ++part) {
         F colour;
         load(colour, colours[part]);
@@ -54,11 +51,10 @@ OCTANT_INLINE void colour_errors(
     }
 }
 
-/// Compares one triangle with the next few samples and keeps it where it is nearer. Without
-/// branches; each point's result is the same whatever the width.
+/// Compares one triangle with the next few samples and keeps it where it is nearer. Without branches; each point's
+/// result is the same whatever the width.
 template <typename Width, bool coloured>
-OCTANT_INLINE void
-nearest_to_one(SampleBlock& samples, std::size_t i, const FlatTriangle& t, std::int32_t index) {
+OCTANT_INLINE void nearest_to_one(SampleBlock& samples, std::size_t i, const FlatTriangle& t, std::int32_t index) {
     using F = typename Width::Floats;
     std::array<F, 3> place;
     load(place[0], &samples.x[i]);
@@ -98,10 +94,10 @@ OCTANT_INLINE void nearest_to_all(SampleBlock& samples, std::span<const FlatTria
 #if defined(__x86_64__) && defined(__GNUC__)
 #define OCTANT_HAS_WIDE_VECTORS 1
 
-/// The same operations, eight samples at a time. AVX2 alone does not fuse multiplications and
-/// additions, so that the bits are the same.
-[[gnu::target("avx2")]] void
-find_nearest_wide(SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured) {
+/// The same operations, eight samples at a time. AVX2 alone does not fuse multiplications and additions, so that the
+/// bits are the same.
+[[gnu::target("avx2")]] void find_nearest_wide(
+    SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured) {
     if (coloured) {
         nearest_to_all<Wide, true>(samples, triangles);
     } else {
@@ -117,20 +113,16 @@ bool has_wide_vectors() {
 
 } // namespace
 
-FlatTriangle flat(const std::array<glm::dvec3, 3>& corners) {
-    return {measure::plane_frame(corners), {}, {}, {}};
-}
+FlatTriangle flat(const std::array<glm::dvec3, 3>& corners) { return {measure::plane_frame(corners), {}, {}, {}}; }
 
-FlatTriangle
-flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours) {
+FlatTriangle flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours) {
     FlatTriangle t = flat(corners);
     const auto length = static_cast<double>(t.bx);
     const auto up = static_cast<double>(t.cy);
     const glm::dvec3 to_b = corner_colours[1] - corner_colours[0];
     const glm::dvec3 to_c = corner_colours[2] - corner_colours[0];
     const glm::dvec3 along_x = length > 0.0 ? to_b / length : glm::dvec3(0.0);
-    const glm::dvec3 along_y =
-        up > 1e-6 * length ? (to_c - along_x * static_cast<double>(t.cx)) / up : glm::dvec3(0.0);
+    const glm::dvec3 along_y = up > 1e-6 * length ? (to_c - along_x * static_cast<double>(t.cx)) / up : glm::dvec3(0.0);
     t.colour = measure::narrow(corner_colours[0]);
     t.colour_x = measure::narrow(along_x);
     t.colour_y = measure::narrow(along_y);
@@ -140,8 +132,7 @@ flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& 
 void SampleBlock::make_room(std::size_t samples) {
     if (samples + 8 > x.size()) {
         const std::size_t room = 2 * samples + 8;
-        for (auto* values :
-             {&x, &y, &z, &weights, &red, &green, &blue, &distances2, &colour_errors2}) {
+        for (auto* values : {&x, &y, &z, &weights, &red, &green, &blue, &distances2, &colour_errors2}) {
             values->resize(room);
         }
         numbers.resize(room);

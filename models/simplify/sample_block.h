@@ -12,8 +12,7 @@
 
 namespace octant::models::simplify {
 
-/// A triangle in the coordinates of its own plane, in single precision, with its colours where
-/// there are any.
+/// A triangle in the coordinates of its own plane, in single precision, with its colours where there are any.
 struct FlatTriangle : measure::PlaneFrame<float> {
     /// The colour at corner a, and its gradient along the plane's x and y axes.
     std::array<float, 3> colour;
@@ -25,15 +24,12 @@ struct FlatTriangle : measure::PlaneFrame<float> {
 FlatTriangle flat(const std::array<glm::dvec3, 3>& corners);
 
 /// The triangle with colours. On one without area the gradient may be zero.
-FlatTriangle
-flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours);
+FlatTriangle flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours);
 
-inline glm::dvec3 widen(const std::array<float, 3>& v) {
-    return {v[0], v[1], v[2]};
-}
+inline glm::dvec3 widen(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// Samples in structure-of-arrays layout, so that several are worked on with one instruction, and
-/// for each what was found nearest to it.
+/// Samples in structure-of-arrays layout, so that several are worked on with one instruction, and for each what was
+/// found nearest to it.
 class SampleBlock {
 public:
     void clear() { size_ = 0; }
@@ -64,9 +60,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Finds the nearest triangle for all samples: fills distances2 and nearest, and colour_errors2
-/// where `coloured`. Of triangles at the same distance the first one counts. There must be at least
-/// one triangle (asserted).
+/// Finds the nearest triangle for all samples: fills distances2 and nearest, and colour_errors2 where `coloured`. Of
+/// triangles at the same distance the first one counts. There must be at least one triangle (asserted).
 void find_nearest(SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured);
 
 } // namespace octant::models::simplify

@@ -1,11 +1,10 @@
-// The product's simplification: edge collapses (edge_collapse.cpp), as many as a wanted error
-// allows, then an optimization (optimize.cpp). Attributes are taken over by AttributeSeams.
+// The product's simplification: edge collapses (edge_collapse.cpp), as many as a wanted error allows, then an
+// optimization (optimize.cpp). Attributes are taken over by AttributeSeams.
 //
-// It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
-// which the distance to triangles in both directions comes: the reference is the original surface
-// instead of the previous mesh, new vertices are placed by quadrics instead of at ends or
-// midpoints, the link condition keeps a manifold, and a wanted error is certified by measuring, not
-// estimated. The paper's own mode is paper_simplify.cpp.
+// It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from which the distance to
+// triangles in both directions comes: the reference is the original surface instead of the previous mesh, new vertices
+// are placed by quadrics instead of at ends or midpoints, the link condition keeps a manifold, and a wanted error is
+// certified by measuring, not estimated. The paper's own mode is paper_simplify.cpp.
 #include "models/simplify/simplify.h"
 
 #include "models/measure/mesh_distance.h"
@@ -35,9 +34,7 @@ namespace {
 constexpr std::size_t sampled_faces = 3;
 constexpr std::size_t min_sampled_faces = 2000;
 
-double cpu_s() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// How many samples stand for a surface: some dozens for each triangle that is to be left.
 std::size_t wanted_samples(int effort, std::size_t original_faces, std::size_t faces_left) {
@@ -47,23 +44,17 @@ std::size_t wanted_samples(int effort, std::size_t original_faces, std::size_t f
     // More steps than those of effort 4 would only fit the surface to the samples of effort 4.
     const std::size_t times = effort <= 4 ? 1 : effort == 5 ? 2 : 4;
     return times *
-           std::max(
-               std::min(samples_a_face * faces_left, samples_an_original_face * original_faces),
-               min_samples);
+           std::max(std::min(samples_a_face * faces_left, samples_an_original_face * original_faces), min_samples);
 }
 
 /// How many steps an effort is. Where few triangles are left of many, each one is worth more steps.
 std::size_t steps_of(int effort, std::size_t faces, std::size_t original) {
-    if (effort <= 0) {
-        return 0;
-    }
+    if (effort <= 0) { return 0; }
     const double share = std::ldexp(1.0, effort - 2);
-    return static_cast<std::size_t>(
-        share * std::sqrt(static_cast<double>(faces) * static_cast<double>(original)));
+    return static_cast<std::size_t>(share * std::sqrt(static_cast<double>(faces) * static_cast<double>(original)));
 }
 
-OptimizeOptions
-optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t original) {
+OptimizeOptions optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t original) {
     constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
     OptimizeOptions how;
     how.max_steps = options.steps.value_or(unlimited);
@@ -71,25 +62,19 @@ optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t 
         how.max_steps = std::min(how.max_steps, steps_of(options.effort, faces, original));
     }
     if (options.deadline) {
-        how.has_timed_out = [end = *options.deadline] {
-            return std::chrono::steady_clock::now() > end;
-        };
+        how.has_timed_out = [end = *options.deadline] { return std::chrono::steady_clock::now() > end; };
     }
     return how;
 }
 
-WorkingSurface working_surface(
-    const TriangleMesh& mesh, const WorkingUnits& units, const SimplifyOptions& options) {
+WorkingSurface working_surface(const TriangleMesh& mesh, const WorkingUnits& units, const SimplifyOptions& options) {
     WorkingSurface surface(mesh, units);
-    if (options.lock_border) {
-        surface.lock_border(mesh, units);
-    }
+    if (options.lock_border) { surface.lock_border(mesh, units); }
     return surface;
 }
 
 /// For each sample the corner of its triangle that is nearest to it.
-std::vector<std::uint32_t>
-anchors_of(const WorkingSurface& surface, const SurfaceSamples& samples) {
+std::vector<std::uint32_t> anchors_of(const WorkingSurface& surface, const SurfaceSamples& samples) {
     std::vector<std::uint32_t> anchors(samples.size());
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
         const std::array<float, 3>& at = samples[sample].place;
@@ -112,9 +97,7 @@ std::vector<std::uint32_t> compacted(CollapsingSurface& collapsing) {
     std::vector<std::uint32_t> slots(collapsing.first_vertices() + collapses.size(), none);
     std::uint32_t count = 0;
     for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
-        if (mesh.has_vertex(slot)) {
-            slots[collapsing.vertex_numbers()[slot]] = count++;
-        }
+        if (mesh.has_vertex(slot)) { slots[collapsing.vertex_numbers()[slot]] = count++; }
     }
     for (std::size_t i = collapses.size(); i-- > 0;) {
         slots[collapses[i].first] = slots[collapsing.first_vertices() + i];
@@ -125,10 +108,9 @@ std::vector<std::uint32_t> compacted(CollapsingSurface& collapsing) {
     return slots;
 }
 
-/// Puts each sample into the list of the nearest triangle, found from one near it. All slots of the
-/// surface must be taken.
-void assign_from(
-    const WorkingSurface& surface, SurfaceSamples& samples, std::span<std::uint32_t> faces) {
+/// Puts each sample into the list of the nearest triangle, found from one near it. All slots of the surface must be
+/// taken.
+void assign_from(const WorkingSurface& surface, SurfaceSamples& samples, std::span<std::uint32_t> faces) {
     std::vector<FlatTriangle> triangles;
     triangles.reserve(surface.mesh.face_slots());
     for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
@@ -136,31 +118,24 @@ void assign_from(
     }
     std::vector<float> distances2(samples.size());
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
-        faces[sample] = nearest_face_from(
-            surface, faces[sample], samples[sample].place, distances2[sample], triangles);
+        faces[sample] = nearest_face_from(surface, faces[sample], samples[sample].place, distances2[sample], triangles);
     }
     samples.assign_all(faces, distances2, surface.mesh);
 }
 
-/// An optimized mesh, or the one before where that is nearer to the original by the quadratic mean.
-/// The points for that are not those that the optimization has seen. Colours, where there are any,
-/// may have got better at the expense of places, so that they have no such bound.
+/// An optimized mesh, or the one before where that is nearer to the original by the quadratic mean. The points for that
+/// are not those that the optimization has seen. Colours, where there are any, may have got better at the expense of
+/// places, so that they have no such bound.
 TriangleMesh better_of(
-    const TriangleMesh& original,
-    const OriginalSurface& surface,
-    TriangleMesh before,
-    TriangleMesh optimized) {
-    if (!original.colours.empty()) {
-        return optimized;
-    }
+    const TriangleMesh& original, const OriginalSurface& surface, TriangleMesh before, TriangleMesh optimized) {
+    if (!original.colours.empty()) { return optimized; }
     constexpr std::size_t samples = 4'000;
     const measure::TargetSurface target(original, surface.tree());
     const auto rms_m = [&](const TriangleMesh& mesh) {
         const measure::SampleOptions how{.samples = samples};
         const measure::TargetSurface made(mesh);
         return std::max(
-            measure::sampled_distance(original, made, how).rms_m,
-            measure::sampled_distance(mesh, target, how).rms_m);
+            measure::sampled_distance(original, made, how).rms_m, measure::sampled_distance(mesh, target, how).rms_m);
     };
     return rms_m(before) < rms_m(optimized) ? std::move(before) : std::move(optimized);
 }
@@ -176,24 +151,17 @@ class Simplification {
 public:
     /// The original and the options must outlive this.
     Simplification(const TriangleMesh& original, const SimplifyOptions& options)
-        : options_(options)
-        , original_(original)
-        , collapsing_(collapsing_of(original, options, EdgeWeights{}))
-        , target_(
-              std::make_shared<const OriginalSurface>(surface(), original, collapsing_.units())) {}
+        : options_(options), original_(original), collapsing_(collapsing_of(original, options, EdgeWeights{})),
+          target_(std::make_shared<const OriginalSurface>(surface(), original, collapsing_.units())) {}
 
-    /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are
-    /// left in the end.
+    /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are left in the end.
     void approach(const Goal& near_goal, std::size_t faces) {
-        SurfaceSamples samples(
-            surface(), wanted_samples(options_.effort, surface().mesh.face_count(), faces));
+        SurfaceSamples samples(surface(), wanted_samples(options_.effort, surface().mesh.face_count(), faces));
         std::vector<std::uint32_t> near = anchors_of(surface(), samples);
         samples.drop_lists(); // There is one for each triangle of the original.
         collapse_by_quadrics(collapsing_, near_goal, options_);
         const std::vector<std::uint32_t> slots = compacted(collapsing_);
-        for (std::uint32_t& anchor : near) {
-            anchor = surface().mesh.face_at(slots[anchor]);
-        }
+        for (std::uint32_t& anchor : near) { anchor = surface().mesh.face_at(slots[anchor]); }
         assign_from(surface(), samples, near);
         LocalError(surface(), samples, *target_).measure_all_back();
         samples_.emplace(std::move(samples));
@@ -209,10 +177,7 @@ public:
         mesh = surface().to_mesh(original_, collapsing_.units());
         samples_->sort();
         const std::size_t steps = simplify::optimize(
-            surface(),
-            *samples_,
-            *target_,
-            optimize_options(options, faces(), original_.triangles.size()));
+            surface(), *samples_, *target_, optimize_options(options, faces(), original_.triangles.size()));
         if (steps > 0) {
             TriangleMesh made = surface().to_mesh(original_, collapsing_.units());
             mesh = better_of(original_, *target_, std::move(mesh), std::move(made));
@@ -232,9 +197,7 @@ public:
     std::vector<Collapse>& collapses() { return collapsing_.collapses(); }
 
     /// A tree over the original's triangles; built where there was none so far.
-    const std::shared_ptr<const measure::TriangleBvh>& original_tree() const {
-        return target_->tree();
-    }
+    const std::shared_ptr<const measure::TriangleBvh>& original_tree() const { return target_->tree(); }
 
 private:
     WorkingSurface& surface() { return collapsing_.surface(); }
@@ -247,18 +210,14 @@ private:
     std::size_t shells_gone_ = 0;
 };
 
-/// Searches for the fewest triangles whose finished mesh keeps a wanted error by its certified
-/// distance, so that whoever measures it again with the usual tightness finds it kept. Each try
-/// goes on from the last state that kept the error, is optimized and measured. Tries after the last
-/// step or the deadline make no steps.
+/// Searches for the fewest triangles whose finished mesh keeps a wanted error by its certified distance, so that
+/// whoever measures it again with the usual tightness finds it kept. Each try goes on from the last state that kept the
+/// error, is optimized and measured. Tries after the last step or the deadline make no steps.
 class ErrorSearch {
 public:
     ErrorSearch(const TriangleMesh& original, const SimplifyOptions& options)
-        : original_(original)
-        , options_(options)
-        , collapsing_(options)
-        , trying_(options)
-        , error_m_(*options.goal.error_m) {
+        : original_(original), options_(options), collapsing_(options), trying_(options),
+          error_m_(*options.goal.error_m) {
         result_.mesh = original;
         trying_.effort_limits_each = true;
     }
@@ -281,8 +240,7 @@ private:
     static constexpr double aim = 0.97;
     /// The error is assumed to fall with this power of the number of triangles.
     static constexpr double steepness = 1.0;
-    /// The first try is where the estimate reaches this many times the wanted error, which the
-    /// optimization lowers.
+    /// The first try is where the estimate reaches this many times the wanted error, which the optimization lowers.
     static constexpr double first_try = 1.2;
 
     void search_from(double quadrics_m) {
@@ -308,9 +266,7 @@ private:
                 too_far_m = tried_m;
             }
             const std::size_t wanted = next_faces(kept->faces(), kept_m, too_few, too_far_m);
-            if (wanted >= kept->faces()) {
-                break;
-            }
+            if (wanted >= kept->faces()) { break; }
             const double before_s = cpu_s();
             next = std::make_unique<Simplification>(*kept);
             next->collapse({{}, wanted, {}});
@@ -324,8 +280,8 @@ private:
         }
     }
 
-    /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns about
-    /// how large its error is.
+    /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns about how large its error
+    /// is.
     double attempt(const Simplification& state) {
         const double start_s = cpu_s();
         Simplification copy(state);
@@ -333,18 +289,14 @@ private:
         const std::size_t steps = copy.optimize(trying_, mesh);
         result_.optimize_cpu_s += cpu_s() - start_s;
         result_.steps += steps;
-        if (trying_.steps) {
-            *trying_.steps -= std::min(*trying_.steps, steps);
-        }
-        const measure::MeshDistance distance = measure::distance(
-            original_,
-            mesh,
+        if (trying_.steps) { *trying_.steps -= std::min(*trying_.steps, steps); }
+        const measure::MeshDistance distance = measure::distance(original_, mesh,
             {.tightness = 1.03,
-             .negligible_m = 0.9 * error_m_,
-             .samples = 100,
-             .threads = options_.threads,
-             .maximum_only = true,
-             .tree_of_a = state.original_tree()});
+                .negligible_m = 0.9 * error_m_,
+                .samples = 100,
+                .threads = options_.threads,
+                .maximum_only = true,
+                .tree_of_a = state.original_tree()});
         is_kept_ = distance.max_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
         if (is_kept_) {
             is_found_ = true;
@@ -355,23 +307,18 @@ private:
         return distance.min_hausdorff_m();
     }
 
-    /// The number of triangles to try next, where the error lies between those of two numbers in
-    /// the logarithms. The kept number where that is near enough.
-    std::size_t
-    next_faces(std::size_t kept, double kept_m, std::size_t too_few, double too_far_m) const {
+    /// The number of triangles to try next, where the error lies between those of two numbers in the logarithms. The
+    /// kept number where that is near enough.
+    std::size_t next_faces(std::size_t kept, double kept_m, std::size_t too_few, double too_far_m) const {
         const auto most = static_cast<double>(kept);
         const auto least = static_cast<double>(too_few);
         if (too_few == 0) {
             const double share = std::pow(kept_m / (aim * error_m_), 1.0 / steepness);
-            return static_cast<std::size_t>(
-                most * std::clamp(share, 0.3, 1.0 / (1.0 + close_enough)));
+            return static_cast<std::size_t>(most * std::clamp(share, 0.3, 1.0 / (1.0 + close_enough)));
         }
-        if (most <= least * (1.0 + close_enough) || kept <= too_few + 1) {
-            return kept;
-        }
+        if (most <= least * (1.0 + close_enough) || kept <= too_few + 1) { return kept; }
         const double between =
-            kept_m < too_far_m ? std::log(aim * error_m_ / kept_m) / std::log(too_far_m / kept_m)
-                               : 0.5;
+            kept_m < too_far_m ? std::log(aim * error_m_ / kept_m) / std::log(too_far_m / kept_m) : 0.5;
         const double wanted = most * std::pow(least / most, std::clamp(between, 0.2, 0.8));
         return std::clamp(static_cast<std::size_t>(wanted), too_few + 1, kept - 1);
     }
@@ -386,18 +333,15 @@ private:
     Simplified result_;
 };
 
-/// Where the wanted number of triangles cannot be met, this share of a result's area may be turned
-/// against the original; so many larger numbers, a quarter larger each, are tried until it is less.
+/// Where the wanted number of triangles cannot be met, this share of a result's area may be turned against the
+/// original; so many larger numbers, a quarter larger each, are tried until it is less.
 constexpr double max_folded_share = 0.003;
 constexpr int max_unfolding_tries = 4;
 
 bool is_folded(const TriangleMesh& mesh, const TriangleMesh& original) {
     constexpr std::size_t samples = 20'000;
-    const double rms_m =
-        measure::sampled_distance(mesh, measure::TargetSurface(original), {.samples = samples})
-            .rms_m;
-    return measure::flipped_area_share(mesh, original, {.reach_m = rms_m, .samples = samples}) >
-           max_folded_share;
+    const double rms_m = measure::sampled_distance(mesh, measure::TargetSurface(original), {.samples = samples}).rms_m;
+    return measure::flipped_area_share(mesh, original, {.reach_m = rms_m, .samples = samples}) > max_folded_share;
 }
 
 /// Simplifies a mesh to a number of triangles or vertices, or as far as edges can collapse.
@@ -424,28 +368,19 @@ Simplified to_count(const TriangleMesh& original, const SimplifyOptions& options
 } // namespace
 
 Simplified simplified(const TriangleMesh& original, const SimplifyOptions& options) {
-    const bool is_met =
-        (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
-        (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
-    if (original.triangles.empty() || is_met) {
-        return {.mesh = original, .sequence = {original, {}}};
-    }
-    if (options.goal.error_m) {
-        return ErrorSearch(original, options).find();
-    }
+    const bool is_met = (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
+                        (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
+    if (original.triangles.empty() || is_met) { return {.mesh = original, .sequence = {original, {}}}; }
+    if (options.goal.error_m) { return ErrorSearch(original, options).find(); }
     Simplified result = to_count(original, options);
     // Where no edge can collapse any more, the last collapses have mostly folded the surface.
     SimplifyOptions fewer = options;
     fewer.goal = {{}, result.mesh.triangles.size(), {}};
-    const bool is_stuck =
-        (options.goal.faces && result.mesh.triangles.size() > *options.goal.faces) ||
-        (options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices);
-    for (int tries = 0; is_stuck && tries < max_unfolding_tries && is_folded(result.mesh, original);
-         ++tries) {
+    const bool is_stuck = (options.goal.faces && result.mesh.triangles.size() > *options.goal.faces) ||
+                          (options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices);
+    for (int tries = 0; is_stuck && tries < max_unfolding_tries && is_folded(result.mesh, original); ++tries) {
         *fewer.goal.faces += *fewer.goal.faces / 4 + 2;
-        if (*fewer.goal.faces >= original.triangles.size()) {
-            break;
-        }
+        if (*fewer.goal.faces >= original.triangles.size()) { break; }
         result = to_count(original, fewer);
     }
     return result;
@@ -460,16 +395,12 @@ CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& opt
     return {std::move(original), std::move(collapsing.collapses())};
 }
 
-TriangleMesh
-optimized(const TriangleMesh& mesh, const TriangleMesh& original, const SimplifyOptions& options) {
-    if (mesh.triangles.empty() || original.triangles.empty()) {
-        return mesh;
-    }
+TriangleMesh optimized(const TriangleMesh& mesh, const TriangleMesh& original, const SimplifyOptions& options) {
+    if (mesh.triangles.empty() || original.triangles.empty()) { return mesh; }
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface fine(original, units);
     const OriginalSurface target(fine, original, units);
-    SurfaceSamples samples(
-        fine, wanted_samples(options.effort, original.triangles.size(), mesh.triangles.size()));
+    SurfaceSamples samples(fine, wanted_samples(options.effort, original.triangles.size(), mesh.triangles.size()));
     WorkingSurface surface = working_surface(mesh, units, options);
     const measure::TriangleBvh tree(surface.places, mesh.triangles);
     std::vector<std::uint32_t> faces(samples.size());
@@ -478,11 +409,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
         faces[sample] = tree.nearest({at[0], at[1], at[2]}).triangle;
     }
     assign_from(surface, samples, faces);
-    optimize(
-        surface,
-        samples,
-        target,
-        optimize_options(options, mesh.triangles.size(), original.triangles.size()));
+    optimize(surface, samples, target, optimize_options(options, mesh.triangles.size(), original.triangles.size()));
     return better_of(original, target, mesh, surface.to_mesh(mesh, units));
 }
 

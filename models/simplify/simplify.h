@@ -13,8 +13,8 @@ namespace octant::models::simplify {
 /// The result of a simplification.
 struct Simplified {
     TriangleMesh mesh; ///< After the optimization, with the original's materials.
-    /// The collapses that led to it, before the optimization; none where shells were dropped or
-    /// handles cut, and for a wanted error.
+    /// The collapses that led to it, before the optimization; none where shells were dropped or handles cut, and for a
+    /// wanted error.
     CollapseSequence sequence;
     std::size_t shells_removed = 0;
     std::size_t holes_closed = 0;
@@ -26,19 +26,16 @@ struct Simplified {
     double optimize_cpu_s = 0.0;
 };
 
-/// Simplifies an oriented manifold (a RepairedMesh; asserted): edge collapses, then an
-/// optimization. The result is an oriented manifold without triangles that fold over. Unless the
-/// options keep them, shells are dropped, holes closed and handles cut where that is the cheapest
-/// step. The same input gives the
-/// same bytes on any number of threads. Lengths are in metres.
+/// Simplifies an oriented manifold (a RepairedMesh; asserted): edge collapses, then an optimization. The result is an
+/// oriented manifold without triangles that fold over. Unless the options keep them, shells are dropped, holes closed
+/// and handles cut where that is the cheapest step. The same input gives the same bytes on any number of threads.
+/// Lengths are in metres.
 Simplified simplified(const TriangleMesh& original, const SimplifyOptions& options);
 
-/// The collapse sequence by quadrics alone, of the same topology. The goal must not be an error
-/// (asserted).
+/// The collapse sequence by quadrics alone, of the same topology. The goal must not be an error (asserted).
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options);
 
 /// Optimizes a mesh that was simplified before: the last step of simplified().
-TriangleMesh
-optimized(const TriangleMesh& mesh, const TriangleMesh& original, const SimplifyOptions& options);
+TriangleMesh optimized(const TriangleMesh& mesh, const TriangleMesh& original, const SimplifyOptions& options);
 
 } // namespace octant::models::simplify

@@ -1,6 +1,6 @@
-// The samples by which the error against the original surface is kept up to date. Weighted by area
-// they approximate the integral of the squared distance over the original. Lists of samples at
-// triangles make a step cost what its neighbourhood holds, however large the mesh.
+// The samples by which the error against the original surface is kept up to date. Weighted by area they approximate the
+// integral of the squared distance over the original. Lists of samples at triangles make a step cost what its
+// neighbourhood holds, however large the mesh.
 #include "models/simplify/surface_samples.h"
 
 #include <glm/common.hpp>
@@ -18,8 +18,7 @@ namespace {
 /// The share of the area that vertices stand for where there are samples between them.
 constexpr double vertex_share = 0.3;
 
-/// The barycentric weights of point `i` of the R2 sequence (M. Roberts, 2018), folded into a
-/// triangle.
+/// The barycentric weights of point `i` of the R2 sequence (M. Roberts, 2018), folded into a triangle.
 glm::dvec3 spread_weights(std::size_t i) {
     const double step = 0.5 + static_cast<double>(i);
     double u = std::fmod(step * 0.7548776662466927, 1.0);
@@ -39,9 +38,7 @@ SurfaceSamples::SurfaceSamples(const WorkingSurface& original, std::size_t wante
     std::vector<double> vertex_areas(mesh.vertex_slots(), 0.0);
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
         areas[face] = 0.5 * glm::length(area_vector(original.corner_places(face)));
-        for (const std::uint32_t vertex : mesh.corners(face)) {
-            vertex_areas[vertex] += areas[face] / 3.0;
-        }
+        for (const std::uint32_t vertex : mesh.corners(face)) { vertex_areas[vertex] += areas[face] / 3.0; }
     }
     make_face_room(mesh.face_slots());
     const std::size_t vertices = mesh.vertex_count();
@@ -51,18 +48,14 @@ SurfaceSamples::SurfaceSamples(const WorkingSurface& original, std::size_t wante
         add_to_unsampled_shells(original, areas);
         return;
     }
-    for (double& area : vertex_areas) {
-        area *= vertex_share;
-    }
+    for (double& area : vertex_areas) { area *= vertex_share; }
     add_vertices(original, vertex_areas);
     add_on_faces(original, areas, std::max(wanted - vertices, wanted / 4), true);
 }
 
 void SurfaceSamples::add_vertices(const WorkingSurface& from, std::span<const double> areas) {
     for (std::uint32_t vertex = 0; vertex < areas.size(); ++vertex) {
-        if (!from.mesh.has_vertex(vertex)) {
-            continue;
-        }
+        if (!from.mesh.has_vertex(vertex)) { continue; }
         const std::uint32_t face = from.mesh.face_at(vertex);
         glm::dvec3 weights(0.0);
         for (int i = 0; i < 3; ++i) {
@@ -72,25 +65,18 @@ void SurfaceSamples::add_vertices(const WorkingSurface& from, std::span<const do
     }
 }
 
-/// Adds points spread evenly over the area: point k at (k + 1/2) / count of the accumulated area.
-/// Where vertices are no samples by themselves, the point of a small triangle is a corner, as
-/// corners are what sticks out.
+/// Adds points spread evenly over the area: point k at (k + 1/2) / count of the accumulated area. Where vertices are no
+/// samples by themselves, the point of a small triangle is a corner, as corners are what sticks out.
 void SurfaceSamples::add_on_faces(
-    const WorkingSurface& from,
-    std::span<const double> areas,
-    std::size_t count,
-    bool with_vertices) {
+    const WorkingSurface& from, std::span<const double> areas, std::size_t count, bool with_vertices) {
     double total = 0.0;
-    for (const double area : areas) {
-        total += area;
-    }
+    for (const double area : areas) { total += area; }
     const double spacing = total / static_cast<double>(count);
     double end = 0.0;
     std::size_t placed = 0;
     for (std::uint32_t face = 0; face < areas.size(); ++face) {
         end += areas[face];
-        const auto until =
-            std::min(count, static_cast<std::size_t>(std::max(0.0, end / spacing + 0.5)));
+        const auto until = std::min(count, static_cast<std::size_t>(std::max(0.0, end / spacing + 0.5)));
         const std::size_t here = spacing > 0.0 && until > placed ? until - placed : 0;
         for (std::size_t i = 0; i < here; ++i) {
             glm::dvec3 weights = spread_weights(i);
@@ -111,9 +97,7 @@ void SurfaceSamples::add_to_unsampled_shells(const WorkingSurface& from, std::sp
     std::vector<bool> is_found(areas.size(), false);
     std::vector<std::uint32_t> shell;
     for (std::uint32_t start = 0; start < areas.size(); ++start) {
-        if (is_found[start] || !mesh.has_face(start)) {
-            continue;
-        }
+        if (is_found[start] || !mesh.has_face(start)) { continue; }
         is_found[start] = true;
         shell.assign(1, start);
         std::uint32_t largest = start;
@@ -132,25 +116,21 @@ void SurfaceSamples::add_to_unsampled_shells(const WorkingSurface& from, std::sp
                 }
             }
         }
-        if (is_bare) {
-            add(from, largest, glm::dvec3(1.0 / 3.0), area);
-        }
+        if (is_bare) { add(from, largest, glm::dvec3(1.0 / 3.0), area); }
     }
 }
 
 /// Adds a sample on a triangle of the original.
-void SurfaceSamples::add(
-    const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area) {
+void SurfaceSamples::add(const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area) {
     const std::array<glm::dvec3, 3> corners = from.corner_places(face);
     const Triangle& vertices = from.mesh.corners(face);
     SurfaceSample sample;
-    sample.place =
-        measure::narrow(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
+    sample.place = measure::narrow(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
     sample.weight = static_cast<float>(area);
     if (from.coloured()) {
-        colours_.push_back(measure::narrow(
-            weights.x * from.colours[vertices[0]] + weights.y * from.colours[vertices[1]] +
-            weights.z * from.colours[vertices[2]]));
+        colours_.push_back(
+            measure::narrow(weights.x * from.colours[vertices[0]] + weights.y * from.colours[vertices[1]] +
+                            weights.z * from.colours[vertices[2]]));
     }
     const auto number = static_cast<std::uint32_t>(samples_.size());
     sample.face = face;
@@ -176,12 +156,8 @@ void SurfaceSamples::gather(std::uint32_t face, SampleBlock& block) const {
 }
 
 void SurfaceSamples::assign(
-    const SampleBlock& block,
-    std::span<const std::uint32_t> emptied,
-    std::span<const std::uint32_t> faces) {
-    for (const std::uint32_t face : emptied) {
-        clear(face);
-    }
+    const SampleBlock& block, std::span<const std::uint32_t> emptied, std::span<const std::uint32_t> faces) {
+    for (const std::uint32_t face : emptied) { clear(face); }
     for (std::size_t i = 0; i < block.size(); ++i) {
         SurfaceSample& sample = samples_[block.numbers[i]];
         const std::uint32_t face = faces[static_cast<std::size_t>(block.nearest[i])];
@@ -197,8 +173,7 @@ void SurfaceSamples::assign(
 
 double SurfaceSamples::error_of(const SurfaceSample& sample) const {
     return static_cast<double>(sample.weight) *
-           (penalty_.of(static_cast<double>(sample.distance2)) +
-            static_cast<double>(sample.colour_error2));
+           (penalty_.of(static_cast<double>(sample.distance2)) + static_cast<double>(sample.colour_error2));
 }
 
 void SurfaceSamples::clear(std::uint32_t face) {
@@ -226,9 +201,7 @@ void SurfaceSamples::make_face_room(std::size_t count) {
 }
 
 void SurfaceSamples::assign_all(
-    std::span<const std::uint32_t> faces,
-    std::span<const float> distances2,
-    const CollapsibleMesh& mesh) {
+    std::span<const std::uint32_t> faces, std::span<const float> distances2, const CollapsibleMesh& mesh) {
     const std::size_t face_slots = mesh.face_slots();
     // Fresh ones: there may have been far more triangles.
     first_ = std::vector<std::uint32_t>(face_slots, none);
@@ -252,9 +225,7 @@ void SurfaceSamples::sort() {
         ++counts_[sample.face];
         ++ends[sample.face + 1];
     }
-    for (std::size_t face = 0; face < first_.size(); ++face) {
-        ends[face + 1] += ends[face];
-    }
+    for (std::size_t face = 0; face < first_.size(); ++face) { ends[face + 1] += ends[face]; }
     const std::vector<SurfaceSample> before = std::move(samples_);
     const std::vector<std::array<float, 3>> colours = std::move(colours_);
     samples_.resize(before.size());
@@ -265,9 +236,7 @@ void SurfaceSamples::sort() {
         samples_[place] = before[number];
         samples_[place].next = first_[face];
         first_[face] = place;
-        if (!colours.empty()) {
-            colours_[place] = colours[number];
-        }
+        if (!colours.empty()) { colours_[place] = colours[number]; }
     }
     set_penalty(penalty_);
 }
@@ -282,9 +251,7 @@ void SurfaceSamples::drop_lists() {
 void SurfaceSamples::set_penalty(const Penalty& penalty) {
     penalty_ = penalty;
     std::ranges::fill(errors_, 0.0);
-    for (const SurfaceSample& sample : samples_) {
-        errors_[sample.face] += error_of(sample);
-    }
+    for (const SurfaceSample& sample : samples_) { errors_[sample.face] += error_of(sample); }
 }
 
 double SurfaceSamples::mean2() const {
@@ -298,12 +265,8 @@ double SurfaceSamples::mean2() const {
     return area > 0.0 ? sum / area : 0.0;
 }
 
-std::uint32_t nearest_face_from(
-    const WorkingSurface& surface,
-    std::uint32_t start,
-    const std::array<float, 3>& place,
-    float& distance2,
-    std::span<const FlatTriangle> triangles) {
+std::uint32_t nearest_face_from(const WorkingSurface& surface, std::uint32_t start, const std::array<float, 3>& place,
+    float& distance2, std::span<const FlatTriangle> triangles) {
     const CollapsibleMesh& mesh = surface.mesh;
     std::uint32_t nearest = start;
     distance2 = std::numeric_limits<float>::max();
@@ -314,8 +277,7 @@ std::uint32_t nearest_face_from(
             mesh.around(corner, [&](HalfEdge h) {
                 measure::FramePoints<float> found;
                 if (triangles.empty()) {
-                    measure::find_in_frame<false>(
-                        found, place, flat(surface.corner_places(face_of(h))));
+                    measure::find_in_frame<false>(found, place, flat(surface.corner_places(face_of(h))));
                 } else {
                     measure::find_in_frame<false>(found, place, triangles[face_of(h)]);
                 }

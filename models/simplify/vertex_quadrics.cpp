@@ -1,6 +1,5 @@
-// Builds the quadrics of vertices: M. Garland, P. Heckbert, "Surface Simplification Using Quadric
-// Error Metrics", 1997, with their constraint planes for boundaries (section 6), which here also
-// hold creases and borders of materials.
+// Builds the quadrics of vertices: M. Garland, P. Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997,
+// with their constraint planes for boundaries (section 6), which here also hold creases and borders of materials.
 #include "models/simplify/vertex_quadrics.h"
 
 #include <glm/geometric.hpp>
@@ -11,14 +10,9 @@
 namespace octant::models::simplify {
 
 VertexQuadrics::VertexQuadrics(const WorkingSurface& surface, const EdgeWeights& weights)
-    : quadrics_(surface.places.size())
-    , colours_(surface.coloured() ? surface.places.size() : 0) {
-    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
-        add_face(surface, face);
-    }
-    for (HalfEdge h = 0; h < surface.mesh.face_slots() * 3; ++h) {
-        add_edge(surface, h, weights);
-    }
+    : quadrics_(surface.places.size()), colours_(surface.coloured() ? surface.places.size() : 0) {
+    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) { add_face(surface, face); }
+    for (HalfEdge h = 0; h < surface.mesh.face_slots() * 3; ++h) { add_edge(surface, h, weights); }
 }
 
 void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face) {
@@ -26,9 +20,7 @@ void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face)
     const Triangle vertices = surface.mesh.corners(face);
     const glm::dvec3 area2 = area_vector(corners);
     const double length = glm::length(area2);
-    if (!(length > 0.0)) {
-        return;
-    }
+    if (!(length > 0.0)) { return; }
     const glm::dvec3 normal = area2 / length;
     // A third of the triangle's area goes to each corner.
     const double weight = length / 6.0;
@@ -36,44 +28,31 @@ void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face)
     quadric.add_plane(normal, -glm::dot(normal, corners[0]), weight);
     ColourQuadric colours;
     if (surface.coloured()) {
-        add_colours(
-            quadric,
-            colours,
-            corners,
-            {surface.colours[vertices[0]],
-             surface.colours[vertices[1]],
-             surface.colours[vertices[2]]},
-            weight);
+        add_colours(quadric, colours, corners,
+            {surface.colours[vertices[0]], surface.colours[vertices[1]], surface.colours[vertices[2]]}, weight);
     }
     for (const std::uint32_t vertex : vertices) {
         quadrics_[vertex] += quadric;
-        if (surface.coloured()) {
-            colours_[vertex] += colours;
-        }
+        if (surface.coloured()) { colours_[vertex] += colours; }
     }
 }
 
 /// Adds the constraint plane of an edge: through the edge, perpendicular to the triangle of `h`.
-void VertexQuadrics::add_edge(
-    const WorkingSurface& surface, HalfEdge h, const EdgeWeights& weights) {
+void VertexQuadrics::add_edge(const WorkingSurface& surface, HalfEdge h, const EdgeWeights& weights) {
     const CollapsibleMesh& mesh = surface.mesh;
     const glm::dvec3 normal = area_vector(surface.corner_places(face_of(h)));
     double weight = weights.boundary;
     if (mesh.twin(h) != none && !surface.is_material_border(h)) {
         const glm::dvec3 other = area_vector(surface.corner_places(face_of(mesh.twin(h))));
         const double lengths = glm::length(normal) * glm::length(other);
-        if (!(glm::dot(normal, other) < weights.crease_cosine * lengths)) {
-            return;
-        }
+        if (!(glm::dot(normal, other) < weights.crease_cosine * lengths)) { return; }
         weight = weights.crease;
     }
     const glm::dvec3& start = surface.places[mesh.origin(h)];
     const glm::dvec3 edge = surface.places[mesh.target(h)] - start;
     const glm::dvec3 upright = glm::cross(edge, normal);
     const double length = glm::length(upright);
-    if (!(length > 0.0)) {
-        return;
-    }
+    if (!(length > 0.0)) { return; }
     Quadric quadric;
     const double length2 = glm::dot(edge, edge);
     quadric.add_plane(upright / length, -glm::dot(upright, start) / length, weight * length2);
@@ -106,23 +85,17 @@ VertexPlacement VertexQuadrics::placement(const WorkingSurface& surface, HalfEdg
 
 void VertexQuadrics::merge(std::uint32_t kept, std::uint32_t gone) {
     quadrics_[kept] += quadrics_[gone];
-    if (!colours_.empty()) {
-        colours_[kept] += colours_[gone];
-    }
+    if (!colours_.empty()) { colours_[kept] += colours_[gone]; }
 }
 
 void VertexQuadrics::copy(std::uint32_t from, std::uint32_t to) {
     quadrics_[to] = quadrics_[from];
-    if (!colours_.empty()) {
-        colours_[to] = colours_[from];
-    }
+    if (!colours_.empty()) { colours_[to] = colours_[from]; }
 }
 
 void VertexQuadrics::keep(std::span<const std::uint32_t> vertices) {
     compact_slots(quadrics_, vertices);
-    if (!colours_.empty()) {
-        compact_slots(colours_, vertices);
-    }
+    if (!colours_.empty()) { compact_slots(colours_, vertices); }
 }
 
 } // namespace octant::models::simplify

@@ -19,8 +19,8 @@ struct VertexPlacement {
     double weight = 0.0; ///< The area that the sum runs over.
 };
 
-/// The weights of constraint planes, which stand perpendicular on the surface along special edges,
-/// in squares of the edge's length.
+/// The weights of constraint planes, which stand perpendicular on the surface along special edges, in squares of the
+/// edge's length.
 struct EdgeWeights {
     double boundary = 3.0; ///< For boundaries and for borders between materials.
     /// For sharp edges (creases).
@@ -29,12 +29,12 @@ struct EdgeWeights {
     double crease_cosine = 0.7;
 };
 
-/// The edge weights where quadrics are the costs, too: lighter, as the default ones only guide the
-/// place while distances decide the cost.
+/// The edge weights where quadrics are the costs, too: lighter, as the default ones only guide the place while
+/// distances decide the cost.
 inline constexpr EdgeWeights cost_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
 
-/// The quadrics of all vertices of a surface: planes of triangles, weighted by area; constraint
-/// planes along boundaries, borders of materials and creases; and colours where there are any.
+/// The quadrics of all vertices of a surface: planes of triangles, weighted by area; constraint planes along
+/// boundaries, borders of materials and creases; and colours where there are any.
 class VertexQuadrics {
 public:
     VertexQuadrics(const WorkingSurface& surface, const EdgeWeights& weights);

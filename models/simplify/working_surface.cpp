@@ -1,13 +1,11 @@
-// Conversion between files and working units, and from the mesh that is being changed back to a
-// TriangleMesh.
+// Conversion between files and working units, and from the mesh that is being changed back to a TriangleMesh.
 //
-// is_valid_deformation keeps steps from folding the surface over: the test of the angle between old and new
-// normal of M. Garland and P. Heckbert (1997). Slivers are allowed where the error allows them:
-// along cylinders and rims they lie best. The topology has a test of its own,
-// CollapsibleMesh::may_collapse.
+// is_valid_deformation keeps steps from folding the surface over: the test of the angle between old and new normal of
+// M. Garland and P. Heckbert (1997). Slivers are allowed where the error allows them: along cylinders and rims they lie
+// best. The topology has a test of its own, CollapsibleMesh::may_collapse.
 //
-// OriginalSurface finds the nearest point of a triangle by the regions of C. Ericson, "Real-Time
-// Collision Detection", 2005, section 5.1.5.
+// OriginalSurface finds the nearest point of a triangle by the regions of C. Ericson, "Real-Time Collision Detection",
+// 2005, section 5.1.5.
 #include "models/simplify/working_surface.h"
 
 #include <glm/common.hpp>
@@ -22,35 +20,25 @@
 
 namespace octant::models::simplify {
 
-// Half-edges for collapses and flips. CollapsibleMesh::may_collapse tests the link condition of T.
-// Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology Preserving Edge Contraction", 1999: the
-// ends of the edge may have no common neighbours but the corners opposite the edge. The 2005 paper
-// tests nothing and so leaves manifolds; its own mode uses PaperRun instead.
+// Half-edges for collapses and flips. CollapsibleMesh::may_collapse tests the link condition of T. Dey, H.
+// Edelsbrunner, S. Guha, D. Nekhayev, "Topology Preserving Edge Contraction", 1999: the ends of the edge may have no
+// common neighbours but the corners opposite the edge. The 2005 paper tests nothing and so leaves manifolds; its own
+// mode uses PaperRun instead.
 
 CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle> triangles)
-    : twins_(triangles.size() * 3, none)
-    , outgoing_(vertices, none)
-    , face_count_(triangles.size())
-    , marks_(vertices, 0) {
+    : twins_(triangles.size() * 3, none), outgoing_(vertices, none), face_count_(triangles.size()),
+      marks_(vertices, 0) {
     origins_.reserve(triangles.size() * 3);
-    for (const Triangle& triangle : triangles) {
-        origins_.insert(origins_.end(), triangle.begin(), triangle.end());
-    }
-    // All half-edges are listed by the smaller vertex of their edge (counting sort), and those of
-    // each vertex by the larger one, so that twins follow each other.
+    for (const Triangle& triangle : triangles) { origins_.insert(origins_.end(), triangle.begin(), triangle.end()); }
+    // All half-edges are listed by the smaller vertex of their edge (counting sort), and those of each vertex by the
+    // larger one, so that twins follow each other.
     std::vector<std::uint32_t> starts(vertices + 1, 0);
     const auto low = [this](HalfEdge h) { return std::min(origin(h), target(h)); };
-    for (HalfEdge h = 0; h < origins_.size(); ++h) {
-        ++starts[low(h) + 1];
-    }
-    for (std::size_t v = 0; v < vertices; ++v) {
-        starts[v + 1] += starts[v];
-    }
+    for (HalfEdge h = 0; h < origins_.size(); ++h) { ++starts[low(h) + 1]; }
+    for (std::size_t v = 0; v < vertices; ++v) { starts[v + 1] += starts[v]; }
     std::vector<HalfEdge> listed(origins_.size());
     std::vector<std::uint32_t> places = starts;
-    for (HalfEdge h = 0; h < origins_.size(); ++h) {
-        listed[places[low(h)]++] = h;
-    }
+    for (HalfEdge h = 0; h < origins_.size(); ++h) { listed[places[low(h)]++] = h; }
     const auto high = [this](HalfEdge h) { return std::max(origin(h), target(h)); };
     for (std::size_t v = 0; v < vertices; ++v) {
         const std::span<HalfEdge> here(listed.data() + starts[v], starts[v + 1] - starts[v]);
@@ -66,21 +54,16 @@ CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle>
         }
     }
     for (HalfEdge h = 0; h < origins_.size(); ++h) {
-        if (outgoing_[origin(h)] == none || twins_[h] == none) {
-            outgoing_[origin(h)] = h;
-        }
+        if (outgoing_[origin(h)] == none || twins_[h] == none) { outgoing_[origin(h)] = h; }
     }
     assert(is_vertex_manifold());
-    vertex_count_ = static_cast<std::size_t>(
-        std::ranges::count_if(outgoing_, [](HalfEdge h) { return h != none; }));
+    vertex_count_ = static_cast<std::size_t>(std::ranges::count_if(outgoing_, [](HalfEdge h) { return h != none; }));
 }
 
 /// Whether walking around each vertex visits all triangles there.
 bool CollapsibleMesh::is_vertex_manifold() const {
     std::vector<std::size_t> corners(outgoing_.size(), 0);
-    for (const std::uint32_t vertex : origins_) {
-        ++corners[vertex];
-    }
+    for (const std::uint32_t vertex : origins_) { ++corners[vertex]; }
     for (std::uint32_t vertex = 0; vertex < outgoing_.size(); ++vertex) {
         if (outgoing_[vertex] != none) {
             around(vertex, [&](HalfEdge) { --corners[vertex]; });
@@ -91,8 +74,7 @@ bool CollapsibleMesh::is_vertex_manifold() const {
 
 bool CollapsibleMesh::is_neighbour(std::uint32_t vertex, std::uint32_t other) const {
     bool found = false;
-    edges_around(
-        vertex, [&](HalfEdge h) { found = found || origin(h) == other || target(h) == other; });
+    edges_around(vertex, [&](HalfEdge h) { found = found || origin(h) == other || target(h) == other; });
     return found;
 }
 
@@ -104,27 +86,19 @@ CollapseEffect CollapsibleMesh::effect_of(HalfEdge h, TopologyChanges allowed) c
     const auto is_ear = [this](HalfEdge side) {
         return twins_[next_of(side)] == none && twins_[previous_of(side)] == none;
     };
-    if (is_ear(h) || (other != none && is_ear(other))) {
-        return {};
-    }
+    if (is_ear(h) || (other != none && is_ear(other))) { return {}; }
     const std::uint32_t x = origin(previous_of(h));
     const std::uint32_t y = other == none ? none : origin(previous_of(other));
-    if (x == y || (other != none && is_boundary_vertex(u) && is_boundary_vertex(w))) {
-        return {};
-    }
+    if (x == y || (other != none && is_boundary_vertex(u) && is_boundary_vertex(w))) { return {}; }
     ++mark_;
-    const auto far_end = [this](HalfEdge e, std::uint32_t v) {
-        return origin(e) == v ? target(e) : origin(e);
-    };
+    const auto far_end = [this](HalfEdge e, std::uint32_t v) { return origin(e) == v ? target(e) : origin(e); };
     std::size_t u_edges = 0;
     edges_around(u, [&](HalfEdge e) {
         marks_[far_end(e, u)] = mark_;
         ++u_edges;
     });
     marks_[x] = mark_ - 1;
-    if (y != none) {
-        marks_[y] = mark_ - 1;
-    }
+    if (y != none) { marks_[y] = mark_ - 1; }
     std::size_t common = 0;
     std::size_t w_edges = 0;
     std::uint32_t third = none;
@@ -136,12 +110,8 @@ CollapseEffect CollapsibleMesh::effect_of(HalfEdge h, TopologyChanges allowed) c
         ++w_edges;
     });
     // A lone tetrahedron would become two triangles on top of each other.
-    if (common > 1 || (u_edges == 3 && w_edges == 3 && (other != none || common == 1))) {
-        return {};
-    }
-    if (common == 0) {
-        return {CollapseEffect::Kind::SameTopology};
-    }
+    if (common > 1 || (u_edges == 3 && w_edges == 3 && (other != none || common == 1))) { return {}; }
+    if (common == 0) { return {CollapseEffect::Kind::SameTopology}; }
     const auto needed = other == none ? TopologyChanges::Holes : TopologyChanges::HolesAndHandles;
     return allowed < needed ? CollapseEffect{} : effect_on_cycle(h, third);
 }
@@ -154,24 +124,22 @@ CollapseEffect CollapsibleMesh::effect_on_cycle(HalfEdge h, std::uint32_t c) con
         const HalfEdge second = outgoing_[w];
         const HalfEdge third = outgoing_[c];
         const bool goes_around = twins_[third] == none && target(second) == c && target(third) == u;
-        return goes_around ? CollapseEffect{CollapseEffect::Kind::ClosesHole, second, third}
-                           : CollapseEffect{};
+        return goes_around ? CollapseEffect{CollapseEffect::Kind::ClosesHole, second, third} : CollapseEffect{};
     }
     CollapseEffect effect{CollapseEffect::Kind::CutsHandle};
     around(c, [&](HalfEdge e) {
         effect.second = target(e) == w ? twins_[e] : effect.second;
         effect.third = target(e) == u ? e : effect.third;
     });
-    if (free_vertex_slot_ == none || has_vertex(free_vertex_slot_) || effect.second == none ||
-        effect.third == none || twins_[effect.third] == none ||
-        !is_connected_without({h, effect.second, effect.third})) {
+    if (free_vertex_slot_ == none || has_vertex(free_vertex_slot_) || effect.second == none || effect.third == none ||
+        twins_[effect.third] == none || !is_connected_without({h, effect.second, effect.third})) {
         return {};
     }
     return effect;
 }
 
-/// Whether one can go from left to right of a cycle of edges without crossing it. Both sides are
-/// searched in turns, so that a small part that the cycle cuts off is soon searched.
+/// Whether one can go from left to right of a cycle of edges without crossing it. Both sides are searched in turns, so
+/// that a small part that the cycle cuts off is soon searched.
 bool CollapsibleMesh::is_connected_without(const std::array<HalfEdge, 3>& cycle) const {
     face_marks_.resize(face_slots(), 0);
     face_mark_ += 2;
@@ -214,9 +182,7 @@ void CollapsibleMesh::ring_of(HalfEdge h, std::vector<RingFace>& ring) const {
     const std::uint32_t right = twins_[h] == none ? none : face_of(twins_[h]);
     const auto add = [&](HalfEdge e) {
         const std::uint32_t face = face_of(e);
-        if (face != left && face != right) {
-            ring.push_back({face, e});
-        }
+        if (face != left && face != right) { ring.push_back({face, e}); }
     };
     around(origin(h), add);
     around(target(h), add);
@@ -234,23 +200,17 @@ void CollapsibleMesh::ring_at(
 
 /// Makes two half-edges each other's twins; either may be none.
 void CollapsibleMesh::join(HalfEdge a, HalfEdge b) {
-    if (a != none) {
-        twins_[a] = b;
-    }
-    if (b != none) {
-        twins_[b] = a;
-    }
+    if (a != none) { twins_[a] = b; }
+    if (b != none) { twins_[b] = a; }
 }
 
-/// Sets the half-edge by which walks around origin(h) start: `h`, turned clockwise as far as the
-/// boundary if there is one.
+/// Sets the half-edge by which walks around origin(h) start: `h`, turned clockwise as far as the boundary if there is
+/// one.
 void CollapsibleMesh::set_outgoing(HalfEdge h) {
     const HalfEdge first = h;
     while (twins_[h] != none) {
         h = next_of(twins_[h]);
-        if (h == first) {
-            break;
-        }
+        if (h == first) { break; }
     }
     outgoing_[origins_[first]] = h;
 }
@@ -291,9 +251,7 @@ CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
     const HalfEdge yw = other == none ? none : twins_[previous_of(other)];
     around(w, [this, u](HalfEdge e) { origins_[e] = u; });
     take_out(h);
-    if (other != none) {
-        take_out(other);
-    }
+    if (other != none) { take_out(other); }
     outgoing_[w] = none;
     --vertex_count_;
     if (effect.kind == CollapseEffect::Kind::ClosesHole) {
@@ -311,9 +269,7 @@ CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
         set_outgoing(effect.third);
         vertex_count_ += 2;
     }
-    if (outgoing_[w] == none) {
-        free_vertex_slot_ = w;
-    }
+    if (outgoing_[w] == none) { free_vertex_slot_ = w; }
     set_outgoing(xu != none ? xu : next_of(wx));
     set_outgoing(wx != none ? wx : next_of(xu));
     assert(origins_[xu != none ? xu : next_of(wx)] == u);
@@ -325,8 +281,7 @@ CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
     return effect;
 }
 
-void CollapsibleMesh::split(
-    HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces) {
+void CollapsibleMesh::split(HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces) {
     assert(!has_vertex(vertex) && !has_face(faces[0]) && !has_face(faces[1]));
     const HalfEdge other = twins_[h];
     const std::uint32_t w = target(h);
@@ -350,9 +305,7 @@ void CollapsibleMesh::split(
     join(a, b);
     face_count_ += 2;
     ++vertex_count_;
-    for (const HalfEdge start : {a, a + 1, previous_of(h), h, yw}) {
-        set_outgoing(start);
-    }
+    for (const HalfEdge start : {a, a + 1, previous_of(h), h, yw}) { set_outgoing(start); }
 }
 
 void CollapsibleMesh::remove(std::uint32_t face) {
@@ -383,9 +336,7 @@ SlotMap CollapsibleMesh::compact() {
             kept.faces.push_back(face);
         }
     }
-    const auto moved = [&](HalfEdge h) {
-        return h == none ? none : 3 * new_faces[face_of(h)] + h % 3;
-    };
+    const auto moved = [&](HalfEdge h) { return h == none ? none : 3 * new_faces[face_of(h)] + h % 3; };
     for (HalfEdge to = 0; to < 3 * kept.faces.size(); ++to) {
         const HalfEdge from = 3 * kept.faces[face_of(to)] + to % 3;
         origins_[to] = new_vertices[origins_[from]];
@@ -396,9 +347,7 @@ SlotMap CollapsibleMesh::compact() {
         list->shrink_to_fit();
     }
     compact_slots(outgoing_, kept.vertices);
-    for (HalfEdge& out : outgoing_) {
-        out = moved(out);
-    }
+    for (HalfEdge& out : outgoing_) { out = moved(out); }
     marks_.assign(vertex_slots(), 0);
     marks_.shrink_to_fit();
     mark_ = 0;
@@ -410,9 +359,7 @@ SlotMap CollapsibleMesh::compact() {
 
 bool CollapsibleMesh::may_flip(HalfEdge h) const {
     const HalfEdge other = twins_[h];
-    if (other == none) {
-        return false;
-    }
+    if (other == none) { return false; }
     const std::uint32_t x = origin(previous_of(h));
     const std::uint32_t y = origin(previous_of(other));
     return x != y && !is_neighbour(x, y);
@@ -452,17 +399,14 @@ void CollapsibleMesh::flip(HalfEdge h) {
 
 namespace {
 
-/// Where the squared share of its sides' rectangle that a triangle covers is below this, rounding
-/// hides on which side of it a point lies; the nearest point of its sides is taken then.
+/// Where the squared share of its sides' rectangle that a triangle covers is below this, rounding hides on which side
+/// of it a point lies; the nearest point of its sides is taken then.
 constexpr double min_area_share2 = 1e-12;
 
 } // namespace
 
-OriginalSurface::OriginalSurface(
-    const WorkingSurface& surface, const TriangleMesh& made_of, const WorkingUnits& units)
-    : mesh_(made_of)
-    , units_(units)
-    , places_(surface.places) {
+OriginalSurface::OriginalSurface(const WorkingSurface& surface, const TriangleMesh& made_of, const WorkingUnits& units)
+    : mesh_(made_of), units_(units), places_(surface.places) {
     const CollapsibleMesh& mesh = surface.mesh;
     neighbours_.reserve(mesh.face_slots());
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
@@ -475,9 +419,7 @@ OriginalSurface::OriginalSurface(
 }
 
 const std::shared_ptr<const measure::TriangleBvh>& OriginalSurface::tree() const {
-    if (!tree_) {
-        tree_ = std::make_shared<const measure::TriangleBvh>(mesh_);
-    }
+    if (!tree_) { tree_ = std::make_shared<const measure::TriangleBvh>(mesh_); }
     return tree_;
 }
 
@@ -493,8 +435,7 @@ glm::dvec3 OriginalSurface::normal(std::uint32_t triangle) const {
     return area_vector({places_[a], places_[b], places_[c]});
 }
 
-OriginalSurface::OnTriangle
-OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) const {
+OriginalSurface::OnTriangle OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) const {
     const Triangle& t = mesh_.triangles[triangle];
     const glm::dvec3& a = places_[t[0]];
     const glm::dvec3 ab = places_[t[1]] - a;
@@ -506,30 +447,20 @@ OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) con
         const glm::dvec3 off = ap - from_a;
         return OnTriangle{a + from_a, glm::dot(off, off), side, corner};
     };
-    if (d1 <= 0.0 && d2 <= 0.0) {
-        return made(glm::dvec3(0.0), none, 0);
-    }
+    if (d1 <= 0.0 && d2 <= 0.0) { return made(glm::dvec3(0.0), none, 0); }
     const double bb = glm::dot(ab, ab);
     const double bc = glm::dot(ab, ac);
     const double cc = glm::dot(ac, ac);
     const double d3 = d1 - bb;
     const double d4 = d2 - bc;
-    if (d3 >= 0.0 && d4 <= d3) {
-        return made(ab, none, 1);
-    }
+    if (d3 >= 0.0 && d4 <= d3) { return made(ab, none, 1); }
     const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-        return made((bb > 0.0 ? d1 / bb : 0.0) * ab, 0, none);
-    }
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) { return made((bb > 0.0 ? d1 / bb : 0.0) * ab, 0, none); }
     const double d5 = d1 - bc;
     const double d6 = d2 - cc;
-    if (d6 >= 0.0 && d5 <= d6) {
-        return made(ac, none, 2);
-    }
+    if (d6 >= 0.0 && d5 <= d6) { return made(ac, none, 2); }
     const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-        return made((cc > 0.0 ? d2 / cc : 0.0) * ac, 2, none);
-    }
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) { return made((cc > 0.0 ? d2 / cc : 0.0) * ac, 2, none); }
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
         const double length = (d4 - d3) + (d5 - d6);
@@ -538,24 +469,21 @@ OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) con
     }
     const double sum = va + vb + vc;
     if (!(sum > min_area_share2 * bb * cc)) {
-        const auto on_side =
-            [&](std::uint32_t side, const glm::dvec3& from, const glm::dvec3& way) {
-                const double length2 = glm::dot(way, way);
-                const double along = glm::dot(ap - from, way);
-                const bool ends = !(along > 0.0 && along < length2);
-                const std::uint32_t corner = along > 0.0 ? (side + 1) % 3 : side;
-                const double share = ends ? (along > 0.0 ? 1.0 : 0.0) : along / length2;
-                return made(from + share * way, ends ? none : side, ends ? corner : none);
-            };
-        const OnTriangle sides[] = {
-            on_side(0, glm::dvec3(0.0), ab), on_side(1, ab, ac - ab), on_side(2, ac, -ac)};
+        const auto on_side = [&](std::uint32_t side, const glm::dvec3& from, const glm::dvec3& way) {
+            const double length2 = glm::dot(way, way);
+            const double along = glm::dot(ap - from, way);
+            const bool ends = !(along > 0.0 && along < length2);
+            const std::uint32_t corner = along > 0.0 ? (side + 1) % 3 : side;
+            const double share = ends ? (along > 0.0 ? 1.0 : 0.0) : along / length2;
+            return made(from + share * way, ends ? none : side, ends ? corner : none);
+        };
+        const OnTriangle sides[] = {on_side(0, glm::dvec3(0.0), ab), on_side(1, ab, ac - ab), on_side(2, ac, -ac)};
         return *std::ranges::min_element(sides, {}, &OnTriangle::distance2);
     }
     return made((vb / sum) * ab + (vc / sum) * ac, none, none);
 }
 
-OriginalPoint OriginalSurface::nearest_from(
-    std::uint32_t start, const glm::dvec3& point, double& distance2) const {
+OriginalPoint OriginalSurface::nearest_from(std::uint32_t start, const glm::dvec3& point, double& distance2) const {
     std::uint32_t at = start;
     OnTriangle best = nearest_on(at, point);
     while (true) {
@@ -578,17 +506,11 @@ OriginalPoint OriginalSurface::nearest_from(
                 std::uint32_t triangle = at;
                 do {
                     std::uint32_t i = 0;
-                    while (mesh_.triangles[triangle][i] != corner) {
-                        ++i;
-                    }
+                    while (mesh_.triangles[triangle][i] != corner) { ++i; }
                     triangle = neighbours_[triangle][forward ? (i + 2) % 3 : i];
-                    if (triangle != none && triangle != at) {
-                        look(triangle);
-                    }
+                    if (triangle != none && triangle != at) { look(triangle); }
                 } while (triangle != none && triangle != at);
-                if (triangle == at) {
-                    break;
-                }
+                if (triangle == at) { break; }
             }
         }
         if (next == none) {
@@ -603,26 +525,21 @@ OriginalPoint OriginalSurface::nearest_from(
 bool is_valid_deformation(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after) {
     const glm::dvec3 old_normal = area_vector(before);
     const glm::dvec3 new_normal = area_vector(after);
-    if (!(glm::dot(new_normal, new_normal) > 0.0)) {
-        return false;
-    }
+    if (!(glm::dot(new_normal, new_normal) > 0.0)) { return false; }
     return !(glm::dot(old_normal, old_normal) > 0.0) || glm::dot(old_normal, new_normal) > 0.0;
 }
 
 bool may_flip_to(
-    const std::array<std::array<glm::dvec3, 3>, 2>& before,
-    const std::array<std::array<glm::dvec3, 3>, 2>& after) {
+    const std::array<std::array<glm::dvec3, 3>, 2>& before, const std::array<std::array<glm::dvec3, 3>, 2>& after) {
     return std::ranges::all_of(before, [&](const auto& from) {
         return std::ranges::all_of(after, [&](const auto& to) { return is_valid_deformation(from, to); });
     });
 }
 
-bool may_move(
-    const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place) {
+bool may_move(const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place) {
     return std::ranges::all_of(ring, [&](const RingFace& face) {
         const glm::dvec3& old_place = surface.places[surface.mesh.origin(face.half_edge)];
-        return is_valid_deformation(
-            moved_corners(surface, face, old_place), moved_corners(surface, face, place));
+        return is_valid_deformation(moved_corners(surface, face, old_place), moved_corners(surface, face, place));
     });
 }
 
@@ -632,9 +549,7 @@ WorkingUnits WorkingUnits::of(const TriangleMesh& mesh, double colour_weight) {
     const BoundingBox bounds = bounds_of(mesh);
     const double diagonal_m = glm::distance(bounds.min_m, bounds.max_m);
     return {
-        0.5 * (bounds.min_m + bounds.max_m),
-        diagonal_m > 0.0 ? diagonal_m : 1.0,
-        std::max(colour_weight, min_weight)};
+        0.5 * (bounds.min_m + bounds.max_m), diagonal_m > 0.0 ? diagonal_m : 1.0, std::max(colour_weight, min_weight)};
 }
 
 glm::vec3 WorkingUnits::colour_to_file(const glm::dvec3& colour) const {
@@ -644,31 +559,23 @@ glm::vec3 WorkingUnits::colour_to_file(const glm::dvec3& colour) const {
 std::vector<glm::dvec3> WorkingUnits::places_of(const TriangleMesh& mesh) const {
     std::vector<glm::dvec3> places;
     places.reserve(mesh.vertices_m.size());
-    for (const glm::dvec3& vertex_m : mesh.vertices_m) {
-        places.push_back(from_file(vertex_m));
-    }
+    for (const glm::dvec3& vertex_m : mesh.vertices_m) { places.push_back(from_file(vertex_m)); }
     return places;
 }
 
 std::vector<glm::dvec3> WorkingUnits::colours_of(const TriangleMesh& mesh) const {
     std::vector<glm::dvec3> colours;
     colours.reserve(mesh.colours.size());
-    for (const glm::vec3& colour : mesh.colours) {
-        colours.push_back(glm::dvec3(colour) * colour_scale);
-    }
+    for (const glm::vec3& colour : mesh.colours) { colours.push_back(glm::dvec3(colour) * colour_scale); }
     return colours;
 }
 
 WorkingSurface::WorkingSurface(const TriangleMesh& from, const WorkingUnits& units)
-    : mesh(from.vertices_m.size(), from.triangles)
-    , places(units.places_of(from))
-    , colours(units.colours_of(from))
-    , materials(from.triangle_materials) {}
+    : mesh(from.vertices_m.size(), from.triangles), places(units.places_of(from)), colours(units.colours_of(from)),
+      materials(from.triangle_materials) {}
 
 bool WorkingSurface::is_border_vertex(std::uint32_t vertex) const {
-    if (mesh.is_boundary_vertex(vertex)) {
-        return true;
-    }
+    if (mesh.is_boundary_vertex(vertex)) { return true; }
     bool found = false;
     if (!materials.empty()) {
         mesh.around(vertex, [&](HalfEdge h) { found = found || is_material_border(h); });
@@ -691,12 +598,8 @@ glm::dvec3 WorkingSurface::to_file(const glm::dvec3& place, const WorkingUnits& 
 }
 
 glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3& way) const {
-    if (is_locked(vertex)) {
-        return glm::dvec3(0.0);
-    }
-    if (materials.empty() && !mesh.is_boundary_vertex(vertex)) {
-        return way;
-    }
+    if (is_locked(vertex)) { return glm::dvec3(0.0); }
+    if (materials.empty() && !mesh.is_boundary_vertex(vertex)) { return way; }
     constexpr double straight = -0.5; // The cosine between two borders that go on as one.
     glm::dvec3 normal(0.0);
     std::array<glm::dvec3, 2> borders;
@@ -712,9 +615,7 @@ glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3&
         }
     });
     const double length = glm::length(normal);
-    if (count == 0 || !(length > 0.0)) {
-        return way;
-    }
+    if (count == 0 || !(length > 0.0)) { return way; }
     normal /= length;
     const glm::dvec3 up = glm::dot(way, normal) * normal;
     if (count != 2 || !(glm::dot(borders[0], borders[1]) < straight)) {
@@ -729,40 +630,27 @@ glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3&
 SlotMap WorkingSurface::compact() {
     SlotMap kept = mesh.compact();
     compact_slots(places, kept.vertices);
-    if (coloured()) {
-        compact_slots(colours, kept.vertices);
-    }
-    if (!materials.empty()) {
-        compact_slots(materials, kept.faces);
-    }
+    if (coloured()) { compact_slots(colours, kept.vertices); }
+    if (!materials.empty()) { compact_slots(materials, kept.faces); }
     return kept;
 }
 
-TriangleMesh
-WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units) const {
+TriangleMesh WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units) const {
     TriangleMesh made;
     made.name = original.name;
     made.materials = original.materials;
     std::vector<std::uint32_t> numbers(mesh.vertex_slots(), none);
     for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
-        if (!mesh.has_vertex(v)) {
-            continue;
-        }
+        if (!mesh.has_vertex(v)) { continue; }
         numbers[v] = static_cast<std::uint32_t>(made.vertices_m.size());
         made.vertices_m.push_back(to_file(places[v], units));
-        if (coloured()) {
-            made.colours.push_back(units.colour_to_file(colours[v]));
-        }
+        if (coloured()) { made.colours.push_back(units.colour_to_file(colours[v])); }
     }
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (!mesh.has_face(face)) {
-            continue;
-        }
+        if (!mesh.has_face(face)) { continue; }
         const Triangle corners = mesh.corners(face);
         made.triangles.push_back({numbers[corners[0]], numbers[corners[1]], numbers[corners[2]]});
-        if (!materials.empty()) {
-            made.triangle_materials.push_back(materials[face]);
-        }
+        if (!materials.empty()) { made.triangle_materials.push_back(materials[face]); }
     }
     return made;
 }

@@ -18,24 +18,18 @@
 
 namespace octant::models::simplify {
 
-/// A half-edge, numbered 3 * triangle + corner: half-edge h of triangle h / 3 runs from corner h %
-/// 3 to the next corner, counter-clockwise.
+/// A half-edge, numbered 3 * triangle + corner: half-edge h of triangle h / 3 runs from corner h % 3 to the next
+/// corner, counter-clockwise.
 using HalfEdge = std::uint32_t;
 
-constexpr HalfEdge next_of(HalfEdge h) {
-    return h % 3 == 2 ? h - 2 : h + 1;
-}
+constexpr HalfEdge next_of(HalfEdge h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
-constexpr HalfEdge previous_of(HalfEdge h) {
-    return h % 3 == 0 ? h + 2 : h - 1;
-}
+constexpr HalfEdge previous_of(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-constexpr std::uint32_t face_of(HalfEdge h) {
-    return h / 3;
-}
+constexpr std::uint32_t face_of(HalfEdge h) { return h / 3; }
 
-/// A triangle of the ring around an edge that is about to collapse, or around a vertex. Its
-/// `half_edge` starts at the corner that moves.
+/// A triangle of the ring around an edge that is about to collapse, or around a vertex. Its `half_edge` starts at the
+/// corner that moves.
 struct RingFace {
     std::uint32_t face = none;
     HalfEdge half_edge = none;
@@ -47,13 +41,10 @@ struct SlotMap {
     std::vector<std::uint32_t> faces;
 };
 
-/// Leaves of a list with one entry a slot those of the kept slots, and gives the memory of the
-/// others back.
+/// Leaves of a list with one entry a slot those of the kept slots, and gives the memory of the others back.
 template <typename T>
 void compact_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-        list[i] = list[kept[i]];
-    }
+    for (std::size_t i = 0; i < kept.size(); ++i) { list[i] = list[kept[i]]; }
     list.resize(kept.size());
     list.shrink_to_fit();
 }
@@ -65,21 +56,20 @@ enum class TopologyChanges : std::uint8_t { None, Holes, HolesAndHandles };
 struct CollapseEffect {
     enum class Kind : std::uint8_t { NotAllowed, SameTopology, ClosesHole, CutsHandle };
     Kind kind = Kind::NotAllowed;
-    /// Of a hole or a handle: the half-edges from w to a vertex c and from c to u. With the edge
-    /// they go around the hole, which has three edges, or around the handle.
+    /// Of a hole or a handle: the half-edges from w to a vertex c and from c to u. With the edge they go around the
+    /// hole, which has three edges, or around the handle.
     HalfEdge second = none;
     HalfEdge third = none;
     /// After a cut: the vertex that stands for c right of u, w, c. The one for u and w there is w.
     std::uint32_t made = none;
 };
 
-/// The connectivity of a triangle mesh as half-edges: an oriented manifold, perhaps with boundary,
-/// which stays one. Triangles keep their numbers ("slots"); a collapse empties two of them and
-/// allocates nothing.
+/// The connectivity of a triangle mesh as half-edges: an oriented manifold, perhaps with boundary, which stays one.
+/// Triangles keep their numbers ("slots"); a collapse empties two of them and allocates nothing.
 class CollapsibleMesh {
 public:
-    /// Asserts that every edge lies in at most two triangles that run along it in opposite
-    /// directions, and that the triangles of each vertex form a single fan.
+    /// Asserts that every edge lies in at most two triangles that run along it in opposite directions, and that the
+    /// triangles of each vertex form a single fan.
     CollapsibleMesh(std::size_t vertices, std::span<const Triangle> triangles);
 
     std::uint32_t origin(HalfEdge h) const { return origins_[h]; }
@@ -113,8 +103,7 @@ public:
         return {origins_[face * 3], origins_[face * 3 + 1], origins_[face * 3 + 2]};
     }
 
-    /// Calls `visit(half_edge)` for each half-edge that starts at `vertex`, one for each triangle,
-    /// counter-clockwise.
+    /// Calls `visit(half_edge)` for each half-edge that starts at `vertex`, one for each triangle, counter-clockwise.
     template <typename Visit>
     void around(std::uint32_t vertex, const Visit& visit) const {
         const HalfEdge first = outgoing_[vertex];
@@ -125,8 +114,8 @@ public:
         } while (h != none && h != first);
     }
 
-    /// Calls `visit(half_edge)` once for each edge at `vertex`. On a boundary the half-edge of the
-    /// last edge ends at the vertex; all others start there.
+    /// Calls `visit(half_edge)` once for each edge at `vertex`. On a boundary the half-edge of the last edge ends at
+    /// the vertex; all others start there.
     template <typename Visit>
     void edges_around(std::uint32_t vertex, const Visit& visit) const {
         const HalfEdge first = outgoing_[vertex];
@@ -135,19 +124,14 @@ public:
             visit(h);
             const HalfEdge last = previous_of(h);
             h = twins_[last];
-            if (h == none) {
-                visit(last);
-            }
-            if (h == none || h == first) {
-                return;
-            }
+            if (h == none) { visit(last); }
+            if (h == none || h == first) { return; }
         }
     }
 
-    /// What collapsing an edge does: the same topology is left where the link condition holds,
-    /// where the boundary counts as one more vertex. Where a third common neighbour of the ends
-    /// breaks it, the collapse closes a hole of three edges or cuts a handle, if that is allowed; a
-    /// cut needs a vertex slot that a collapse has emptied before.
+    /// What collapsing an edge does: the same topology is left where the link condition holds, where the boundary
+    /// counts as one more vertex. Where a third common neighbour of the ends breaks it, the collapse closes a hole of
+    /// three edges or cuts a handle, if that is allowed; a cut needs a vertex slot that a collapse has emptied before.
     CollapseEffect effect_of(HalfEdge h, TopologyChanges allowed) const;
 
     /// Whether collapsing an edge leaves a manifold of the same topology.
@@ -159,21 +143,20 @@ public:
     void ring_of(HalfEdge h, std::vector<RingFace>& ring) const;
 
     /// Fills `ring` and `faces` with the triangles at a vertex.
-    void ring_at(
-        std::uint32_t vertex, std::vector<RingFace>& ring, std::vector<std::uint32_t>& faces) const;
+    void ring_at(std::uint32_t vertex, std::vector<RingFace>& ring, std::vector<std::uint32_t>& faces) const;
 
-    /// Collapses an edge: all that met target(h) then meets origin(h), and the edge's triangles go.
-    /// effect_of(h) must allow it. Where a handle is cut, its two sides get vertices of their own,
-    /// which lie at the same places. Returns what it did.
+    /// Collapses an edge: all that met target(h) then meets origin(h), and the edge's triangles go. effect_of(h) must
+    /// allow it. Where a handle is cut, its two sides get vertices of their own, which lie at the same places. Returns
+    /// what it did.
     CollapseEffect collapse(HalfEdge h);
 
-    /// Splits an edge, which must have two triangles, at a new vertex, whose slot must be free, as
-    /// must be the slots of `faces`. `h` then runs from its origin to the new vertex; the first of
-    /// the new triangles takes the rest of its triangle, the second that of the twin's.
+    /// Splits an edge, which must have two triangles, at a new vertex, whose slot must be free, as must be the slots of
+    /// `faces`. `h` then runs from its origin to the new vertex; the first of the new triangles takes the rest of its
+    /// triangle, the second that of the twin's.
     void split(HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces);
 
-    /// Removes a triangle of a shell all of whose triangles are removed; in between nothing else
-    /// may be asked of the shell.
+    /// Removes a triangle of a shell all of whose triangles are removed; in between nothing else may be asked of the
+    /// shell.
     void remove(std::uint32_t face);
 
     /// Gives the slots of vertices and triangles that are gone back. All others get new numbers.
@@ -198,8 +181,8 @@ private:
     /// For each half-edge the vertex that it starts from; none = the triangle is gone.
     std::vector<std::uint32_t> origins_;
     std::vector<HalfEdge> twins_;
-    /// For each vertex a half-edge that starts there; at a boundary vertex the one from which
-    /// around() reaches all triangles.
+    /// For each vertex a half-edge that starts there; at a boundary vertex the one from which around() reaches all
+    /// triangles.
     std::vector<HalfEdge> outgoing_;
     std::size_t face_count_ = 0;
     std::size_t vertex_count_ = 0;
@@ -212,9 +195,8 @@ private:
     std::uint32_t free_vertex_slot_ = none; ///< The last slot that a collapse emptied.
 };
 
-/// The units in which the simplifier works: the centre of the mesh's bounding box is the origin and
-/// the box's diagonal is 1. A colour is multiplied by `colour_scale`, so that distances in the
-/// space of (position, colour) count both.
+/// The units in which the simplifier works: the centre of the mesh's bounding box is the origin and the box's diagonal
+/// is 1. A colour is multiplied by `colour_scale`, so that distances in the space of (position, colour) count both.
 struct WorkingUnits {
     glm::dvec3 middle_m{0.0};
     double diagonal_m = 1.0;
@@ -222,9 +204,7 @@ struct WorkingUnits {
 
     static WorkingUnits of(const TriangleMesh& mesh, double colour_weight);
 
-    glm::dvec3 from_file(const glm::dvec3& place_m) const {
-        return (place_m - middle_m) / diagonal_m;
-    }
+    glm::dvec3 from_file(const glm::dvec3& place_m) const { return (place_m - middle_m) / diagonal_m; }
 
     glm::dvec3 to_file(const glm::dvec3& place) const { return middle_m + place * diagonal_m; }
 
@@ -251,15 +231,11 @@ struct WorkingSurface {
 
     bool locks_border() const { return !locked_m.empty(); }
 
-    bool is_locked(std::uint32_t vertex) const {
-        return locks_border() && mesh.is_boundary_vertex(vertex);
-    }
+    bool is_locked(std::uint32_t vertex) const { return locks_border() && mesh.is_boundary_vertex(vertex); }
 
-    /// What the collapse of an edge does: CollapsibleMesh::effect_of, but an edge of a locked
-    /// border may not collapse.
+    /// What the collapse of an edge does: CollapsibleMesh::effect_of, but an edge of a locked border may not collapse.
     CollapseEffect effect_of(HalfEdge h, TopologyChanges allowed) const {
-        return locks_border() && mesh.twin(h) == none ? CollapseEffect{}
-                                                      : mesh.effect_of(h, allowed);
+        return locks_border() && mesh.twin(h) == none ? CollapseEffect{} : mesh.effect_of(h, allowed);
     }
 
     /// Whether an edge may collapse without a change of the topology.
@@ -276,15 +252,11 @@ struct WorkingSurface {
     bool coloured() const { return !colours.empty(); }
 
     /// Black where there are no colours.
-    glm::dvec3 colour_of(std::uint32_t vertex) const {
-        return coloured() ? colours[vertex] : glm::dvec3(0.0);
-    }
+    glm::dvec3 colour_of(std::uint32_t vertex) const { return coloured() ? colours[vertex] : glm::dvec3(0.0); }
 
     void set_vertex(std::uint32_t vertex, const glm::dvec3& place, const glm::dvec3& colour) {
         places[vertex] = place;
-        if (coloured()) {
-            colours[vertex] = colour;
-        }
+        if (coloured()) { colours[vertex] = colour; }
     }
 
     std::array<glm::dvec3, 3> corner_places(std::uint32_t face) const {
@@ -294,8 +266,7 @@ struct WorkingSurface {
 
     /// Whether the two triangles of an edge have different materials.
     bool is_material_border(HalfEdge h) const {
-        return !materials.empty() && mesh.twin(h) != none &&
-               materials[face_of(h)] != materials[face_of(mesh.twin(h))];
+        return !materials.empty() && mesh.twin(h) != none && materials[face_of(h)] != materials[face_of(mesh.twin(h))];
     }
 
     /// Whether the surface or a material ends at an edge.
@@ -304,16 +275,15 @@ struct WorkingSurface {
     /// Whether an edge at a vertex is a border.
     bool is_border_vertex(std::uint32_t vertex) const;
 
-    /// The part of a move of a vertex that leaves a border through it where it is: across the
-    /// surface and along the border; all of it where there is none. Nothing of it for a locked
-    /// vertex.
+    /// The part of a move of a vertex that leaves a border through it where it is: across the surface and along the
+    /// border; all of it where there is none. Nothing of it for a locked vertex.
     glm::dvec3 along_borders(std::uint32_t vertex, const glm::dvec3& way) const;
 
     /// Gives the slots of what is gone back.
     SlotMap compact();
 
-    /// The present mesh in file units, vertices and triangles in the order of their slots. Name and
-    /// materials are those of `original`.
+    /// The present mesh in file units, vertices and triangles in the order of their slots. Name and materials are those
+    /// of `original`.
     TriangleMesh to_mesh(const TriangleMesh& original, const WorkingUnits& units) const;
 };
 
@@ -322,27 +292,22 @@ inline glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
     return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
-/// Whether a triangle with corners `before` may get the corners `after`: it turns by less than 90
-/// degrees and has an area. One without an area may become any that has one.
+/// Whether a triangle with corners `before` may get the corners `after`: it turns by less than 90 degrees and has an
+/// area. One without an area may become any that has one.
 bool is_valid_deformation(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after);
 
-/// Whether the two triangles at an edge may become the two given ones when the edge is flipped,
-/// whichever new one is compared with whichever old one.
+/// Whether the two triangles at an edge may become the two given ones when the edge is flipped, whichever new one is
+/// compared with whichever old one.
 bool may_flip_to(
-    const std::array<std::array<glm::dvec3, 3>, 2>& before,
-    const std::array<std::array<glm::dvec3, 3>, 2>& after);
+    const std::array<std::array<glm::dvec3, 3>, 2>& before, const std::array<std::array<glm::dvec3, 3>, 2>& after);
 
 /// Whether every triangle of a ring may have its moving corner at `place`, by is_valid_deformation.
-bool may_move(
-    const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place);
+bool may_move(const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place);
 
-/// The corners of a triangle of a ring when its moving corner is at `place`; that corner comes
-/// first.
-inline std::array<glm::dvec3, 3>
-moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place) {
-    return {
-        place,
-        surface.places[surface.mesh.target(face.half_edge)],
+/// The corners of a triangle of a ring when its moving corner is at `place`; that corner comes first.
+inline std::array<glm::dvec3, 3> moved_corners(
+    const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place) {
+    return {place, surface.places[surface.mesh.target(face.half_edge)],
         surface.places[surface.mesh.origin(previous_of(face.half_edge))]};
 }
 
@@ -356,14 +321,12 @@ struct OriginalPoint {
 class OriginalSurface {
 public:
     /// `surface` is what `mesh`, which must outlive this, was made into, before any change.
-    OriginalSurface(
-        const WorkingSurface& surface, const TriangleMesh& mesh, const WorkingUnits& units);
+    OriginalSurface(const WorkingSurface& surface, const TriangleMesh& mesh, const WorkingUnits& units);
 
-    /// A point of the surface that is nearer than all around it, found by going from triangle to
-    /// triangle, from `start` on, as long as that leads nearer. So the side of a thin part stays
-    /// the same. The squared distance goes to `distance2`.
-    OriginalPoint
-    nearest_from(std::uint32_t start, const glm::dvec3& point, double& distance2) const;
+    /// A point of the surface that is nearer than all around it, found by going from triangle to triangle, from `start`
+    /// on, as long as that leads nearer. So the side of a thin part stays the same. The squared distance goes to
+    /// `distance2`.
+    OriginalPoint nearest_from(std::uint32_t start, const glm::dvec3& point, double& distance2) const;
 
     /// Tells the processor that a triangle will be asked for.
     void prefetch(std::uint32_t triangle) const {
@@ -382,24 +345,21 @@ public:
     /// The number of triangles.
     std::size_t size() const { return neighbours_.size(); }
 
-    /// A tree over the triangles in the mesh's own units, for whoever measures distances to it. It
-    /// is built when it is first needed.
+    /// A tree over the triangles in the mesh's own units, for whoever measures distances to it. It is built when it is
+    /// first needed.
     const std::shared_ptr<const measure::TriangleBvh>& tree() const;
 
     /// The nearest point of the whole surface.
     measure::NearestOnMesh nearest(const glm::dvec3& place) const;
 
-    /// Calls `take(triangle)` for all triangles that are at most `within` away, and for some that
-    /// are a little farther.
+    /// Calls `take(triangle)` for all triangles that are at most `within` away, and for some that are a little farther.
     template <typename Take>
     void for_each_near(const glm::dvec3& place, double within, const Take& take) const {
         tree()->for_each_near(units_.to_file(place), within * units_.diagonal_m, take);
     }
 
     /// The triangle beyond each side of a triangle, or none.
-    const std::array<std::uint32_t, 3>& beyond(std::uint32_t triangle) const {
-        return neighbours_[triangle];
-    }
+    const std::array<std::uint32_t, 3>& beyond(std::uint32_t triangle) const { return neighbours_[triangle]; }
 
 private:
     /// The nearest point of a triangle, and which of its sides or corners it lies on.
@@ -416,7 +376,7 @@ private:
     WorkingUnits units_;
     std::vector<glm::dvec3> places_;
     mutable std::shared_ptr<const measure::TriangleBvh> tree_; ///< Null = not built so far.
-    std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< The triangle beyond each side, or none.
+    std::vector<std::array<std::uint32_t, 3>> neighbours_;     ///< The triangle beyond each side, or none.
 };
 
 } // namespace octant::models::simplify

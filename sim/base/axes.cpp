@@ -35,15 +35,12 @@ EulerAngles euler_from_body_to_world(const glm::dquat& body_to_world) {
     return angles;
 }
 
-glm::dvec3 direction_from_heading(double heading_rad) {
-    return {std::sin(heading_rad), std::cos(heading_rad), 0.0};
-}
+glm::dvec3 direction_from_heading(double heading_rad) { return {std::sin(heading_rad), std::cos(heading_rad), 0.0}; }
 
 glm::dvec2 rotated_clockwise(const glm::dvec2& east_north, double by_rad) {
     const double cosine = std::cos(by_rad);
     const double sine = std::sin(by_rad);
-    return {
-        cosine * east_north.x + sine * east_north.y, cosine * east_north.y - sine * east_north.x};
+    return {cosine * east_north.x + sine * east_north.y, cosine * east_north.y - sine * east_north.x};
 }
 
 double wrapped_to_two_pi(double angle_rad) {

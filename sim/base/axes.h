@@ -9,8 +9,8 @@ namespace octant {
 // World: flat ground, x east, y north, z up, metres from the map centre at datum (EarthFrame).
 // Body:  x forward, y right, z down, metres from the aircraft's reference point.
 
-/// Attitude as pilots say it, radians. Heading clockwise from true north in [0, 2 pi), pitch nose
-/// up in [-pi/2, pi/2], roll right wing down in (-pi, pi].
+/// Attitude as pilots say it, radians. Heading clockwise from true north in [0, 2 pi), pitch nose up in [-pi/2, pi/2],
+/// roll right wing down in (-pi, pi].
 struct EulerAngles {
     double heading_rad = 0.0;
     double pitch_rad = 0.0;
@@ -20,8 +20,7 @@ struct EulerAngles {
 /// Rotation that takes a body vector to the world. All angles 0 = level, nose north.
 glm::dquat body_to_world_from_euler(const EulerAngles& angles);
 
-/// Inverse of body_to_world_from_euler. At pitch +-90 degrees heading and roll are not unique: roll
-/// comes back as 0.
+/// Inverse of body_to_world_from_euler. At pitch +-90 degrees heading and roll are not unique: roll comes back as 0.
 EulerAngles euler_from_body_to_world(const glm::dquat& body_to_world);
 
 /// Unit vector of a compass direction, level. 0 = north (0, 1, 0), pi/2 = east (1, 0, 0).

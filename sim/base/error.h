@@ -6,8 +6,8 @@
 
 namespace octant {
 
-/// What came from outside (file, option, driver) is wrong. Thrown at borders, caught once in main:
-/// its text is printed as one line and the program ends with exit code 2.
+/// What came from outside (file, option, driver) is wrong. Thrown at borders, caught once in main: its text is printed
+/// as one line and the program ends with exit code 2.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -19,8 +19,8 @@ public:
 /// Throws Error "path: what", for a fault that has no line.
 [[noreturn]] void throw_error_in(const std::filesystem::path& path, const std::string& what);
 
-/// A text from outside made fit for a one-line message: control characters become '?', and what is
-/// longer than 60 characters is cut.
+/// A text from outside made fit for a one-line message: control characters become '?', and what is longer than 60
+/// characters is cut.
 std::string printable(const std::string& text);
 
 } // namespace octant

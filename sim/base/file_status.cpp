@@ -22,26 +22,16 @@ bool path_exists(const fs::path& path) {
     return type != fs::file_type::none && type != fs::file_type::not_found;
 }
 
-bool is_folder(const fs::path& path) {
-    return type_of(path) == fs::file_type::directory;
-}
+bool is_folder(const fs::path& path) { return type_of(path) == fs::file_type::directory; }
 
-bool is_file(const fs::path& path) {
-    return type_of(path) == fs::file_type::regular;
-}
+bool is_file(const fs::path& path) { return type_of(path) == fs::file_type::regular; }
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
-    if (a.empty() || b.empty()) {
-        return false;
-    }
+    if (a.empty() || b.empty()) { return false; }
     std::error_code fault;
-    if (fs::equivalent(a, b, fault)) {
-        return true;
-    }
+    if (fs::equivalent(a, b, fault)) { return true; }
     const fs::path whole_a = fs::weakly_canonical(a, fault);
-    if (fault) {
-        return false;
-    }
+    if (fault) { return false; }
     const fs::path whole_b = fs::weakly_canonical(b, fault);
     return !fault && whole_a == whole_b;
 }

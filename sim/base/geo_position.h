@@ -15,8 +15,8 @@ struct Ellipsoid {
 
     constexpr double semi_minor_m() const { return semi_major_m * (1.0 - flattening); }
 
-    /// The radius by which ground curves: the mean of the three semi-axes, to a kilometre, which is
-    /// 6,371 km for the earth.
+    /// The radius by which ground curves: the mean of the three semi-axes, to a kilometre, which is 6,371 km for the
+    /// earth.
     double mean_radius_m() const;
 
     /// Whether it is one of the earth's ellipsoids: within 1 % of its size.
@@ -38,8 +38,6 @@ struct GeoPosition {
 };
 
 /// The ellipsoid below a ground; the earth's for made ground, which has no place.
-inline Ellipsoid ellipsoid_below(const std::optional<GeoPosition>& place) {
-    return place ? place->ellipsoid : wgs84;
-}
+inline Ellipsoid ellipsoid_below(const std::optional<GeoPosition>& place) { return place ? place->ellipsoid : wgs84; }
 
 } // namespace octant

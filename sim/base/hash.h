@@ -15,8 +15,8 @@ constexpr std::uint32_t scrambled(std::uint32_t h) {
     return h ^ (h >> 16U);
 }
 
-/// 64-bit running hash (FNV-1a taken over 8-byte words, a shorter end padded with zeros): fast
-/// enough for a picture a frame. Tells runs apart; not for secrets.
+/// 64-bit running hash (FNV-1a taken over 8-byte words, a shorter end padded with zeros): fast enough for a picture a
+/// frame. Tells runs apart; not for secrets.
 class Hash {
 public:
     void add(std::span<const std::byte> bytes) {
@@ -51,8 +51,6 @@ inline std::uint64_t checksum_of(std::span<const std::byte> bytes) {
     return hash.value();
 }
 
-inline std::uint64_t checksum_of(std::string_view bytes) {
-    return checksum_of(std::as_bytes(std::span(bytes)));
-}
+inline std::uint64_t checksum_of(std::string_view bytes) { return checksum_of(std::as_bytes(std::span(bytes))); }
 
 } // namespace octant

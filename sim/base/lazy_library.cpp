@@ -10,9 +10,8 @@ namespace octant {
 void* LazyLibrary::address_of(const char* name) {
     void* const at = find(name);
     if (at == nullptr) {
-        throw Error(
-            std::string("expected ") + file_ +
-            (handle_ == nullptr ? "" : std::string(" with ") + name) + " on this system, got none");
+        throw Error(std::string("expected ") + file_ + (handle_ == nullptr ? "" : std::string(" with ") + name) +
+                    " on this system, got none");
     }
     return at;
 }

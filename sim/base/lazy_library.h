@@ -5,13 +5,12 @@
 
 namespace octant {
 
-/// A shared library that is opened when the first of its functions is called: a program that calls
-/// none starts without it and all that it depends on.
+/// A shared library that is opened when the first of its functions is called: a program that calls none starts without
+/// it and all that it depends on.
 class LazyLibrary {
 public:
     /// `file`: as the system's linker finds it, such as "libgdal.so.32".
-    explicit constexpr LazyLibrary(const char* file)
-        : file_(file) {}
+    explicit constexpr LazyLibrary(const char* file) : file_(file) {}
 
     /// Of a function. Throws Error where the library or the function is not to be had.
     void* address_of(const char* name);
@@ -25,14 +24,12 @@ private:
     void* handle_ = nullptr;
 };
 
-/// A function of such a library, called by its name like any other: where it is declared in a
-/// namespace, calls from there take it in place of the library's own.
+/// A function of such a library, called by its name like any other: where it is declared in a namespace, calls from
+/// there take it in place of the library's own.
 template <class Function>
 class LazyFunction {
 public:
-    constexpr LazyFunction(LazyLibrary& library, const char* name)
-        : library_(library)
-        , name_(name) {}
+    constexpr LazyFunction(LazyLibrary& library, const char* name) : library_(library), name_(name) {}
 
     // NOLINTNEXTLINE(google-explicit-constructor): that is what makes it callable
     operator Function*() const {

@@ -27,9 +27,7 @@ bool write_all(int descriptor, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
         if (written < 0) {
-            if (errno == EINTR) {
-                continue;
-            }
+            if (errno == EINTR) { continue; }
             return false;
         }
         bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -41,21 +39,17 @@ int create(const std::filesystem::path& path) {
     return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
 }
 
-/// A new file beside `path`, whose name it puts into `target`; -1 and errno where there is none.
-/// Another program, in a container of its own perhaps, may have the same number.
+/// A new file beside `path`, whose name it puts into `target`; -1 and errno where there is none. Another program, in a
+/// container of its own perhaps, may have the same number.
 int create_beside(const std::filesystem::path& path, std::filesystem::path& target) {
     static std::atomic<unsigned> files = 0; // threads may write the same file at once
     constexpr int max_tries = 100;
     int descriptor = -1;
     for (int tries = 0; tries < max_tries; ++tries) {
         target = path;
-        target.replace_filename(
-            fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));
-        descriptor =
-            ::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
-        if (descriptor >= 0 || errno != EEXIST) {
-            break;
-        }
+        target.replace_filename(fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));
+        descriptor = ::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+        if (descriptor >= 0 || errno != EEXIST) { break; }
     }
     return descriptor;
 }
@@ -67,22 +61,14 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
     const bool special = path_exists(path) && !is_file(path);
     std::filesystem::path target;
     const int descriptor = special ? create(path) : create_beside(path, target);
-    if (descriptor < 0) {
-        cannot_write(path);
-    }
+    if (descriptor < 0) { cannot_write(path); }
     const bool written = write_all(descriptor, bytes);
     const int write_errno = errno;
     const bool closed = ::close(descriptor) == 0;
-    if (!written) {
-        errno = write_errno;
-    }
-    if (written && closed && (special || ::rename(target.c_str(), path.c_str()) == 0)) {
-        return;
-    }
+    if (!written) { errno = write_errno; }
+    if (written && closed && (special || ::rename(target.c_str(), path.c_str()) == 0)) { return; }
     const int kept_errno = errno;
-    if (!special) {
-        ::unlink(target.c_str());
-    }
+    if (!special) { ::unlink(target.c_str()); }
     errno = kept_errno;
     cannot_write(path);
 }
@@ -98,29 +84,20 @@ void check_can_write(const std::filesystem::path& path) {
         cannot_write(path);
     }
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (::access(path_exists(path) ? path.c_str() : folder.c_str(), W_OK) != 0) {
-        cannot_write(path);
-    }
+    if (::access(path_exists(path) ? path.c_str() : folder.c_str(), W_OK) != 0) { cannot_write(path); }
 }
 
 void make_folder(const std::filesystem::path& path) {
     std::error_code code;
     std::filesystem::create_directories(path, code);
     if (code || !std::filesystem::is_directory(path, code)) {
-        throw_error_in(
-            path,
-            fmt::format(
-                "expected a folder or a place for one, got: {}",
-                code ? code.message() : "a file is there"));
+        throw_error_in(path,
+            fmt::format("expected a folder or a place for one, got: {}", code ? code.message() : "a file is there"));
     }
 }
 
-AppendedFile::AppendedFile(std::filesystem::path path)
-    : path_(std::move(path))
-    , descriptor_(create(path_)) {
-    if (descriptor_ < 0) {
-        cannot_write(path_);
-    }
+AppendedFile::AppendedFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(create(path_)) {
+    if (descriptor_ < 0) { cannot_write(path_); }
 }
 
 AppendedFile::~AppendedFile() {
@@ -130,15 +107,11 @@ AppendedFile::~AppendedFile() {
     }
 }
 
-void AppendedFile::append(std::string_view text) {
-    unwritten_ += text;
-}
+void AppendedFile::append(std::string_view text) { unwritten_ += text; }
 
 void AppendedFile::flush() {
     const std::string bytes = std::exchange(unwritten_, {});
-    if (!write_all(descriptor_, bytes)) {
-        cannot_write(path_);
-    }
+    if (!write_all(descriptor_, bytes)) { cannot_write(path_); }
 }
 
 } // namespace octant

@@ -6,15 +6,15 @@
 
 namespace octant {
 
-/// Writes the whole file or nothing: into a temporary file in its folder, then renamed over
-/// `path`. Throws Error (no permission, no such folder, disk full) and leaves no temporary behind.
+/// Writes the whole file or nothing: into a temporary file in its folder, then renamed over `path`. Throws Error (no
+/// permission, no such folder, disk full) and leaves no temporary behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether a file of that name is what a kill left of write_file.
 bool is_unfinished(const std::filesystem::path& path);
 
-/// Before long work: throws Error where write_file would find no folder, none that it may write in,
-/// or a folder in the file's place. Writes nothing.
+/// Before long work: throws Error where write_file would find no folder, none that it may write in, or a folder in the
+/// file's place. Writes nothing.
 void check_can_write(const std::filesystem::path& path);
 
 /// Makes the folder and its parents. Throws Error when that is not possible.

@@ -5,8 +5,8 @@
 
 namespace octant {
 
-/// An oriented plane: the points with dot(normal, p) + offset_m = 0. Its front is where that is
-/// positive; with a unit normal it is the distance in metres.
+/// An oriented plane: the points with dot(normal, p) + offset_m = 0. Its front is where that is positive; with a unit
+/// normal it is the distance in metres.
 struct Plane {
     glm::dvec3 normal{0.0, 0.0, 1.0};
     double offset_m = 0.0;
@@ -19,8 +19,6 @@ inline double distance_m(const Plane& plane, const glm::dvec3& point_m) {
 }
 
 /// The plane seen from its other side: what was behind it is in front.
-inline Plane turned_over(const Plane& plane) {
-    return {-plane.normal, -plane.offset_m};
-}
+inline Plane turned_over(const Plane& plane) { return {-plane.normal, -plane.offset_m}; }
 
 } // namespace octant

@@ -9,8 +9,7 @@ namespace octant {
 /// Numbers from a small generator of its own, the same with every library.
 class RandomGenerator {
 public:
-    explicit RandomGenerator(std::uint64_t seed)
-        : state_(seed) {}
+    explicit RandomGenerator(std::uint64_t seed) : state_(seed) {}
 
     /// A number spread evenly over 0 <= x < 1.
     double next() {
@@ -23,9 +22,7 @@ public:
     /// A number that is about normally distributed, with mean 0 and standard deviation 1.
     double normal_deviate() {
         double sum = -6.0;
-        for (int i = 0; i < 12; ++i) {
-            sum += next();
-        }
+        for (int i = 0; i < 12; ++i) { sum += next(); }
         return sum;
     }
 

@@ -21,19 +21,14 @@ std::ifstream opened(const std::filesystem::path& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (!std::filesystem::exists(status)) {
-        throw_error_in(
-            path, code && code.value() != ENOENT ? code.message() : "expected a file, found none");
+        throw_error_in(path, code && code.value() != ENOENT ? code.message() : "expected a file, found none");
     }
-    if (std::filesystem::is_directory(status)) {
-        throw_error_in(path, "expected a file, got a folder");
-    }
+    if (std::filesystem::is_directory(status)) { throw_error_in(path, "expected a file, got a folder"); }
     if (!std::filesystem::is_regular_file(status)) {
         throw_error_in(path, "expected a regular file, got a device or pipe");
     }
     std::ifstream in(path, std::ios::binary);
-    if (!in) {
-        throw_error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
-    }
+    if (!in) { throw_error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno))); }
     return in;
 }
 
@@ -46,60 +41,41 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
     const auto refuse_size = [&] {
         throw_error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
     };
-    if (!code && size > largest_bytes) {
-        refuse_size();
-    }
+    if (!code && size > largest_bytes) { refuse_size(); }
     // Read in pieces: a file that grows meanwhile costs no more memory than the largest allowed.
     std::string bytes;
     std::string piece(std::size_t{1} << 16, '\0');
     while (in) {
         in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
         bytes.append(piece, 0, static_cast<std::size_t>(in.gcount()));
-        if (bytes.size() > largest_bytes) {
-            refuse_size();
-        }
+        if (bytes.size() > largest_bytes) { refuse_size(); }
     }
-    if (in.bad()) {
-        throw_error_in(path, "cannot be read to its end");
-    }
+    if (in.bad()) { throw_error_in(path, "cannot be read to its end"); }
     return bytes;
 }
 
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest_bytes) {
     std::string text = read_file(path, largest_bytes);
-    if (text.find('\0') != std::string::npos) {
-        throw_error_in(path, "expected text, got binary data");
-    }
+    if (text.find('\0') != std::string::npos) { throw_error_in(path, "expected text, got binary data"); }
     return text;
 }
 
 LineReader::LineReader(const std::filesystem::path& path)
-    : path_(path)
-    , in_(opened(path))
-    , line_(longest_line_bytes + 1, '\0') {}
+    : path_(path), in_(opened(path)), line_(longest_line_bytes + 1, '\0') {}
 
 std::optional<std::string_view> LineReader::next() {
     in_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
-    if (in_.bad()) {
-        throw_error_in(path_, "cannot be read to its end");
-    }
+    if (in_.bad()) { throw_error_in(path_, "cannot be read to its end"); }
     const auto taken = static_cast<std::size_t>(in_.gcount());
     is_truncated_ = in_.eof() && taken > 0;
-    if (in_.eof() && taken == 0) {
-        return std::nullopt;
-    }
+    if (in_.eof() && taken == 0) { return std::nullopt; }
     ++number_;
     if (in_.fail()) {
-        throw_error_at(
-            path_, number_, fmt::format("expected at most {} bytes, got more", longest_line_bytes));
+        throw_error_at(path_, number_, fmt::format("expected at most {} bytes, got more", longest_line_bytes));
     }
     std::string_view line(line_.data(), is_truncated_ ? taken : taken - 1);
-    if (line.find('\0') != std::string_view::npos) {
-        throw_error_in(path_, "expected text, got binary data");
-    }
-    if (!line.empty() && line.back() == '\r') {
-        line.remove_suffix(1);
-    }
+    if (line.find('\0') != std::string_view::npos) { throw_error_in(path_, "expected text, got binary data"); }
+    if (!line.empty() && line.back() == '\r') { line.remove_suffix(1); }
     return line;
 }
 
@@ -108,9 +84,7 @@ std::vector<std::string_view> split_lines(std::string_view text) {
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
         std::string_view line = text.substr(0, end);
-        if (!line.empty() && line.back() == '\r') {
-            line.remove_suffix(1);
-        }
+        if (!line.empty() && line.back() == '\r') { line.remove_suffix(1); }
         lines.push_back(line);
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
@@ -139,39 +113,30 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
         field.remove_prefix(std::min(field.find_first_not_of(blanks), field.size()));
         field = field.substr(0, field.find_last_not_of(blanks) + 1);
         fields.push_back(field);
-        if (end == line.size()) {
-            return fields;
-        }
+        if (end == line.size()) { return fields; }
         at = end + 1;
     }
 }
 
 std::string extension_of(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
+    std::ranges::transform(
+        ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return ending;
 }
 
 std::optional<double> finite_number(std::string_view text) {
-    if (!text.empty() && text.front() == '+') {
-        text.remove_prefix(1);
-    }
+    if (!text.empty() && text.front() == '+') { text.remove_prefix(1); }
     double value = 0.0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-        return std::nullopt;
-    }
+    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) { return std::nullopt; }
     return value;
 }
 
 std::optional<long> whole_number(std::string_view text) {
     long value = 0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size()) {
-        return std::nullopt;
-    }
+    if (code != std::errc() || end != text.data() + text.size()) { return std::nullopt; }
     return value;
 }
 

@@ -10,14 +10,12 @@
 
 namespace octant {
 
-/// The whole file as bytes. Throws Error when it is missing, no regular file, unreadable or larger
-/// than `largest_bytes`; the message names the file and says which.
-std::string
-read_file(const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
+/// The whole file as bytes. Throws Error when it is missing, no regular file, unreadable or larger than
+/// `largest_bytes`; the message names the file and says which.
+std::string read_file(const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
 
 /// read_file for text: also refuses a file with a zero byte ("expected text, got binary data").
-std::string read_text_file(
-    const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
+std::string read_text_file(const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
 
 /// The lines of a text file one after the other, in the memory of one of them.
 class LineReader {
@@ -25,8 +23,8 @@ public:
     /// Throws Error for what is no regular file that can be read.
     explicit LineReader(const std::filesystem::path& path);
 
-    /// The next line without its line end (LF or CRLF), valid until the next call; nothing at the
-    /// end. Throws Error for a zero byte and for a line of more than 65,535 bytes.
+    /// The next line without its line end (LF or CRLF), valid until the next call; nothing at the end. Throws Error for
+    /// a zero byte and for a line of more than 65,535 bytes.
     std::optional<std::string_view> next();
 
     /// Number of the line that next() gave, from 1.
@@ -55,8 +53,7 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
 /// What a file's name ends in from its last dot on, in small letters: ".obj"; empty without one.
 std::string extension_of(const std::filesystem::path& path);
 
-/// The whole of `text` as a finite decimal number in the C locale; nothing for anything else
-/// (NaN and infinity too).
+/// The whole of `text` as a finite decimal number in the C locale; nothing for anything else (NaN and infinity too).
 std::optional<double> finite_number(std::string_view text);
 
 /// The whole of `text` as a decimal integer; nothing for anything else or out of range.

@@ -1,9 +1,9 @@
-// C. F. F. Karney, "Transverse Mercator with an accuracy of a few nanometers", Journal of Geodesy
-// 85, 2011: eqs. 7 to 9 (conformal latitude), 11 to 15 and 35, 36 (Krueger's series, here to the
-// fourth order), 19 to 21 (latitude from the conformal one).
+// C. F. F. Karney, "Transverse Mercator with an accuracy of a few nanometers", Journal of Geodesy 85, 2011: eqs. 7 to 9
+// (conformal latitude), 11 to 15 and 35, 36 (Krueger's series, here to the fourth order), 19 to 21 (latitude from the
+// conformal one).
 //
-// Deviations: places more than about 84 degrees of arc from the meridian are drawn that far off it,
-// where the paper's map goes to infinity.
+// Deviations: places more than about 84 degrees of arc from the meridian are drawn that far off it, where the paper's
+// map goes to infinity.
 
 #include "sim/base/transverse_mercator.h"
 
@@ -26,8 +26,8 @@ constexpr double furthest_along = 10.0;
 
 using Series = TransverseMercator::Series;
 
-/// xi + i eta, along and across, brought from one form of the earth to the other: the series' sines
-/// of 2, 4, 6 and 8 zeta are summed by Clenshaw's rule.
+/// xi + i eta, along and across, brought from one form of the earth to the other: the series' sines of 2, 4, 6 and 8
+/// zeta are summed by Clenshaw's rule.
 std::complex<double> brought(const std::complex<double>& zeta, const Series& series) {
     const std::complex<double> twice_cosine = 2.0 * std::cos(2.0 * zeta);
     std::complex<double> sum;
@@ -53,8 +53,8 @@ double geodetic(double conformal_tau, double e2) {
     for (int i = 0; i < 5; ++i) { // Newton's: three do
         const double now = conformal(tau, e2);
         const double length = std::hypot(1.0, tau);
-        const double change = (conformal_tau - now) / std::hypot(1.0, now) *
-                              (1.0 + (1.0 - e2) * tau * tau) / ((1.0 - e2) * length);
+        const double change =
+            (conformal_tau - now) / std::hypot(1.0, now) * (1.0 + (1.0 - e2) * tau * tau) / ((1.0 - e2) * length);
         tau += change;
     }
     return tau;
@@ -62,23 +62,18 @@ double geodetic(double conformal_tau, double e2) {
 
 } // namespace
 
-TransverseMercator::TransverseMercator(const GeoPosition& origin)
-    : origin_(origin) {
+TransverseMercator::TransverseMercator(const GeoPosition& origin) : origin_(origin) {
     const double flattening = origin.ellipsoid.flattening;
     const double n = flattening / (2.0 - flattening);
     const double n2 = n * n;
     const double n3 = n2 * n;
     const double n4 = n2 * n2;
     mean_radius_m_ = origin.ellipsoid.semi_major_m / (1.0 + n) * (1.0 + n2 / 4.0 + n4 / 64.0);
-    from_sphere_ = {
-        n / 2.0 - 2.0 / 3.0 * n2 + 5.0 / 16.0 * n3 + 41.0 / 180.0 * n4,
-        13.0 / 48.0 * n2 - 3.0 / 5.0 * n3 + 557.0 / 1440.0 * n4,
-        61.0 / 240.0 * n3 - 103.0 / 140.0 * n4,
+    from_sphere_ = {n / 2.0 - 2.0 / 3.0 * n2 + 5.0 / 16.0 * n3 + 41.0 / 180.0 * n4,
+        13.0 / 48.0 * n2 - 3.0 / 5.0 * n3 + 557.0 / 1440.0 * n4, 61.0 / 240.0 * n3 - 103.0 / 140.0 * n4,
         49561.0 / 161280.0 * n4};
-    to_sphere_ = {
-        -n / 2.0 + 2.0 / 3.0 * n2 - 37.0 / 96.0 * n3 + 1.0 / 360.0 * n4,
-        -1.0 / 48.0 * n2 - 1.0 / 15.0 * n3 + 437.0 / 1440.0 * n4,
-        -17.0 / 480.0 * n3 + 37.0 / 840.0 * n4,
+    to_sphere_ = {-n / 2.0 + 2.0 / 3.0 * n2 - 37.0 / 96.0 * n3 + 1.0 / 360.0 * n4,
+        -1.0 / 48.0 * n2 - 1.0 / 15.0 * n3 + 437.0 / 1440.0 * n4, -17.0 / 480.0 * n3 + 37.0 / 840.0 * n4,
         -4397.0 / 161280.0 * n4};
     north_of_equator_m_ = project(origin.latitude_deg, 0.0).real();
 }
@@ -93,8 +88,7 @@ std::complex<double> TransverseMercator::project(double latitude_deg, double awa
 }
 
 glm::dvec2 TransverseMercator::local_from_geo(const GeoPosition& place) const {
-    const double away_rad =
-        wrapped_to_pi(rad_from_deg(place.longitude_deg - origin_.longitude_deg));
+    const double away_rad = wrapped_to_pi(rad_from_deg(place.longitude_deg - origin_.longitude_deg));
     const std::complex<double> at_m = project(place.latitude_deg, away_rad);
     return {at_m.imag(), at_m.real() - north_of_equator_m_};
 }
@@ -103,8 +97,7 @@ GeoPosition TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) c
     const double along = (east_north_m.y + north_of_equator_m_) / mean_radius_m_;
     const double across = east_north_m.x / mean_radius_m_;
     const std::complex<double> on_sphere = brought(
-        {std::clamp(along, -furthest_along, furthest_along),
-         std::clamp(across, -furthest_across, furthest_across)},
+        {std::clamp(along, -furthest_along, furthest_along), std::clamp(across, -furthest_across, furthest_across)},
         to_sphere_);
     const double beside = std::sinh(on_sphere.imag());
     const double ahead = std::cos(on_sphere.real());
@@ -112,10 +105,8 @@ GeoPosition TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) c
     constexpr double at_pole = 1e-14;
     const double tau = std::sin(on_sphere.real()) / std::max(from_pole, at_pole);
     const double longitude_deg = origin_.longitude_deg + deg_from_rad(std::atan2(beside, ahead));
-    return {
-        std::clamp(deg_from_rad(std::atan(geodetic(tau, origin_.ellipsoid.e2()))), -90.0, 90.0),
-        std::remainder(longitude_deg, 360.0),
-        origin_.ellipsoid};
+    return {std::clamp(deg_from_rad(std::atan(geodetic(tau, origin_.ellipsoid.e2()))), -90.0, 90.0),
+        std::remainder(longitude_deg, 360.0), origin_.ellipsoid};
 }
 
 const EarthFrame& frame_or_at_zero(const EarthFrame* frame) {

@@ -7,10 +7,9 @@
 
 namespace octant {
 
-/// The transverse Mercator projection of scale 1 that touches a place's ellipsoid along the
-/// place's meridian; x and y are 0 at the place. To 1e-6 m within 2,000 km of it, the poles
-/// included; lengths are drawn too long by d^2 / 2R^2 at a distance d from the meridian, 1.2e-5 of
-/// them at 31 km.
+/// The transverse Mercator projection of scale 1 that touches a place's ellipsoid along the place's meridian; x and y
+/// are 0 at the place. To 1e-6 m within 2,000 km of it, the poles included; lengths are drawn too long by d^2 / 2R^2 at
+/// a distance d from the meridian, 1.2e-5 of them at 31 km.
 class TransverseMercator final : public EarthFrame {
 public:
     /// Coefficients of the sines of 2, 4, 6 and 8 times an angle.

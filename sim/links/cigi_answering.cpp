@@ -1,5 +1,4 @@
-// What an image generator answers: the questions of a host over the ground, and its message for a
-// picture.
+// What an image generator answers: the questions of a host over the ground, and its message for a picture.
 
 #include "sim/links/cigi_image_generator.h"
 #include "sim/links/earth.h"
@@ -29,9 +28,7 @@ void CigiImageGenerator::answer_sight(
     if (from && ground_ != nullptr && request.is_vector) {
         const EulerAngles direction{request.azimuth_rad, request.elevation_rad, 0.0};
         glm::dmat3 turn = ned_from_body(direction);
-        if (request.from_entity) {
-            turn = ned_from_body(attitude_of(request.entity)) * turn;
-        }
+        if (request.from_entity) { turn = ned_from_body(attitude_of(request.entity)) * turn; }
         to = ground_->moved(*from, turn * glm::dvec3(request.max_m, 0.0, 0.0));
     } else {
         const std::uint16_t entity = request.to_is_given ? request.to : request.entity;
@@ -55,8 +52,7 @@ void CigiImageGenerator::answer_sight(
 }
 
 /// Nothing is answered for what is no entity or not known.
-void CigiImageGenerator::answer_position(
-    const CigiPositionRequest& request, WireWriter& message) const {
+void CigiImageGenerator::answer_position(const CigiPositionRequest& request, WireWriter& message) const {
     const auto place = place_of(request.object);
     if (request.object_class == 0 && place) {
         add_position(message, request.object, *place, attitude_of(request.object));
@@ -77,13 +73,9 @@ std::vector<std::byte> CigiImageGenerator::message_for(std::uint32_t ig_frame, d
     queue_periodic_requests();
     constexpr double second_in_ticks = 1e5;
     WireWriter message(ByteOrder::Big);
-    add_start_of_frame(
-        message,
-        {ig_frame,
-         control_.host_frame,
-         static_cast<std::uint32_t>(std::llround(time_s * second_in_ticks) & 0xffffffffLL),
-         has_host_ ? control_.mode : CigiMode::Standby,
-         control_.database});
+    add_start_of_frame(message, {ig_frame, control_.host_frame,
+                                    static_cast<std::uint32_t>(std::llround(time_s * second_in_ticks) & 0xffffffffLL),
+                                    has_host_ ? control_.mode : CigiMode::Standby, control_.database});
     while (!waiting_.empty() && message.size() + cigi_max_response_bytes <= max_message_bytes) {
         answer(waiting_.front(), message);
         waiting_.pop_front();

@@ -12,9 +12,7 @@ namespace octant::sim::links {
 namespace {
 
 void set_floats(WireWriter& message, std::size_t at, const glm::dvec3& values) {
-    for (int i = 0; i < 3; ++i) {
-        message.set(at + 4 * static_cast<std::size_t>(i), static_cast<float>(values[i]));
-    }
+    for (int i = 0; i < 3; ++i) { message.set(at + 4 * static_cast<std::size_t>(i), static_cast<float>(values[i])); }
 }
 
 /// Roll, pitch and yaw, the last one from 0 to 360 degrees.
@@ -32,11 +30,8 @@ void add_ig_control(WireWriter& message, const CigiIgControl& control) {
     const std::size_t at = add_cigi_packet_header(message, 1, 24);
     message.set(at + 2, major);
     message.set(at + 3, control.database);
-    message.set(
-        at + 4,
-        static_cast<std::uint8_t>(
-            static_cast<unsigned>(control.mode) | (control.timestamp_valid ? 1U : 0U) << 2U |
-            minor << 4U));
+    message.set(at + 4, static_cast<std::uint8_t>(static_cast<unsigned>(control.mode) |
+                                                  (control.timestamp_valid ? 1U : 0U) << 2U | minor << 4U));
     message.set(at + 6, cigi_magic);
     message.set(at + 8, control.host_frame);
     message.set(at + 12, control.timestamp);
@@ -48,10 +43,8 @@ void add_entity(WireWriter& message, const CigiEntityControl& entity) {
     const std::size_t at = add_cigi_packet_header(message, 2, 48);
     message.set(at + 2, entity.entity);
     message.set(
-        at + 4,
-        static_cast<std::uint8_t>(
-            static_cast<unsigned>(entity.state) | (entity.attached ? 1U : 0U) << 2U |
-            static_cast<unsigned>(entity.clamp) << 5U));
+        at + 4, static_cast<std::uint8_t>(static_cast<unsigned>(entity.state) | (entity.attached ? 1U : 0U) << 2U |
+                                          static_cast<unsigned>(entity.clamp) << 5U));
     message.set(at + 6, opaque);
     message.set(at + 8, entity.type);
     message.set(at + 10, entity.parent);
@@ -64,12 +57,9 @@ void add_entity(WireWriter& message, const CigiEntityControl& entity) {
 void add_rate(WireWriter& message, const CigiRateControl& rate) {
     const std::size_t at = add_cigi_packet_header(message, 8, 32);
     message.set(at + 2, rate.entity);
-    message.set(
-        at + 5, static_cast<std::uint8_t>((rate.of_part ? 1U : 0U) | (rate.local ? 1U : 0U) << 1U));
+    message.set(at + 5, static_cast<std::uint8_t>((rate.of_part ? 1U : 0U) | (rate.local ? 1U : 0U) << 1U));
     set_floats(message, at + 8, rate.mps);
-    for (int i = 0; i < 3; ++i) {
-        set_cigi_angle(message, at + 20 + 4 * static_cast<std::size_t>(i), rate.radps[i]);
-    }
+    for (int i = 0; i < 3; ++i) { set_cigi_angle(message, at + 20 + 4 * static_cast<std::size_t>(i), rate.radps[i]); }
 }
 
 void add_view_control(WireWriter& message, const CigiViewControl& view) {
@@ -99,14 +89,12 @@ std::optional<CigiStartOfFrame> start_of_frame_of(Bytes message) {
     constexpr std::size_t bytes = 24;
     constexpr std::uint8_t opcode = 101;
     constexpr std::uint8_t major = 3;
-    if (message.size() < bytes) {
-        return std::nullopt;
-    }
+    if (message.size() < bytes) { return std::nullopt; }
     const WireReader big(message, ByteOrder::Big);
     const auto word = big.at<std::uint16_t>(6);
     const bool swapped = word != cigi_magic;
-    if (big.at<std::uint8_t>(0) != opcode || big.at<std::uint8_t>(1) != bytes ||
-        big.at<std::uint8_t>(2) != major || (swapped && word != swapped_cigi_magic)) {
+    if (big.at<std::uint8_t>(0) != opcode || big.at<std::uint8_t>(1) != bytes || big.at<std::uint8_t>(2) != major ||
+        (swapped && word != swapped_cigi_magic)) {
         return std::nullopt;
     }
     const WireReader reader(message, swapped ? ByteOrder::Little : ByteOrder::Big);
@@ -114,8 +102,8 @@ std::optional<CigiStartOfFrame> start_of_frame_of(Bytes message) {
     frame.database = reader.at<std::int8_t>(3);
     constexpr unsigned mode_bits = 3U;
     constexpr unsigned last_mode = 2U;
-    frame.mode = static_cast<CigiMode>(
-        std::min(static_cast<unsigned>(reader.at<std::uint8_t>(5)) & mode_bits, last_mode));
+    frame.mode =
+        static_cast<CigiMode>(std::min(static_cast<unsigned>(reader.at<std::uint8_t>(5)) & mode_bits, last_mode));
     frame.ig_frame = reader.at<std::uint32_t>(8);
     frame.timestamp = reader.at<std::uint32_t>(12);
     frame.host_frame = reader.at<std::uint32_t>(16);

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "sim/links/cigi_responses.h"
 #include "sim/links/cigi_packets.h"
+#include "sim/links/cigi_responses.h"
 
 #include <optional>
 
 namespace octant::sim::links {
 
-// CIGI 3.3 from host to image generator; each function adds a packet to a message in the writer's
-// byte order. A message begins with IG Control. What decode_cigi() reads comes back the same, but
-// for angles and offsets, which are single precision on the wire.
+// CIGI 3.3 from host to image generator; each function adds a packet to a message in the writer's byte order. A message
+// begins with IG Control. What decode_cigi() reads comes back the same, but for angles and offsets, which are single
+// precision on the wire.
 
 void add_ig_control(WireWriter& message, const CigiIgControl& control);
 void add_entity(WireWriter& message, const CigiEntityControl& entity);

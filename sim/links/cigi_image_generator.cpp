@@ -1,4 +1,5 @@
 #include "sim/links/cigi_image_generator.h"
+
 #include "sim/links/earth.h"
 
 #include <algorithm>
@@ -9,8 +10,7 @@ namespace octant::sim::links {
 CigiArticulatedParts::Pose CigiArticulatedParts::pose_at(const Part& part, double now_s) {
     const double passed_s = std::max(now_s - part.at_s, 0.0);
     return {
-        part.pose.offset_m + passed_s * part.per_s.offset_m,
-        part.pose.angles_rad + passed_s * part.per_s.angles_rad};
+        part.pose.offset_m + passed_s * part.per_s.offset_m, part.pose.angles_rad + passed_s * part.per_s.angles_rad};
 }
 
 void CigiArticulatedParts::take(const CigiArticulatedPart& told, double at_s) {
@@ -19,9 +19,7 @@ void CigiArticulatedParts::take(const CigiArticulatedPart& told, double at_s) {
         parts_.erase(key);
         return;
     }
-    if (parts_.size() == max_parts && !parts_.contains(key)) {
-        return;
-    }
+    if (parts_.size() == max_parts && !parts_.contains(key)) { return; }
     Part& part = parts_[key];
     part.pose = pose_at(part, at_s);
     const glm::dvec3 told_rad(told.angles.roll_rad, told.angles.pitch_rad, told.angles.heading_rad);
@@ -50,8 +48,7 @@ std::vector<CigiPartPose> CigiArticulatedParts::turned(double now_s) const {
     turned.reserve(parts_.size());
     for (const auto& [key, part] : parts_) {
         const Pose pose = pose_at(part, now_s);
-        const glm::dmat3 turn =
-            ned_from_body({pose.angles_rad.z, pose.angles_rad.y, pose.angles_rad.x});
+        const glm::dmat3 turn = ned_from_body({pose.angles_rad.z, pose.angles_rad.y, pose.angles_rad.x});
         turned.push_back({key.first, key.second, glm::quat_cast(turn), pose.offset_m});
     }
     return turned;
@@ -59,16 +56,12 @@ std::vector<CigiPartPose> CigiArticulatedParts::turned(double now_s) const {
 
 namespace {
 
-constexpr std::uint8_t low_bits(std::uint32_t frame) {
-    return static_cast<std::uint8_t>(frame & 0xfU);
-}
+constexpr std::uint8_t low_bits(std::uint32_t frame) { return static_cast<std::uint8_t>(frame & 0xfU); }
 
 /// Keeps no more than a cap of numbered things; those that are there may always change.
 template <class Value>
 bool keep(std::map<std::uint16_t, Value>& kept, std::uint16_t id, Value value, std::size_t most) {
-    if (kept.size() >= most && !kept.contains(id)) {
-        return false;
-    }
+    if (kept.size() >= most && !kept.contains(id)) { return false; }
     kept.insert_or_assign(id, std::move(value));
     return true;
 }
@@ -79,31 +72,22 @@ DecodeResult CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, do
     moved.clear();
     std::vector<CigiPacket> packets;
     const DecodeResult verdict = decode_cigi(message, packets);
-    if (verdict.fault != PacketError::None) {
-        return verdict;
-    }
+    if (verdict.fault != PacketError::None) { return verdict; }
     has_host_ = true;
     std::vector<std::uint16_t> touched;
-    for (const CigiPacket& packet : packets) {
-        take(packet, arrival_s, touched);
-    }
+    for (const CigiPacket& packet : packets) { take(packet, arrival_s, touched); }
     std::ranges::sort(touched);
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const std::uint16_t number : touched) {
         const auto entity = entities_.find(number);
-        if (entity == entities_.end()) {
-            continue;
-        }
+        if (entity == entities_.end()) { continue; }
         const Fix fix = fix_of(number, entity->second);
-        if (error_of_fix(fix) == PacketError::None) {
-            moved.push_back(fix);
-        }
+        if (error_of_fix(fix) == PacketError::None) { moved.push_back(fix); }
     }
     return verdict;
 }
 
-void CigiImageGenerator::take(
-    const CigiPacket& packet, double arrival_s, std::vector<std::uint16_t>& touched) {
+void CigiImageGenerator::take(const CigiPacket& packet, double arrival_s, std::vector<std::uint16_t>& touched) {
     if (const auto* control = std::get_if<CigiIgControl>(&packet)) {
         control_ = *control;
     } else if (const auto* entity = std::get_if<CigiEntityControl>(&packet)) {
@@ -124,9 +108,7 @@ void CigiImageGenerator::take(
     } else if (const auto* rate = std::get_if<CigiRateControl>(&packet)) {
         take_rate(*rate, arrival_s, touched);
     } else if (const auto* part = std::get_if<CigiArticulatedPart>(&packet)) {
-        if (entities_.contains(part->entity)) {
-            parts_.take(*part, arrival_s);
-        }
+        if (entities_.contains(part->entity)) { parts_.take(*part, arrival_s); }
     } else if (const auto* atmosphere = std::get_if<CigiAtmosphere>(&packet)) {
         atmosphere_ = *atmosphere;
     } else if (const auto* celestial = std::get_if<CigiCelestial>(&packet)) {
@@ -146,12 +128,9 @@ void CigiImageGenerator::take(
     }
 }
 
-void CigiImageGenerator::take_rate(
-    const CigiRateControl& rate, double arrival_s, std::vector<std::uint16_t>& touched) {
+void CigiImageGenerator::take_rate(const CigiRateControl& rate, double arrival_s, std::vector<std::uint16_t>& touched) {
     const auto known = entities_.find(rate.entity);
-    if (known == entities_.end()) {
-        return;
-    }
+    if (known == entities_.end()) { return; }
     if (rate.of_part) {
         parts_.take(rate, arrival_s);
     } else {
@@ -180,11 +159,8 @@ void CigiImageGenerator::take_definition(const CigiViewDefinition& told) {
     CigiViewDefinition definition = told;
     if (const auto known = definitions_.find(told.view); known != definitions_.end()) {
         const CigiViewDefinition& before = known->second;
-        definition.sets = glm::bvec4(
-            told.sets.x || before.sets.x,
-            told.sets.y || before.sets.y,
-            told.sets.z || before.sets.z,
-            told.sets.w || before.sets.w);
+        definition.sets = glm::bvec4(told.sets.x || before.sets.x, told.sets.y || before.sets.y,
+            told.sets.z || before.sets.z, told.sets.w || before.sets.w);
         definition.left_rad = told.sets.x ? told.left_rad : before.left_rad;
         definition.right_rad = told.sets.y ? told.right_rad : before.right_rad;
         definition.top_rad = told.sets.z ? told.top_rad : before.top_rad;
@@ -201,9 +177,7 @@ std::optional<std::uint16_t> CigiImageGenerator::type_of(std::uint16_t entity) c
 void CigiImageGenerator::take_entity(const CigiEntityControl& control) {
     if (control.state != 1) {
         parts_.forget(control.entity);
-        if (entities_.erase(control.entity) > 0) {
-            removed_.push_back(control.entity);
-        }
+        if (entities_.erase(control.entity) > 0) { removed_.push_back(control.entity); }
         return;
     }
     const auto known = entities_.find(control.entity);
@@ -215,9 +189,7 @@ void CigiImageGenerator::take_entity(const CigiEntityControl& control) {
 }
 
 void CigiImageGenerator::wait(Answer answer) {
-    if (waiting_.size() < max_waiting) {
-        waiting_.push_back(std::move(answer));
-    }
+    if (waiting_.size() < max_waiting) { waiting_.push_back(std::move(answer)); }
 }
 
 // A period of 0 asks once and ends what was asked periodically under the same number.
@@ -246,42 +218,29 @@ void CigiImageGenerator::ask(const CigiPositionRequest& request) {
 void CigiImageGenerator::queue_periodic_requests() {
     const std::uint8_t host_frame = low_bits(control_.host_frame);
     for (const auto& [id, request] : heights_) {
-        if (frames_ % request.period == 0) {
-            wait({request, host_frame});
-        }
+        if (frames_ % request.period == 0) { wait({request, host_frame}); }
     }
     for (const auto& [id, request] : sights_) {
-        if (frames_ % request.period == 0) {
-            wait({request, host_frame});
-        }
+        if (frames_ % request.period == 0) { wait({request, host_frame}); }
     }
-    for (const auto& [id, request] : positions_) {
-        wait({request, host_frame});
-    }
+    for (const auto& [id, request] : positions_) { wait({request, host_frame}); }
     ++frames_;
 }
 
-/// Where an entity is, its parents counted; nothing where one of them is unknown or there are too
-/// many.
+/// Where an entity is, its parents counted; nothing where one of them is unknown or there are too many.
 std::optional<glm::dvec3> CigiImageGenerator::place_of(std::uint16_t entity, int depth) const {
     constexpr int max_parents = 8;
     const auto known = entities_.find(entity);
-    if (known == entities_.end() || depth > max_parents) {
-        return std::nullopt;
-    }
+    if (known == entities_.end() || depth > max_parents) { return std::nullopt; }
     const CigiEntityControl& control = known->second.control;
     glm::dvec3 place = control.place;
     if (control.attached) {
         const auto parent = place_of(control.parent, depth + 1);
-        if (!parent || ground_ == nullptr) {
-            return std::nullopt;
-        }
+        if (!parent || ground_ == nullptr) { return std::nullopt; }
         return ground_->moved(*parent, ned_from_body(attitude_of(control.parent)) * control.place);
     }
     if (control.clamp != 0 && ground_ != nullptr) {
-        if (const auto surface = ground_->below(place)) {
-            place.z += surface->place.z;
-        }
+        if (const auto surface = ground_->below(place)) { place.z += surface->place.z; }
     }
     return place;
 }
@@ -291,13 +250,9 @@ EulerAngles CigiImageGenerator::attitude_of(std::uint16_t entity) const {
     constexpr int max_parents = 8;
     for (int depth = 0; depth <= max_parents; ++depth) {
         const auto known = entities_.find(entity);
-        if (known == entities_.end()) {
-            break;
-        }
+        if (known == entities_.end()) { break; }
         turn = ned_from_body(known->second.control.attitude) * turn;
-        if (!known->second.control.attached) {
-            break;
-        }
+        if (!known->second.control.attached) { break; }
         entity = known->second.control.parent;
     }
     return euler_from_ned_from_body(turn);
@@ -305,13 +260,9 @@ EulerAngles CigiImageGenerator::attitude_of(std::uint16_t entity) const {
 
 std::optional<glm::dvec3> CigiImageGenerator::place_from(
     bool of_entity, std::uint16_t entity, const glm::dvec3& place) const {
-    if (!of_entity) {
-        return place;
-    }
+    if (!of_entity) { return place; }
     const auto from = place_of(entity);
-    if (!from || ground_ == nullptr) {
-        return std::nullopt;
-    }
+    if (!from || ground_ == nullptr) { return std::nullopt; }
     return ground_->moved(*from, ned_from_body(attitude_of(entity)) * place);
 }
 

@@ -25,14 +25,13 @@ struct CigiPartPose {
     glm::dvec3 offset_m{0.0};            ///< along them
 };
 
-/// The articulated parts of a host's entities. Angles and offsets go on by the rates that it gives
-/// them.
+/// The articulated parts of a host's entities. Angles and offsets go on by the rates that it gives them.
 class CigiArticulatedParts {
 public:
     static constexpr std::size_t max_parts = 1024;
 
-    /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled
-    /// is the model's own again.
+    /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled is the model's own
+    /// again.
     void take(const CigiArticulatedPart& part, double at_s);
 
     /// Lets a part that has been told of before go on by these rates.
@@ -88,8 +87,8 @@ public:
     virtual glm::dvec3 moved(const glm::dvec3& place, const glm::dvec3& ned_m) const = 0;
 };
 
-/// An image generator's side of CIGI 3.3: keeps the host's entities and views, answers what he
-/// asks. Opens no sockets and reads no clock.
+/// An image generator's side of CIGI 3.3: keeps the host's entities and views, answers what he asks. Opens no sockets
+/// and reads no clock.
 class CigiImageGenerator {
 public:
     static constexpr std::size_t max_entities = 256;
@@ -99,11 +98,9 @@ public:
     static constexpr std::size_t max_message_bytes = 1472;
 
     /// Without a ground every question is answered as outside the database. It must outlive this.
-    explicit CigiImageGenerator(const CigiGround* ground)
-        : ground_(ground) {}
+    explicit CigiImageGenerator(const CigiGround* ground) : ground_(ground) {}
 
-    /// Takes a message of the host that came at a time. Returns the entities that it moved, as
-    /// fixes, by their numbers.
+    /// Takes a message of the host that came at a time. Returns the entities that it moved, as fixes, by their numbers.
     DecodeResult take(Bytes message, std::vector<Fix>& moved, double arrival_s = 0.0);
 
     /// The message for a picture: Start of Frame, then answers as far as they fit; others wait.
@@ -159,8 +156,7 @@ private:
     void queue_periodic_requests();
     std::optional<glm::dvec3> place_of(std::uint16_t entity, int depth = 0) const;
     EulerAngles attitude_of(std::uint16_t entity) const;
-    std::optional<glm::dvec3>
-    place_from(bool of_entity, std::uint16_t entity, const glm::dvec3& place) const;
+    std::optional<glm::dvec3> place_from(bool of_entity, std::uint16_t entity, const glm::dvec3& place) const;
     Fix fix_of(std::uint16_t number, const Entity& entity) const;
     void answer(const Answer& answer, WireWriter& message) const;
     void answer_height(const CigiHeightRequest&, std::uint8_t host_frame, WireWriter&) const;

@@ -1,5 +1,4 @@
-// Layouts: CIGI 3.3 interface control document (SISO, 2008); each was checked against Wireshark's
-// dissector.
+// Layouts: CIGI 3.3 interface control document (SISO, 2008); each was checked against Wireshark's dissector.
 
 #include "sim/links/cigi_packets.h"
 
@@ -39,9 +38,7 @@ unsigned bits(const WireReader& reader, std::size_t at, unsigned first, unsigned
     return static_cast<unsigned>(reader.at<std::uint8_t>(at)) >> first & ((1U << count) - 1U);
 }
 
-bool finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool finite(const EulerAngles& angles) {
     return finite(glm::dvec3(angles.heading_rad, angles.pitch_rad, angles.roll_rad));
@@ -79,18 +76,14 @@ std::optional<CigiPacket> read_entity(const WireReader& reader) {
     entity.parent = reader.at<std::uint16_t>(10);
     entity.attitude = angles_at(reader, 12);
     entity.place = doubles(reader, 24);
-    return finite(entity.attitude) && finite(entity.place) ? std::optional<CigiPacket>(entity)
-                                                           : std::nullopt;
+    return finite(entity.attitude) && finite(entity.place) ? std::optional<CigiPacket>(entity) : std::nullopt;
 }
 
 std::optional<CigiPacket> read_clamped(const WireReader& reader) {
     const CigiClampedEntity clamped{
-        reader.at<std::uint16_t>(2),
-        rad_at(reader, 4),
-        {reader.at<double>(8), reader.at<double>(16), 0.0}};
-    return finite(clamped.place) && std::isfinite(clamped.heading_rad)
-               ? std::optional<CigiPacket>(clamped)
-               : std::nullopt;
+        reader.at<std::uint16_t>(2), rad_at(reader, 4), {reader.at<double>(8), reader.at<double>(16), 0.0}};
+    return finite(clamped.place) && std::isfinite(clamped.heading_rad) ? std::optional<CigiPacket>(clamped)
+                                                                       : std::nullopt;
 }
 
 std::optional<CigiPacket> read_rate(const WireReader& reader) {
@@ -101,9 +94,8 @@ std::optional<CigiPacket> read_rate(const WireReader& reader) {
     rate.local = bits(reader, 5, 1, 1) != 0;
     rate.mps = reader.floats(8);
     rate.radps = {rad_at(reader, 20), rad_at(reader, 24), rad_at(reader, 28)};
-    return within(rate.mps, fastest_mps) && within(rate.radps, fastest_turn_radps)
-               ? std::optional<CigiPacket>(rate)
-               : std::nullopt;
+    return within(rate.mps, fastest_mps) && within(rate.radps, fastest_turn_radps) ? std::optional<CigiPacket>(rate)
+                                                                                   : std::nullopt;
 }
 
 std::optional<CigiPacket> read_part(const WireReader& reader) {
@@ -119,16 +111,12 @@ std::optional<CigiPacket> read_part(const WireReader& reader) {
     }
     part.offset_m = reader.floats(8);
     part.angles = angles_at(reader, 20);
-    return finite(part.angles) && within(part.offset_m, furthest_part_m)
-               ? std::optional<CigiPacket>(part)
-               : std::nullopt;
+    return finite(part.angles) && within(part.offset_m, furthest_part_m) ? std::optional<CigiPacket>(part)
+                                                                         : std::nullopt;
 }
 
 std::optional<CigiPacket> read_celestial(const WireReader& reader) {
-    const CigiCelestial celestial{
-        bits(reader, 4, 4, 1) != 0,
-        reader.at<std::uint8_t>(2),
-        reader.at<std::uint8_t>(3),
+    const CigiCelestial celestial{bits(reader, 4, 4, 1) != 0, reader.at<std::uint8_t>(2), reader.at<std::uint8_t>(3),
         reader.at<std::uint32_t>(8)};
     const bool is_time = celestial.hour < 24 && celestial.minute < 60;
     return is_time ? std::optional<CigiPacket>(celestial) : std::nullopt;
@@ -147,19 +135,12 @@ std::optional<CigiPacket> read_view_control(const WireReader& reader) {
     view.view = reader.at<std::uint16_t>(2);
     view.group = reader.at<std::uint8_t>(4);
     view.entity = reader.at<std::uint16_t>(6);
-    const auto enabled = [&reader](unsigned bit) {
-        return bits(reader, 5, bit, 1) != 0 ? 1.0 : 0.0;
-    };
+    const auto enabled = [&reader](unsigned bit) { return bits(reader, 5, bit, 1) != 0 ? 1.0 : 0.0; };
     const glm::dvec3 offset_m = reader.floats(8);
     const EulerAngles angles = angles_at(reader, 20);
-    if (!within(offset_m, furthest_m) || !finite(angles)) {
-        return std::nullopt;
-    }
+    if (!within(offset_m, furthest_m) || !finite(angles)) { return std::nullopt; }
     view.offset_m = offset_m * glm::dvec3(enabled(0), enabled(1), enabled(2));
-    view.angles = {
-        enabled(5) * angles.heading_rad,
-        enabled(4) * angles.pitch_rad,
-        enabled(3) * angles.roll_rad};
+    view.angles = {enabled(5) * angles.heading_rad, enabled(4) * angles.pitch_rad, enabled(3) * angles.roll_rad};
     return view;
 }
 
@@ -175,8 +156,7 @@ std::optional<CigiPacket> read_view_definition(const WireReader& reader) {
         view.sets[static_cast<int>(i)] = bits(reader, 5, left + i, 1) != 0;
         if (view.sets[static_cast<int>(i)]) {
             sides_rad[i] = rad_at(reader, 16 + 4 * std::size_t{i});
-            max_rad = std::isfinite(sides_rad[i]) ? std::max(max_rad, std::abs(sides_rad[i]))
-                                                   : furthest_m;
+            max_rad = std::isfinite(sides_rad[i]) ? std::max(max_rad, std::abs(sides_rad[i])) : furthest_m;
         }
     }
     view.left_rad = sides_rad[0];
@@ -212,9 +192,7 @@ std::optional<CigiPacket> read_sight_segment(const WireReader& reader) {
     request.destination = doubles(reader, 32);
     request.period = reader.at<std::uint8_t>(60);
     request.to = reader.at<std::uint16_t>(62);
-    return finite(request.source) && finite(request.destination)
-               ? std::optional<CigiPacket>(request)
-               : std::nullopt;
+    return finite(request.source) && finite(request.destination) ? std::optional<CigiPacket>(request) : std::nullopt;
 }
 
 std::optional<CigiPacket> read_sight_vector(const WireReader& reader) {
@@ -230,18 +208,15 @@ std::optional<CigiPacket> read_sight_vector(const WireReader& reader) {
     request.max_m = static_cast<double>(reader.at<float>(20));
     request.source = doubles(reader, 24);
     request.period = reader.at<std::uint8_t>(52);
-    return finite(request.source) && std::isfinite(request.azimuth_rad) &&
-                   std::isfinite(request.elevation_rad) && std::isfinite(request.min_m) &&
-                   std::isfinite(request.max_m)
+    return finite(request.source) && std::isfinite(request.azimuth_rad) && std::isfinite(request.elevation_rad) &&
+                   std::isfinite(request.min_m) && std::isfinite(request.max_m)
                ? std::optional<CigiPacket>(request)
                : std::nullopt;
 }
 
 std::optional<CigiPacket> read_position_request(const WireReader& reader) {
     return CigiPositionRequest{
-        reader.at<std::uint16_t>(2),
-        bits(reader, 5, 0, 1) != 0,
-        static_cast<int>(bits(reader, 5, 1, 3))};
+        reader.at<std::uint16_t>(2), bits(reader, 5, 0, 1) != 0, static_cast<int>(bits(reader, 5, 1, 3))};
 }
 
 struct Known {
@@ -250,27 +225,15 @@ struct Known {
     Read read;
 };
 
-constexpr std::array<Known, 13> known_packets{
-    {{ig_control, ig_control_bytes, read_ig_control},
-     {2, 48, read_entity},
-     {3, 24, read_clamped},
-     {6, 32, read_part},
-     {8, 32, read_rate},
-     {9, 16, read_celestial},
-     {10, 32, read_atmosphere},
-     {16, 32, read_view_control},
-     {21, 32, read_view_definition},
-     {24, 32, read_height_request},
-     {25, 64, read_sight_segment},
-     {26, 56, read_sight_vector},
-     {27, 8, read_position_request}}};
+constexpr std::array<Known, 13> known_packets{{{ig_control, ig_control_bytes, read_ig_control}, {2, 48, read_entity},
+    {3, 24, read_clamped}, {6, 32, read_part}, {8, 32, read_rate}, {9, 16, read_celestial}, {10, 32, read_atmosphere},
+    {16, 32, read_view_control}, {21, 32, read_view_definition}, {24, 32, read_height_request},
+    {25, 64, read_sight_segment}, {26, 56, read_sight_vector}, {27, 8, read_position_request}}};
 
 DecodeResult check_head(Bytes message, ByteOrder& order) {
     const auto size = static_cast<std::uint32_t>(message.size());
     const WireReader big(message, ByteOrder::Big);
-    if (size < ig_control_bytes) {
-        return {PacketError::WrongSize, size, size};
-    }
+    if (size < ig_control_bytes) { return {PacketError::WrongSize, size, size}; }
     const auto word = big.at<std::uint16_t>(magic_at);
     if (big.at<std::uint8_t>(0) != ig_control || big.at<std::uint8_t>(1) != ig_control_bytes ||
         (word != cigi_magic && word != swapped_cigi_magic)) {
@@ -288,13 +251,10 @@ DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
     packets.clear();
     ByteOrder order = ByteOrder::Big;
     DecodeResult verdict = check_head(message, order);
-    if (verdict.fault != PacketError::None) {
-        return verdict;
-    }
+    if (verdict.fault != PacketError::None) { return verdict; }
     for (Bytes rest = message; !rest.empty();) {
         const auto opcode = std::to_integer<std::uint8_t>(rest.front());
-        const std::size_t size =
-            rest.size() < header_bytes ? 0 : std::to_integer<std::size_t>(rest[1]);
+        const std::size_t size = rest.size() < header_bytes ? 0 : std::to_integer<std::size_t>(rest[1]);
         if (size < header_bytes || size > rest.size()) {
             packets.clear();
             verdict.fault = PacketError::WrongSize;
@@ -320,10 +280,8 @@ std::string cigi_text(const DecodeResult& verdict) {
     case PacketError::WrongSize:
         return fmt::format("CIGI: expected whole packets, got a message of {} bytes", verdict.size);
     default:
-        return fmt::format(
-            "expected a CIGI 3 message that begins with IG Control, got opcode {} in {} bytes",
-            verdict.got,
-            verdict.size);
+        return fmt::format("expected a CIGI 3 message that begins with IG Control, got opcode {} in {} bytes",
+            verdict.got, verdict.size);
     }
 }
 

@@ -15,9 +15,9 @@
 
 namespace octant::sim::links {
 
-/// The Common Image Generator Interface 3.3, from host to image generator: what of it is
-/// understood. Angles are radians here, places degrees and metres. On the wire each packet begins
-/// with its opcode and its size; a message begins with IG Control, by which its byte order is told.
+/// The Common Image Generator Interface 3.3, from host to image generator: what of it is understood. Angles are radians
+/// here, places degrees and metres. On the wire each packet begins with its opcode and its size; a message begins with
+/// IG Control, by which its byte order is told.
 inline constexpr std::uint16_t cigi_port = 8004;
 
 enum class CigiMode : std::uint8_t { Standby = 0, Operate = 1, Debug = 2 };
@@ -31,8 +31,7 @@ struct CigiIgControl {
     std::uint32_t last_ig_frame = 0;
 };
 
-/// A place: latitude and longitude in degrees, height in metres; or metres from a parent along its
-/// body axes.
+/// A place: latitude and longitude in degrees, height in metres; or metres from a parent along its body axes.
 struct CigiEntityControl {
     std::uint16_t entity = 0;
     int state = 0; ///< 0 standby, 1 active, 2 destroyed
@@ -144,24 +143,12 @@ struct CigiUnknownPacket {
     std::uint8_t opcode = 0;
 };
 
-using CigiPacket = std::variant<
-    CigiIgControl,
-    CigiEntityControl,
-    CigiClampedEntity,
-    CigiRateControl,
-    CigiArticulatedPart,
-    CigiCelestial,
-    CigiAtmosphere,
-    CigiViewControl,
-    CigiViewDefinition,
-    CigiHeightRequest,
-    CigiLosRequest,
-    CigiPositionRequest,
-    CigiUnknownPacket>;
+using CigiPacket = std::variant<CigiIgControl, CigiEntityControl, CigiClampedEntity, CigiRateControl,
+    CigiArticulatedPart, CigiCelestial, CigiAtmosphere, CigiViewControl, CigiViewDefinition, CigiHeightRequest,
+    CigiLosRequest, CigiPositionRequest, CigiUnknownPacket>;
 
-/// Reads a whole message of a host. `packets` holds what of it is right, in order; with a fault in
-/// the message's form (no IG Control first, a packet that runs over the end) nothing. Packets with
-/// numbers that are none are left out.
+/// Reads a whole message of a host. `packets` holds what of it is right, in order; with a fault in the message's form
+/// (no IG Control first, a packet that runs over the end) nothing. Packets with numbers that are none are left out.
 DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets);
 
 std::string cigi_text(const DecodeResult& verdict);

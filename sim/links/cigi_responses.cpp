@@ -26,10 +26,7 @@ void add_start_of_frame(WireWriter& message, const CigiStartOfFrame& frame) {
     const std::size_t at = add_cigi_packet_header(message, 101, 24);
     message.set(at + 2, major);
     message.set(at + 3, frame.database);
-    message.set(
-        at + 5,
-        static_cast<std::uint8_t>(
-            static_cast<unsigned>(frame.mode) | timestamp_valid | minor << 4U));
+    message.set(at + 5, static_cast<std::uint8_t>(static_cast<unsigned>(frame.mode) | timestamp_valid | minor << 4U));
     message.set(at + 6, cigi_magic);
     message.set(at + 8, frame.ig_frame);
     message.set(at + 12, frame.timestamp);
@@ -82,8 +79,7 @@ void add_los_response(
     }
 }
 
-void add_position(
-    WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles) {
+void add_position(WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles) {
     const std::size_t at = add_cigi_packet_header(message, 108, 48);
     message.set(at + 2, entity);
     message.set(at + 8, place.x);

@@ -9,8 +9,8 @@
 
 namespace octant::sim::links {
 
-// CIGI 3.3 from image generator to host; each function adds a packet to a message. A message begins
-// with Start of Frame.
+// CIGI 3.3 from image generator to host; each function adds a packet to a message. A message begins with Start of
+// Frame.
 
 struct CigiStartOfFrame {
     std::uint32_t ig_frame = 0;
@@ -49,12 +49,10 @@ struct CigiLosResponse {
     std::optional<CigiSurfacePoint> met;
 };
 
-void add_los_response(
-    WireWriter& message, const CigiResponseHeader& head, bool extended, const CigiLosResponse& sight);
+void add_los_response(WireWriter& message, const CigiResponseHeader& head, bool extended, const CigiLosResponse& sight);
 
 /// Where an entity is: latitude and longitude in degrees, height in metres.
-void add_position(
-    WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles);
+void add_position(WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles);
 
 /// Sizes of these packets, to see whether one more fits into a message.
 inline constexpr std::size_t cigi_max_response_bytes = 56;

@@ -23,9 +23,7 @@ std::string_view name_of(Protocol protocol) {
 }
 
 std::string text_of(const PacketSource& source) {
-    if (source == PacketSource{}) {
-        return "standard input";
-    }
+    if (source == PacketSource{}) { return "standard input"; }
     const auto part = [&source](unsigned shift) { return source.address >> shift & 0xffU; };
     return fmt::format("{}.{}.{}.{}:{}", part(24), part(16), part(8), part(0), source.port);
 }

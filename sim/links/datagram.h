@@ -9,14 +9,7 @@
 namespace octant::sim::links {
 
 /// What a packet's bytes mean. The values stand in recordings.
-enum class Protocol : std::uint8_t {
-    Fdm = 1,
-    Lines = 2,
-    MavLink = 3,
-    Dis = 4,
-    Cigi = 5,
-    XPlane = 6
-};
+enum class Protocol : std::uint8_t { Fdm = 1, Lines = 2, MavLink = 3, Dis = 4, Cigi = 5, XPlane = 6 };
 
 /// As people call it: "DIS".
 std::string_view name_of(Protocol protocol);

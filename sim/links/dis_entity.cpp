@@ -1,5 +1,5 @@
-// Field offsets: IEEE 1278.1-1995, 5.4.3.1, Entity State PDU. World axes are earth-centred; psi,
-// theta and phi turn them into the body's in that order.
+// Field offsets: IEEE 1278.1-1995, 5.4.3.1, Entity State PDU. World axes are earth-centred; psi, theta and phi turn
+// them into the body's in that order.
 
 #include "sim/links/dis_entity.h"
 
@@ -31,36 +31,28 @@ constexpr std::size_t reckoning_at = 88;
 constexpr std::size_t acceleration_at = 104;
 constexpr std::size_t rates_at = 116;
 constexpr std::size_t marking_at = 128;
-/// Timestamps count an hour in 2^31 - 1 parts, shifted by one bit; the last bit says whether the
-/// clock is absolute.
+/// Timestamps count an hour in 2^31 - 1 parts, shifted by one bit; the last bit says whether the clock is absolute.
 constexpr double parts_an_hour = 2147483648.0;
 constexpr double hour_s = 3600.0;
 constexpr double heartbeat_timeout_s = 12.0; ///< 2.4 heartbeats of 5 s, the standard's default
 
 DecodeResult check_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
-    if (size < header_bytes) {
-        return {PacketError::WrongSize, size, size};
-    }
+    if (size < header_bytes) { return {PacketError::WrongSize, size, size}; }
     const auto version = reader.at<std::uint8_t>(0);
     const auto type = reader.at<std::uint8_t>(2);
     constexpr std::uint8_t last_version = 7;
-    if (version == 0 || version > last_version) {
-        return {PacketError::WrongVersion, version, size};
-    }
+    if (version == 0 || version > last_version) { return {PacketError::WrongVersion, version, size}; }
     if (type != entity_state_type || reader.at<std::uint8_t>(3) != entity_family) {
         return {PacketError::Unused, type, size};
     }
-    const std::size_t expected =
-        dis_entity_bytes + articulation_bytes * reader.at<std::uint8_t>(articulations_at);
+    const std::size_t expected = dis_entity_bytes + articulation_bytes * reader.at<std::uint8_t>(articulations_at);
     return {size == expected ? PacketError::None : PacketError::WrongSize, version, size};
 }
 
 void read_motion(const WireReader& reader, DisEntity& entity) {
     const glm::dvec3 ecef_m(
-        reader.at<double>(position_at),
-        reader.at<double>(position_at + 8),
-        reader.at<double>(position_at + 16));
+        reader.at<double>(position_at), reader.at<double>(position_at + 8), reader.at<double>(position_at + 16));
     const Geodetic place = geodetic_from_ecef(ecef_m);
     const glm::dmat3 to_ned = ned_from_ecef(place);
     Fix& fix = entity.fix;
@@ -70,14 +62,11 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
     const glm::dvec3 angles = reader.floats(angles_at);
     fix.attitude = euler_from_ned_from_body(to_ned * ned_from_body({angles.x, angles.y, angles.z}));
     const bool moves = entity.reckoning != DeadReckoning::Static;
-    const bool turns =
-        entity.reckoning == DeadReckoning::Rpw || entity.reckoning == DeadReckoning::Rvw;
-    const bool speeds_up =
-        entity.reckoning == DeadReckoning::Rvw || entity.reckoning == DeadReckoning::Fvw;
+    const bool turns = entity.reckoning == DeadReckoning::Rpw || entity.reckoning == DeadReckoning::Rvw;
+    const bool speeds_up = entity.reckoning == DeadReckoning::Rvw || entity.reckoning == DeadReckoning::Fvw;
     fix.velocity_ned_mps = moves ? to_ned * reader.floats(velocity_at) : glm::dvec3(0.0);
     fix.body_rates_radps = turns ? reader.floats(rates_at) : glm::dvec3(0.0);
-    fix.acceleration_ned_mps2 =
-        speeds_up ? to_ned * reader.floats(acceleration_at) : glm::dvec3(0.0);
+    fix.acceleration_ned_mps2 = speeds_up ? to_ned * reader.floats(acceleration_at) : glm::dvec3(0.0);
 }
 
 } // namespace
@@ -85,23 +74,16 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
 DecodeResult decode_dis(Bytes datagram, DisEntity& entity) {
     const WireReader reader(datagram, ByteOrder::Big);
     DecodeResult verdict = check_head(reader);
-    if (verdict.fault != PacketError::None) {
-        return verdict;
-    }
+    if (verdict.fault != PacketError::None) { return verdict; }
     entity = {};
     entity.site = reader.at<std::uint16_t>(id_at);
     entity.application = reader.at<std::uint16_t>(id_at + 2);
     entity.entity = reader.at<std::uint16_t>(id_at + 4);
     entity.force = reader.at<std::uint8_t>(force_at);
-    for (std::size_t i = 0; i < entity.type.size(); ++i) {
-        entity.type[i] = reader.at<std::uint8_t>(type_at + i);
-    }
-    for (std::size_t i = 0; i < entity.marking.size(); ++i) {
-        entity.marking[i] = reader.at<char>(marking_at + 1 + i);
-    }
+    for (std::size_t i = 0; i < entity.type.size(); ++i) { entity.type[i] = reader.at<std::uint8_t>(type_at + i); }
+    for (std::size_t i = 0; i < entity.marking.size(); ++i) { entity.marking[i] = reader.at<char>(marking_at + 1 + i); }
     const auto reckoning = reader.at<std::uint8_t>(reckoning_at);
-    entity.reckoning =
-        reckoning >= 1 && reckoning <= 5 ? DeadReckoning{reckoning} : DeadReckoning::Static;
+    entity.reckoning = reckoning >= 1 && reckoning <= 5 ? DeadReckoning{reckoning} : DeadReckoning::Static;
     const double x = reader.at<double>(position_at);
     if (!std::isfinite(x) || !std::isfinite(reader.at<double>(position_at + 8)) ||
         !std::isfinite(reader.at<double>(position_at + 16))) {
@@ -129,17 +111,14 @@ std::string marking_of(const DisEntity& entity) {
 std::string dis_text(const DecodeResult& verdict) {
     switch (verdict.fault) {
     case PacketError::None:
-        return fmt::format(
-            "DIS version {} entity state of {} bytes: fine", verdict.got, verdict.size);
+        return fmt::format("DIS version {} entity state of {} bytes: fine", verdict.got, verdict.size);
     case PacketError::Unused:
         return fmt::format("DIS PDU of type {}: passed over", verdict.got);
     case PacketError::WrongVersion:
         return fmt::format("expected a DIS PDU of version 1 to 7, got {}", verdict.got);
     case PacketError::WrongSize:
-        return fmt::format(
-            "expected a DIS entity state of {} bytes and 16 for each articulation, got {}",
-            dis_entity_bytes,
-            verdict.size);
+        return fmt::format("expected a DIS entity state of {} bytes and 16 for each articulation, got {}",
+            dis_entity_bytes, verdict.size);
     case PacketError::NotFinite:
         return "DIS entity state: expected numbers, got one that is none";
     default:
@@ -151,8 +130,7 @@ std::array<std::byte, dis_entity_bytes> encode_dis(const DisEntity& entity, doub
     WireWriter writer(ByteOrder::Big);
     writer.add_zeros(dis_entity_bytes);
     const Fix& fix = entity.fix;
-    const Geodetic place{
-        rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m};
+    const Geodetic place{rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m};
     const glm::dmat3 to_ecef = glm::transpose(ned_from_ecef(place));
     const auto floats_at = [&writer](std::size_t at, const glm::dvec3& values) {
         writer.set(at, static_cast<float>(values.x));
@@ -186,9 +164,7 @@ std::array<std::byte, dis_entity_bytes> encode_dis(const DisEntity& entity, doub
     floats_at(acceleration_at, to_ecef * fix.acceleration_ned_mps2);
     floats_at(rates_at, fix.body_rates_radps.value_or(glm::dvec3(0.0)));
     writer.set(marking_at, std::uint8_t{1}); // ASCII
-    for (std::size_t i = 0; i < entity.marking.size(); ++i) {
-        writer.set(marking_at + 1 + i, entity.marking[i]);
-    }
+    for (std::size_t i = 0; i < entity.marking.size(); ++i) { writer.set(marking_at + 1 + i, entity.marking[i]); }
     std::array<std::byte, dis_entity_bytes> datagram{};
     std::copy(writer.bytes().begin(), writer.bytes().end(), datagram.begin());
     return datagram;

@@ -10,13 +10,13 @@
 
 namespace octant::sim::links {
 
-/// Distributed Interactive Simulation: the Entity State PDU of IEEE 1278.1, 144 bytes and 16 more
-/// for each articulation; big-endian, earth-centred metres. UDP.
+/// Distributed Interactive Simulation: the Entity State PDU of IEEE 1278.1, 144 bytes and 16 more for each
+/// articulation; big-endian, earth-centred metres. UDP.
 inline constexpr std::size_t dis_entity_bytes = 144;
 inline constexpr std::uint16_t dis_port = 3000;
 
-/// How a receiver goes on between two states (dead reckoning, IEEE 1278.1 annex B): static; by
-/// velocity; by velocity and rates of turn; that and by acceleration; velocity and acceleration.
+/// How a receiver goes on between two states (dead reckoning, IEEE 1278.1 annex B): static; by velocity; by velocity
+/// and rates of turn; that and by acceleration; velocity and acceleration.
 enum class DeadReckoning : std::uint8_t { Static = 1, Fpw = 2, Rpw = 3, Rvw = 4, Fvw = 5 };
 
 struct DisEntity {
@@ -30,13 +30,12 @@ struct DisEntity {
     Fix fix; ///< its acceleration too
 };
 
-/// Reads one PDU. `entity` is set where the verdict has no fault; other PDUs of DIS are Unused with
-/// their type as Verdict::got. Velocity and rates are those by which the sender wants it to go on:
-/// zero where its dead reckoning leaves them out.
+/// Reads one PDU. `entity` is set where the verdict has no fault; other PDUs of DIS are Unused with their type as
+/// Verdict::got. Velocity and rates are those by which the sender wants it to go on: zero where its dead reckoning
+/// leaves them out.
 DecodeResult decode_dis(Bytes datagram, DisEntity& entity);
 
-/// The marking as text, without the zeros and spaces at its end; what a terminal would obey is
-/// replaced.
+/// The marking as text, without the zeros and spaces at its end; what a terminal would obey is replaced.
 std::string marking_of(const DisEntity& entity);
 
 std::string dis_text(const DecodeResult& verdict);

@@ -1,5 +1,5 @@
-// Geodetic from earth-centred coordinates by Bowring's iteration on the reduced latitude
-// (B. R. Bowring, Survey Review 23 (1976) 323-327); it converges to rounding in three steps.
+// Geodetic from earth-centred coordinates by Bowring's iteration on the reduced latitude (B. R. Bowring, Survey Review
+// 23 (1976) 323-327); it converges to rounding in three steps.
 
 #include "sim/links/earth.h"
 
@@ -26,9 +26,7 @@ double prime_vertical_m(double latitude_rad) {
 glm::dvec3 ecef_from_geodetic(const Geodetic& place) {
     const double normal_m = prime_vertical_m(place.latitude_rad);
     const double across_m = (normal_m + place.height_m) * std::cos(place.latitude_rad);
-    return {
-        across_m * std::cos(place.longitude_rad),
-        across_m * std::sin(place.longitude_rad),
+    return {across_m * std::cos(place.longitude_rad), across_m * std::sin(place.longitude_rad),
         (normal_m * (1.0 - e2) + place.height_m) * std::sin(place.latitude_rad)};
 }
 
@@ -39,14 +37,13 @@ Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m) {
     for (int i = 0; i < 4; ++i) {
         const double s = std::sin(reduced);
         const double c = std::cos(reduced);
-        latitude = std::atan2(
-            ecef_m.z + second_e2 * semi_minor_m * s * s * s,
-            across_m - e2 * semi_major_m * c * c * c);
+        latitude =
+            std::atan2(ecef_m.z + second_e2 * semi_minor_m * s * s * s, across_m - e2 * semi_major_m * c * c * c);
         reduced = std::atan2((1.0 - flattening) * std::sin(latitude), std::cos(latitude));
     }
     const double sine = std::sin(latitude);
-    const double height_m = across_m * std::cos(latitude) + ecef_m.z * sine -
-                            semi_major_m * std::sqrt(1.0 - e2 * sine * sine);
+    const double height_m =
+        across_m * std::cos(latitude) + ecef_m.z * sine - semi_major_m * std::sqrt(1.0 - e2 * sine * sine);
     return {latitude, std::atan2(ecef_m.y, ecef_m.x), height_m};
 }
 
@@ -58,9 +55,7 @@ Geodetic offset_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipso
     const double across_m = normal_m + place.height_m;
     const double along_m = normal_m * (1.0 - ellipsoid.e2()) / share + place.height_m;
     const double cosine = std::max(std::cos(place.latitude_rad), min_cosine);
-    return {
-        place.latitude_rad + ned_m.x / along_m,
-        place.longitude_rad + ned_m.y / (across_m * cosine),
+    return {place.latitude_rad + ned_m.x / along_m, place.longitude_rad + ned_m.y / (across_m * cosine),
         place.height_m - ned_m.z};
 }
 
@@ -70,10 +65,7 @@ glm::dmat3 ned_from_ecef(const Geodetic& place) {
     const double sl = std::sin(place.longitude_rad);
     const double cl = std::cos(place.longitude_rad);
     // Columns are what becomes of the earth's x, y and z.
-    return {
-        glm::dvec3(-sp * cl, -sl, -cp * cl),
-        glm::dvec3(-sp * sl, cl, -cp * sl),
-        glm::dvec3(cp, 0.0, -sp)};
+    return {glm::dvec3(-sp * cl, -sl, -cp * cl), glm::dvec3(-sp * sl, cl, -cp * sl), glm::dvec3(cp, 0.0, -sp)};
 }
 
 glm::dmat3 ned_from_body(const EulerAngles& angles) {
@@ -83,16 +75,12 @@ glm::dmat3 ned_from_body(const EulerAngles& angles) {
     const double cp = std::cos(angles.pitch_rad);
     const double sr = std::sin(angles.roll_rad);
     const double cr = std::cos(angles.roll_rad);
-    return {
-        glm::dvec3(ch * cp, sh * cp, -sp),
-        glm::dvec3(ch * sp * sr - sh * cr, sh * sp * sr + ch * cr, cp * sr),
+    return {glm::dvec3(ch * cp, sh * cp, -sp), glm::dvec3(ch * sp * sr - sh * cr, sh * sp * sr + ch * cr, cp * sr),
         glm::dvec3(ch * sp * cr + sh * sr, sh * sp * cr - ch * sr, cp * cr)};
 }
 
 EulerAngles euler_from_ned_from_body(const glm::dmat3& m) {
-    return {
-        wrapped_to_two_pi(std::atan2(m[0].y, m[0].x)),
-        std::asin(std::clamp(-m[0].z, -1.0, 1.0)),
+    return {wrapped_to_two_pi(std::atan2(m[0].y, m[0].x)), std::asin(std::clamp(-m[0].z, -1.0, 1.0)),
         std::atan2(m[1].z, m[2].z)};
 }
 

@@ -15,8 +15,8 @@ struct Geodetic {
     double height_m = 0.0;
 };
 
-/// Earth-centred, earth-fixed metres of a place, and back: to 1e-6 m between the centre's
-/// neighbourhood (1,000 km of it are left out: there latitude has no sense) and any height.
+/// Earth-centred, earth-fixed metres of a place, and back: to 1e-6 m between the centre's neighbourhood (1,000 km of it
+/// are left out: there latitude has no sense) and any height.
 glm::dvec3 ecef_from_geodetic(const Geodetic& place);
 Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m);
 

@@ -10,8 +10,8 @@
 
 namespace octant::sim::links {
 
-/// Where a vehicle is and how it moves, as its sender says it, on the WGS 84 ellipsoid. All numbers
-/// are finite and within the bounds of is_plausible().
+/// Where a vehicle is and how it moves, as its sender says it, on the WGS 84 ellipsoid. All numbers are finite and
+/// within the bounds of is_plausible().
 struct Fix {
     std::uint64_t vehicle = 0;  ///< which of the sender's vehicles
     double latitude_deg = 0.0;  ///< geodetic, -90 .. 90
@@ -65,8 +65,8 @@ struct DecodeResult {
     bool operator==(const DecodeResult&) const = default;
 };
 
-/// NotFinite or OutOfRange for what no aircraft near the earth can have: heights beyond 1,000 km,
-/// speeds beyond 20 km/s, more than 100 rad/s.
+/// NotFinite or OutOfRange for what no aircraft near the earth can have: heights beyond 1,000 km, speeds beyond 20
+/// km/s, more than 100 rad/s.
 PacketError error_of_fix(const Fix& fix);
 
 } // namespace octant::sim::links

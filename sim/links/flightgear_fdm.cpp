@@ -1,5 +1,5 @@
-// Field offsets: FlightGear, src/Network/net_fdm.hxx (public domain). Version 25 puts 144 bytes of
-// tanks behind fuel_quantity, at 304; all later fields are so much further on.
+// Field offsets: FlightGear, src/Network/net_fdm.hxx (public domain). Version 25 puts 144 bytes of tanks behind
+// fuel_quantity, at 304; all later fields are so much further on.
 
 #include "sim/links/flightgear_fdm.h"
 
@@ -25,15 +25,14 @@ constexpr std::size_t time_at = 356;       ///< of version 24
 constexpr std::size_t longer_in_25 = fdm_25_bytes - fdm_24_bytes;
 constexpr float no_agl_below_m = -9000.0F;
 
-/// Rates about the body's axes from the rates of roll, pitch and heading, and back: any text on
-/// flight dynamics, e.g. Stevens and Lewis, Aircraft Control and Simulation, eq. 1.4-4.
+/// Rates about the body's axes from the rates of roll, pitch and heading, and back: any text on flight dynamics, e.g.
+/// Stevens and Lewis, Aircraft Control and Simulation, eq. 1.4-4.
 glm::dvec3 body_from_angle_rates(const EulerAngles& at, const glm::dvec3& rates) {
     const double sr = std::sin(at.roll_rad);
     const double cr = std::cos(at.roll_rad);
     const double sp = std::sin(at.pitch_rad);
     const double cp = std::cos(at.pitch_rad);
-    return {
-        rates.x - rates.z * sp, rates.y * cr + rates.z * cp * sr, rates.z * cp * cr - rates.y * sr};
+    return {rates.x - rates.z * sp, rates.y * cr + rates.z * cp * sr, rates.z * cp * cr - rates.y * sr};
 }
 
 glm::dvec3 angle_from_body_rates(const EulerAngles& at, const glm::dvec3& body) {
@@ -48,12 +47,8 @@ glm::dvec3 angle_from_body_rates(const EulerAngles& at, const glm::dvec3& body) 
 DecodeResult check_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
     const auto version = reader.at<std::uint32_t>(version_at);
-    if (size < sizeof(version)) {
-        return {PacketError::WrongSize, size, size};
-    }
-    if (version != 24 && version != 25) {
-        return {PacketError::WrongVersion, version, size};
-    }
+    if (size < sizeof(version)) { return {PacketError::WrongSize, size, size}; }
+    if (version != 24 && version != 25) { return {PacketError::WrongVersion, version, size}; }
     const std::size_t expected = version == 24 ? fdm_24_bytes : fdm_25_bytes;
     return {size == expected ? PacketError::None : PacketError::WrongSize, version, size};
 }
@@ -63,23 +58,19 @@ DecodeResult check_head(const WireReader& reader) {
 DecodeResult decode_fdm(Bytes datagram, Fix& fix) {
     const WireReader reader(datagram, ByteOrder::Big);
     DecodeResult verdict = check_head(reader);
-    if (verdict.fault != PacketError::None) {
-        return verdict;
-    }
+    if (verdict.fault != PacketError::None) { return verdict; }
     fix = {};
     fix.latitude_deg = deg_from_rad(reader.at<double>(latitude_at));
     fix.longitude_deg = deg_from_rad(reader.at<double>(longitude_at));
     fix.altitude_m = reader.at<double>(altitude_at);
     const auto agl_m = reader.at<float>(agl_at);
-    if (!(agl_m < no_agl_below_m)) {
-        fix.above_ground_m = static_cast<double>(agl_m);
-    }
+    if (!(agl_m < no_agl_below_m)) { fix.above_ground_m = static_cast<double>(agl_m); }
     const glm::dvec3 angles = reader.floats(angles_at);
     fix.attitude = {angles.z, angles.y, angles.x};
     fix.body_rates_radps = body_from_angle_rates(fix.attitude, reader.floats(angle_rates_at));
     const glm::dvec3 velocity_ftps = reader.floats(velocity_at);
-    fix.velocity_ned_mps = glm::dvec3(
-        m_from_ft(velocity_ftps.x), m_from_ft(velocity_ftps.y), m_from_ft(velocity_ftps.z));
+    fix.velocity_ned_mps =
+        glm::dvec3(m_from_ft(velocity_ftps.x), m_from_ft(velocity_ftps.y), m_from_ft(velocity_ftps.z));
     fix.ticks = reader.at<std::uint32_t>(verdict.got == 24 ? time_at : time_at + longer_in_25);
     verdict.fault = error_of_fix(fix);
     return verdict;
@@ -91,14 +82,9 @@ std::string fdm_text(const DecodeResult& verdict) {
     case PacketError::None:
         return fmt::format("FDM version {} of {} bytes: fine", got, size);
     case PacketError::WrongSize:
-        if (size < sizeof(got)) {
-            return fmt::format("expected an FDM packet, got {} bytes", size);
-        }
+        if (size < sizeof(got)) { return fmt::format("expected an FDM packet, got {} bytes", size); }
         return fmt::format(
-            "FDM version {}: expected {} bytes, got {}",
-            got,
-            got == 25 ? fdm_25_bytes : fdm_24_bytes,
-            size);
+            "FDM version {}: expected {} bytes, got {}", got, got == 25 ? fdm_25_bytes : fdm_24_bytes, size);
     case PacketError::NotFinite:
         return fmt::format("FDM version {}: expected numbers, got one that is none", got);
     case PacketError::OutOfRange:
@@ -123,9 +109,7 @@ std::array<std::byte, fdm_24_bytes> encode_fdm(const Fix& fix) {
     writer.set(altitude_at, fix.altitude_m);
     writer.set(agl_at, static_cast<float>(fix.above_ground_m.value_or(unknown_agl_m)));
     floats(angles_at, {fix.attitude.roll_rad, fix.attitude.pitch_rad, fix.attitude.heading_rad});
-    if (fix.body_rates_radps) {
-        floats(angle_rates_at, angle_from_body_rates(fix.attitude, *fix.body_rates_radps));
-    }
+    if (fix.body_rates_radps) { floats(angle_rates_at, angle_from_body_rates(fix.attitude, *fix.body_rates_radps)); }
     if (fix.velocity_ned_mps) {
         const glm::dvec3& v = *fix.velocity_ned_mps;
         floats(velocity_at, {ft_from_m(v.x), ft_from_m(v.y), ft_from_m(v.z)});

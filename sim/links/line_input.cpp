@@ -17,21 +17,17 @@ namespace {
 
 constexpr std::size_t read_bytes = 65536;
 constexpr std::size_t client_bytes = 16384; ///< that one drain() takes of a client; others wait
-constexpr int max_newcomers = 64;          ///< that one drain() takes; others wait
+constexpr int max_newcomers = 64;           ///< that one drain() takes; others wait
 
 } // namespace
 
 void StandardInput::drain(double now_s, std::vector<Datagram>& into) {
     std::array<std::byte, read_bytes> bytes{};
-    const auto take = [&](const std::vector<std::byte>& line) {
-        into.push_back({Protocol::Lines, {}, now_s, line});
-    };
+    const auto take = [&](const std::vector<std::byte>& line) { into.push_back({Protocol::Lines, {}, now_s, line}); };
     constexpr int max_reads = 16;
     for (int i = 0; i < max_reads && !ended_; ++i) {
         pollfd state{STDIN_FILENO, POLLIN, 0};
-        if (::poll(&state, 1, 0) <= 0) {
-            return;
-        }
+        if (::poll(&state, 1, 0) <= 0) { return; }
         const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
         if (count <= 0) {
             ended_ = true;
@@ -42,26 +38,19 @@ void StandardInput::drain(double now_s, std::vector<Datagram>& into) {
     }
 }
 
-LineServer::LineServer(
-    std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from)
+LineServer::LineServer(std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from)
     : only_from_(only_from) {
     std::tie(socket_, port_) = listening_socket(address, port);
 }
 
 LineServer::~LineServer() {
-    for (const Client& client : clients_) {
-        ::close(client.socket);
-    }
-    if (socket_ >= 0) {
-        ::close(socket_);
-    }
+    for (const Client& client : clients_) { ::close(client.socket); }
+    if (socket_ >= 0) { ::close(socket_); }
 }
 
 LineServer::LineServer(LineServer&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1))
-    , port_(other.port_)
-    , only_from_(other.only_from_)
-    , clients_(std::exchange(other.clients_, {})) {}
+    : socket_(std::exchange(other.socket_, -1)), port_(other.port_), only_from_(other.only_from_),
+      clients_(std::exchange(other.clients_, {})) {}
 
 LineServer& LineServer::operator=(LineServer&& other) noexcept {
     std::swap(socket_, other.socket_);
@@ -76,9 +65,7 @@ void LineServer::take_clients() {
     const auto now = std::chrono::steady_clock::now();
     for (int taken = 0; taken < max_newcomers; ++taken) {
         const auto client = accepted_client(socket_);
-        if (!client) {
-            return;
-        }
+        if (!client) { return; }
         if (only_from_ && client->second.address != *only_from_) {
             ::close(client->first);
             continue;

@@ -12,8 +12,8 @@
 
 namespace octant::sim::links {
 
-/// Cuts a stream of bytes into lines (LF or CRLF). A line that grows too long is given as it is up
-/// to there, so that its reader refuses it, and the rest of it is passed over.
+/// Cuts a stream of bytes into lines (LF or CRLF). A line that grows too long is given as it is up to there, so that
+/// its reader refuses it, and the rest of it is passed over.
 class LineSplitter {
 public:
     /// Calls take(line) for each line that is complete, without its end; empty lines are left out.
@@ -39,12 +39,8 @@ private:
 
     template <class Take>
     void end_line(Take&& take) {
-        if (!line_.empty() && line_.back() == std::byte{'\r'}) {
-            line_.pop_back();
-        }
-        if (!line_.empty()) {
-            take(line_);
-        }
+        if (!line_.empty() && line_.back() == std::byte{'\r'}) { line_.pop_back(); }
+        if (!line_.empty()) { take(line_); }
         line_.clear();
     }
 
@@ -72,10 +68,9 @@ public:
     /// A client that has never sent anything is let go after this.
     static constexpr std::chrono::seconds first_line_timeout{10};
 
-    /// Throws Error where the port is taken; 0 = any free one. Clients from other addresses than
-    /// `only_from`, where there is one, are turned away before they hold a place.
-    LineServer(
-        std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from = {});
+    /// Throws Error where the port is taken; 0 = any free one. Clients from other addresses than `only_from`, where
+    /// there is one, are turned away before they hold a place.
+    LineServer(std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from = {});
     ~LineServer();
     LineServer(LineServer&& other) noexcept;
     LineServer& operator=(LineServer&& other) noexcept;

@@ -1,4 +1,5 @@
 #include "sim/links/live_traffic.h"
+
 #include "sim/base/axes.h"
 #include "sim/flight_steps.h"
 #include "sim/hidden_height.h"
@@ -38,13 +39,9 @@ constexpr double snap_cosine = 0.7;   ///< of half the angle: 90 degrees
 void LiveTrack::add(const LiveSample& sample) {
     assert(samples_.empty() || samples_.back().state.time_s < sample.state.time_s);
     const std::size_t count = samples_.size();
-    if (count > 1 && sample.state.time_s - samples_[count - 2].state.time_s < min_apart_s) {
-        samples_.pop_back();
-    }
+    if (count > 1 && sample.state.time_s - samples_[count - 2].state.time_s < min_apart_s) { samples_.pop_back(); }
     samples_.push_back(sample);
-    while (samples_.size() > 2 && samples_[1].state.time_s < sample.state.time_s - kept_s) {
-        samples_.pop_front();
-    }
+    while (samples_.size() > 2 && samples_[1].state.time_s < sample.state.time_s - kept_s) { samples_.pop_front(); }
 }
 
 void LiveTrack::clear() {
@@ -58,23 +55,16 @@ AircraftState LiveTrack::beyond(double sender_s) const {
     const double accelerated_s = std::min(ahead_s, last.accelerated_s);
     AircraftState state = last.state;
     state.velocity_mps += accelerated_s * last.world_mps2;
-    state.position_m +=
-        ahead_s * state.velocity_mps - 0.5 * accelerated_s * accelerated_s * last.world_mps2;
+    state.position_m += ahead_s * state.velocity_mps - 0.5 * accelerated_s * accelerated_s * last.world_mps2;
     state.body_to_world = turned(state.body_to_world, last.world_radps, ahead_s);
     return state;
 }
 
 AircraftState LiveTrack::raw_at(double sender_s) const {
-    if (sender_s >= samples_.back().state.time_s) {
-        return beyond(sender_s);
-    }
-    const auto next = std::upper_bound(
-        samples_.begin(), samples_.end(), sender_s, [](double t, const LiveSample& sample) {
-            return t < sample.state.time_s;
-        });
-    if (next == samples_.begin()) {
-        return next->state;
-    }
+    if (sender_s >= samples_.back().state.time_s) { return beyond(sender_s); }
+    const auto next = std::upper_bound(samples_.begin(), samples_.end(), sender_s,
+        [](double t, const LiveSample& sample) { return t < sample.state.time_s; });
+    if (next == samples_.begin()) { return next->state; }
     return state_between((next - 1)->state, next->state, sender_s);
 }
 
@@ -102,8 +92,7 @@ void LiveTrack::blend(AircraftState& state, double sender_s, double passed_s) {
     const bool rests = stale_ && state.position_m == then.position_m;
     state.position_m += rests ? error_m : left * error_m;
     if (waits && !rests) {
-        state.position_m +=
-            std::max(ahead_m - max_slowdown * moved_m - left * ahead_m, 0.0) * ahead;
+        state.position_m += std::max(ahead_m - max_slowdown * moved_m - left * ahead_m, 0.0) * ahead;
     }
     state.body_to_world = glm::normalize(glm::slerp(none, turn, left) * state.body_to_world);
 }
@@ -112,9 +101,7 @@ AircraftState LiveTrack::show(double sender_s, double passed_s) {
     assert(!samples_.empty());
     stale_ = sender_s > samples_.back().state.time_s + samples_.back().extrapolation_limit_s;
     AircraftState state = raw_at(sender_s);
-    if (shown_) {
-        blend(state, sender_s, passed_s);
-    }
+    if (shown_) { blend(state, sender_s, passed_s); }
     state.time_s = sender_s;
     shown_ = state;
     return state;
@@ -127,16 +114,12 @@ constexpr double slow_to_judge_mps = 3.0; ///< below, places that scatter do not
 constexpr int repeats_that_stand = 3;
 constexpr double max_velocity_error = 0.3;
 
-glm::dvec3 world_from_ned(const glm::dvec3& ned) {
-    return {ned.y, ned.x, -ned.z};
-}
+glm::dvec3 world_from_ned(const glm::dvec3& ned) { return {ned.y, ned.x, -ned.z}; }
 
 /// How long a way takes at a velocity, where the way runs along it.
 std::optional<double> time_along(const glm::dvec3& distance_m, const glm::dvec3& velocity_mps) {
     const double speed2 = glm::dot(velocity_mps, velocity_mps);
-    if (speed2 < slow_clock_mps * slow_clock_mps) {
-        return std::nullopt;
-    }
+    if (speed2 < slow_clock_mps * slow_clock_mps) { return std::nullopt; }
     const double time_s = glm::dot(distance_m, velocity_mps) / speed2;
     const double aside_m = glm::length(distance_m - time_s * velocity_mps);
     constexpr double max_aside = 0.2;
@@ -145,12 +128,10 @@ std::optional<double> time_along(const glm::dvec3& distance_m, const glm::dvec3&
     return along ? std::optional(time_s) : std::nullopt;
 }
 
-bool moves(const glm::dvec3& velocity) {
-    return glm::length(velocity) > 1e-3;
-}
+bool moves(const glm::dvec3& velocity) { return glm::length(velocity) > 1e-3; }
 
-/// The motion through the places of the last half second, of six samples at least where there are
-/// as many, up to the newest one. Without others there is none.
+/// The motion through the places of the last half second, of six samples at least where there are as many, up to the
+/// newest one. Without others there is none.
 Parabola<glm::dvec3> motion_of(const std::deque<LiveSample>& before, const LiveSample& newest) {
     constexpr double length_s = 0.5;
     constexpr std::size_t min_count = 6;
@@ -163,24 +144,20 @@ Parabola<glm::dvec3> motion_of(const std::deque<LiveSample>& before, const LiveS
     double fitted_s = 0.0;
     for (auto each = before.rbegin(); each != before.rend(); ++each, ++count) {
         const double passed_s = newest.state.time_s - each->state.time_s;
-        if (passed_s > length_s && count >= min_count) {
-            break;
-        }
+        if (passed_s > length_s && count >= min_count) { break; }
         fit.add(-passed_s, each->state.position_m - newest.state.position_m);
         fitted_s = passed_s;
     }
     const bool is_curved = count >= min_curved_count && fitted_s >= min_curved_length_s;
-    const auto motion = fitted_s < min_length_s ? std::nullopt
-                        : is_curved             ? fit.parabola()
-                                                : fit.line();
+    const auto motion = fitted_s < min_length_s ? std::nullopt : is_curved ? fit.parabola() : fit.line();
     return motion.value_or(Parabola<glm::dvec3>{});
 }
 
 } // namespace
 
-/// Whether the fix says of a moving vehicle what the last one said, as senders do whose places
-/// change less often than they send, networks that double packets, and senders that are paused.
-/// Those are told by how often it happens in a row.
+/// Whether the fix says of a moving vehicle what the last one said, as senders do whose places change less often than
+/// they send, networks that double packets, and senders that are paused. Those are told by how often it happens in a
+/// row.
 bool LiveVehicle::is_repeated(const Fix& fix, const glm::dvec3& world_m, double arrival_s) {
     const bool same = !track_.empty() && world_m == track_.last().state.position_m &&
                       body_to_world_from_euler(fix.attitude) == track_.last().state.body_to_world;
@@ -196,12 +173,10 @@ bool LiveVehicle::is_repeated(const Fix& fix, const glm::dvec3& world_m, double 
     return !is_stationary() && glm::length(track_.last().state.velocity_mps) > slow_clock_mps;
 }
 
-bool LiveVehicle::is_stationary() const {
-    return repeats_ >= repeats_that_stand + 2 * typical_repeats_;
-}
+bool LiveVehicle::is_stationary() const { return repeats_ >= repeats_that_stand + 2 * typical_repeats_; }
 
-/// The way, negative where it runs back; nothing where a second of places has no direction, as
-/// those of a vehicle that hovers.
+/// The way, negative where it runs back; nothing where a second of places has no direction, as those of a vehicle that
+/// hovers.
 std::optional<double> LiveVehicle::distance_along_track(const glm::dvec3& distance_m) const {
     constexpr double length_s = 1.0;
     constexpr double heading_s = 0.3;
@@ -209,23 +184,16 @@ std::optional<double> LiveVehicle::distance_along_track(const glm::dvec3& distan
     constexpr double min_directed = 0.8;
     const auto& samples = track_.samples();
     const AircraftState& last = samples.back().state;
-    const auto way_from = [&](std::size_t i) {
-        return last.position_m - samples[i].state.position_m;
-    };
+    const auto way_from = [&](std::size_t i) { return last.position_m - samples[i].state.position_m; };
     const auto passed_from = [&](std::size_t i) { return last.time_s - samples[i].state.time_s; };
     double path_m = 0.0;
     std::size_t first = samples.size() - 1;
     std::size_t heading_first = first;
     for (; first > 0 && passed_from(first - 1) < length_s; --first) {
-        path_m +=
-            glm::distance(samples[first - 1].state.position_m, samples[first].state.position_m);
-        if (passed_from(first) < heading_s || samples.size() - first < heading_samples) {
-            heading_first = first - 1;
-        }
+        path_m += glm::distance(samples[first - 1].state.position_m, samples[first].state.position_m);
+        if (passed_from(first) < heading_s || samples.size() - first < heading_samples) { heading_first = first - 1; }
     }
-    if (glm::length(way_from(first)) < min_directed * path_m) {
-        return std::nullopt;
-    }
+    if (glm::length(way_from(first)) < min_directed * path_m) { return std::nullopt; }
     const bool back = glm::dot(distance_m, way_from(heading_first)) < 0.0;
     return back ? -glm::length(distance_m) : glm::length(distance_m);
 }
@@ -233,20 +201,16 @@ std::optional<double> LiveVehicle::distance_along_track(const glm::dvec3& distan
 TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3& world_m) {
     TimingEvidence clue{
         .sent_s = fix.sent_s, .ticks = fix.ticks, .tick_s = fix.tick_s, .moved_s = {}, .distance_m = {}};
-    if (track_.empty()) {
-        return clue;
-    }
+    if (track_.empty()) { return clue; }
     if (is_stationary()) {
         // A sender that is paused goes on to send, with a clock that stands.
-        const bool runs =
-            fix.sent_s ? fix.sent_s > last_fix_->sent_s : fix.ticks != last_fix_->ticks;
+        const bool runs = fix.sent_s ? fix.sent_s > last_fix_->sent_s : fix.ticks != last_fix_->ticks;
         return runs ? clue : TimingEvidence{};
     }
     const glm::dvec3 distance_m = world_m - track_.last().state.position_m;
     const bool told = fix.velocity_ned_mps && last_fix_->velocity_ned_mps;
     if (told && velocity_error_ < max_velocity_error) {
-        const glm::dvec3 mean_ned_mps =
-            0.5 * (*fix.velocity_ned_mps + *last_fix_->velocity_ned_mps);
+        const glm::dvec3 mean_ned_mps = 0.5 * (*fix.velocity_ned_mps + *last_fix_->velocity_ned_mps);
         clue.moved_s = time_along(distance_m, world_from_ned(mean_ned_mps));
     }
     clue.distance_m = distance_along_track(distance_m);
@@ -255,11 +219,8 @@ TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3&
 
 /// Whether the sender's velocity agrees with its positions.
 bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, double step_s) {
-    if (fix.velocity_is_commanded || track_.empty() || step_s <= 0.0) {
-        return true;
-    }
-    const glm::dvec3 moved_mps =
-        (sample.state.position_m - track_.last().state.position_m) / step_s;
+    if (fix.velocity_is_commanded || track_.empty() || step_s <= 0.0) { return true; }
+    const glm::dvec3 moved_mps = (sample.state.position_m - track_.last().state.position_m) / step_s;
     const glm::dvec3& told_mps = sample.state.velocity_mps;
     const double max_mps = std::max(glm::length(moved_mps), glm::length(told_mps));
     if (max_mps > slow_to_judge_mps) {
@@ -271,8 +232,8 @@ bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, doub
     return told && velocity_error_ < max_velocity_error;
 }
 
-/// Sets velocity, rate of turn and acceleration of a sample whose time, place and attitude are
-/// set: what the sender tells, or what the places of the last half second say.
+/// Sets velocity, rate of turn and acceleration of a sample whose time, place and attitude are set: what the sender
+/// tells, or what the places of the last half second say.
 void LiveVehicle::set_motion(const Fix& fix, LiveSample& sample, double step_s) {
     sample.world_radps = turn_of(fix, sample);
     sample.world_mps2 = world_from_ned(fix.acceleration_ned_mps2);
@@ -299,32 +260,22 @@ void LiveVehicle::set_motion(const Fix& fix, LiveSample& sample, double step_s) 
 }
 
 glm::dvec3 LiveVehicle::turn_of(const Fix& fix, const LiveSample& sample) const {
-    if (is_stationary()) {
-        return glm::dvec3(0.0);
-    }
+    if (is_stationary()) { return glm::dvec3(0.0); }
     const glm::dquat& attitude = sample.state.body_to_world;
-    if (fix.body_rates_radps && *fix.body_rates_radps != glm::dvec3(0.0)) {
-        return attitude * *fix.body_rates_radps;
-    }
-    if (track_.empty() || fix.velocity_is_commanded) {
-        return glm::dvec3(0.0);
-    }
+    if (fix.body_rates_radps && *fix.body_rates_radps != glm::dvec3(0.0)) { return attitude * *fix.body_rates_radps; }
+    if (track_.empty() || fix.velocity_is_commanded) { return glm::dvec3(0.0); }
     // Over a tenth of a second at least: what delays do to times of packets matters less.
     constexpr double min_length_s = 0.1;
     const auto& samples = track_.samples();
     std::size_t from = samples.size() - 1;
-    while (from > 0 && sample.state.time_s - samples[from].state.time_s < min_length_s) {
-        --from;
-    }
+    while (from > 0 && sample.state.time_s - samples[from].state.time_s < min_length_s) { --from; }
     glm::dquat turn = attitude * glm::conjugate(samples[from].state.body_to_world);
     turn = turn.w < 0.0 ? -turn : turn;
     const glm::dvec3 axis(turn.x, turn.y, turn.z);
     const double sine = glm::length(axis);
     constexpr double min_sine = 1e-9;
     constexpr double max_radps = 10.0;
-    if (sine < min_sine) {
-        return glm::dvec3(0.0);
-    }
+    if (sine < min_sine) { return glm::dvec3(0.0); }
     const double length_s = sample.state.time_s - samples[from].state.time_s;
     return axis * (std::min(2.0 * std::atan2(sine, turn.w) / length_s, max_radps) / sine);
 }
@@ -336,23 +287,18 @@ bool LiveVehicle::has_jumped(const Fix& fix, const glm::dvec3& world_m, double a
     constexpr double times_speed = 5.0;
     constexpr double more_s = 0.5;
     constexpr double more_m = 50.0;
-    if (track_.empty()) {
-        return false;
-    }
+    if (track_.empty()) { return false; }
     const AircraftState& last = track_.last().state;
     const double told_mps = glm::length(fix.velocity_ned_mps.value_or(glm::dvec3(0.0)));
     const double known_mps = std::max(told_mps, glm::length(last.velocity_mps));
-    const double speed_mps =
-        track_.samples().size() < min_samples ? std::max(known_mps, unknown_mps) : known_mps;
+    const double speed_mps = track_.samples().size() < min_samples ? std::max(known_mps, unknown_mps) : known_mps;
     const double passed_s = arrival_s - last_arrival_s_ + more_s;
     return glm::distance(world_m, last.position_m) > times_speed * speed_mps * passed_s + more_m;
 }
 
 /// The change of speed since the sample before, filtered over half a second.
 double LiveVehicle::speed_rate_of(const glm::dvec3& velocity_mps, double step_s) const {
-    if (track_.empty() || step_s <= 0.0) {
-        return 0.0;
-    }
+    if (track_.empty() || step_s <= 0.0) { return 0.0; }
     constexpr double filter_s = 0.5;
     const AircraftState& last = track_.last().state;
     const double gained_mps = glm::length(velocity_mps) - glm::length(last.velocity_mps);
@@ -361,9 +307,7 @@ double LiveVehicle::speed_rate_of(const glm::dvec3& velocity_mps, double step_s)
 }
 
 bool LiveVehicle::add(const Fix& fix, const glm::dvec3& world_m, double arrival_s) {
-    if (has_jumped(fix, world_m, arrival_s)) {
-        track_.clear();
-    }
+    if (has_jumped(fix, world_m, arrival_s)) { track_.clear(); }
     if (is_repeated(fix, world_m, arrival_s)) {
         last_arrival_s_ = arrival_s;
         hidden_ = false;
@@ -405,38 +349,27 @@ namespace {
 constexpr double wrong_said_s = 5.0;
 
 std::string motion_text(
-    const LiveVehicle& vehicle,
-    const std::string& name,
-    const std::optional<long>& lost,
-    bool is_shown) {
+    const LiveVehicle& vehicle, const std::string& name, const std::optional<long>& lost, bool is_shown) {
     const double period_s = vehicle.clock().period_s();
-    return fmt::format(
-        "{} {}: {:.1f}/s, {}, {} late, jitter {:.0f} ms{}{}",
-        text_of(vehicle.key().source),
-        name,
-        period_s > 0.0 ? 1.0 / period_s : 0.0,
-        lost ? fmt::format("{} lost", *lost) : "losses unknown",
-        vehicle.late(),
-        1000.0 * vehicle.clock().jitter_s(),
-        is_shown && vehicle.is_stale() ? ", stale" : "",
+    return fmt::format("{} {}: {:.1f}/s, {}, {} late, jitter {:.0f} ms{}{}", text_of(vehicle.key().source), name,
+        period_s > 0.0 ? 1.0 / period_s : 0.0, lost ? fmt::format("{} lost", *lost) : "losses unknown", vehicle.late(),
+        1000.0 * vehicle.clock().jitter_s(), is_shown && vehicle.is_stale() ? ", stale" : "",
         is_shown ? "" : ", not shown: no --aircraft left for it");
 }
 
 constexpr std::size_t max_streams = 64;
 
-/// What is kept of a stream, which is new where there is room for it: of the full table those make
-/// room that were silent the longest, and for so long. Null where none was.
+/// What is kept of a stream, which is new where there is room for it: of the full table those make room that were
+/// silent the longest, and for so long. Null where none was.
 template <class Streams>
 typename Streams::mapped_type* stream_of(
     Streams& streams, const typename Streams::key_type& key, double arrival_s, double gone_s) {
     auto known = streams.find(key);
     if (known == streams.end()) {
         if (streams.size() >= max_streams) {
-            const auto silent = std::ranges::min_element(
-                streams, {}, [](const auto& stream) { return stream.second.last_s; });
-            if (arrival_s - silent->second.last_s < gone_s) {
-                return nullptr;
-            }
+            const auto silent =
+                std::ranges::min_element(streams, {}, [](const auto& stream) { return stream.second.last_s; });
+            if (arrival_s - silent->second.last_s < gone_s) { return nullptr; }
             streams.erase(silent);
         }
         known = streams.try_emplace(key).first;
@@ -446,9 +379,7 @@ typename Streams::mapped_type* stream_of(
 }
 
 std::string verdict_text(Protocol protocol, const DecodeResult& verdict) {
-    if (verdict.fault == PacketError::OtherKind) {
-        return std::string(text_of(PacketKind{verdict.got}));
-    }
+    if (verdict.fault == PacketError::OtherKind) { return std::string(text_of(PacketKind{verdict.got})); }
     switch (protocol) {
     case Protocol::Lines:
         return NamedColumns::text_of(verdict);
@@ -465,15 +396,13 @@ std::string verdict_text(Protocol protocol, const DecodeResult& verdict) {
     }
 }
 
-/// The verdict on a packet that its port's decoder does not use: what it is in truth, where its
-/// form tells that. To a decoder of DIS, a message of CIGI 3 is a PDU of another type.
+/// The verdict on a packet that its port's decoder does not use: what it is in truth, where its form tells that. To a
+/// decoder of DIS, a message of CIGI 3 is a PDU of another type.
 DecodeResult identified(const Datagram& datagram, const DecodeResult& verdict) {
     const auto kind = verdict.fault != PacketError::None && datagram.protocol != Protocol::Lines
                           ? packet_kind(datagram.bytes)
                           : std::nullopt;
-    if (!kind || protocol_of(*kind) == datagram.protocol) {
-        return verdict;
-    }
+    if (!kind || protocol_of(*kind) == datagram.protocol) { return verdict; }
     return {PacketError::OtherKind, static_cast<std::uint32_t>(*kind), 0};
 }
 
@@ -482,8 +411,7 @@ DecodeResult identified(const Datagram& datagram, const DecodeResult& verdict) {
 std::string name_of(const VehicleKey& key) {
     switch (key.protocol) {
     case Protocol::Dis:
-        return fmt::format(
-            "{}:{}:{}", key.vehicle >> 32U, key.vehicle >> 16U & 0xffffU, key.vehicle & 0xffffU);
+        return fmt::format("{}:{}:{}", key.vehicle >> 32U, key.vehicle >> 16U & 0xffffU, key.vehicle & 0xffffU);
     case Protocol::MavLink:
         return fmt::format("system {}", key.vehicle);
     case Protocol::Cigi:
@@ -496,32 +424,24 @@ std::string name_of(const VehicleKey& key) {
 }
 
 LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
-    if (const auto known = numbers_.find(key); known != numbers_.end()) {
-        return &vehicles_[known->second];
-    }
+    if (const auto known = numbers_.find(key); known != numbers_.end()) { return &vehicles_[known->second]; }
     const auto silent_for = [arrival_s](double min_s) {
-        return [arrival_s, min_s](const LiveVehicle& vehicle) {
-            return arrival_s - vehicle.last_arrival_s() > min_s;
-        };
+        return [arrival_s, min_s](const LiveVehicle& vehicle) { return arrival_s - vehicle.last_arrival_s() > min_s; };
     };
     const auto is_restarted = [&](const LiveVehicle& vehicle) {
         const VehicleKey& old = vehicle.key();
-        return old.protocol == key.protocol && old.source.address == key.source.address &&
-               old.vehicle == key.vehicle && silent_for(restarted_after_s)(vehicle);
+        return old.protocol == key.protocol && old.source.address == key.source.address && old.vehicle == key.vehicle &&
+               silent_for(restarted_after_s)(vehicle);
     };
     auto gone = std::ranges::find_if(vehicles_, is_restarted);
-    if (gone == vehicles_.end()) {
-        gone = std::ranges::find_if(vehicles_, silent_for(gone_after_s));
-    }
+    if (gone == vehicles_.end()) { gone = std::ranges::find_if(vehicles_, silent_for(gone_after_s)); }
     if (gone != vehicles_.end()) {
         numbers_.erase(gone->key());
         numbers_.emplace(key, static_cast<std::size_t>(gone - vehicles_.begin()));
         *gone = LiveVehicle(key);
         return &*gone;
     }
-    if (vehicles_.size() == max_vehicles) {
-        return nullptr;
-    }
+    if (vehicles_.size() == max_vehicles) { return nullptr; }
     numbers_.emplace(key, vehicles_.size());
     return &vehicles_.emplace_back(key);
 }
@@ -530,9 +450,7 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
 void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::string& marking) {
     auto known = reports_.find(key);
     if (known == reports_.end()) {
-        if (reports_.size() >= max_reported) {
-            return;
-        }
+        if (reports_.size() >= max_reported) { return; }
         known = reports_.try_emplace(key).first;
     }
     VehicleReport& told = known->second;
@@ -540,13 +458,10 @@ void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::strin
     told.latitude_deg = fix.latitude_deg;
     told.longitude_deg = fix.longitude_deg;
     told.altitude_m = fix.altitude_m;
-    if (told.marking != marking) {
-        told.marking = marking;
-    }
+    if (told.marking != marking) { told.marking = marking; }
 }
 
-LiveTraffic::PacketOutcome
-LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& marking) {
+LiveTraffic::PacketOutcome LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& marking) {
     const VehicleKey key{datagram.protocol, datagram.source, fix.vehicle};
     report(key, fix, marking);
     LiveVehicle* const vehicle = vehicle_of(key, datagram.arrival_s);
@@ -555,8 +470,7 @@ LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& m
         return PacketOutcome::Right;
     }
     const WorldPosition place = world_from_fix_(key, fix);
-    const bool taken =
-        vehicle->add(with_rotated_axes(fix, place.north_bearing_rad), place.at_m, datagram.arrival_s);
+    const bool taken = vehicle->add(with_rotated_axes(fix, place.north_bearing_rad), place.at_m, datagram.arrival_s);
     if (!taken) {
         ++counts_.late;
         return PacketOutcome::Right;
@@ -573,8 +487,7 @@ LiveTraffic::PacketOutcome LiveTraffic::count(const Datagram& datagram, const De
     if (verdict.fault == PacketError::Unused) {
         ++counts_.unused;
     } else {
-        (wrong ? last_rejected_
-               : last_accepted_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
+        (wrong ? last_rejected_ : last_accepted_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
     }
     counts_.wrong += wrong ? 1 : 0;
     tally(datagram, verdict);
@@ -587,8 +500,7 @@ void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& verdict) {
     constexpr std::size_t max_in_all = 100;
     constexpr std::ptrdiff_t max_of_sender = 16;
     const bool got_is_size = verdict.fault == PacketError::WrongSize || verdict.fault == PacketError::NotOurs;
-    const PacketErrorKey form{
-        verdict.fault, datagram.source, datagram.protocol, got_is_size ? 0U : verdict.got};
+    const PacketErrorKey form{verdict.fault, datagram.source, datagram.protocol, got_is_size ? 0U : verdict.got};
     const auto known = packet_tallies_.find(form);
     if (known != packet_tallies_.end()) {
         ++known->second.packets;
@@ -597,9 +509,8 @@ void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& verdict) {
     }
     constexpr Protocol first_protocol{};
     const auto begin = packet_tallies_.lower_bound({verdict.fault, datagram.source, first_protocol, 0});
-    const auto end = std::find_if(begin, packet_tallies_.end(), [&](const auto& heard) {
-        return heard.first.fault != verdict.fault || heard.first.source != datagram.source;
-    });
+    const auto end = std::find_if(begin, packet_tallies_.end(),
+        [&](const auto& heard) { return heard.first.fault != verdict.fault || heard.first.source != datagram.source; });
     const auto of_sender = std::distance(begin, end);
     std::size_t& forms = error_keys_[verdict.fault];
     if (forms >= (of_sender == 0 ? max_first : max_in_all) || of_sender >= max_of_sender) {
@@ -608,27 +519,19 @@ void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& verdict) {
     }
     ++forms;
     packet_tallies_.emplace(form, PacketTally{verdict, 1});
-    messages_.push_back(
-        fmt::format("{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
+    messages_.push_back(fmt::format("{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
 }
 
 /// Takes the number that a packet bears in a stream of its sender.
-void LiveTraffic::number(
-    const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits) {
-    auto* const known = stream_of(
-        sequences_, {datagram.protocol, datagram.source, stream}, datagram.arrival_s, gone_after_s);
-    if (known == nullptr) {
-        return;
-    }
+void LiveTraffic::number(const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits) {
+    auto* const known =
+        stream_of(sequences_, {datagram.protocol, datagram.source, stream}, datagram.arrival_s, gone_after_s);
+    if (known == nullptr) { return; }
     SequenceCount& sequence = known->value;
     const long before = sequence.lost();
     sequence.add(number, bits, datagram.arrival_s);
-    if (sequence.is_numbered()) {
-        counts_.lost = counts_.lost.value_or(0);
-    }
-    if (counts_.lost) {
-        *counts_.lost += sequence.lost() - before;
-    }
+    if (sequence.is_numbered()) { counts_.lost = counts_.lost.value_or(0); }
+    if (counts_.lost) { *counts_.lost += sequence.lost() - before; }
 }
 
 /// What a vehicle's sender lost of the streams that it numbers; nothing where it numbers none.
@@ -637,8 +540,7 @@ std::optional<long> LiveTraffic::lost_of(const VehicleKey& key) const {
     for (const auto& [stream, sequence] : sequences_) {
         const auto& [protocol, source, number] = stream;
         const bool is_its_own = key.protocol != Protocol::MavLink || number >> 8U == key.vehicle;
-        if (protocol == key.protocol && source == key.source && is_its_own &&
-            sequence.value.is_numbered()) {
+        if (protocol == key.protocol && source == key.source && is_its_own && sequence.value.is_numbered()) {
             lost = lost.value_or(0) + sequence.value.lost();
         }
     }
@@ -674,19 +576,14 @@ LiveTraffic::PacketOutcome LiveTraffic::take_mavlink(const Datagram& datagram) {
         DecodeResult said = parse.verdict;
         said.size = said.fault == PacketError::NotOurs ? said.size : 0;
         taken = std::max(taken, count(datagram, said));
-        if (identified(datagram, said).fault == PacketError::OtherKind) {
-            break;
-        }
+        if (identified(datagram, said).fault == PacketError::OtherKind) { break; }
         if (said.fault == PacketError::None || said.fault == PacketError::Unused) {
             const unsigned component = unsigned{parse.system} << 8U | parse.component;
             number(datagram, static_cast<std::uint16_t>(component), parse.sequence, 8);
         }
-        auto* const stream = parse.frame ? stream_of(
-                                               poses_,
-                                               {datagram.source, parse.frame->system},
-                                               datagram.arrival_s,
-                                               gone_after_s)
-                                         : nullptr;
+        auto* const stream =
+            parse.frame ? stream_of(poses_, {datagram.source, parse.frame->system}, datagram.arrival_s, gone_after_s)
+                        : nullptr;
         if (stream != nullptr) {
             if (const auto fix = stream->value.take(*parse.frame, ellipsoid_)) {
                 taken = std::max(taken, move(datagram, *fix));
@@ -699,10 +596,10 @@ LiveTraffic::PacketOutcome LiveTraffic::take_mavlink(const Datagram& datagram) {
 
 LiveTraffic::PacketOutcome LiveTraffic::take_dis(const Datagram& datagram) {
     if (!ellipsoid_.is_earth() && !std::exchange(has_reported_dis_, true)) {
-        messages_.push_back(fmt::format(
-            "DIS: places count from the centre of the earth (WGS 84), as its standard has it; on "
-            "{} their latitudes, longitudes and heights count",
-            name_of_body(ellipsoid_)));
+        messages_.push_back(
+            fmt::format("DIS: places count from the centre of the earth (WGS 84), as its standard has it; on "
+                        "{} their latitudes, longitudes and heights count",
+                name_of_body(ellipsoid_)));
     }
     DisEntity entity;
     const DecodeResult verdict = decode_dis(datagram.bytes, entity);
@@ -731,18 +628,12 @@ LiveTraffic::PacketOutcome LiveTraffic::take_cigi(const Datagram& datagram) {
         verdict.size = 0; // Messages differ in length and are told once.
     }
     const PacketOutcome counted = count(datagram, verdict);
-    if (verdict.fault != PacketError::None) {
-        return counted;
-    }
+    if (verdict.fault != PacketError::None) { return counted; }
     number(datagram, 0, cigi_.host_frame(), 32);
-    for (const Fix& fix : moved) {
-        move(datagram, fix);
-    }
+    for (const Fix& fix : moved) { move(datagram, fix); }
     for (const std::uint16_t entity : cigi_.take_removed()) {
         const VehicleKey key{Protocol::Cigi, datagram.source, entity};
-        if (const auto known = numbers_.find(key); known != numbers_.end()) {
-            vehicles_[known->second].hide();
-        }
+        if (const auto known = numbers_.find(key); known != numbers_.end()) { vehicles_[known->second].hide(); }
     }
     return PacketOutcome::Moved; // A host's message is a frame, whatever moves in it.
 }
@@ -769,9 +660,7 @@ LiveTraffic::PacketOutcome LiveTraffic::take(const Datagram& datagram) {
 
 std::size_t LiveTraffic::show_newest(double now_s, std::span<AircraftState> states) {
     shown_ = std::min(states.size(), vehicles_.size());
-    for (std::size_t i = 0; i < shown_; ++i) {
-        states[i] = vehicles_[i].newest();
-    }
+    for (std::size_t i = 0; i < shown_; ++i) { states[i] = vehicles_[i].newest(); }
     remove_hidden(states.first(shown_));
     shown_s_ = now_s;
     return shown_;
@@ -793,22 +682,16 @@ std::size_t LiveTraffic::show(double now_s, double delay_s, std::span<AircraftSt
 
 void LiveTraffic::remove_hidden(std::span<AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
-        if (vehicles_[i].is_hidden()) {
-            states[i].position_m.z = absent_height_m;
-        }
+        if (vehicles_[i].is_hidden()) { states[i].position_m.z = absent_height_m; }
     }
 }
 
 bool LiveTraffic::is_stale() const {
-    return std::any_of(
-        vehicles_.begin(),
-        vehicles_.begin() + static_cast<std::ptrdiff_t>(shown_),
+    return std::any_of(vehicles_.begin(), vehicles_.begin() + static_cast<std::ptrdiff_t>(shown_),
         [](const LiveVehicle& vehicle) { return vehicle.is_stale() && !vehicle.is_hidden(); });
 }
 
-std::vector<std::string> LiveTraffic::take_new_messages() {
-    return std::exchange(messages_, {});
-}
+std::vector<std::string> LiveTraffic::take_new_messages() { return std::exchange(messages_, {}); }
 
 std::vector<std::string> LiveTraffic::lines() const {
     std::vector<std::string> lines;
@@ -821,28 +704,20 @@ std::vector<std::string> LiveTraffic::lines() const {
         const VehicleKey& key = vehicles_[i].key();
         const auto known = reports_.find(key);
         const std::string marking = known == reports_.end() ? "" : known->second.marking;
-        lines.push_back(motion_text(
-            vehicles_[i],
-            marking.empty() ? name_of(key) : fmt::format("{} {}", name_of(key), marking),
-            lost_of(key),
-            i < shown_ || shown_ == 0));
+        lines.push_back(
+            motion_text(vehicles_[i], marking.empty() ? name_of(key) : fmt::format("{} {}", name_of(key), marking),
+                lost_of(key), i < shown_ || shown_ == 0));
     }
     if (vehicles_.size() > max_lines) {
         lines.push_back(fmt::format("and {} vehicles more", vehicles_.size() - max_lines));
     }
     if (last_rejected_.at_s >= 0.0 && shown_s_ - last_rejected_.at_s < wrong_said_s) {
-        lines.push_back(fmt::format(
-            "{}: {}; {} wrong packets so far",
-            text_of(last_rejected_.source),
-            verdict_text(last_rejected_.protocol, last_rejected_.verdict),
-            counts_.wrong));
+        lines.push_back(fmt::format("{}: {}; {} wrong packets so far", text_of(last_rejected_.source),
+            verdict_text(last_rejected_.protocol, last_rejected_.verdict), counts_.wrong));
     }
     if (vehicles_.size() == max_vehicles) {
-        lines.push_back(fmt::format(
-            "{} vehicles in all, {} are followed, {} shown",
-            reports_.size(),
-            vehicles_.size(),
-            shown_));
+        lines.push_back(
+            fmt::format("{} vehicles in all, {} are followed, {} shown", reports_.size(), vehicles_.size(), shown_));
     }
     return lines;
 }
@@ -865,11 +740,8 @@ std::vector<PacketReport> LiveTraffic::packet_reports() const {
     std::vector<PacketReport> all;
     for (const auto& [form, heard] : packet_tallies_) {
         all.push_back(
-            {form.source,
-             verdict_text(form.protocol, heard.first) +
-                 (heard.is_uniform ? "" : " (the first of them)"),
-             heard.packets,
-             form.fault != PacketError::None && form.fault != PacketError::Unused});
+            {form.source, verdict_text(form.protocol, heard.first) + (heard.is_uniform ? "" : " (the first of them)"),
+                heard.packets, form.fault != PacketError::None && form.fault != PacketError::Unused});
     }
     return all;
 }

@@ -29,21 +29,20 @@ namespace octant::sim::links {
 /// One packet's motion in world axes. state.time_s is the sender's time.
 struct LiveSample {
     AircraftState state;
-    glm::dvec3 world_radps{0.0}; ///< rate of turn in world axes
-    glm::dvec3 world_mps2{0.0};  ///< acceleration
-    double extrapolation_limit_s = 0.5;   ///< how long the motion may go on beyond it
-    double accelerated_s = 0.5;  ///< how long it accelerates beyond it
+    glm::dvec3 world_radps{0.0};        ///< rate of turn in world axes
+    glm::dvec3 world_mps2{0.0};         ///< acceleration
+    double extrapolation_limit_s = 0.5; ///< how long the motion may go on beyond it
+    double accelerated_s = 0.5;         ///< how long it accelerates beyond it
 };
 
-/// The motion of one vehicle, put together from samples that come late, in bursts or not at all.
-/// Between samples it lies on their curve; beyond the last one it goes on by velocity and rate of
-/// turn for as long as that sample allows, then it stands. What new samples put right is blended in
-/// over about 0.15 s, unless it is too far for that; what lies behind along the flight is waited
-/// for at less speed, so that nothing flies backwards.
+/// The motion of one vehicle, put together from samples that come late, in bursts or not at all. Between samples it
+/// lies on their curve; beyond the last one it goes on by velocity and rate of turn for as long as that sample allows,
+/// then it stands. What new samples put right is blended in over about 0.15 s, unless it is too far for that; what lies
+/// behind along the flight is waited for at less speed, so that nothing flies backwards.
 class LiveTrack {
 public:
-    /// A sample after all others (asserted). Those that are near one another in time give way, so
-    /// that memory is bounded.
+    /// A sample after all others (asserted). Those that are near one another in time give way, so that memory is
+    /// bounded.
     void add(const LiveSample& sample);
 
     bool empty() const { return samples_.empty(); }
@@ -56,8 +55,8 @@ public:
     /// Forgets all: the next sample begins another motion.
     void clear();
 
-    /// What is to be shown `passed_s` after what was shown last, at a time of the sender's clock.
-    /// There must be a sample (asserted). time_s of what it gives is `sender_s`.
+    /// What is to be shown `passed_s` after what was shown last, at a time of the sender's clock. There must be a
+    /// sample (asserted). time_s of what it gives is `sender_s`.
     AircraftState show(double sender_s, double passed_s);
 
     /// Whether the last picture is so far beyond the last sample that the motion stands.
@@ -89,17 +88,16 @@ struct VehicleKey {
 /// One vehicle that somebody else flies: from fixes as they arrive to the motion that is shown.
 class LiveVehicle {
 public:
-    explicit LiveVehicle(const VehicleKey& key)
-        : key_(key) {}
+    explicit LiveVehicle(const VehicleKey& key) : key_(key) {}
 
     const VehicleKey& key() const { return key_; }
 
-    /// Takes a fix and where it lies in the world. Returns false for one that came too late.
-    /// Arrivals are seconds on our clock and do not go back.
+    /// Takes a fix and where it lies in the world. Returns false for one that came too late. Arrivals are seconds on
+    /// our clock and do not go back.
     bool add(const Fix& fix, const glm::dvec3& world_m, double arrival_s);
 
-    /// What is to be shown at a time of our clock, `delay_s` behind it and `passed_s` after what
-    /// was shown last. There must be a fix (asserted).
+    /// What is to be shown at a time of our clock, `delay_s` behind it and `passed_s` after what was shown last. There
+    /// must be a fix (asserted).
     AircraftState show(double now_s, double delay_s, double passed_s);
 
     /// The motion of the newest fix. There must be one (asserted).
@@ -140,7 +138,7 @@ private:
     double last_arrival_s_ = 0.0;
     double velocity_error_ = 0.0; ///< share by which velocities contradict positions, filtered
     int repeats_ = 0;             ///< fixes in a row that say the same place
-    int typical_repeats_ = 0;       ///< of a sender whose places change less often than it sends
+    int typical_repeats_ = 0;     ///< of a sender whose places change less often than it sends
     double moved_at_s_ = 0.0;     ///< arrival of the last fix that said another place
     bool hidden_ = false;
     long late_ = 0;
@@ -160,8 +158,8 @@ struct TrafficCounts {
     long accepted = 0; ///< packets that moved something
     long wrong = 0;    ///< packets that no decoder took
     long unused = 0;   ///< right ones of which nothing is shown, of vehicles beyond the cap too
-    /// As the numbers say that MAVLink and hosts of CIGI give their messages, whatever these hold;
-    /// nothing where no stream is numbered. The other protocols number nothing.
+    /// As the numbers say that MAVLink and hosts of CIGI give their messages, whatever these hold; nothing where no
+    /// stream is numbered. The other protocols number nothing.
     std::optional<long> lost;
     long late = 0;   ///< dropped
     long snaps = 0;  ///< corrections too large to be blended in
@@ -189,12 +187,12 @@ struct PacketReport {
     bool is_wrong = false;
 };
 
-/// How people call a vehicle: "1:2:3" is site, application and entity of DIS; "system 1" of
-/// MAVLink; "entity 5" of CIGI; "aircraft" where a sender has but one.
+/// How people call a vehicle: "1:2:3" is site, application and entity of DIS; "system 1" of MAVLink; "entity 5" of
+/// CIGI; "aircraft" where a sender has but one.
 std::string name_of(const VehicleKey& key);
 
-/// All vehicles that others fly. Takes packets as they came and gives what is shown at a time; no
-/// sockets and no clocks in here, so that a recording of packets repeats it.
+/// All vehicles that others fly. Takes packets as they came and gives what is shown at a time; no sockets and no clocks
+/// in here, so that a recording of packets repeats it.
 class LiveTraffic {
 public:
     static constexpr std::size_t max_vehicles = 256;
@@ -202,19 +200,15 @@ public:
     static constexpr std::size_t max_reported = 20000;
     /// Silence after which a vehicle gives its place to another one.
     static constexpr double gone_after_s = 10.0;
-    /// The same where the other one is its sender begun anew: of the same number, machine and
-    /// protocol, by another port.
+    /// The same where the other one is its sender begun anew: of the same number, machine and protocol, by another
+    /// port.
     static constexpr double restarted_after_s = 2.0;
 
-    /// Hosts of CIGI are answered over `ground`, which must outlive this; null: all is outside.
-    /// `ellipsoid` is that of the ground.
+    /// Hosts of CIGI are answered over `ground`, which must outlive this; null: all is outside. `ellipsoid` is that of
+    /// the ground.
     explicit LiveTraffic(
-        WorldFromFix world_from_fix,
-        const CigiGround* ground = nullptr,
-        const Ellipsoid& ellipsoid = wgs84)
-        : world_from_fix_(std::move(world_from_fix))
-        , ellipsoid_(ellipsoid)
-        , cigi_(ground) {}
+        WorldFromFix world_from_fix, const CigiGround* ground = nullptr, const Ellipsoid& ellipsoid = wgs84)
+        : world_from_fix_(std::move(world_from_fix)), ellipsoid_(ellipsoid), cigi_(ground) {}
 
     CigiImageGenerator& cigi() { return cigi_; }
 
@@ -235,8 +229,8 @@ public:
     /// States of the first vehicles as their newest packets say, neither smoothed nor carried on.
     std::size_t show_newest(double now_s, std::span<AircraftState> states);
 
-    /// States of the first vehicles at a time of our clock, not before that of the last call.
-    /// Returns how many of `states` were filled in.
+    /// States of the first vehicles at a time of our clock, not before that of the last call. Returns how many of
+    /// `states` were filled in.
     std::size_t show(double now_s, double delay_s, std::span<AircraftState> states);
 
     const TrafficCounts& counts() const { return counts_; }
@@ -247,9 +241,9 @@ public:
     /// When the newest packet came that moved something, on our clock.
     double newest_s() const { return newest_s_; }
 
-    /// What was told for the first time since the last call: each sender with each kind of packet
-    /// once, a line each; of each fault at most 16 kinds from one sender and 100 kinds in all, but
-    /// always the first kind of each of 100 senders more.
+    /// What was told for the first time since the last call: each sender with each kind of packet once, a line each; of
+    /// each fault at most 16 kinds from one sender and 100 kinds in all, but always the first kind of each of 100
+    /// senders more.
     std::vector<std::string> take_new_messages();
 
     /// What a person should be told, a line each: senders and what is wrong with them.
@@ -323,7 +317,7 @@ private:
     /// Packets by what they were, as far as that is told.
     std::map<PacketErrorKey, PacketTally> packet_tallies_;
     std::map<PacketError, std::size_t> error_keys_; ///< how many of packet_tallies_ have a fault
-    bool has_reported_dis_ = false;           ///< that it knows the earth alone
+    bool has_reported_dis_ = false;                 ///< that it knows the earth alone
     /// Without names, which follow from the keys.
     std::map<VehicleKey, VehicleReport> reports_;
     std::vector<std::string> messages_;

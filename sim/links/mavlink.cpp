@@ -1,5 +1,5 @@
-// Frames and messages: the public MAVLink definition (common.xml and the serialisation page of
-// mavlink.io). Fields of a message stand by size, the largest first.
+// Frames and messages: the public MAVLink definition (common.xml and the serialisation page of mavlink.io). Fields of a
+// message stand by size, the largest first.
 
 #include "sim/links/mavlink.h"
 
@@ -34,16 +34,12 @@ struct Message {
     std::uint8_t extra; ///< what the definition adds to the check sum
 };
 
-constexpr std::array<Message, 4> messages{
-    {{MavLinkKind::Heartbeat, 9, 50},
-     {MavLinkKind::Attitude, 28, 39},
-     {MavLinkKind::GlobalPositionInt, 28, 104},
-     {MavLinkKind::HilStateQuaternion, 64, 4}}};
+constexpr std::array<Message, 4> messages{{{MavLinkKind::Heartbeat, 9, 50}, {MavLinkKind::Attitude, 28, 39},
+    {MavLinkKind::GlobalPositionInt, 28, 104}, {MavLinkKind::HilStateQuaternion, 64, 4}}};
 
 const Message* message_of(std::uint32_t number) {
-    const auto found = std::ranges::find_if(messages, [number](const Message& message) {
-        return static_cast<std::uint32_t>(message.kind) == number;
-    });
+    const auto found = std::ranges::find_if(
+        messages, [number](const Message& message) { return static_cast<std::uint32_t>(message.kind) == number; });
     return found == messages.end() ? nullptr : &*found;
 }
 
@@ -56,17 +52,12 @@ std::uint16_t summed(std::uint16_t sum, std::byte byte) {
 
 std::uint16_t sum_of(Bytes bytes, std::uint8_t extra) {
     std::uint16_t sum = 0xffff;
-    for (const std::byte byte : bytes) {
-        sum = summed(sum, byte);
-    }
+    for (const std::byte byte : bytes) { sum = summed(sum, byte); }
     return summed(sum, std::byte{extra});
 }
 
 glm::dvec3 velocity_ned(const WireReader& reader, std::size_t at) {
-    return glm::dvec3(
-               reader.at<std::int16_t>(at),
-               reader.at<std::int16_t>(at + 2),
-               reader.at<std::int16_t>(at + 4)) /
+    return glm::dvec3(reader.at<std::int16_t>(at), reader.at<std::int16_t>(at + 2), reader.at<std::int16_t>(at + 4)) /
            cm_per_m;
 }
 
@@ -92,9 +83,8 @@ std::optional<Fix> plausible(const Fix& fix) {
 MavLinkParse parse_mavlink(Bytes bytes) {
     const auto size = static_cast<std::uint32_t>(bytes.size());
     if (bytes.empty() || (bytes.front() != magic_1 && bytes.front() != magic_2)) {
-        const auto next = std::find_if(bytes.begin(), bytes.end(), [](std::byte byte) {
-            return byte == magic_1 || byte == magic_2;
-        });
+        const auto next =
+            std::find_if(bytes.begin(), bytes.end(), [](std::byte byte) { return byte == magic_1 || byte == magic_2; });
         const auto skipped = static_cast<std::size_t>(next - bytes.begin());
         return {{PacketError::NotOurs, size, size}, std::max<std::size_t>(skipped, 1), {}};
     }
@@ -108,20 +98,16 @@ MavLinkParse parse_mavlink(Bytes bytes) {
         return {{PacketError::WrongSize, size, size}, std::max<std::size_t>(bytes.size(), 1), {}};
     }
     const std::uint32_t number =
-        is_2 ? reader.at<std::uint16_t>(7) | static_cast<std::uint32_t>(reader.at<std::uint8_t>(9))
-                                                 << 16U
+        is_2 ? reader.at<std::uint16_t>(7) | static_cast<std::uint32_t>(reader.at<std::uint8_t>(9)) << 16U
              : reader.at<std::uint8_t>(5);
-    MavLinkParse parse{
-        .verdict = {PacketError::Unused, number, size},
+    MavLinkParse parse{.verdict = {PacketError::Unused, number, size},
         .length = length,
         .frame = {},
         .system = reader.at<std::uint8_t>(is_2 ? 5 : 3),
         .component = reader.at<std::uint8_t>(is_2 ? 6 : 4),
         .sequence = reader.at<std::uint8_t>(is_2 ? 4 : 2)};
     const Message* const message = message_of(number);
-    if (message == nullptr) {
-        return parse;
-    }
+    if (message == nullptr) { return parse; }
     const Bytes summed_bytes = bytes.subspan(1, header - 1 + payload);
     const auto sum = reader.at<std::uint16_t>(header + payload);
     if (payload > message->length || sum != sum_of(summed_bytes, message->extra)) {
@@ -157,19 +143,13 @@ std::optional<Fix> MavLinkPose::take_hil(const MavLinkFrame& frame) {
     const glm::dquat ned_from_body(static_cast<double>(reader.at<float>(8)), xyz.x, xyz.y, xyz.z);
     const double length = glm::length(ned_from_body);
     constexpr double max_off_unit = 0.1;
-    if (!(std::abs(length - 1.0) < max_off_unit)) {
-        return std::nullopt;
-    }
+    if (!(std::abs(length - 1.0) < max_off_unit)) { return std::nullopt; }
     const glm::dmat3 m = glm::mat3_cast(ned_from_body / length);
-    fix.attitude = {
-        wrapped_to_two_pi(std::atan2(m[0].y, m[0].x)),
-        std::asin(std::clamp(-m[0].z, -1.0, 1.0)),
+    fix.attitude = {wrapped_to_two_pi(std::atan2(m[0].y, m[0].x)), std::asin(std::clamp(-m[0].z, -1.0, 1.0)),
         std::atan2(m[1].z, m[2].z)};
     fix.body_rates_radps = reader.floats(24);
     set_place(reader, 36, fix);
-    if (position_) {
-        fix.above_home_m = fix.altitude_m - (position_->altitude_m - *position_->above_home_m);
-    }
+    if (position_) { fix.above_home_m = fix.altitude_m - (position_->altitude_m - *position_->above_home_m); }
     fix.velocity_ned_mps = velocity_ned(reader, 48);
     hil_ = true;
     return plausible(fix);
@@ -185,11 +165,8 @@ std::optional<Fix> MavLinkPose::take_position(const MavLinkFrame& frame) {
     fix.velocity_ned_mps = velocity_ned(reader, 20);
     constexpr std::uint16_t no_heading = 65535;
     const auto heading_cdeg = reader.at<std::uint16_t>(26);
-    fix.attitude.heading_rad =
-        heading_cdeg == no_heading ? 0.0 : rad_from_deg(heading_cdeg / cm_per_m);
-    if (!plausible(fix)) {
-        return std::nullopt;
-    }
+    fix.attitude.heading_rad = heading_cdeg == no_heading ? 0.0 : rad_from_deg(heading_cdeg / cm_per_m);
+    if (!plausible(fix)) { return std::nullopt; }
     position_ = fix;
     // Attitudes come more often; while they do, they carry the position on.
     constexpr double attitude_kept_s = 0.5;
@@ -197,25 +174,18 @@ std::optional<Fix> MavLinkPose::take_position(const MavLinkFrame& frame) {
     return hil_ || carried ? std::nullopt : position_;
 }
 
-std::optional<Fix>
-MavLinkPose::take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid) {
+std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid) {
     const WireReader reader(frame.payload, ByteOrder::Little);
     const double sent_s = boot_s(reader);
     attitude_s_ = sent_s;
-    if (!position_) {
-        return std::nullopt;
-    }
+    if (!position_) { return std::nullopt; }
     constexpr double max_carried_s = 2.0;
     const double carried_s = sent_s - *position_->sent_s;
-    if (std::abs(carried_s) > max_carried_s) {
-        return std::nullopt;
-    }
+    if (std::abs(carried_s) > max_carried_s) { return std::nullopt; }
     Fix fix = *position_;
     const glm::dvec3 moved_m = carried_s * *fix.velocity_ned_mps;
     const Geodetic moved = offset_by(
-        {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m},
-        moved_m,
-        ellipsoid);
+        {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m}, moved_m, ellipsoid);
     fix.latitude_deg = std::clamp(deg_from_rad(moved.latitude_rad), -90.0, 90.0);
     fix.longitude_deg = deg_from_rad(moved.longitude_rad);
     fix.altitude_m = moved.height_m;

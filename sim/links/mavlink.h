@@ -30,9 +30,9 @@ struct MavLinkFrame {
     std::vector<std::byte> payload;
 };
 
-/// Reads the frame at the beginning of `bytes` and says how long it is; where none begins there,
-/// the length is that of what is to be skipped, at least 1. Frames of other kinds are Unused with
-/// their number as Verdict::got; their check sums cannot be told.
+/// Reads the frame at the beginning of `bytes` and says how long it is; where none begins there, the length is that of
+/// what is to be skipped, at least 1. Frames of other kinds are Unused with their number as Verdict::got; their check
+/// sums cannot be told.
 struct MavLinkParse {
     DecodeResult verdict;
     std::size_t length = 0;
@@ -45,13 +45,11 @@ struct MavLinkParse {
 
 MavLinkParse parse_mavlink(Bytes bytes);
 
-/// The pose of one system, from one kind of message: HIL_STATE_QUATERNION where that ever comes,
-/// else ATTITUDE over the positions of GLOBAL_POSITION_INT, which tell the height of its home to
-/// both.
+/// The pose of one system, from one kind of message: HIL_STATE_QUATERNION where that ever comes, else ATTITUDE over the
+/// positions of GLOBAL_POSITION_INT, which tell the height of its home to both.
 class MavLinkPose {
 public:
-    /// A fix where the message completes one. Attitudes between positions carry these on over the
-    /// ellipsoid.
+    /// A fix where the message completes one. Attitudes between positions carry these on over the ellipsoid.
     std::optional<Fix> take(const MavLinkFrame& frame, const Ellipsoid& ellipsoid = wgs84);
 
 private:

@@ -28,21 +28,8 @@ enum Quantity : std::size_t {
     Id
 };
 
-constexpr std::array<std::string_view, 14> names{
-    "t_s",
-    "lat_deg",
-    "lon_deg",
-    "north_m",
-    "east_m",
-    "alt_m",
-    "agl_m",
-    "roll_deg",
-    "pitch_deg",
-    "yaw_deg",
-    "v_north_mps",
-    "v_east_mps",
-    "v_up_mps",
-    "id"};
+constexpr std::array<std::string_view, 14> names{"t_s", "lat_deg", "lon_deg", "north_m", "east_m", "alt_m", "agl_m",
+    "roll_deg", "pitch_deg", "yaw_deg", "v_north_mps", "v_east_mps", "v_up_mps", "id"};
 
 } // namespace
 
@@ -53,9 +40,7 @@ DecodeResult NamedColumns::take_names(std::string_view line) {
     fields_.fill(-1);
     for (std::size_t i = 0; i < fields.size(); ++i) {
         const auto known = std::ranges::find(names, fields[i]);
-        if (known != names.end()) {
-            fields_[static_cast<std::size_t>(known - names.begin())] = static_cast<int>(i);
-        }
+        if (known != names.end()) { fields_[static_cast<std::size_t>(known - names.begin())] = static_cast<int>(i); }
     }
     count_ = fields.size();
     const bool placed = (has(Latitude) && has(Longitude)) || (has(North) && has(East));
@@ -72,14 +57,9 @@ Fix NamedColumns::fix_of(const std::array<double, quantities>& values) const {
     } else {
         fix.local_m = glm::dvec2(values[East], values[North]);
     }
-    fix.attitude = {
-        rad_from_deg(values[Yaw]), rad_from_deg(values[Pitch]), rad_from_deg(values[Roll])};
-    if (has(Time)) {
-        fix.sent_s = values[Time];
-    }
-    if (has(AboveGround)) {
-        fix.above_ground_m = values[AboveGround];
-    }
+    fix.attitude = {rad_from_deg(values[Yaw]), rad_from_deg(values[Pitch]), rad_from_deg(values[Roll])};
+    if (has(Time)) { fix.sent_s = values[Time]; }
+    if (has(AboveGround)) { fix.above_ground_m = values[AboveGround]; }
     if (has(NorthSpeed) && has(EastSpeed) && has(UpSpeed)) {
         fix.velocity_ned_mps = glm::dvec3(values[NorthSpeed], values[EastSpeed], -values[UpSpeed]);
     }
@@ -90,26 +70,18 @@ Fix NamedColumns::fix_of(const std::array<double, quantities>& values) const {
 
 DecodeResult NamedColumns::take(Bytes line, Fix& fix) {
     const auto size = static_cast<std::uint32_t>(line.size());
-    if (line.size() > longest_line) {
-        return {PacketError::WrongSize, size, size};
-    }
+    if (line.size() > longest_line) { return {PacketError::WrongSize, size, size}; }
     const std::string text(reinterpret_cast<const char*>(line.data()), line.size()); // NOLINT
     const auto fields = split_fields(text, separator_);
-    if (!named_ || fields.empty() || !finite_number(fields.front())) {
-        return take_names(text);
-    }
+    if (!named_ || fields.empty() || !finite_number(fields.front())) { return take_names(text); }
     if (fields.size() != count_) {
         return {PacketError::WrongVersion, static_cast<std::uint32_t>(fields.size()), size};
     }
     std::array<double, quantities> values{};
     for (std::size_t quantity = 0; quantity < names.size(); ++quantity) {
-        if (!has(quantity)) {
-            continue;
-        }
+        if (!has(quantity)) { continue; }
         const auto value = finite_number(fields[static_cast<std::size_t>(fields_[quantity])]);
-        if (!value) {
-            return {PacketError::NotFinite, static_cast<std::uint32_t>(fields_[quantity] + 1), size};
-        }
+        if (!value) { return {PacketError::NotFinite, static_cast<std::uint32_t>(fields_[quantity] + 1), size}; }
         values[quantity] = *value;
     }
     fix = fix_of(values);
@@ -128,8 +100,7 @@ std::string NamedColumns::text_of(const DecodeResult& verdict) {
     case PacketError::WrongSize:
         return fmt::format("expected a line of at most {} bytes, got more", longest_line);
     case PacketError::WrongVersion:
-        return fmt::format(
-            "expected as many fields as there are names, got {} fields", verdict.got);
+        return fmt::format("expected as many fields as there are names, got {} fields", verdict.got);
     case PacketError::NotFinite:
         return fmt::format("expected a number in field {}, got none", verdict.got);
     default:

@@ -1,5 +1,5 @@
-// Forms: those of the decoders of this folder; CIGI 4.0: SISO-STD-013-2014, IG Control (16-bit size
-// and packet id, no word for the byte order); CIGI 1 and 2: interface control documents, Boeing.
+// Forms: those of the decoders of this folder; CIGI 4.0: SISO-STD-013-2014, IG Control (16-bit size and packet id, no
+// word for the byte order); CIGI 1 and 2: interface control documents, Boeing.
 
 #include "sim/links/packet_kind.h"
 
@@ -23,37 +23,24 @@ struct Beginning {
 };
 
 constexpr std::array<Beginning, 17> beginnings{
-    {{"DREF", PacketKind::OtherXPlane},
-     {"BECN", PacketKind::OtherXPlane},
-     {"RPOS", PacketKind::OtherXPlane},
-     {"RADR", PacketKind::OtherXPlane},
-     {"VEHX", PacketKind::OtherXPlane},
-     {"PREL", PacketKind::OtherXPlane},
-     {"CMND", PacketKind::OtherXPlane},
-     {"DSEL", PacketKind::OtherXPlane},
-     {"POSI", PacketKind::OtherXPlane},
-     {"XGPS", PacketKind::ForeFlight},
-     {"XATT", PacketKind::ForeFlight},
-     {"XTRAFFIC", PacketKind::ForeFlight},
-     {"$GP", PacketKind::Nmea},
-     {"$GN", PacketKind::Nmea},
-     {"FileType=text/acmi", PacketKind::Acmi},
-     {"\xef\xbb\xbf"
-      "FileType=text/acmi",
-      PacketKind::Acmi},
-     {"XtraLib.Stream", PacketKind::Acmi}}};
+    {{"DREF", PacketKind::OtherXPlane}, {"BECN", PacketKind::OtherXPlane}, {"RPOS", PacketKind::OtherXPlane},
+        {"RADR", PacketKind::OtherXPlane}, {"VEHX", PacketKind::OtherXPlane}, {"PREL", PacketKind::OtherXPlane},
+        {"CMND", PacketKind::OtherXPlane}, {"DSEL", PacketKind::OtherXPlane}, {"POSI", PacketKind::OtherXPlane},
+        {"XGPS", PacketKind::ForeFlight}, {"XATT", PacketKind::ForeFlight}, {"XTRAFFIC", PacketKind::ForeFlight},
+        {"$GP", PacketKind::Nmea}, {"$GN", PacketKind::Nmea}, {"FileType=text/acmi", PacketKind::Acmi},
+        {"\xef\xbb\xbf"
+         "FileType=text/acmi",
+            PacketKind::Acmi},
+        {"XtraLib.Stream", PacketKind::Acmi}}};
 
 bool begins(Bytes bytes, std::string_view text) {
-    return bytes.size() >= text.size() &&
-           std::equal(text.begin(), text.end(), bytes.begin(), [](char a, std::byte b) {
-               return static_cast<std::byte>(a) == b;
-           });
+    return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin(),
+                                              [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
 }
 
 bool is_fdm(Bytes datagram) {
     const auto version = WireReader(datagram, ByteOrder::Big).at<std::uint32_t>(0);
-    return (version == 24 && datagram.size() == fdm_24_bytes) ||
-           (version == 25 && datagram.size() == fdm_25_bytes);
+    return (version == 24 && datagram.size() == fdm_24_bytes) || (version == 25 && datagram.size() == fdm_25_bytes);
 }
 
 /// Of any size: compilers pad the structure in more than one way.
@@ -68,9 +55,7 @@ std::optional<PacketKind> cigi_kind(Bytes datagram) {
     constexpr std::uint8_t older_ig_control_bytes = 16;
     const WireReader big(datagram, ByteOrder::Big);
     const auto byte = [&big](std::size_t at) { return big.at<std::uint8_t>(at); };
-    if (datagram.size() < ig_control_bytes || datagram.size() % 8 != 0) {
-        return std::nullopt;
-    }
+    if (datagram.size() < ig_control_bytes || datagram.size() % 8 != 0) { return std::nullopt; }
     const auto magic = big.at<std::uint16_t>(6);
     if (byte(0) == 1 && byte(1) == ig_control_bytes && byte(2) == 3 &&
         (magic == cigi_magic || magic == swapped_cigi_magic)) {
@@ -81,8 +66,7 @@ std::optional<PacketKind> cigi_kind(Bytes datagram) {
     }
     for (const ByteOrder order : {ByteOrder::Big, ByteOrder::Little}) {
         const WireReader reader(datagram, order);
-        if (reader.at<std::uint16_t>(0) == ig_control_bytes && reader.at<std::uint16_t>(2) == 0 &&
-            byte(4) == 4) {
+        if (reader.at<std::uint16_t>(0) == ig_control_bytes && reader.at<std::uint16_t>(2) == 0 && byte(4) == 4) {
             return PacketKind::Cigi4;
         }
     }
@@ -96,15 +80,13 @@ bool is_dis(Bytes datagram) {
     const auto version = reader.at<std::uint8_t>(0);
     DisEntity entity;
     return datagram.size() >= header_bytes && version >= 1 && version <= 7 &&
-           (reader.at<std::uint16_t>(8) == datagram.size() ||
-            decode_dis(datagram, entity).fault == PacketError::None);
+           (reader.at<std::uint16_t>(8) == datagram.size() || decode_dis(datagram, entity).fault == PacketError::None);
 }
 
 bool is_xplane(Bytes datagram) {
     constexpr std::size_t head_bytes = 5;
     const std::size_t rest = datagram.size() - std::min(datagram.size(), head_bytes);
-    return rest > 0 && ((begins(datagram, "DATA") && rest % 36 == 0) ||
-                        (begins(datagram, "RREF") && rest % 8 == 0));
+    return rest > 0 && ((begins(datagram, "DATA") && rest % 36 == 0) || (begins(datagram, "RREF") && rest % 8 == 0));
 }
 
 /// The first frame is right, or of a message that is not known here and as long as it says.
@@ -117,26 +99,14 @@ bool is_mavlink(Bytes datagram) {
 } // namespace
 
 std::optional<PacketKind> packet_kind(Bytes datagram) {
-    if (is_fdm(datagram)) {
-        return PacketKind::Fdm;
-    }
-    if (is_xplane(datagram)) {
-        return PacketKind::XPlane;
-    }
-    const auto known = std::ranges::find_if(
-        beginnings, [&](const Beginning& beginning) { return begins(datagram, beginning.text); });
-    if (known != beginnings.end()) {
-        return known->kind;
-    }
-    if (const auto cigi = cigi_kind(datagram)) {
-        return cigi;
-    }
-    if (is_swapped_fdm(datagram)) {
-        return PacketKind::SwappedFdm;
-    }
-    if (is_mavlink(datagram)) {
-        return PacketKind::MavLink;
-    }
+    if (is_fdm(datagram)) { return PacketKind::Fdm; }
+    if (is_xplane(datagram)) { return PacketKind::XPlane; }
+    const auto known =
+        std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return begins(datagram, beginning.text); });
+    if (known != beginnings.end()) { return known->kind; }
+    if (const auto cigi = cigi_kind(datagram)) { return cigi; }
+    if (is_swapped_fdm(datagram)) { return PacketKind::SwappedFdm; }
+    if (is_mavlink(datagram)) { return PacketKind::MavLink; }
     return is_dis(datagram) ? std::optional(PacketKind::Dis) : std::nullopt;
 }
 

@@ -25,15 +25,14 @@ enum class PacketKind : std::uint32_t {
     Acmi,
 };
 
-/// The kind of a packet that begins, and is as long, as packets of that kind are; nothing for one
-/// that is of none.
+/// The kind of a packet that begins, and is as long, as packets of that kind are; nothing for one that is of none.
 std::optional<PacketKind> packet_kind(Bytes datagram);
 
 /// The protocol that reads packets of a kind; nothing where none does.
 std::optional<Protocol> protocol_of(PacketKind kind);
 
-/// What a person should be told of packets of a kind that came to a port where they are not read:
-/// what they are, and what to do.
+/// What a person should be told of packets of a kind that came to a port where they are not read: what they are, and
+/// what to do.
 std::string_view text_of(PacketKind kind);
 
 } // namespace octant::sim::links

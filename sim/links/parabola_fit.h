@@ -15,8 +15,8 @@ struct Parabola {
     Value bend{};
 };
 
-/// The weighted least squares of points by a line or a parabola, from sums: points are added, not
-/// kept. Value: double or glm::dvec3.
+/// The weighted least squares of points by a line or a parabola, from sums: points are added, not kept. Value: double
+/// or glm::dvec3.
 template <class Value>
 class ParabolaFit {
 public:
@@ -24,9 +24,7 @@ public:
         double power = weight;
         for (std::size_t k = 0; k < t_.size(); ++k) {
             t_[k] += power;
-            if (k < v_.size()) {
-                v_[k] += power * value;
-            }
+            if (k < v_.size()) { v_[k] += power * value; }
             power *= t;
         }
     }
@@ -34,13 +32,9 @@ public:
     /// Nothing where the points do not determine it.
     std::optional<Parabola<Value>> line() const {
         const double determinant = t_[0] * t_[2] - t_[1] * t_[1];
-        if (!(determinant > min_share * t_[0] * t_[2])) {
-            return std::nullopt;
-        }
+        if (!(determinant > min_share * t_[0] * t_[2])) { return std::nullopt; }
         return Parabola<Value>{
-            (t_[2] * v_[0] - t_[1] * v_[1]) / determinant,
-            (t_[0] * v_[1] - t_[1] * v_[0]) / determinant,
-            Value(0.0)};
+            (t_[2] * v_[0] - t_[1] * v_[1]) / determinant, (t_[0] * v_[1] - t_[1] * v_[0]) / determinant, Value(0.0)};
     }
 
     /// Nothing where the points do not determine it.
@@ -54,13 +48,9 @@ public:
         const double e = s1 * s2 - s0 * s3;
         const double f = s0 * s2 - s1 * s1;
         const double determinant = s0 * a + s1 * b + s2 * c;
-        if (!(determinant > min_share * s0 * s2 * s4)) {
-            return std::nullopt;
-        }
-        return Parabola<Value>{
-            (a * v_[0] + b * v_[1] + c * v_[2]) / determinant,
-            (b * v_[0] + d * v_[1] + e * v_[2]) / determinant,
-            (c * v_[0] + e * v_[1] + f * v_[2]) / determinant};
+        if (!(determinant > min_share * s0 * s2 * s4)) { return std::nullopt; }
+        return Parabola<Value>{(a * v_[0] + b * v_[1] + c * v_[2]) / determinant,
+            (b * v_[0] + d * v_[1] + e * v_[2]) / determinant, (c * v_[0] + e * v_[1] + f * v_[2]) / determinant};
     }
 
 private:

@@ -37,8 +37,7 @@ void SequenceCount::add(std::uint32_t number, int bits, double arrival_s) {
     constexpr std::int32_t remembered = 64;
     constexpr double max_silence_s = 2.0;
     const int unused_bits = 32 - bits;
-    const std::int32_t step =
-        static_cast<std::int32_t>((number - newest_) << unused_bits) >> unused_bits;
+    const std::int32_t step = static_cast<std::int32_t>((number - newest_) << unused_bits) >> unused_bits;
     const bool goes_on = has_begun_ && arrival_s - last_s_ <= max_silence_s;
     last_s_ = arrival_s;
     if (!goes_on || step > max_step || step <= -remembered) {
@@ -66,12 +65,10 @@ void DistanceFit::add(double arrival_s, double distance_m) {
     constexpr std::size_t max_points = 128;
     constexpr double min_apart_s = length_s / max_points;
     const std::size_t count = points_.size();
-    if (count > 1 && points_.back().arrival_s - points_[count - 2].arrival_s < min_apart_s) {
-        points_.pop_back();
-    }
+    if (count > 1 && points_.back().arrival_s - points_[count - 2].arrival_s < min_apart_s) { points_.pop_back(); }
     points_.push_back({arrival_s, distance_m});
-    const auto old = std::ranges::find_if(
-        points_, [&](const Point& point) { return point.arrival_s >= arrival_s - length_s; });
+    const auto old =
+        std::ranges::find_if(points_, [&](const Point& point) { return point.arrival_s >= arrival_s - length_s; });
     points_.erase(points_.begin(), old);
     fit();
 }
@@ -88,9 +85,7 @@ void DistanceFit::fit() {
     std::ranges::for_each(points_, [](Point& point) { point.weight = 1.0; });
     for (int pass = 0; ready_ && pass < passes; ++pass) {
         ready_ = solve(curved) && speed_mps() >= min_speed_mps;
-        if (ready_ && pass + 1 < passes) {
-            weigh();
-        }
+        if (ready_ && pass + 1 < passes) { weigh(); }
     }
 }
 
@@ -168,30 +163,24 @@ void SenderClock::begin_offset(double arrival_s) {
     bucket_since_s_ = arrival_s;
 }
 
-/// Time by a clock whose unit nobody told, once it is known: the power of ten that fits the
-/// arrivals of a second.
+/// Time by a clock whose unit nobody told, once it is known: the power of ten that fits the arrivals of a second.
 std::optional<double> SenderClock::step_by_ticks(double arrival_s, const TimingEvidence& clue) {
     const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
     if (ticks_rate_check_.is_wrong()) {
         seconds_per_tick_ = 0.0;
         ticks_rate_check_ = {};
     }
-    if (seconds_per_tick_ > 0.0) {
-        return change * seconds_per_tick_;
-    }
+    if (seconds_per_tick_ > 0.0) { return change * seconds_per_tick_; }
     ++ticks_seen_;
     ticks_changed_ += change != 0 ? 1 : 0;
     ticks_passed_ += std::max(change, 0);
     const double since_s = arrival_s - ticks_since_s_;
-    if (since_s < unit_after_s) {
-        return std::nullopt;
-    }
+    if (since_s < unit_after_s) { return std::nullopt; }
     if (ticks_passed_ > 0.0) {
         // A clock that stands still for most packets is too coarse to tell them apart.
         const bool fine = 10 * ticks_changed_ >= 9 * ticks_seen_;
-        const double unit_s = clue.tick_s > 0.0
-                                  ? clue.tick_s
-                                  : std::pow(10.0, std::round(std::log10(since_s / ticks_passed_)));
+        const double unit_s =
+            clue.tick_s > 0.0 ? clue.tick_s : std::pow(10.0, std::round(std::log10(since_s / ticks_passed_)));
         const double error = std::abs(unit_s * ticks_passed_ / since_s - 1.0);
         seconds_per_tick_ = fine && error < max_pace_error ? unit_s : 0.0;
     }
@@ -202,8 +191,8 @@ std::optional<double> SenderClock::step_by_ticks(double arrival_s, const TimingE
     return seconds_per_tick_ > 0.0 ? std::optional(change * seconds_per_tick_) : std::nullopt;
 }
 
-/// By the speed that the way has itself. The time that the fit gives is followed as far as speed
-/// then stays within half and double.
+/// By the speed that the way has itself. The time that the fit gives is followed as far as speed then stays within half
+/// and double.
 SenderClock::Step SenderClock::step_by_distance(double arrival_s, double distance_m) {
     if (distance_m <= 0.0) {
         const double back_s = distance_fit_.is_ready() ? distance_m / distance_fit_.speed_mps() : -min_step_s;
@@ -249,15 +238,11 @@ SenderClock::Step SenderClock::step_of(double arrival_s, const TimingEvidence& c
     };
     const bool by_speed = clue.moved_s && !sent_speed_rate_check_.is_wrong();
     const bool sent = clue.sent_s && !ignores_sent_time_ && !sent_rate_check_.is_wrong();
-    if (!sent && !ticked && !by_speed && clue.distance_m) {
-        return step_by_distance(arrival_s, *clue.distance_m);
-    }
+    if (!sent && !ticked && !by_speed && clue.distance_m) { return step_by_distance(arrival_s, *clue.distance_m); }
     distance_fit_ = {};
     distance_m_ = 0.0;
     distance_shift_s_.reset();
-    if (!sent && !ticked && !by_speed) {
-        return step_by_arrivals(arrival_s);
-    }
+    if (!sent && !ticked && !by_speed) { return step_by_arrivals(arrival_s); }
     arrival_shift_s_.reset();
     return sent     ? told(TimeSource::SentTime, *clue.sent_s - last_sent_s_)
            : ticked ? told(TimeSource::Ticks, *ticked)
@@ -295,16 +280,12 @@ void SenderClock::check_clock_rate(double arrival_s, const TimingEvidence& clue)
         return sent_rate_check_.is_wrong() || ticks_rate_check_.is_wrong() || sent_speed_rate_check_.is_wrong();
     };
     const bool was_wrong = wrong();
-    if (clue.sent_s) {
-        sent_rate_check_.add(between_s, *clue.sent_s - last_sent_s_);
-    }
+    if (clue.sent_s) { sent_rate_check_.add(between_s, *clue.sent_s - last_sent_s_); }
     if (clue.ticks && seconds_per_tick_ > 0.0) {
         const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
         ticks_rate_check_.add(between_s, change * seconds_per_tick_);
     }
-    if (clue.moved_s) {
-        sent_speed_rate_check_.add(between_s, *clue.moved_s);
-    }
+    if (clue.moved_s) { sent_speed_rate_check_.add(between_s, *clue.moved_s); }
     if (wrong() && !was_wrong) {
         begin_offset(arrival_s);
         spacing_ = {};
@@ -313,9 +294,7 @@ void SenderClock::check_clock_rate(double arrival_s, const TimingEvidence& clue)
 
 /// Whether the packet is one that comes too late. A clock that stands is not asked any more.
 bool SenderClock::is_late(const Step& step) {
-    if (step.passed_s > 0.0 || step.passed_s <= -restart_s) {
-        return false;
-    }
+    if (step.passed_s > 0.0 || step.passed_s <= -restart_s) { return false; }
     const bool too_many = ++consecutive_late_ >= late_before_restart;
     const bool stands = step.passed_s == 0.0 && too_many;
     ignores_sent_time_ = ignores_sent_time_ || (stands && step.source == TimeSource::SentTime);
@@ -331,9 +310,7 @@ SenderClock::Order SenderClock::take(double arrival_s, const TimingEvidence& clu
     }
     arrival_s = std::max(arrival_s, last_arrival_s_);
     const Step step = step_of(arrival_s, clue);
-    if (is_late(step)) {
-        return Order::Late;
-    }
+    if (is_late(step)) { return Order::Late; }
     const double max_step_s = std::max(restart_s, 2.0 * (arrival_s - last_arrival_s_));
     if (step.passed_s <= 0.0 || step.passed_s > max_step_s) {
         begin(arrival_s, clue);

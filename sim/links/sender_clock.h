@@ -10,8 +10,7 @@
 
 namespace octant::sim::links {
 
-/// What a packet tells of the time that has passed at its sender since the last packet that was
-/// Next or Restarts.
+/// What a packet tells of the time that has passed at its sender since the last packet that was Next or Restarts.
 struct TimingEvidence {
     std::optional<double> sent_s;       ///< the sender's clock
     std::optional<std::uint32_t> ticks; ///< a clock that wraps around
@@ -40,17 +39,17 @@ private:
     double period_s_ = 0.0;
 };
 
-/// Counts what a stream lacks whose sender numbers its packets one by one, with numbers that wrap
-/// around. Numbers count as missing up to 32 in a row; after more, and after two seconds of
-/// silence, the sender may have begun anew, and nothing counts.
+/// Counts what a stream lacks whose sender numbers its packets one by one, with numbers that wrap around. Numbers count
+/// as missing up to 32 in a row; after more, and after two seconds of silence, the sender may have begun anew, and
+/// nothing counts.
 class SequenceCount {
 public:
-    /// Takes the number of a packet, of so many bits, and its arrival. One that comes late is not
-    /// missing any more; one that comes twice counts once.
+    /// Takes the number of a packet, of so many bits, and its arrival. One that comes late is not missing any more; one
+    /// that comes twice counts once.
     void add(std::uint32_t number, int bits, double arrival_s);
 
-    /// Whether the sender numbers this stream by itself: eight numbers came, and three quarters of
-    /// all. A counter that stands still tells nothing, nor does one that other streams share.
+    /// Whether the sender numbers this stream by itself: eight numbers came, and three quarters of all. A counter that
+    /// stands still tells nothing, nor does one that other streams share.
     bool is_numbered() const { return taken_ >= 8 && taken_ >= 3 * lost_; }
 
     /// Packets that are missing; 0 where the stream is not numbered.
@@ -58,17 +57,16 @@ public:
 
 private:
     std::uint32_t newest_ = 0;
-    std::uint64_t received_mask_ =
-        0; ///< bit i: the number newest_ - i came, or is from before the beginning
+    std::uint64_t received_mask_ = 0; ///< bit i: the number newest_ - i came, or is from before the beginning
     double last_s_ = 0.0;
     bool has_begun_ = false;
     long taken_ = 0;
     long lost_ = 0;
 };
 
-/// When a vehicle was at a place of its way, from the way that it covered by each arrival: a
-/// parabola through the last three seconds, in which packets that are late count little. It holds
-/// where packets come in bursts, and where the sender's rate is uneven.
+/// When a vehicle was at a place of its way, from the way that it covered by each arrival: a parabola through the last
+/// three seconds, in which packets that are late count little. It holds where packets come in bursts, and where the
+/// sender's rate is uneven.
 class DistanceFit {
 public:
     /// Takes the whole way up to a packet, in metres, and its arrival; arrivals do not go back.
@@ -115,13 +113,11 @@ private:
     bool wrong_ = false;
 };
 
-/// Finds out when packets were sent, by our clock, from when they came: they come in bursts, at
-/// rates that nobody announced. The sender's time runs by its own clock where packets tell one
-/// whose unit can be found, else by the vehicle's own motion (the way covered over the speed that
-/// is told, else over the speed that the way itself has), else by the mean distance of arrivals. A
-/// clock that does not keep pace with arrivals is not followed. Our time from the sender's: the
-/// least delay of the last seconds, followed slowly. A function of the calls alone; no clock is
-/// read.
+/// Finds out when packets were sent, by our clock, from when they came: they come in bursts, at rates that nobody
+/// announced. The sender's time runs by its own clock where packets tell one whose unit can be found, else by the
+/// vehicle's own motion (the way covered over the speed that is told, else over the speed that the way itself has),
+/// else by the mean distance of arrivals. A clock that does not keep pace with arrivals is not followed. Our time from
+/// the sender's: the least delay of the last seconds, followed slowly. A function of the calls alone; no clock is read.
 class SenderClock {
 public:
     enum class Order {

@@ -13,9 +13,7 @@ bool SourceLimit::admits(const PacketSource& source, double arrival_s) {
     const double passed_s = std::max(arrival_s - bucket.filled_s, 0.0);
     bucket.tokens = std::min(bucket.tokens + passed_s * packets_per_s, burst);
     bucket.filled_s = std::max(bucket.filled_s, arrival_s);
-    if (bucket.tokens < 1.0) {
-        return false;
-    }
+    if (bucket.tokens < 1.0) { return false; }
     bucket.tokens -= 1.0;
     return true;
 }

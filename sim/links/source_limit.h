@@ -7,8 +7,8 @@
 
 namespace octant::sim::links {
 
-/// Lets so many packets a second through from each sender, by a bucket of tokens. Senders share
-/// buckets by chance, so that no number of them takes more memory.
+/// Lets so many packets a second through from each sender, by a bucket of tokens. Senders share buckets by chance, so
+/// that no number of them takes more memory.
 class SourceLimit {
 public:
     static constexpr double packets_per_s = 25000.0;

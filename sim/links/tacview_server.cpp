@@ -1,5 +1,5 @@
-// The handshake: Tacview's page on real-time telemetry. The server's greeting ends in a zero byte
-// and names no password; so does the client's answer, whose last line would be one.
+// The handshake: Tacview's page on real-time telemetry. The server's greeting ends in a zero byte and names no
+// password; so does the client's answer, whose last line would be one.
 
 #include "sim/links/tacview_server.h"
 
@@ -23,26 +23,18 @@ constexpr std::size_t longest_answer = 4096;
 
 } // namespace
 
-TacviewServer::TacviewServer(std::uint32_t address, std::uint16_t port, std::string name)
-    : name_(std::move(name)) {
+TacviewServer::TacviewServer(std::uint32_t address, std::uint16_t port, std::string name) : name_(std::move(name)) {
     std::tie(socket_, port_) = listening_socket(address, port);
 }
 
 TacviewServer::~TacviewServer() {
-    for (const Client& client : clients_) {
-        ::close(client.socket);
-    }
-    if (socket_ >= 0) {
-        ::close(socket_);
-    }
+    for (const Client& client : clients_) { ::close(client.socket); }
+    if (socket_ >= 0) { ::close(socket_); }
 }
 
 TacviewServer::TacviewServer(TacviewServer&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1))
-    , port_(other.port_)
-    , name_(std::move(other.name_))
-    , head_(std::move(other.head_))
-    , clients_(std::exchange(other.clients_, {})) {}
+    : socket_(std::exchange(other.socket_, -1)), port_(other.port_), name_(std::move(other.name_)),
+      head_(std::move(other.head_)), clients_(std::exchange(other.clients_, {})) {}
 
 TacviewServer& TacviewServer::operator=(TacviewServer&& other) noexcept {
     std::swap(socket_, other.socket_);
@@ -53,15 +45,12 @@ TacviewServer& TacviewServer::operator=(TacviewServer&& other) noexcept {
     return *this;
 }
 
-/// A newcomer takes the place of the client that has been shaking hands for longest, where too many
-/// are.
+/// A newcomer takes the place of the client that has been shaking hands for longest, where too many are.
 void TacviewServer::take_clients() {
     constexpr int max_a_call = 256;
     for (int taken = 0; taken < max_a_call; ++taken) {
         const auto client = accepted_client(socket_);
-        if (!client) {
-            break;
-        }
+        if (!client) { break; }
         if (clients_.size() - readers() == max_handshakes) {
             const auto slow = std::ranges::find(clients_, false, &Client::ready);
             ::close(slow->socket);
@@ -83,22 +72,14 @@ bool TacviewServer::do_handshake(Client& client) const {
             continue; // What a reader says later does not matter.
         }
         client.heard.append(bytes.data(), static_cast<std::size_t>(count));
-        if (client.heard.size() > longest_answer) {
-            return false;
-        }
+        if (client.heard.size() > longest_answer) { return false; }
     }
-    if (count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK)) {
-        return false;
-    }
-    if (client.ready) {
-        return true;
-    }
+    if (count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK)) { return false; }
+    if (client.ready) { return true; }
     if (client.heard.find('\0') == std::string::npos) {
         return std::chrono::steady_clock::now() - client.since < handshake_timeout;
     }
-    if (!client.heard.starts_with("XtraLib.Stream.0\n") || readers() == max_readers) {
-        return false;
-    }
+    if (!client.heard.starts_with("XtraLib.Stream.0\n") || readers() == max_readers) { return false; }
     client.ready = true;
     client.waiting += head_;
     return true;
@@ -107,11 +88,8 @@ bool TacviewServer::do_handshake(Client& client) const {
 /// Returns false for a client that does not keep up or has gone.
 bool TacviewServer::flush(Client& client) {
     while (!client.waiting.empty()) {
-        const ssize_t sent = ::send(
-            client.socket,
-            client.waiting.data(),
-            client.waiting.size(),
-            MSG_DONTWAIT | MSG_NOSIGNAL);
+        const ssize_t sent =
+            ::send(client.socket, client.waiting.data(), client.waiting.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent <= 0) {
             const bool later = sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
             return later && client.waiting.size() <= max_waiting_bytes;
@@ -127,9 +105,7 @@ void TacviewServer::send(std::string_view text) {
         Client& client = clients_[i];
         const bool was_ready = client.ready;
         bool stays = do_handshake(client);
-        if (stays && was_ready) {
-            client.waiting += text;
-        }
+        if (stays && was_ready) { client.waiting += text; }
         stays = stays && flush(client);
         if (stays) {
             ++i;

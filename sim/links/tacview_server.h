@@ -12,9 +12,8 @@
 
 namespace octant::sim::links {
 
-/// Tacview's real-time telemetry: a TCP server that speaks first and then sends ACMI text as it
-/// comes. Late joiners get the header and what every object is first; readers that do not keep up
-/// are let go.
+/// Tacview's real-time telemetry: a TCP server that speaks first and then sends ACMI text as it comes. Late joiners get
+/// the header and what every object is first; readers that do not keep up are let go.
 class TacviewServer {
 public:
     static constexpr std::uint16_t usual_port = 42674;

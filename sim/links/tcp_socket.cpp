@@ -27,13 +27,9 @@ std::pair<int, std::uint16_t> listening_socket(std::uint32_t address, std::uint1
         ::bind(listening, &generic, length) != 0 || ::listen(listening, waiting_clients) != 0 ||
         ::getsockname(listening, &generic, &length) != 0) {
         const int fault = errno;
-        if (listening >= 0) {
-            ::close(listening);
-        }
+        if (listening >= 0) { ::close(listening); }
         throw Error(fmt::format(
-            "{}: expected a free TCP port of this machine, got: {}",
-            text_of({address, port}),
-            std::strerror(fault)));
+            "{}: expected a free TCP port of this machine, got: {}", text_of({address, port}), std::strerror(fault)));
     }
     std::memcpy(&own, &generic, sizeof(own));
     return {listening, ntohs(own.sin_port)};
@@ -43,9 +39,7 @@ std::optional<std::pair<int, PacketSource>> accepted_client(int listening) {
     sockaddr generic{};
     socklen_t length = sizeof(generic);
     const int client = ::accept4(listening, &generic, &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (client < 0) {
-        return std::nullopt;
-    }
+    if (client < 0) { return std::nullopt; }
     sockaddr_in from{};
     std::memcpy(&from, &generic, sizeof(from));
     return std::pair(client, PacketSource{ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)});

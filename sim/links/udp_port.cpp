@@ -37,9 +37,7 @@ sockaddr_in internet_address(std::uint32_t address, std::uint16_t port) {
 
 [[noreturn]] void refuse(std::uint32_t address, std::uint16_t port) {
     throw Error(fmt::format(
-        "{}: expected a free UDP port of this machine, got: {}",
-        text_of({address, port}),
-        std::strerror(errno)));
+        "{}: expected a free UDP port of this machine, got: {}", text_of({address, port}), std::strerror(errno)));
 }
 
 } // namespace
@@ -69,8 +67,7 @@ struct UdpPort::Batch {
     /// How long ago a packet reached this machine, seconds.
     double age_s(std::size_t i, double system_now_s) {
         msghdr& header = headers[i].msg_hdr;
-        for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr;
-             part = CMSG_NXTHDR(&header, part)) {
+        for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
             if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SCM_TIMESTAMPNS) {
                 timespec time{};
                 std::memcpy(&time, CMSG_DATA(part), sizeof(time));
@@ -87,18 +84,15 @@ std::uint32_t address_from_text(const std::string& option, const std::string& te
     in_addr address{};
     if (inet_pton(AF_INET, text.c_str(), &address) != 1) {
         throw Error(fmt::format(
-            "{}: expected an IPv4 address such as 127.0.0.1 or 0.0.0.0, got '{}'",
-            option,
-            printable(text)));
+            "{}: expected an IPv4 address such as 127.0.0.1 or 0.0.0.0, got '{}'", option, printable(text)));
     }
     return ntohl(address.s_addr);
 }
 
 PacketSource peer_from_text(const std::string& option, const std::string& text) {
     const std::size_t colon = text.rfind(':');
-    const auto port = colon == std::string::npos
-                          ? std::nullopt
-                          : whole_number(std::string_view(text).substr(colon + 1));
+    const auto port =
+        colon == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(colon + 1));
     constexpr long last_port = 65535;
     if (!port || *port < 1 || *port > last_port || colon == 0) {
         throw Error(fmt::format("{}: expected HOST:PORT, got '{}'", option, printable(text)));
@@ -108,8 +102,7 @@ PacketSource peer_from_text(const std::string& option, const std::string& text) 
     addrinfo* found = nullptr;
     const std::string host = text.substr(0, colon);
     if (getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0 || found == nullptr) {
-        throw Error(fmt::format(
-            "{}: expected a host with an IPv4 address, got '{}'", option, printable(host)));
+        throw Error(fmt::format("{}: expected a host with an IPv4 address, got '{}'", option, printable(host)));
     }
     sockaddr_in address{};
     std::memcpy(&address, found->ai_addr, sizeof(address));
@@ -118,18 +111,14 @@ PacketSource peer_from_text(const std::string& option, const std::string& text) 
 }
 
 UdpPort::UdpPort(std::uint32_t address, std::uint16_t port)
-    : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
-    , batch_(std::make_unique<Batch>()) {
+    : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)), batch_(std::make_unique<Batch>()) {
     sockaddr_in own = internet_address(address, port);
     socklen_t length = sizeof(own);
     sockaddr generic{};
     std::memcpy(&generic, &own, sizeof(generic));
-    if (socket_ < 0 || ::bind(socket_, &generic, length) != 0 ||
-        ::getsockname(socket_, &generic, &length) != 0) {
+    if (socket_ < 0 || ::bind(socket_, &generic, length) != 0 || ::getsockname(socket_, &generic, &length) != 0) {
         const int fault = errno;
-        if (socket_ >= 0) {
-            ::close(socket_);
-        }
+        if (socket_ >= 0) { ::close(socket_); }
         errno = fault;
         refuse(address, port);
     }
@@ -143,15 +132,11 @@ UdpPort::UdpPort(std::uint32_t address, std::uint16_t port)
 }
 
 UdpPort::~UdpPort() {
-    if (socket_ >= 0) {
-        ::close(socket_);
-    }
+    if (socket_ >= 0) { ::close(socket_); }
 }
 
 UdpPort::UdpPort(UdpPort&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1))
-    , port_(other.port_)
-    , batch_(std::move(other.batch_)) {}
+    : socket_(std::exchange(other.socket_, -1)), port_(other.port_), batch_(std::move(other.batch_)) {}
 
 UdpPort& UdpPort::operator=(UdpPort&& other) noexcept {
     std::swap(socket_, other.socket_);
@@ -165,18 +150,12 @@ void UdpPort::drain(Protocol protocol, double now_s, std::vector<Datagram>& into
     clock_gettime(CLOCK_REALTIME, &system_now);
     for (std::size_t taken = 0; taken < max_a_drain;) {
         batch_->prepare();
-        const int count =
-            ::recvmmsg(socket_, batch_->headers.data(), batch_size, MSG_DONTWAIT, nullptr);
-        if (count <= 0) {
-            return;
-        }
+        const int count = ::recvmmsg(socket_, batch_->headers.data(), batch_size, MSG_DONTWAIT, nullptr);
+        if (count <= 0) { return; }
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
             const std::byte* const first = batch_->bytes[i].data();
-            into.push_back(
-                {protocol,
-                 {ntohl(batch_->from[i].sin_addr.s_addr), ntohs(batch_->from[i].sin_port)},
-                 now_s - batch_->age_s(i, seconds(system_now)),
-                 {first, first + batch_->headers[i].msg_len}});
+            into.push_back({protocol, {ntohl(batch_->from[i].sin_addr.s_addr), ntohs(batch_->from[i].sin_port)},
+                now_s - batch_->age_s(i, seconds(system_now)), {first, first + batch_->headers[i].msg_len}});
         }
         taken += static_cast<std::size_t>(count);
     }
@@ -186,8 +165,7 @@ bool UdpPort::send(const PacketSource& to, std::span<const std::byte> bytes) {
     const sockaddr_in peer = internet_address(to.address, to.port);
     sockaddr generic{};
     std::memcpy(&generic, &peer, sizeof(generic));
-    const ssize_t sent =
-        ::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT, &generic, sizeof(peer));
+    const ssize_t sent = ::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT, &generic, sizeof(peer));
     return sent == static_cast<ssize_t>(bytes.size());
 }
 

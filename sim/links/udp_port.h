@@ -13,8 +13,7 @@ namespace octant::sim::links {
 /// "127.0.0.1", "0.0.0.0" or another IPv4 address as a number. Throws Error that names `option`.
 std::uint32_t address_from_text(const std::string& option, const std::string& text);
 
-/// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error
-/// "option: ...".
+/// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error "option: ...".
 PacketSource peer_from_text(const std::string& option, const std::string& text);
 
 /// A UDP socket that never waits.
@@ -36,8 +35,8 @@ public:
     /// The port it is bound to.
     std::uint16_t port() const { return port_; }
 
-    /// Appends what has come, by the time it reached this machine, as `protocol`. `now_s` is the
-    /// time on the caller's clock; arrivals lie before it.
+    /// Appends what has come, by the time it reached this machine, as `protocol`. `now_s` is the time on the caller's
+    /// clock; arrivals lie before it.
     void drain(Protocol protocol, double now_s, std::vector<Datagram>& into);
 
     /// Sends a packet and does not wait; false where it could not be sent.

@@ -17,21 +17,17 @@ using Bytes = std::span<const std::byte>;
 
 enum class ByteOrder { Big, Little };
 
-/// Reads numbers of a packet wherever they stand. A number that does not lie within the packet
-/// reads as 0: decoders check lengths before, and a mistake of theirs reads no other memory.
+/// Reads numbers of a packet wherever they stand. A number that does not lie within the packet reads as 0: decoders
+/// check lengths before, and a mistake of theirs reads no other memory.
 class WireReader {
 public:
-    WireReader(Bytes bytes, ByteOrder order)
-        : bytes_(bytes)
-        , order_(order) {}
+    WireReader(Bytes bytes, ByteOrder order) : bytes_(bytes), order_(order) {}
 
     /// Integers and floating-point numbers of 1, 2, 4 or 8 bytes.
     template <class Number>
     Number at(std::size_t offset) const {
         static_assert(std::is_arithmetic_v<Number>);
-        if (offset > bytes_.size() || bytes_.size() - offset < sizeof(Number)) {
-            return {};
-        }
+        if (offset > bytes_.size() || bytes_.size() - offset < sizeof(Number)) { return {}; }
         std::uint64_t whole = 0;
         for (std::size_t i = 0; i < sizeof(Number); ++i) {
             const std::size_t byte = order_ == ByteOrder::Big ? i : sizeof(Number) - 1 - i;
@@ -48,9 +44,7 @@ public:
 
     /// Three numbers of 4 bytes one behind the other.
     glm::dvec3 floats(std::size_t offset) const {
-        return {
-            static_cast<double>(at<float>(offset)),
-            static_cast<double>(at<float>(offset + 4)),
+        return {static_cast<double>(at<float>(offset)), static_cast<double>(at<float>(offset + 4)),
             static_cast<double>(at<float>(offset + 8))};
     }
 
@@ -64,8 +58,7 @@ private:
 /// Writes numbers behind each other, or over what stands there already.
 class WireWriter {
 public:
-    explicit WireWriter(ByteOrder order)
-        : order_(order) {}
+    explicit WireWriter(ByteOrder order) : order_(order) {}
 
     template <class Number>
     void add(Number number) {
@@ -79,9 +72,7 @@ public:
     template <class Number>
     void set(std::size_t offset, Number number) {
         static_assert(std::is_arithmetic_v<Number>);
-        if (offset > bytes_.size() || bytes_.size() - offset < sizeof(Number)) {
-            return;
-        }
+        if (offset > bytes_.size() || bytes_.size() - offset < sizeof(Number)) { return; }
         std::uint64_t whole = 0;
         if constexpr (std::same_as<Number, double>) {
             whole = std::bit_cast<std::uint64_t>(number);

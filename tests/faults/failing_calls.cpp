@@ -1,6 +1,5 @@
-// Preloaded into the program that is tried: the N-th allocation of its own code throws, the N-th
-// write of any code to a regular file fails as on a full disk. What libraries in C allocate, and
-// programs that it starts, are left alone.
+// Preloaded into the program that is tried: the N-th allocation of its own code throws, the N-th write of any code to a
+// regular file fails as on a full disk. What libraries in C allocate, and programs that it starts, are left alone.
 #include "tests/faults/fault_counters.h"
 
 #include <cerrno>
@@ -40,9 +39,7 @@ struct OwnCode {
     bool holds(const void* address) const {
         const auto at = reinterpret_cast<std::uintptr_t>(address);
         for (std::size_t i = 0; i < count; ++i) {
-            if (at >= ranges[i].first && at < ranges[i].end) {
-                return true;
-            }
+            if (at >= ranges[i].first && at < ranges[i].end) { return true; }
         }
         return false;
     }
@@ -52,13 +49,10 @@ OwnCode own_code;
 
 int note_own_code(dl_phdr_info* object, std::size_t /*size*/, void* /*unused*/) {
     const std::string_view name = object->dlpi_name;
-    if (!name.empty() && name.find("libstdc++") == name.npos && name.find("libfmt") == name.npos) {
-        return 0;
-    }
+    if (!name.empty() && name.find("libstdc++") == name.npos && name.find("libfmt") == name.npos) { return 0; }
     for (int i = 0; i < object->dlpi_phnum; ++i) {
         const ElfW(Phdr)& part = object->dlpi_phdr[i];
-        if (part.p_type == PT_LOAD && (part.p_flags & PF_X) != 0 &&
-            own_code.count < OwnCode::most) {
+        if (part.p_type == PT_LOAD && (part.p_flags & PF_X) != 0 && own_code.count < OwnCode::most) {
             const std::uintptr_t first = object->dlpi_addr + part.p_vaddr;
             own_code.ranges[own_code.count++] = {first, first + part.p_memsz};
         }
@@ -68,15 +62,10 @@ int note_own_code(dl_phdr_info* object, std::size_t /*size*/, void* /*unused*/) 
 
 void map_counters() {
     const char* const file = std::getenv(counters_variable);
-    if (file == nullptr) {
-        return;
-    }
+    if (file == nullptr) { return; }
     const int descriptor = ::open(file, O_RDWR | O_CLOEXEC);
-    if (descriptor < 0) {
-        return;
-    }
-    void* const mapped =
-        ::mmap(nullptr, sizeof(FaultCounters), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+    if (descriptor < 0) { return; }
+    void* const mapped = ::mmap(nullptr, sizeof(FaultCounters), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     ::close(descriptor);
     ::unsetenv("LD_PRELOAD");
     ::unsetenv(counters_variable);
@@ -89,15 +78,12 @@ bool is_due(std::uint64_t point, std::uint64_t failing) {
 }
 
 bool allocation_fails(const void* caller) {
-    return is_counting && own_code.holds(caller) &&
-           is_due(++counters->allocations, counters->failing_allocation);
+    return is_counting && own_code.holds(caller) && is_due(++counters->allocations, counters->failing_allocation);
 }
 
 bool point_fails() {
     const bool fails = is_counting && is_due(++counters->writes, counters->failing_write);
-    if (fails) {
-        errno = ENOSPC;
-    }
+    if (fails) { errno = ENOSPC; }
     return fails;
 }
 
@@ -114,17 +100,14 @@ Function* next(const char* name) {
 
 void* allocated(std::size_t bytes, const void* caller) {
     void* const memory = allocation_fails(caller) ? nullptr : std::malloc(bytes == 0 ? 1 : bytes);
-    if (memory == nullptr) {
-        throw std::bad_alloc();
-    }
+    if (memory == nullptr) { throw std::bad_alloc(); }
     return memory;
 }
 
 void* allocated(std::size_t bytes, std::align_val_t alignment, const void* caller) {
     void* memory = nullptr;
     if (allocation_fails(caller) ||
-        ::posix_memalign(&memory, static_cast<std::size_t>(alignment), bytes == 0 ? 1 : bytes) !=
-            0) {
+        ::posix_memalign(&memory, static_cast<std::size_t>(alignment), bytes == 0 ? 1 : bytes) != 0) {
         throw std::bad_alloc();
     }
     return memory;
@@ -132,13 +115,9 @@ void* allocated(std::size_t bytes, std::align_val_t alignment, const void* calle
 
 } // namespace
 
-void* operator new(std::size_t bytes) {
-    return allocated(bytes, __builtin_return_address(0));
-}
+void* operator new(std::size_t bytes) { return allocated(bytes, __builtin_return_address(0)); }
 
-void* operator new[](std::size_t bytes) {
-    return allocated(bytes, __builtin_return_address(0));
-}
+void* operator new[](std::size_t bytes) { return allocated(bytes, __builtin_return_address(0)); }
 
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
     return allocated(bytes, alignment, __builtin_return_address(0));
@@ -148,36 +127,23 @@ void* operator new[](std::size_t bytes, std::align_val_t alignment) {
     return allocated(bytes, alignment, __builtin_return_address(0));
 }
 
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
+void operator delete(void* memory) noexcept { std::free(memory); }
 
-void operator delete[](void* memory) noexcept {
-    std::free(memory);
-}
+void operator delete[](void* memory) noexcept { std::free(memory); }
 
-void operator delete(void* memory, std::size_t /*bytes*/) noexcept {
-    std::free(memory);
-}
+void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
 
-void operator delete[](void* memory, std::size_t /*bytes*/) noexcept {
-    std::free(memory);
-}
+void operator delete[](void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
 
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
-    std::free(memory);
-}
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
 
-void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
-    std::free(memory);
-}
+void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
 
 void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
     std::free(memory);
 }
 
-void operator delete[](
-    void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+void operator delete[](void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
     std::free(memory);
 }
 
@@ -188,13 +154,7 @@ using Main = int (*)(int, char**, char**);
 /// Counting begins with main(): nobody could catch what fails before.
 // NOLINTNEXTLINE: the C library's own name
 int __libc_start_main(
-    Main program,
-    int argc,
-    char** argv,
-    void (*init)(),
-    void (*fini)(),
-    void (*rtld_fini)(),
-    void* stack) {
+    Main program, int argc, char** argv, void (*init)(), void (*fini)(), void (*rtld_fini)(), void* stack) {
     static Main own = nullptr;
     own = program;
     map_counters();

@@ -5,8 +5,8 @@
 
 namespace octant::tests::faults {
 
-/// Shared by the program that is tried and the one that tries it, through a mapped file. Points of
-/// each kind count from 1 on; 0 fails none.
+/// Shared by the program that is tried and the one that tries it, through a mapped file. Points of each kind count from
+/// 1 on; 0 fails none.
 struct FaultCounters {
     std::atomic<std::uint64_t> allocations;        ///< so far
     std::atomic<std::uint64_t> writes;             ///< so far

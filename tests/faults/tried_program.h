@@ -32,10 +32,7 @@ struct RunSummary {
 class TriedProgram {
 public:
     /// Keeps its counters in `scratch`. Throws Error.
-    TriedProgram(
-        std::filesystem::path program,
-        std::filesystem::path preloaded,
-        const std::filesystem::path& scratch);
+    TriedProgram(std::filesystem::path program, std::filesystem::path preloaded, const std::filesystem::path& scratch);
     ~TriedProgram();
     TriedProgram(TriedProgram&&) = delete;
     TriedProgram& operator=(TriedProgram&&) = delete;
@@ -43,10 +40,7 @@ public:
     TriedProgram& operator=(const TriedProgram&) = delete;
 
     /// Runs it in a folder, for five minutes at most. Throws Error when it cannot be started.
-    RunSummary
-    run(const std::vector<std::string>& words,
-        const std::filesystem::path& folder,
-        const Fault& fault);
+    RunSummary run(const std::vector<std::string>& words, const std::filesystem::path& folder, const Fault& fault);
 
 private:
     std::filesystem::path program_;

@@ -16,9 +16,7 @@ namespace {
 
 const std::string head = "FileType=text/acmi/tacview\nFileVersion=2.2\n";
 
-AcmiRecording tape_of(const std::string& lines) {
-    return parse_acmi(head + lines, "a.acmi");
-}
+AcmiRecording tape_of(const std::string& lines) { return parse_acmi(head + lines, "a.acmi"); }
 
 constexpr double degree_north_m = 111132.954 - 559.822 + 1.175; // of the meridian at the equator
 
@@ -26,8 +24,8 @@ constexpr double degree_north_m = 111132.954 - 559.822 + 1.175; // of the meridi
 
 TEST_CASE("what a line leaves out of a place stays, and references are added") {
     const AcmiRecording tape = tape_of("0,ReferenceLongitude=8\n0,ReferenceLatitude=0\n#10\n"
-                                  "a1,T=0.5|0.001|150|10|0|90,Name=F-15C,Type=Air+FixedWing\n"
-                                  "#11\na1,T=|0.002||||\n#12\na1,T=|0.003|160|||80\n");
+                                       "a1,T=0.5|0.001|150|10|0|90,Name=F-15C,Type=Air+FixedWing\n"
+                                       "#11\na1,T=|0.002||||\n#12\na1,T=|0.003|160|||80\n");
     REQUIRE(tape.aircraft.size() == 1);
     const RecordedAircraft& aircraft = tape.aircraft.front();
     CHECK(aircraft.name == "F-15C");
@@ -49,10 +47,9 @@ TEST_CASE("what a line leaves out of a place stays, and references are added") {
 }
 
 TEST_CASE("a tape's aircraft share one clock and one origin, the one seen longest first") {
-    const AcmiRecording tape =
-        tape_of("#0\n1,T=0|0|100,Type=Air+Rotorcraft\n2,T=0.01|0|300\n#1\n"
-                "1,T=0.0001|0|100\n2,T=0.011|0|300\n#1.5\n-1\n#2\n2,T=0.012|0|300\n"
-                "1,T=1|1|5,Type=Air+FixedWing,Name=another\n#3\n1,T=1.001|1|5\n");
+    const AcmiRecording tape = tape_of("#0\n1,T=0|0|100,Type=Air+Rotorcraft\n2,T=0.01|0|300\n#1\n"
+                                       "1,T=0.0001|0|100\n2,T=0.011|0|300\n#1.5\n-1\n#2\n2,T=0.012|0|300\n"
+                                       "1,T=1|1|5,Type=Air+FixedWing,Name=another\n#3\n1,T=1.001|1|5\n");
     REQUIRE(tape.aircraft.size() == 3);
     CHECK(tape.aircraft[0].type.empty());
     CHECK(tape.aircraft[0].trajectory.end_s() == 2.0);
@@ -64,27 +61,23 @@ TEST_CASE("a tape's aircraft share one clock and one origin, the one seen longes
     CHECK(tape.aircraft[1].trajectory.samples()[0].position_m.x < -1000.0);
 }
 
-TEST_CASE(
-    "lines out of order, escapes, lines that go on and comments are read as the format says") {
-    const AcmiRecording tape =
-        tape_of("// a comment\n0,Title=one\\, two\\\nthree,Author=x\n#2\n"
-                "1,T=0.002|0|10,Name=a\\,b\n#1\n1,T=0.001|0|10\n#2\n1,T=0.003|0|10\n");
+TEST_CASE("lines out of order, escapes, lines that go on and comments are read as the format says") {
+    const AcmiRecording tape = tape_of("// a comment\n0,Title=one\\, two\\\nthree,Author=x\n#2\n"
+                                       "1,T=0.002|0|10,Name=a\\,b\n#1\n1,T=0.001|0|10\n#2\n1,T=0.003|0|10\n");
     REQUIRE(tape.aircraft.size() == 1);
     CHECK(tape.aircraft[0].name == "a,b");
     const auto samples = tape.aircraft[0].trajectory.samples();
     REQUIRE(samples.size() == 2);
     CHECK(samples[0].time_s == 0.0);
     CHECK(samples[1].time_s == 1.0);
-    CHECK(
-        samples[1].position_m.x - samples[0].position_m.x ==
-        Approx(0.002 * 111319.5).epsilon(1e-4));
+    CHECK(samples[1].position_m.x - samples[0].position_m.x == Approx(0.002 * 111319.5).epsilon(1e-4));
 }
 
 TEST_CASE("what is no aircraft, seen once or impossible is left out and told") {
-    const AcmiRecording tape = tape_of(
-        "#0\n1,T=0|0|10\n2,T=0|0|0,Type=Ground+Tank\n3,T=0|0|10,Type=Air+FixedWing\n"
-        "4,T=50|0|10,Type=Air+FixedWing\n#1\n1,T=0.001|0|10\n2,T=0.001|0|0\n4,T=50.001|0|10\n"
-        "#2\n1,T=1|0|10\n#3\n1,T=0.002|0|10\n1,T=0.002|95|10\n");
+    const AcmiRecording tape =
+        tape_of("#0\n1,T=0|0|10\n2,T=0|0|0,Type=Ground+Tank\n3,T=0|0|10,Type=Air+FixedWing\n"
+                "4,T=50|0|10,Type=Air+FixedWing\n#1\n1,T=0.001|0|10\n2,T=0.001|0|0\n4,T=50.001|0|10\n"
+                "#2\n1,T=1|0|10\n#3\n1,T=0.002|0|10\n1,T=0.002|95|10\n");
     REQUIRE(tape.aircraft.size() == 1);
     CHECK(tape.aircraft[0].trajectory.samples().size() == 3);
     REQUIRE(tape.notes.size() == 4);
@@ -100,9 +93,7 @@ TEST_CASE("a tape of more objects than any battle has is refused at the first to
     for (int i = 1; i <= most + 1; ++i) {
         lines += std::to_string(i) + ",\n"; // decimal digits are numbers in hexadecimal, too
     }
-    CHECK_THROWS_WITH(
-        tape_of(lines),
-        Contains("a.acmi:1000003: expected at most 1000000 objects, got '1000001,'"));
+    CHECK_THROWS_WITH(tape_of(lines), Contains("a.acmi:1000003: expected at most 1000000 objects, got '1000001,'"));
 }
 
 TEST_CASE("what is no tape is refused in one line that names its place") {
@@ -111,17 +102,13 @@ TEST_CASE("what is no tape is refused in one line that names its place") {
         std::string expected;
     };
 
-    const std::vector<Case> cases{
-        {"", "a.acmi:1: expected FileType=text/acmi/tacview, got ''"},
+    const std::vector<Case> cases{{"", "a.acmi:1: expected FileType=text/acmi/tacview, got ''"},
         {"FileType=text/acmi/tacview\nFileVersion=1.0\n", "a.acmi:2: expected FileVersion=2.x"},
         {head + "#x\n", "a.acmi:3: expected a number, got 'x'"},
         {head + "#0\nzz,T=0|0|0\n", "a.acmi:4: expected an object's number in hexadecimal digits"},
         {head + "1,T=0|0\n", "a.acmi:3: expected 3, 5, 6 or 9 components after T=, got '0|0'"},
         {head + "1,T=0|nan|0\n", "a.acmi:3: expected a number, got 'nan'"},
         {head + "#0\n#1e9\n", "a.acmi:4: expected a time within 86400 s of the first"},
-        {head + "#0\n1,T=0|0|0\n",
-         "a.acmi: expected aircraft that move, got none among 1 objects"}};
-    for (const Case& wrong : cases) {
-        CHECK_THROWS_WITH(parse_acmi(wrong.text, "a.acmi"), Contains(wrong.expected));
-    }
+        {head + "#0\n1,T=0|0|0\n", "a.acmi: expected aircraft that move, got none among 1 objects"}};
+    for (const Case& wrong : cases) { CHECK_THROWS_WITH(parse_acmi(wrong.text, "a.acmi"), Contains(wrong.expected)); }
 }

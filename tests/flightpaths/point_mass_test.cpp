@@ -15,9 +15,7 @@ using namespace octant::flightpaths;
 namespace {
 
 PointMass flown(PointMass mass, const PointMassControls& controls, double seconds) {
-    for (long step = 0; step < sim::step_at(seconds); ++step) {
-        mass = stepped(mass, controls, sim::step_s);
-    }
+    for (long step = 0; step < sim::step_at(seconds); ++step) { mass = stepped(mass, controls, sim::step_s); }
     return mass;
 }
 
@@ -49,9 +47,8 @@ TEST_CASE("a pull at 3.5 g from level starts to climb at 2.5 g / V") {
     PointMass mass = point_mass_at({0, 0, 0}, 250, 1.0, 0);
     mass.load_factor = 3.5;
     const PointMass end = flown(mass, {}, 0.1);
-    CHECK(
-        euler_from_body_to_world(end.flight_to_world).pitch_rad ==
-        Approx(0.1 * 2.5 * gravity_mps2 / 250).epsilon(0.001));
+    CHECK(euler_from_body_to_world(end.flight_to_world).pitch_rad ==
+          Approx(0.1 * 2.5 * gravity_mps2 / 250).epsilon(0.001));
 }
 
 TEST_CASE("without lift the path is a throw") {
@@ -67,11 +64,9 @@ TEST_CASE("a loop through the vertical comes back with no jump of attitude") {
     double highest = 0.0;
     double turned = 0.0;
     for (int step = 0; step < 120 * 60 && turned < 2 * pi; ++step) {
-        mass.load_factor =
-            4.0 + (mass.flight_to_world * glm::dvec3(0, 0, -1)).z; // 4 g across the path
+        mass.load_factor = 4.0 + (mass.flight_to_world * glm::dvec3(0, 0, -1)).z; // 4 g across the path
         const PointMass next = stepped(mass, {}, sim::step_s);
-        const double dot =
-            std::min(1.0, std::abs(glm::dot(mass.flight_to_world, next.flight_to_world)));
+        const double dot = std::min(1.0, std::abs(glm::dot(mass.flight_to_world, next.flight_to_world)));
         CHECK(2 * std::acos(dot) < 1.1 * 4 * gravity_mps2 / 200 * sim::step_s);
         turned += 4 * gravity_mps2 / 200 * sim::step_s;
         mass = next;

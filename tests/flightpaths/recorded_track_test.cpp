@@ -19,9 +19,7 @@ using octant::tests::written;
 
 namespace {
 
-RecordedTrack track_of(const std::string& text) {
-    return read_recorded_track(written("track.csv", text));
-}
+RecordedTrack track_of(const std::string& text) { return read_recorded_track(written("track.csv", text)); }
 
 const std::string own_head = "t_s,north_m,east_m,alt_m\n";
 
@@ -56,14 +54,12 @@ TEST_CASE("own columns are found by name in any order, others are passed over") 
 }
 
 TEST_CASE("quotes around names and numbers are no part of them") {
-    const RecordedTrack track =
-        track_of("\"t_s\";\"north_m\";\"east_m\";\"alt_m\"\n\"0\";\"5\";0;\"7\";\n1;5;0;8\n");
+    const RecordedTrack track = track_of("\"t_s\";\"north_m\";\"east_m\";\"alt_m\"\n\"0\";\"5\";0;\"7\";\n1;5;0;8\n");
     REQUIRE(track.trajectory.samples().size() == 2);
     CHECK(track.trajectory.samples()[0].position_m == glm::dvec3(0.0, 5.0, 7.0));
 }
 
-TEST_CASE(
-    "JSBSim columns come with tabs, commas or semicolons, in feet, with the geodetic latitude") {
+TEST_CASE("JSBSim columns come with tabs, commas or semicolons, in feet, with the geodetic latitude") {
     for (const char separator : {',', '\t', ';'}) {
         std::string text = "Time;Altitude ASL (ft);Phi (deg);Theta (deg);Psi (deg);Latitude (deg);"
                            "Latitude Geodetic (deg);Longitude (deg);V_{North} (ft/s);V_{East} "
@@ -71,9 +67,7 @@ TEST_CASE(
                            "0;1000;10;5;90;37.2;37.4;127.1;0;328.084;-32.8084\n"
                            "1;1032.8084;10;5;90;37.2;37.401;127.1;0;328.084;-32.8084\n"
                            "2;1065.6168;10;5;90;37.2;37.4;127.102;0;328.084;-32.8084\n";
-        for (char& c : text) {
-            c = c == ';' ? separator : c;
-        }
+        for (char& c : text) { c = c == ';' ? separator : c; }
         const RecordedTrack track = track_of(text);
         REQUIRE(track.origin);
         CHECK(track.origin->latitude_deg == 37.4);
@@ -107,9 +101,8 @@ TEST_CASE("a flight over the date line is whole") {
 }
 
 TEST_CASE("a flight over the pole is whole") {
-    const RecordedTrack track =
-        track_of("Time,Latitude Geodetic (deg),Longitude (deg),Altitude ASL (ft)\n"
-                 "0,89.999,20,100\n1,89.999,-160,100\n");
+    const RecordedTrack track = track_of("Time,Latitude Geodetic (deg),Longitude (deg),Altitude ASL (ft)\n"
+                                         "0,89.999,20,100\n1,89.999,-160,100\n");
     const glm::dvec3 behind_m = track.trajectory.samples()[1].position_m;
     CHECK(behind_m.x == Approx(0.0).margin(1e-6));
     CHECK(behind_m.y == Approx(223.39).margin(0.01));
@@ -139,81 +132,57 @@ TEST_CASE("velocities are exact for a parabola, also with uneven times") {
         samples[i].position_m.z = 3 + 2 * times[i] - 4 * times[i] * times[i];
     }
     fill_velocities(samples);
-    for (std::size_t i = 0; i < 5; ++i) {
-        CHECK(samples[i].velocity_mps.z == Approx(2 - 8 * times[i]));
-    }
+    for (std::size_t i = 0; i < 5; ++i) { CHECK(samples[i].velocity_mps.z == Approx(2 - 8 * times[i])); }
 }
 
 TEST_CASE("an aircraft that stands still or falls keeps an attitude") {
     const RecordedTrack still = track_of(own_head + "0,1,1,1\n1,1,1,1\n2,1,1,1\n");
     CHECK(still.trajectory.samples()[1].load_factor == Approx(1));
     std::string fall = own_head;
-    for (int i = 0; i < 10; ++i) {
-        fall += std::to_string(i) + ",0,0," + std::to_string(1000 - 100 * i) + "\n";
-    }
+    for (int i = 0; i < 10; ++i) { fall += std::to_string(i) + ",0,0," + std::to_string(1000 - 100 * i) + "\n"; }
     const RecordedTrack falling = track_of(fall);
-    for (const auto& state : falling.trajectory.samples()) {
-        CHECK(glm::length(state.body_to_world) == Approx(1));
-    }
+    for (const auto& state : falling.trajectory.samples()) { CHECK(glm::length(state.body_to_world) == Approx(1)); }
 }
 
 TEST_CASE("wrong tracks are refused with line and what was expected") {
-    CHECK_THROWS_WITH(
-        read_recorded_track("/nowhere/a.csv"), "/nowhere/a.csv: expected a file, found none");
+    CHECK_THROWS_WITH(read_recorded_track("/nowhere/a.csv"), "/nowhere/a.csv: expected a file, found none");
     CHECK(track_fault("") == "1: expected a line of column names, got an empty one");
-    CHECK(
-        track_fault("a,b\n1,2\n") ==
-        "1: expected column names with a time, a place and an altitude among them (t_s, north_m, "
-        "east_m, alt_m or Time, Latitude, Longitude, Altitude), got a,b");
+    CHECK(track_fault("a,b\n1,2\n") ==
+          "1: expected column names with a time, a place and an altitude among them (t_s, north_m, "
+          "east_m, alt_m or Time, Latitude, Longitude, Altitude), got a,b");
     CHECK(track_fault("t_s,north_m,alt_m\n") == "1: expected a column east_m, got none");
-    CHECK(
-        track_fault("Time,Longitude (deg),Altitude ASL (ft)\n") ==
-        "1: expected a column Latitude Geodetic (deg), got none");
+    CHECK(track_fault("Time,Longitude (deg),Altitude ASL (ft)\n") ==
+          "1: expected a column Latitude Geodetic (deg), got none");
     CHECK(track_fault("t_s,t_s,north_m,east_m,alt_m\n") == "1: expected one column t_s, got two");
     CHECK(track_fault(own_head) == " expected at least 2 samples, got 0");
     CHECK(track_fault(own_head + "0,0,0,0\n") == " expected at least 2 samples, got 1");
     CHECK(track_fault(own_head + "0,0,0,0\n1,0,0\n") == "3: expected 4 fields, got 3");
     CHECK(track_fault(own_head + "0,0,0,0,\n1,0,0,0,5\n") == "3: expected 4 fields, got 5");
     CHECK(
-        track_fault(own_head + "0,0,0,0\n1,0,nan,0\n") ==
-        "3: expected a finite number in column east_m, got \"nan\"");
-    CHECK(
-        track_fault(own_head + "0,0,0,0\n1,0,1e999,0\n") ==
-        "3: expected a finite number in column east_m, got \"1e999\"");
-    CHECK(
-        track_fault(own_head + "0,0,0,0\n\n1,0,,0\n") ==
-        "4: expected a finite number in column east_m, got \"\"");
-    CHECK(
-        track_fault(own_head + "0,0,0,0\n1,0,0,0\n1,0,0,0\n") ==
-        "4: expected a time after 1.000 s, got 1.000 s");
-    CHECK(
-        track_fault(own_head + "0,0,0,0\n1e6,0,0,0\n") ==
-        "3: expected a time within 86400 s of the first, got 1000000.000 s");
-    CHECK(
-        track_fault(own_head + "1e9,0,0,0\n1000000001,0,0,0\n") ==
-        "2: expected a time from -10000000 s to 10000000 s, got 1000000000 s");
-    CHECK(
-        track_fault(own_head + "-1e300,0,0,0\n0,0,0,0\n") ==
-        "2: expected a time from -10000000 s to 10000000 s, got -1e+300 s");
-    CHECK(
-        track_fault(own_head + "1e7,0,0,0\n10000001,0,0,0\n") ==
-        "3: expected a time from -10000000 s to 10000000 s, got 10000001 s");
+        track_fault(own_head + "0,0,0,0\n1,0,nan,0\n") == "3: expected a finite number in column east_m, got \"nan\"");
+    CHECK(track_fault(own_head + "0,0,0,0\n1,0,1e999,0\n") ==
+          "3: expected a finite number in column east_m, got \"1e999\"");
+    CHECK(track_fault(own_head + "0,0,0,0\n\n1,0,,0\n") == "4: expected a finite number in column east_m, got \"\"");
+    CHECK(track_fault(own_head + "0,0,0,0\n1,0,0,0\n1,0,0,0\n") == "4: expected a time after 1.000 s, got 1.000 s");
+    CHECK(track_fault(own_head + "0,0,0,0\n1e6,0,0,0\n") ==
+          "3: expected a time within 86400 s of the first, got 1000000.000 s");
+    CHECK(track_fault(own_head + "1e9,0,0,0\n1000000001,0,0,0\n") ==
+          "2: expected a time from -10000000 s to 10000000 s, got 1000000000 s");
+    CHECK(track_fault(own_head + "-1e300,0,0,0\n0,0,0,0\n") ==
+          "2: expected a time from -10000000 s to 10000000 s, got -1e+300 s");
+    CHECK(track_fault(own_head + "1e7,0,0,0\n10000001,0,0,0\n") ==
+          "3: expected a time from -10000000 s to 10000000 s, got 10000001 s");
     CHECK(track_fault(own_head + "9999999,0,0,0\n1e7,0,0,0\n") == "no error");
-    CHECK(
-        track_fault(own_head + "0,0,0,0\n1,0,0,4000\n") ==
-        "3: expected a speed of at most 3000 m/s, got 4000.0 m/s");
-    CHECK(
-        track_fault(own_head + "0,0,1e8,0\n1,0,0,0\n") ==
-        "2: expected a place within 10000 km of the origin, got 100000 km");
-    CHECK(
-        track_fault("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n0,95,0,0\n") ==
-        "2: expected a latitude within 90 deg and a longitude within 360 deg, got 95 and 0");
+    CHECK(track_fault(own_head + "0,0,0,0\n1,0,0,4000\n") == "3: expected a speed of at most 3000 m/s, got 4000.0 m/s");
+    CHECK(track_fault(own_head + "0,0,1e8,0\n1,0,0,0\n") ==
+          "2: expected a place within 10000 km of the origin, got 100000 km");
+    CHECK(track_fault("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n0,95,0,0\n") ==
+          "2: expected a latitude within 90 deg and a longitude within 360 deg, got 95 and 0");
     CHECK(track_fault(std::string("t_s\0", 4)) == " expected text, got binary data");
 }
 
 TEST_CASE("every cut of a good track is read or refused, never worse") {
-    const std::string good =
-        "t_s,north_m,east_m,alt_m,n_g\n0,0,0,100,1\n1,50,0,100,1\n2,99,0,100,1";
+    const std::string good = "t_s,north_m,east_m,alt_m,n_g\n0,0,0,100,1\n1,50,0,100,1\n2,99,0,100,1";
     for (std::size_t length = 0; length < good.size(); ++length) {
         const std::string fault = track_fault(good.substr(0, length));
         CHECK(fault.find('\n') == std::string::npos);

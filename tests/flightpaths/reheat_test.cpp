@@ -31,9 +31,9 @@ Reheat reheat_along(const sim::Trajectory& path) {
 }
 
 Reheat reheat_of_file(const std::string& name) {
-    return reheat_along(flightpaths::read_recorded_track(
-                            std::string(OCTANT_SOURCE_DIR) + "/tests/flightpaths/tracks/" + name)
-                            .trajectory);
+    return reheat_along(
+        flightpaths::read_recorded_track(std::string(OCTANT_SOURCE_DIR) + "/tests/flightpaths/tracks/" + name)
+            .trajectory);
 }
 
 } // namespace
@@ -41,8 +41,8 @@ Reheat reheat_of_file(const std::string& name) {
 TEST_CASE("a zoom that pays height with speed needs no reheat, a dive at full power does") {
     // From 220 to 163 m/s in 10 s at 30 degrees: 5.7 m/s2 lost, 4.9 by weight, the rest by drag.
     CHECK(reheat_of_file("ballistic-zoom.csv").most == 0.0);
-    // From 180 to 270 m/s at -20 degrees: 9.3 m/s2 gained, 3.4 of them by weight. For the rest 17 t
-    // need 101 kN, and 25 to 50 kN for drag; dry thrust is 0.6 of 171 to 231 kN.
+    // From 180 to 270 m/s at -20 degrees: 9.3 m/s2 gained, 3.4 of them by weight. For the rest 17 t need 101 kN, and 25
+    // to 50 kN for drag; dry thrust is 0.6 of 171 to 231 kN.
     CHECK(reheat_of_file("full-power-dive.csv").least > 0.05);
 }
 
@@ -63,9 +63,7 @@ TEST_CASE("of the built-in paths only the pop-up needs reheat, while it gains en
     for (double time_s = pop_up.start_s() + 1.0; time_s < pop_up.end_s() - 1.0; time_s += 0.05) {
         const sim::AircraftState state = pop_up.state_at(time_s);
         const double gained = energy_m2ps2(time_s + 0.5) - energy_m2ps2(time_s - 0.5);
-        if (gained < 0.0 && state.load_factor < 3.0) {
-            CHECK(sim::reheat_fraction(&f15, state) == 0.0);
-        }
+        if (gained < 0.0 && state.load_factor < 3.0) { CHECK(sim::reheat_fraction(&f15, state) == 0.0); }
     }
 }
 

@@ -61,24 +61,18 @@ Figures figures_of(const sim::Trajectory& path) {
             const sim::AircraftState& before = samples[i - 1];
             const double step_s = now.time_s - before.time_s;
             f.length_m += glm::length(now.position_m - before.position_m);
-            f.max_turn_degps =
-                std::max(f.max_turn_degps, deg_from_rad(turn_between_rad(before, now)) / step_s);
-            f.heading_change_deg +=
-                deg_from_rad(wrapped_to_pi(rad_from_deg(track_deg(now) - track_deg(before))));
+            f.max_turn_degps = std::max(f.max_turn_degps, deg_from_rad(turn_between_rad(before, now)) / step_s);
+            f.heading_change_deg += deg_from_rad(wrapped_to_pi(rad_from_deg(track_deg(now) - track_deg(before))));
         }
     }
     return f;
 }
 
-Figures figures_of(const std::string& name) {
-    return figures_of(flown(name).trajectory);
-}
+Figures figures_of(const std::string& name) { return figures_of(flown(name).trajectory); }
 
 double begin_of(const FlownPath& path, const std::string& label) {
     for (const LegStart& leg : path.legs) {
-        if (leg.label == label) {
-            return leg.time_s;
-        }
+        if (leg.label == label) { return leg.time_s; }
     }
     FAIL("no leg " + label);
     return 0.0;

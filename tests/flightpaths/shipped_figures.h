@@ -11,15 +11,8 @@
 namespace octant::tests {
 
 /// The shipped paths.
-inline const std::array<std::string, 8> path_names{
-    "f15-straight",
-    "f15-jinking",
-    "f15-pop-up",
-    "f15-turn",
-    "500md-straight",
-    "500md-jinking",
-    "500md-pop-up",
-    "500md-turn"};
+inline const std::array<std::string, 8> path_names{"f15-straight", "f15-jinking", "f15-pop-up", "f15-turn",
+    "500md-straight", "500md-jinking", "500md-pop-up", "500md-turn"};
 
 /// One of them as flown. Fails the test where it is not flown as its file says.
 flightpaths::FlownPath flown(const std::string& name);
@@ -36,7 +29,7 @@ struct Figures {
     Range load_factor, height_m, speed_mps, bank_deg, east_m, climb_deg;
     double length_m = 0.0;
     double nearest_m = std::numeric_limits<double>::infinity(); ///< to the site, on the ground
-    double max_turn_degps = 0.0;                               ///< of the body
+    double max_turn_degps = 0.0;                                ///< of the body
     double heading_change_deg = 0.0;                            ///< clockwise, whole path
 };
 

@@ -12,9 +12,7 @@ using namespace octant::tests;
 
 namespace {
 
-Approx within_tenth(double figure) {
-    return Approx(figure).epsilon(0.1);
-}
+Approx within_tenth(double figure) { return Approx(figure).epsilon(0.1); }
 
 } // namespace
 
@@ -87,10 +85,8 @@ TEST_CASE("the F-15 pops up, pulls down, tracks and pulls out where it should") 
         out.take(path.trajectory.state_at(time_s).position_m.z);
     }
     CHECK(out.least == Approx(373).epsilon(0.03));
-    CHECK(
-        deg_from_rad(
-            euler_from_body_to_world(path.trajectory.samples().back().body_to_world).roll_rad) ==
-        Approx(70).epsilon(0.02));
+    CHECK(deg_from_rad(euler_from_body_to_world(path.trajectory.samples().back().body_to_world).roll_rad) ==
+          Approx(70).epsilon(0.02));
 }
 
 TEST_CASE("the 500MD pops up within its energy, dives and turns away") {
@@ -117,8 +113,7 @@ TEST_CASE("the F-15 turns at 4 g") {
     CHECK(f.speed_mps.least == Approx(229.3).epsilon(0.005));
     CHECK(f.length_m == Approx(6710).epsilon(0.005));
     CHECK(begin_of(path, "turn") == Approx(3.0));
-    const double rate_degps =
-        track_deg(path.trajectory.state_at(10)) - track_deg(path.trajectory.state_at(11));
+    const double rate_degps = track_deg(path.trajectory.state_at(10)) - track_deg(path.trajectory.state_at(11));
     CHECK(rate_degps > 9.1);
     CHECK(rate_degps < 9.9);
     CHECK(232.9 / rad_from_deg(rate_degps) == within_tenth(1400));
@@ -132,8 +127,7 @@ TEST_CASE("the 500MD turns at 45 degrees of bank") {
     CHECK(f.load_factor.most == Approx(1.41).epsilon(0.01));
     CHECK(f.bank_deg.least == Approx(-45).epsilon(0.005));
     CHECK(f.heading_change_deg == Approx(-336).margin(2));
-    const double rate_degps =
-        track_deg(path.trajectory.state_at(10)) - track_deg(path.trajectory.state_at(11));
+    const double rate_degps = track_deg(path.trajectory.state_at(10)) - track_deg(path.trajectory.state_at(11));
     CHECK(rate_degps == Approx(14).epsilon(0.01));
     CHECK(40 / rad_from_deg(rate_degps) == Approx(163).epsilon(0.01));
     CHECK(f.height_m.least == Approx(40).margin(0.5));

@@ -13,9 +13,7 @@ inline std::string track_fault(const std::string& text) {
     const auto file = written("fault.csv", text);
     try {
         flightpaths::read_recorded_track(file);
-    } catch (const Error& error) {
-        return std::string(error.what()).substr(file.string().size() + 1);
-    }
+    } catch (const Error& error) { return std::string(error.what()).substr(file.string().size() + 1); }
     return "no error";
 }
 

@@ -14,9 +14,7 @@ namespace octant::tests::fuzz {
 
 namespace {
 
-int boxes_of(int polygons, int least) {
-    return std::max(least, polygons / 6);
-}
+int boxes_of(int polygons, int least) { return std::max(least, polygons / 6); }
 
 Soup boxes(RandomGenerator& dice, int polygons) {
     Soup soup;
@@ -49,9 +47,7 @@ Soup bars(RandomGenerator& dice, int polygons) {
         const double angle_rad = 2.0 * pi * i / count;
         glm::dvec3 out{std::cos(angle_rad), std::sin(angle_rad), 0.0};
         glm::dvec3 along{-out.y, out.x, woven ? 0.35 : dice.between(-0.4, 0.4)};
-        if (dice.next() < 0.3) {
-            along = dice.direction();
-        }
+        if (dice.next() < 0.3) { along = dice.direction(); }
         const double off_m = woven ? 0.35 : dice.between(-0.1, 0.1);
         const glm::dvec3 half_m{1.0, thick_m, thick_m * dice.between(0.5, 1.0)};
         add_box(soup, out * off_m, attitude_along(along), half_m);
@@ -60,25 +56,18 @@ Soup bars(RandomGenerator& dice, int polygons) {
 }
 
 /// A rectangular frame of four bars around `centre`, in the plane of the first two axes.
-void add_frame(
-    Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, const glm::dvec2& half_m) {
+void add_frame(Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, const glm::dvec2& half_m) {
     constexpr double thick_m = 0.07;
     for (const double side : {-1.0, 1.0}) {
         add_box(
-            soup,
-            centre + axes * glm::dvec3(side * half_m.x, 0.0, 0.0),
-            axes,
-            {thick_m, half_m.y + thick_m, thick_m});
+            soup, centre + axes * glm::dvec3(side * half_m.x, 0.0, 0.0), axes, {thick_m, half_m.y + thick_m, thick_m});
         add_box(
-            soup,
-            centre + axes * glm::dvec3(0.0, side * half_m.y, 0.0),
-            axes,
-            {half_m.x - thick_m, thick_m, thick_m});
+            soup, centre + axes * glm::dvec3(0.0, side * half_m.y, 0.0), axes, {half_m.x - thick_m, thick_m, thick_m});
     }
 }
 
-/// Three frames, no two linked and all three together not to be parted; in some the sizes are
-/// such that they pass through one another.
+/// Three frames, no two linked and all three together not to be parted; in some the sizes are such that they pass
+/// through one another.
 Soup frames(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int count = std::clamp(polygons / 24, 2, 3);
@@ -89,9 +78,7 @@ Soup frames(RandomGenerator& dice, int polygons) {
         axes[0][i] = 1.0;
         axes[1][(i + 1) % 3] = 1.0;
         axes[2][(i + 2) % 3] = 1.0;
-        if (tilted) {
-            axes = attitude_along(axes[0] + dice.direction() * 0.2);
-        }
+        if (tilted) { axes = attitude_along(axes[0] + dice.direction() * 0.2); }
         add_frame(soup, dice.direction() * (tilted ? 0.1 : 0.0), axes, {1.0, narrow_m});
     }
     return soup;
@@ -126,8 +113,6 @@ constexpr std::array<Kind, 5> kinds{{
 
 } // namespace
 
-std::span<const Kind> box_kinds() {
-    return kinds;
-}
+std::span<const Kind> box_kinds() { return kinds; }
 
 } // namespace octant::tests::fuzz

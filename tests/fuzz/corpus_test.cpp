@@ -14,9 +14,7 @@ namespace {
 std::vector<std::filesystem::path> corpus() {
     std::vector<std::filesystem::path> files;
     const std::filesystem::path folder = OCTANT_SOURCE_DIR "/tests/fuzz/corpus";
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        files.push_back(entry.path());
-    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) { files.push_back(entry.path()); }
     std::sort(files.begin(), files.end());
     return files;
 }

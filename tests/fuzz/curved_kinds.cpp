@@ -27,13 +27,10 @@ struct Grid {
 };
 
 void add_triangle(Soup& soup, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    if (glm::length(glm::cross(b - a, c - a)) > 1e-7) {
-        soup.push_back({a, b, c});
-    }
+    if (glm::length(glm::cross(b - a, c - a)) > 1e-7) { soup.push_back({a, b, c}); }
 }
 
-void add_torus(
-    Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, double tube_m, int rows) {
+void add_torus(Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, double tube_m, int rows) {
     constexpr int columns = 5;
     Grid grid{rows, columns, std::vector<glm::dvec3>(static_cast<std::size_t>(rows * columns))};
     for (int row = 0; row < rows; ++row) {
@@ -41,19 +38,14 @@ void add_torus(
         for (int column = 0; column < columns; ++column) {
             const double tube_rad = 2.0 * pi * column / columns;
             const double out_m = 0.6 + tube_m * std::cos(tube_rad);
-            grid.at(row, column) = centre + axes * glm::dvec3(
-                                                       out_m * std::cos(around_rad),
-                                                       out_m * std::sin(around_rad),
-                                                       tube_m * std::sin(tube_rad));
+            grid.at(row, column) = centre + axes * glm::dvec3(out_m * std::cos(around_rad),
+                                                       out_m * std::sin(around_rad), tube_m * std::sin(tube_rad));
         }
     }
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            soup.push_back(
-                {grid.at(row, column),
-                 grid.at(row + 1, column),
-                 grid.at(row + 1, column + 1),
-                 grid.at(row, column + 1)});
+            soup.push_back({grid.at(row, column), grid.at(row + 1, column), grid.at(row + 1, column + 1),
+                grid.at(row, column + 1)});
         }
     }
 }
@@ -66,9 +58,9 @@ Soup links(RandomGenerator& dice, int polygons) {
     const double tube_m = dice.between(0.05, 0.3);
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 centre{0.6 * i - 0.5, dice.between(-0.1, 0.1), dice.between(-0.1, 0.1)};
-        const glm::dmat3 axes = i % 2 == 0 ? glm::dmat3(1.0)
-                                           : attitude_along({1.0, 0.0, dice.between(0.0, 0.3)}) *
-                                                 glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0);
+        const glm::dmat3 axes =
+            i % 2 == 0 ? glm::dmat3(1.0)
+                       : attitude_along({1.0, 0.0, dice.between(0.0, 0.3)}) * glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0);
         add_torus(soup, centre, axes, tube_m, rows);
     }
     return soup;
@@ -101,8 +93,8 @@ Soup helix(RandomGenerator& dice, int polygons) {
     return soup;
 }
 
-/// A part of a wavy body, triangulated and then simplified without care: corners are drawn onto
-/// neighbours, so that slivers, folds and penetrations come about.
+/// A part of a wavy body, triangulated and then simplified without care: corners are drawn onto neighbours, so that
+/// slivers, folds and penetrations come about.
 Soup wavy(RandomGenerator& dice, int polygons) {
     const int side = std::max(3, static_cast<int>(std::sqrt(polygons / 2.0)) + 1);
     Grid grid{side, side, {}};
@@ -147,8 +139,6 @@ constexpr std::array<Kind, 3> kinds{{
 
 } // namespace
 
-std::span<const Kind> curved_kinds() {
-    return kinds;
-}
+std::span<const Kind> curved_kinds() { return kinds; }
 
 } // namespace octant::tests::fuzz

@@ -1,5 +1,5 @@
-// What a ray meets, worked out from a polygon's corners alone, in long double. Shares nothing with
-// the builder of orders, so that an error of one is not an error of both.
+// What a ray meets, worked out from a polygon's corners alone, in long double. Shares nothing with the builder of
+// orders, so that an error of one is not an error of both.
 #include "tests/fuzz/facets.h"
 
 #include <glm/geometric.hpp>
@@ -63,21 +63,17 @@ Facet facet_of(std::vector<Vec> corners, long double min_width_m) {
     }
     const Vec area = double_area(facet.corners);
     const long double width_m = round_m > 0.0L ? glm::length(area) / round_m : 0.0L;
-    if (width_m <= min_width_m) {
-        return facet;
-    }
+    if (width_m <= min_width_m) { return facet; }
     facet.normal = glm::normalize(area);
     facet.tilt = 1.0L / width_m;
     for (const Vec& corner : facet.corners) {
-        facet.bend_m =
-            std::max(facet.bend_m, std::abs(glm::dot(corner - facet.middle, facet.normal)));
+        facet.bend_m = std::max(facet.bend_m, std::abs(glm::dot(corner - facet.middle, facet.normal)));
     }
     return facet;
 }
 
-/// The largest angle, radians, between a bent polygon's plane and that of three of its corners:
-/// pieces of it may lean so far. Three that are narrower than the slack lean as they like; what
-/// they show is within the slack of a side.
+/// The largest angle, radians, between a bent polygon's plane and that of three of its corners: pieces of it may lean
+/// so far. Three that are narrower than the slack lean as they like; what they show is within the slack of a side.
 long double lean_of(const Facet& facet) {
     long double lean = 0.0L;
     const auto& at = facet.corners;
@@ -85,9 +81,8 @@ long double lean_of(const Facet& facet) {
         for (std::size_t j = i + 1; j < at.size(); ++j) {
             for (std::size_t k = j + 1; k < at.size(); ++k) {
                 const Vec area = glm::cross(at[j] - at[i], at[k] - at[i]);
-                const long double round_m = glm::distance(at[i], at[j]) +
-                                            glm::distance(at[j], at[k]) +
-                                            glm::distance(at[k], at[i]);
+                const long double round_m =
+                    glm::distance(at[i], at[j]) + glm::distance(at[j], at[k]) + glm::distance(at[k], at[i]);
                 const long double length = glm::length(area);
                 if (length > facet.slack_m * round_m) {
                     const long double cosine = glm::dot(area, facet.normal) / length;
@@ -99,8 +94,8 @@ long double lean_of(const Facet& facet) {
     return lean;
 }
 
-/// How far a point of a facet's plane lies inside its outline; negative outside. Measured to the
-/// sides themselves: the line of a side as short as rounding has any direction, and goes anywhere.
+/// How far a point of a facet's plane lies inside its outline; negative outside. Measured to the sides themselves: the
+/// line of a side as short as rounding has any direction, and goes anywhere.
 long double inside_of(const Facet& facet, const Vec& place) {
     const Vec steep = glm::abs(facet.normal);
     const int across = steep.x > steep.y && steep.x > steep.z ? 0 : (steep.y > steep.z ? 1 : 2);
@@ -113,12 +108,9 @@ long double inside_of(const Facet& facet, const Vec& place) {
         const Vec from = facet.corners[i] - place;
         const Vec to = facet.corners[(i + 1) % count] - place;
         const Vec along = to - from;
-        if ((from[v] > 0.0L) != (to[v] > 0.0L)) {
-            inside = inside != (from[u] - along[u] * from[v] / along[v] > 0.0L);
-        }
+        if ((from[v] > 0.0L) != (to[v] > 0.0L)) { inside = inside != (from[u] - along[u] * from[v] / along[v] > 0.0L); }
         const long double length2 = glm::dot(along, along);
-        const long double share =
-            length2 > 0.0L ? std::clamp(-glm::dot(from, along) / length2, 0.0L, 1.0L) : 0.0L;
+        const long double share = length2 > 0.0L ? std::clamp(-glm::dot(from, along) / length2, 0.0L, 1.0L) : 0.0L;
         const Vec nearest = from + along * share;
         nearest_m2 = std::min(nearest_m2, glm::dot(nearest, nearest));
     }
@@ -137,9 +129,7 @@ void spread_bends(Facets& facets) {
     }
     for (Facet& facet : facets.all) {
         long double bend_m = facet.bend_m;
-        for (const Vec& corner : facet.corners) {
-            bend_m = std::max(bend_m, at[place(corner)]);
-        }
+        for (const Vec& corner : facet.corners) { bend_m = std::max(bend_m, at[place(corner)]); }
         facet.slack_m += bend_m;
     }
 }
@@ -158,13 +148,10 @@ Facets facets_of(const PolygonModel& model, long double slack_sizes, bool bends_
         Facet& facet = facets.all.back();
         facet.slack_m = facet.bend_m + 2.0L * facets.noise_m + slack_sizes * facets.size_m;
     }
-    if (bends_spread) {
-        spread_bends(facets);
-    }
+    if (bends_spread) { spread_bends(facets); }
     for (Facet& facet : facets.all) {
         facet.tilt *= facet.slack_m;
-        if (bends_spread && facet.bend_m > 2.0L * facets.noise_m &&
-            facet.corners.size() <= max_corners_leaning) {
+        if (bends_spread && facet.bend_m > 2.0L * facets.noise_m && facet.corners.size() <= max_corners_leaning) {
             facet.tilt = std::max(facet.tilt, lean_of(facet));
         }
     }
@@ -176,24 +163,18 @@ Hit meet(const Facet& facet, const Vec& eye, const Vec& ray) {
     const long double along_m = glm::dot(to_middle, ray);
     const long double aside_m2 = glm::dot(to_middle, to_middle) - along_m * along_m;
     const long double reach_m = facet.radius_m + 4.0L * facet.slack_m;
-    if (facet.normal == Vec(0.0L) || aside_m2 > reach_m * reach_m * 1.001L || along_m < -reach_m) {
-        return {};
-    }
+    if (facet.normal == Vec(0.0L) || aside_m2 > reach_m * reach_m * 1.001L || along_m < -reach_m) { return {}; }
     const long double height_m = -glm::dot(to_middle, facet.normal);
     const long double doubt_m = facet.slack_m + facet.tilt * glm::length(to_middle);
     const long double slope = -glm::dot(ray, facet.normal);
-    if (height_m < -doubt_m || slope < -2.0L * facet.tilt) {
-        return {};
-    }
+    if (height_m < -doubt_m || slope < -2.0L * facet.tilt) { return {}; }
     if (height_m <= doubt_m || slope <= 2.0L * facet.tilt) {
         return {Meeting::Doubtful, std::max(along_m - reach_m, 0.0L), 2.0L * reach_m};
     }
     const long double depth_m = height_m / slope;
     const long double slant_m = facet.slack_m / slope;
     const long double inside_m = inside_of(facet, eye + ray * depth_m);
-    if (inside_m < -slant_m) {
-        return {};
-    }
+    if (inside_m < -slant_m) { return {}; }
     return {inside_m > slant_m ? Meeting::Hit : Meeting::Doubtful, depth_m, slant_m};
 }
 
@@ -206,23 +187,17 @@ bool passes_side(const Facet& facet, const Vec& eye, const Vec& ray) {
         const Vec from = beside(facet.corners[i]);
         const Vec along = beside(facet.corners[(i + 1) % facet.corners.size()]) - from;
         const long double length2 = glm::dot(along, along);
-        const long double share =
-            length2 > 0.0L ? std::clamp(-glm::dot(from, along) / length2, 0.0L, 1.0L) : 0.0L;
-        if (glm::length(from + along * share) <= facet.slack_m) {
-            return true;
-        }
+        const long double share = length2 > 0.0L ? std::clamp(-glm::dot(from, along) / length2, 0.0L, 1.0L) : 0.0L;
+        if (glm::length(from + along * share) <= facet.slack_m) { return true; }
     }
     return false;
 }
 
 bool same_plane(const Facet& a, const Facet& b, long double within_m) {
-    if (glm::dot(a.normal, b.normal) <= 0.0L) {
-        return false;
-    }
+    if (glm::dot(a.normal, b.normal) <= 0.0L) { return false; }
     const auto in_plane = [&](const Facet& plane, const Facet& other) {
-        return std::ranges::all_of(other.corners, [&](const Vec& corner) {
-            return std::abs(glm::dot(corner - plane.middle, plane.normal)) <= within_m;
-        });
+        return std::ranges::all_of(other.corners,
+            [&](const Vec& corner) { return std::abs(glm::dot(corner - plane.middle, plane.normal)) <= within_m; });
     };
     return in_plane(a, b) && in_plane(b, a);
 }

@@ -31,12 +31,10 @@ struct Facets {
     long double noise_m = 0.0L; ///< rounding of one coordinate, at most
 };
 
-/// The facets of a model. The slack of each is its own bend, its rounding and `slack_sizes` of the
-/// model's size; where `bends_spread` also the bend of polygons that
-/// share a corner's place, since making those flat may move the corner. A bent one leans then as
-/// far as its pieces may.
-Facets
-facets_of(const models::polygons::PolygonModel& model, long double slack_sizes, bool bends_spread);
+/// The facets of a model. The slack of each is its own bend, its rounding and `slack_sizes` of the model's size; where
+/// `bends_spread` also the bend of polygons that share a corner's place, since making those flat may move the corner. A
+/// bent one leans then as far as its pieces may.
+Facets facets_of(const models::polygons::PolygonModel& model, long double slack_sizes, bool bends_spread);
 
 /// How a ray meets the front of a facet.
 enum class Meeting {
@@ -51,12 +49,12 @@ struct Hit {
     long double margin_m = 0.0L; ///< of the depth: slack over the cosine of the angle of incidence
 };
 
-/// Meets a ray from `eye` (from the model's middle) in the unit direction `ray` with the front of a
-/// facet. Closer to a side than the slack, seen along the ray, is doubtful.
+/// Meets a ray from `eye` (from the model's middle) in the unit direction `ray` with the front of a facet. Closer to a
+/// side than the slack, seen along the ray, is doubtful.
 Hit meet(const Facet& facet, const Vec& eye, const Vec& ray);
 
-/// Whether a ray passes a side of a facet within the slack, whichever way the facet faces: slivers
-/// that a bent polygon has there may face otherwise.
+/// Whether a ray passes a side of a facet within the slack, whichever way the facet faces: slivers that a bent polygon
+/// has there may face otherwise.
 bool passes_side(const Facet& facet, const Vec& eye, const Vec& ray);
 
 /// Whether two facets lie in one plane and are seen from the same side, both within `within_m`.

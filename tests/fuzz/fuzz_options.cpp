@@ -17,17 +17,14 @@ namespace {
 
 class Words {
 public:
-    explicit Words(std::span<char* const> words)
-        : words_(words) {}
+    explicit Words(std::span<char* const> words) : words_(words) {}
 
     bool done() const { return at_ == words_.size(); }
 
     std::string_view next() { return words_[at_++]; }
 
     std::string_view value(std::string_view option) {
-        if (done()) {
-            throw Error(fmt::format("{}: expected a value, got none", option));
-        }
+        if (done()) { throw Error(fmt::format("{}: expected a value, got none", option)); }
         return next();
     }
 
@@ -90,9 +87,7 @@ void take(FuzzOptions& options, std::string_view option, Words& words) {
     } else if (option == "--verbose") {
         options.verbose = true;
     } else if (option == "--obj") {
-        while (!words.done()) {
-            options.files.emplace_back(words.next());
-        }
+        while (!words.done()) { options.files.emplace_back(words.next()); }
     } else {
         throw Error(fmt::format("expected an option (see --help), got '{}'", option));
     }
@@ -101,28 +96,25 @@ void take(FuzzOptions& options, std::string_view option, Words& words) {
 } // namespace
 
 std::string help_text() {
-    return fmt::format(
-        "Makes models that are hard to order, orders them and checks the painting by rays.\n"
-        "  --seconds N      wall time, 10 at first\n"
-        "  --cases N        so many cases instead\n"
-        "  --seed S         seed of the first case, 1 at first; the next cases count on\n"
-        "  --only S         the case of this seed only, for each kind\n"
-        "  --kind KIND      again for more: {}; all at first\n"
-        "  --polygons N     about so many in a model; 6 to 60 at first\n"
-        "  --rays N         for each case, 4000 at first\n"
-        "  --order-seconds N  of search for each order, 20 at first\n"
-        "  --cpu-seconds N  for each case, 60 at first\n"
-        "  --certify        also prove each order right, without rounding\n"
-        "  --keep DIR       write failing models there, reduced\n"
-        "  --whole          do not reduce them\n"
-        "  --verbose        a line a case, good ones too\n"
-        "  --obj FILE...    check these models instead; the last option\n"
-        "Left open are rays that another answer fits where each polygon is moved by {:g} of the "
-        "model's\nsize; against the given model by {:g} and by as much as it is bent. "
-        "Exit code 1: a case failed.\n",
-        fmt::join(kind_names(), ", "),
-        order_margin_sizes,
-        picture_margin_sizes);
+    return fmt::format("Makes models that are hard to order, orders them and checks the painting by rays.\n"
+                       "  --seconds N      wall time, 10 at first\n"
+                       "  --cases N        so many cases instead\n"
+                       "  --seed S         seed of the first case, 1 at first; the next cases count on\n"
+                       "  --only S         the case of this seed only, for each kind\n"
+                       "  --kind KIND      again for more: {}; all at first\n"
+                       "  --polygons N     about so many in a model; 6 to 60 at first\n"
+                       "  --rays N         for each case, 4000 at first\n"
+                       "  --order-seconds N  of search for each order, 20 at first\n"
+                       "  --cpu-seconds N  for each case, 60 at first\n"
+                       "  --certify        also prove each order right, without rounding\n"
+                       "  --keep DIR       write failing models there, reduced\n"
+                       "  --whole          do not reduce them\n"
+                       "  --verbose        a line a case, good ones too\n"
+                       "  --obj FILE...    check these models instead; the last option\n"
+                       "Left open are rays that another answer fits where each polygon is moved by {:g} of the "
+                       "model's\nsize; against the given model by {:g} and by as much as it is bent. "
+                       "Exit code 1: a case failed.\n",
+        fmt::join(kind_names(), ", "), order_margin_sizes, picture_margin_sizes);
 }
 
 std::optional<FuzzOptions> read_fuzz_options(std::span<char* const> given) {
@@ -130,15 +122,11 @@ std::optional<FuzzOptions> read_fuzz_options(std::span<char* const> given) {
     Words words(given);
     while (!words.done()) {
         const std::string_view option = words.next();
-        if (option == "--help") {
-            return std::nullopt;
-        }
+        if (option == "--help") { return std::nullopt; }
         take(options, option, words);
     }
     if (options.kinds.empty()) {
-        for (const std::string_view name : kind_names()) {
-            options.kinds.emplace_back(name);
-        }
+        for (const std::string_view name : kind_names()) { options.kinds.emplace_back(name); }
     }
     return options;
 }

@@ -20,9 +20,9 @@ struct FuzzOptions {
     std::vector<std::string> kinds;           ///< empty: all
     std::optional<int> polygons;              ///< nothing: 6 to 60, by the seed
     std::vector<std::filesystem::path> files; ///< checked instead of made models
-    std::filesystem::path keep; ///< where reduced failures are written; empty: nowhere
-    bool whole = false;         ///< keep failures as they are
-    bool verbose = false;       ///< a line a case, good ones too
+    std::filesystem::path keep;               ///< where reduced failures are written; empty: nowhere
+    bool whole = false;                       ///< keep failures as they are
+    bool verbose = false;                     ///< a line a case, good ones too
     TrialOptions trial;
 };
 

@@ -36,9 +36,7 @@ glm::dmat3 turn(RandomGenerator& dice) {
 template <typename Change>
 void change_all(Soup& soup, const Change& change) {
     for (auto& polygon : soup) {
-        for (glm::dvec3& corner : polygon) {
-            corner = change(corner);
-        }
+        for (glm::dvec3& corner : polygon) { corner = change(corner); }
     }
 }
 
@@ -48,9 +46,7 @@ Soup made_shape(std::string_view name, RandomGenerator& dice, int polygons) {
     if (std::ranges::find(placed_kinds, name) != placed_kinds.end()) {
         kind = all.begin() + static_cast<long>(dice.next() * static_cast<double>(all.size()));
     }
-    if (kind == all.end()) {
-        throw Error(fmt::format("kind: expected one of {}, got '{}'", kind_names(), name));
-    }
+    if (kind == all.end()) { throw Error(fmt::format("kind: expected one of {}, got '{}'", kind_names(), name)); }
     return kind->make(dice, polygons);
 }
 
@@ -71,9 +67,7 @@ void place(Soup& soup, std::string_view name, RandomGenerator& dice) {
 std::span<const std::string_view> kind_names() {
     static const std::vector<std::string_view> names = [] {
         std::vector<std::string_view> all;
-        for (const Kind& kind : shapes()) {
-            all.push_back(kind.name);
-        }
+        for (const Kind& kind : shapes()) { all.push_back(kind.name); }
         all.insert(all.end(), placed_kinds.begin(), placed_kinds.end());
         return all;
     }();

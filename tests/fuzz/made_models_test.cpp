@@ -22,8 +22,7 @@ TEST_CASE("made models of all kinds are ordered and painted right") {
     constexpr int polygons = 12;
     constexpr std::uint64_t seed = 1;
     for (const auto kind : kind_names()) {
-        const TrialResult result =
-            tried(made_model(kind, seed, polygons), {.rays = 1000, .cpu_s = 120});
+        const TrialResult result = tried(made_model(kind, seed, polygons), {.rays = 1000, .cpu_s = 120});
         INFO(kind << ' ' << seed << ": " << name_of(result.outcome) << ": " << result.what);
         CHECK(result.outcome == Outcome::Right);
     }

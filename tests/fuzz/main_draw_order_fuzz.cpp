@@ -33,8 +33,7 @@ struct Tally {
 
 class Fuzzing {
 public:
-    explicit Fuzzing(const FuzzOptions& options)
-        : options_(options) {}
+    explicit Fuzzing(const FuzzOptions& options) : options_(options) {}
 
     /// Exit code.
     int run() {
@@ -58,22 +57,15 @@ private:
     }
 
     void made_ones() {
-        for (std::uint64_t seed = options_.seed; may_go_on(); ++seed) {
-            round(seed);
-        }
+        for (std::uint64_t seed = options_.seed; may_go_on(); ++seed) { round(seed); }
     }
 
     /// One case of each kind.
     void round(std::uint64_t seed) {
-        const int by_seed =
-            min_polygons + static_cast<int>(seed * 7919U % (max_polygons - min_polygons + 1));
+        const int by_seed = min_polygons + static_cast<int>(seed * 7919U % (max_polygons - min_polygons + 1));
         for (const std::string& kind : options_.kinds) {
-            if (!options_.only && !may_go_on()) {
-                return;
-            }
-            one(kind,
-                fmt::format("{} {}", kind, seed),
-                made_model(kind, seed, options_.polygons.value_or(by_seed)));
+            if (!options_.only && !may_go_on()) { return; }
+            one(kind, fmt::format("{} {}", kind, seed), made_model(kind, seed, options_.polygons.value_or(by_seed)));
         }
     }
 
@@ -87,18 +79,9 @@ private:
         tally.longest_s = std::max(tally.longest_s, result.build_s);
         const bool failed = result.outcome != Outcome::Right;
         if (failed || options_.verbose) {
-            fmt::print(
-                "{}: {}, polygons {} -> {}, cells {}, build {:.3f} s, {} of {} rays wrong{}{}\n",
-                name,
-                name_of(result.outcome),
-                result.polygons,
-                result.pieces,
-                result.cells,
-                result.build_s,
-                result.wrong,
-                result.hits,
-                failed ? ": " : "",
-                result.what);
+            fmt::print("{}: {}, polygons {} -> {}, cells {}, build {:.3f} s, {} of {} rays wrong{}{}\n", name,
+                name_of(result.outcome), result.polygons, result.pieces, result.cells, result.build_s, result.wrong,
+                result.hits, failed ? ": " : "", result.what);
             std::fflush(stdout);
         }
         if (failed) {
@@ -108,16 +91,12 @@ private:
     }
 
     void keep(const std::string& name, const ObjPolygons& model, const TrialResult& result) {
-        if (options_.keep.empty()) {
-            return;
-        }
+        if (options_.keep.empty()) { return; }
         std::filesystem::create_directories(options_.keep);
-        const ObjPolygons less =
-            options_.whole ? model : reduced(model, result.outcome, options_.trial);
+        const ObjPolygons less = options_.whole ? model : reduced(model, result.outcome, options_.trial);
         std::string stem = std::filesystem::path(name).stem().string();
         std::ranges::replace(stem, ' ', '-');
-        const std::filesystem::path file =
-            options_.keep / fmt::format("{}-{}.obj", name_of(result.outcome), stem);
+        const std::filesystem::path file = options_.keep / fmt::format("{}-{}.obj", name_of(result.outcome), stem);
         write_file(file, text_of(less, fmt::format("{} of {}", name_of(result.outcome), name)));
         fmt::print("  kept {} polygons of it: {}\n", less.polygons.size(), file.string());
         std::fflush(stdout);
@@ -125,29 +104,19 @@ private:
 
     void summary() const {
         fmt::print("{:<12}{:>8}", "kind", "cases");
-        for (const std::string_view name : outcome_names) {
-            fmt::print("{:>14}", name);
-        }
+        for (const std::string_view name : outcome_names) { fmt::print("{:>14}", name); }
         fmt::print("{:>10}{:>9}{:>11}\n", "hits", "open", "longest s");
         for (const auto& [kind, tally] : tallies_) {
             long cases = 0;
-            for (const long count : tally.cases) {
-                cases += count;
-            }
+            for (const long count : tally.cases) { cases += count; }
             fmt::print("{:<12}{:>8}", kind, cases);
-            for (const long count : tally.cases) {
-                fmt::print("{:>14}", count);
-            }
+            for (const long count : tally.cases) { fmt::print("{:>14}", count); }
             fmt::print("{:>10}{:>9}{:>11.2f}\n", tally.hits, tally.open, tally.longest_s);
         }
-        fmt::print(
-            "{} of {} cases failed. Left open: what moving polygons by {:g} of the size could "
-            "change, "
-            "against the given model by {:g}.\n",
-            failures_,
-            cases_,
-            order_margin_sizes,
-            picture_margin_sizes);
+        fmt::print("{} of {} cases failed. Left open: what moving polygons by {:g} of the size could "
+                   "change, "
+                   "against the given model by {:g}.\n",
+            failures_, cases_, order_margin_sizes, picture_margin_sizes);
     }
 
     const FuzzOptions& options_;
@@ -175,6 +144,4 @@ int run(std::span<char* const> words) {
 
 } // namespace octant::tests::fuzz
 
-int main(int count, char** words) {
-    return octant::tests::fuzz::run({words + 1, static_cast<std::size_t>(count - 1)});
-}
+int main(int count, char** words) { return octant::tests::fuzz::run({words + 1, static_cast<std::size_t>(count - 1)}); }

@@ -60,15 +60,7 @@ std::string moved_line(std::string_view line, const Motion& motion) {
     if (words.size() > 9 && words[1] == "pivot" && words[6] == "axis") {
         const glm::dvec3 to = motion(vector_in(words, 3));
         const glm::dvec3 axis = motion.turn * vector_in(words, 7);
-        return fmt::format(
-            "# pivot {} {} {} {} axis {} {} {} {}",
-            words[2],
-            to.x,
-            to.y,
-            to.z,
-            axis.x,
-            axis.y,
-            axis.z,
+        return fmt::format("# pivot {} {} {} {} axis {} {} {} {}", words[2], to.x, to.y, to.z, axis.x, axis.y, axis.z,
             fmt::join(words.begin() + 10, words.end(), " "));
     }
     return std::string(line);
@@ -78,13 +70,10 @@ std::string moved_line(std::string_view line, const Motion& motion) {
 std::vector<Motion> motions(double radius_m) {
     std::vector<Motion> all;
     for (const auto& axis : {glm::dvec3(0, 0, 1), glm::dvec3(1, -2, 0.5)}) {
-        all.push_back(
-            {.name = fmt::format("turned about ({}, {}, {})", axis.x, axis.y, axis.z),
-             .turn = glm::angleAxis(glm::radians(33.7), glm::normalize(axis))});
+        all.push_back({.name = fmt::format("turned about ({}, {}, {})", axis.x, axis.y, axis.z),
+            .turn = glm::angleAxis(glm::radians(33.7), glm::normalize(axis))});
     }
-    for (const double scale : {1e-6, 1e6}) {
-        all.push_back({.name = fmt::format("{} times", scale), .scale = scale});
-    }
+    for (const double scale : {1e-6, 1e6}) { all.push_back({.name = fmt::format("{} times", scale), .scale = scale}); }
     all.push_back({.name = "moved by 1e6 m", .move_m = glm::dvec3(1e6, -1e6, 1e6)});
     std::erase_if(all, [&](const Motion& motion) {
         return (motion.move_m != glm::dvec3(0.0) && radius_m < min_radius_m) ||
@@ -93,15 +82,13 @@ std::vector<Motion> motions(double radius_m) {
     return all;
 }
 
-/// The order of a file whose vertices and pivots were moved in it, before anything was read: what
-/// the reader cuts must be cut alike, too. The proof has a smaller share of the time than by
-/// default, as it has no part in which lists are found.
+/// The order of a file whose vertices and pivots were moved in it, before anything was read: what the reader cuts must
+/// be cut alike, too. The proof has a smaller share of the time than by default, as it has no part in which lists are
+/// found.
 OrderedModel ordered_after(const std::filesystem::path& file, const Motion& motion) {
     std::string text;
     const std::string given = read_text_file(file);
-    for (const std::string_view line : split_lines(given)) {
-        text += moved_line(line, motion) + "\n";
-    }
+    for (const std::string_view line : split_lines(given)) { text += moved_line(line, motion) + "\n"; }
     const std::filesystem::path moved = tests::scratch_folder() / "moved.obj";
     write_file(moved, text);
     visuals::draworder::OrderOptions options;
@@ -111,8 +98,7 @@ OrderedModel ordered_after(const std::filesystem::path& file, const Motion& moti
 
 /// What differs between two orders; empty if their lists, nodes and splits are the same.
 std::string difference(const OrderedModel& a, const OrderedModel& b) {
-    if (a.found_by != b.found_by || a.splits != b.splits ||
-        a.model.polygons.size() != b.model.polygons.size()) {
+    if (a.found_by != b.found_by || a.splits != b.splits || a.model.polygons.size() != b.model.polygons.size()) {
         return fmt::format("{} splits, not {}", b.splits, a.splits);
     }
     if (a.order.cell_count() != b.order.cell_count()) {
@@ -135,9 +121,7 @@ std::string difference(const OrderedModel& a, const OrderedModel& b) {
 TEST_CASE("moving, scaling and turning a model change neither its lists nor its cells") {
     std::vector<std::filesystem::path> files;
     const std::filesystem::path folder = OCTANT_SOURCE_DIR "/tests/fuzz/corpus";
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        files.push_back(entry.path());
-    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) { files.push_back(entry.path()); }
     std::sort(files.begin(), files.end());
     std::size_t moved = 0;
     std::set<std::string> ways_of_large;
@@ -146,9 +130,7 @@ TEST_CASE("moving, scaling and turning a model change neither its lists nor its 
     }
     for (const std::filesystem::path& file : files) {
         const PolygonModel model = models::polygons::read_obj(file);
-        if (model.polygons.size() > max_polygons) {
-            continue;
-        }
+        if (model.polygons.size() > max_polygons) { continue; }
         std::vector<Motion> ways = motions(models::polygons::radius_m(model));
         REQUIRE(!ways.empty());
         if (model.polygons.size() > few_polygons) {

@@ -22,8 +22,7 @@ std::size_t vertex_of(std::string_view corner, std::size_t count) {
     const auto index = whole_number(corner.substr(0, corner.find('/')));
     const long signed_count = static_cast<long>(count);
     if (!index || *index == 0 || *index > signed_count || *index < -signed_count) {
-        throw Error(
-            fmt::format("expected a corner of one of {} vertices, got '{}'", count, corner));
+        throw Error(fmt::format("expected a corner of one of {} vertices, got '{}'", count, corner));
     }
     return static_cast<std::size_t>(*index > 0 ? *index - 1 : signed_count + *index);
 }
@@ -36,15 +35,10 @@ ObjPolygons obj_polygons(const Soup& soup, Digits digits) {
     for (const auto& corners : soup) {
         auto& polygon = out.polygons.emplace_back();
         for (const glm::dvec3& corner : corners) {
-            std::string text = fmt::format(
-                "{} {} {}",
-                number_text(corner.x, digits),
-                number_text(corner.y, digits),
+            std::string text = fmt::format("{} {} {}", number_text(corner.x, digits), number_text(corner.y, digits),
                 number_text(corner.z, digits));
             const auto [at, added] = known.try_emplace(text, out.vertices.size());
-            if (added) {
-                out.vertices.push_back(std::move(text));
-            }
+            if (added) { out.vertices.push_back(std::move(text)); }
             polygon.push_back(at->second);
         }
     }
@@ -76,9 +70,7 @@ std::string text_of(const ObjPolygons& model, const std::string& comment) {
         faces += 'f';
         for (const std::size_t vertex : polygon) {
             const auto [at, added] = number.try_emplace(vertex, number.size() + 1);
-            if (added) {
-                fmt::format_to(std::back_inserter(text), "v {}\n", model.vertices[vertex]);
-            }
+            if (added) { fmt::format_to(std::back_inserter(text), "v {}\n", model.vertices[vertex]); }
             fmt::format_to(std::back_inserter(faces), " {}", at->second);
         }
         faces += '\n';

@@ -31,8 +31,7 @@ ObjPolygons obj_polygons(const Soup& soup, Digits digits);
 /// Reads `v` and `f` lines; everything else of a file is left out. Throws Error.
 ObjPolygons read_obj_polygons(const std::filesystem::path& file);
 
-/// The text of an OBJ file; vertices that no polygon uses are left out. `comment` is its first
-/// line.
+/// The text of an OBJ file; vertices that no polygon uses are left out. `comment` is its first line.
 std::string text_of(const ObjPolygons& model, const std::string& comment);
 
 } // namespace octant::tests::fuzz

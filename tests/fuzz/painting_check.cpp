@@ -1,7 +1,7 @@
-// The outside judge of painting orders: a ray shows the polygon that is painted last among those
-// that it meets from the front. That must be the nearest one of the ordered model, and a piece of
-// the nearest one of the model that was given; of polygons that lie in one plane the later one of
-// the file. What a margin leaves open is not held against the builder.
+// The outside judge of painting orders: a ray shows the polygon that is painted last among those that it meets from the
+// front. That must be the nearest one of the ordered model, and a piece of the nearest one of the model that was given;
+// of polygons that lie in one plane the later one of the file. What a margin leaves open is not held against the
+// builder.
 #include "tests/fuzz/painting_check.h"
 
 #include "tests/fuzz/facets.h"
@@ -24,8 +24,7 @@ using models::polygons::PolygonModel;
 constexpr int rays_per_eye = 20;
 constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 
-std::vector<std::uint32_t>
-painted_for(const visuals::draworder::DrawOrder& order, const glm::dvec3& eye_m) {
+std::vector<std::uint32_t> painted_for(const visuals::draworder::DrawOrder& order, const glm::dvec3& eye_m) {
     std::vector<std::uint32_t> painted;
     visuals::draworder::DrawOrder::Walk walk;
     order.append_painted(eye_m, walk, painted);
@@ -40,21 +39,13 @@ struct Met {
 
 class Checking {
 public:
-    Checking(
-        const PolygonModel& given,
-        const visuals::draworder::OrderedModel& ordered,
-        const RaySamples& samples)
-        : given_(given)
-        , ordered_(ordered)
-        , given_facets_(facets_of(given, picture_margin_sizes, true))
-        , facets_(facets_of(ordered.model, order_margin_sizes, false))
-        , source_(given_facets_, samples.seed)
-        , rays_(samples.rays) {}
+    Checking(const PolygonModel& given, const visuals::draworder::OrderedModel& ordered, const RaySamples& samples)
+        : given_(given), ordered_(ordered), given_facets_(facets_of(given, picture_margin_sizes, true)),
+          facets_(facets_of(ordered.model, order_margin_sizes, false)), source_(given_facets_, samples.seed),
+          rays_(samples.rays) {}
 
     PaintingCounts run() {
-        while (counts_.rays < rays_) {
-            look_from(source_.next_eye_m());
-        }
+        while (counts_.rays < rays_) { look_from(source_.next_eye_m()); }
         return counts_;
     }
 
@@ -78,9 +69,7 @@ private:
     bool is_proper(std::span<const std::uint32_t> painted) {
         used_.assign(facets_.all.size(), false);
         for (const std::uint32_t polygon : painted) {
-            if (polygon >= used_.size() || used_[polygon]) {
-                return false;
-            }
+            if (polygon >= used_.size() || used_[polygon]) { return false; }
             used_[polygon] = true;
         }
         return true;
@@ -89,14 +78,12 @@ private:
     void look_along() {
         ++counts_.rays;
         const std::optional<std::uint32_t> seen = judge_order();
-        if (!seen) {
-            return;
-        }
+        if (!seen) { return; }
         judge_picture(*seen);
     }
 
-    /// The polygon that is seen, `nothing`, or no answer where a margin leaves it open or the order
-    /// has been found wrong.
+    /// The polygon that is seen, `nothing`, or no answer where a margin leaves it open or the order has been found
+    /// wrong.
     std::optional<std::uint32_t> judge_order() {
         const Vec eye = Vec(eye_m_) - facets_.middle_m;
         Met seen{nothing, {Meeting::Missed, std::numeric_limits<long double>::infinity(), 0.0L}};
@@ -114,19 +101,13 @@ private:
         }
         for (std::uint32_t polygon = 0; polygon < used_.size(); ++polygon) {
             const Hit hit = used_[polygon] ? Hit{} : meet(facets_.all[polygon], eye, ray_);
-            if (hit.meeting == Meeting::Hit && hit.depth_m < nearest.hit.depth_m) {
-                nearest = {polygon, hit};
-            }
+            if (hit.meeting == Meeting::Hit && hit.depth_m < nearest.hit.depth_m) { nearest = {polygon, hit}; }
         }
         const long double margin_m = seen.hit.margin_m + nearest.hit.margin_m;
-        if (!open && nearest.polygon != nothing &&
-            seen.hit.depth_m > nearest.hit.depth_m + margin_m) {
+        if (!open && nearest.polygon != nothing && seen.hit.depth_m > nearest.hit.depth_m + margin_m) {
             ++counts_.wrong_order;
-            note(fmt::format(
-                "{} is seen, but {} is nearer, by {:.3g} sizes",
-                piece_name(seen.polygon),
-                piece_name(nearest.polygon),
-                double((seen.hit.depth_m - nearest.hit.depth_m) / facets_.size_m)));
+            note(fmt::format("{} is seen, but {} is nearer, by {:.3g} sizes", piece_name(seen.polygon),
+                piece_name(nearest.polygon), double((seen.hit.depth_m - nearest.hit.depth_m) / facets_.size_m)));
             return std::nullopt;
         }
         counts_.open += open ? 1 : 0;
@@ -139,12 +120,8 @@ private:
         Met nearest{nothing, {Meeting::Missed, std::numeric_limits<long double>::infinity(), 0.0L}};
         for (std::uint32_t polygon = 0; polygon < given_facets_.all.size(); ++polygon) {
             const Hit hit = meet(given_facets_.all[polygon], eye, ray_);
-            if (hit.meeting != Meeting::Missed) {
-                met_.push_back({polygon, hit});
-            }
-            if (hit.meeting == Meeting::Hit && hit.depth_m < nearest.hit.depth_m) {
-                nearest = met_.back();
-            }
+            if (hit.meeting != Meeting::Missed) { met_.push_back({polygon, hit}); }
+            if (hit.meeting == Meeting::Hit && hit.depth_m < nearest.hit.depth_m) { nearest = met_.back(); }
         }
         if (nearest.polygon == nothing) {
             counts_.open += met_.empty() && seen == nothing ? 0 : 1;
@@ -162,26 +139,22 @@ private:
     bool by_side_of(std::uint32_t parent) const {
         const Vec eye = Vec(eye_m_) - given_facets_.middle_m;
         for (std::uint32_t polygon = 0; polygon < given_facets_.all.size(); ++polygon) {
-            if (given_.parent_of(polygon) == parent &&
-                passes_side(given_facets_.all[polygon], eye, ray_)) {
+            if (given_.parent_of(polygon) == parent && passes_side(given_facets_.all[polygon], eye, ray_)) {
                 return true;
             }
         }
         return false;
     }
 
-    /// Holds the polygon of the file that is seen against those that the ray meets first. Decals on
-    /// it are looked for where each piece of it that may be seen is hit: a bent polygon has pieces
-    /// in other planes, too.
+    /// Holds the polygon of the file that is seen against those that the ray meets first. Decals on it are looked for
+    /// where each piece of it that may be seen is hit: a bent polygon has pieces in other planes, too.
     void judge_parent(std::uint32_t parent, const Met& nearest) {
         const Met* shown = nullptr;
         bool is_hit = true;
         bool open = false;
         for (const Met& met : met_) {
             const long double margin_m = met.hit.margin_m + nearest.hit.margin_m;
-            if (met.hit.depth_m > nearest.hit.depth_m + margin_m) {
-                continue;
-            }
+            if (met.hit.depth_m > nearest.hit.depth_m + margin_m) { continue; }
             if (given_.parent_of(met.polygon) == parent) {
                 shown = &met;
                 is_hit = is_hit && met.hit.meeting == Meeting::Hit;
@@ -189,32 +162,25 @@ private:
             open = open || met.hit.meeting == Meeting::Doubtful;
         }
         if (shown != nullptr) {
-            if (is_hit) {
-                judge_decals(*shown);
-            }
+            if (is_hit) { judge_decals(*shown); }
         } else if (open || by_side_of(parent)) {
             ++counts_.open;
         } else {
             ++counts_.wrong_picture;
-            note(fmt::format(
-                "{} is seen, nearest of the given ones is {}",
-                parent == nothing ? "nothing" : fmt::format("P{}", parent + 1),
-                given_name(nearest.polygon)));
+            note(fmt::format("{} is seen, nearest of the given ones is {}",
+                parent == nothing ? "nothing" : fmt::format("P{}", parent + 1), given_name(nearest.polygon)));
         }
     }
 
     void judge_decals(const Met& shown) {
         const Facet& facet = given_facets_.all[shown.polygon];
-        const long double within_m =
-            0.5L * order_margin_sizes * given_facets_.size_m + 2.0L * given_facets_.noise_m;
+        const long double within_m = 0.5L * order_margin_sizes * given_facets_.size_m + 2.0L * given_facets_.noise_m;
         for (const Met& met : met_) {
             if (met.hit.meeting == Meeting::Hit && met.polygon != shown.polygon &&
                 given_.parent_of(met.polygon) > given_.parent_of(shown.polygon) &&
                 same_plane(facet, given_facets_.all[met.polygon], within_m)) {
                 ++counts_.wrong_decal;
-                note(fmt::format(
-                    "{} is seen, but {} in its plane comes later in the file",
-                    given_name(shown.polygon),
+                note(fmt::format("{} is seen, but {} in its plane comes later in the file", given_name(shown.polygon),
                     given_name(met.polygon)));
                 return;
             }
@@ -222,26 +188,16 @@ private:
     }
 
     std::string piece_name(std::uint32_t piece) const {
-        return piece == nothing
-                   ? "nothing"
-                   : fmt::format("piece {} of P{}", piece + 1, ordered_.model.parent_of(piece) + 1);
+        return piece == nothing ? "nothing"
+                                : fmt::format("piece {} of P{}", piece + 1, ordered_.model.parent_of(piece) + 1);
     }
 
-    std::string given_name(std::uint32_t polygon) const {
-        return fmt::format("P{}", given_.parent_of(polygon) + 1);
-    }
+    std::string given_name(std::uint32_t polygon) const { return fmt::format("P{}", given_.parent_of(polygon) + 1); }
 
     void note(const std::string& what) {
         if (counts_.first.empty()) {
-            counts_.first = fmt::format(
-                "from ({}, {}, {}) along ({:.9g}, {:.9g}, {:.9g}): {}",
-                eye_m_.x,
-                eye_m_.y,
-                eye_m_.z,
-                double(ray_.x),
-                double(ray_.y),
-                double(ray_.z),
-                what);
+            counts_.first = fmt::format("from ({}, {}, {}) along ({:.9g}, {:.9g}, {:.9g}): {}", eye_m_.x, eye_m_.y,
+                eye_m_.z, double(ray_.x), double(ray_.y), double(ray_.z), what);
         }
     }
 
@@ -262,9 +218,7 @@ private:
 } // namespace
 
 PaintingCounts check_painting(
-    const PolygonModel& given,
-    const visuals::draworder::OrderedModel& ordered,
-    const RaySamples& samples) {
+    const PolygonModel& given, const visuals::draworder::OrderedModel& ordered, const RaySamples& samples) {
     return Checking(given, ordered, samples).run();
 }
 

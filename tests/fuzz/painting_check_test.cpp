@@ -20,12 +20,9 @@ namespace {
 void add_square(PolygonModel& model, double half, double z) {
     const auto first = static_cast<std::uint32_t>(model.vertices_m.size());
     model.polygons.push_back({static_cast<std::uint32_t>(model.corner_vertices.size()), 4, 0, 0});
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        model.corner_vertices.push_back(first + i);
-    }
+    for (std::uint32_t i = 0; i < 4; ++i) { model.corner_vertices.push_back(first + i); }
     model.vertices_m.insert(
-        model.vertices_m.end(),
-        {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+        model.vertices_m.end(), {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
 }
 
 /// Two squares one above the other, the higher one first in the file.
@@ -39,8 +36,7 @@ PolygonModel two_squares(double upper_z = 1.0) {
 }
 
 PaintingCounts checked(const PolygonModel& given, std::vector<std::uint32_t> list) {
-    const OrderedModel ordered{
-        .model = given, .order = DrawOrder(std::move(list)), .cells = {}, .notes = {}};
+    const OrderedModel ordered{.model = given, .order = DrawOrder(std::move(list)), .cells = {}, .notes = {}};
     return check_painting(given, ordered, {2000, 1});
 }
 
@@ -77,10 +73,7 @@ TEST_CASE("the judge finds a polygon repeated in the sequence, and one that is n
 TEST_CASE("the judge finds pieces that are not where their polygon was, or belong to another") {
     const PolygonModel given = two_squares();
     OrderedModel ordered{
-        .model = given,
-        .order = DrawOrder(std::vector<std::uint32_t>{1, 0}),
-        .cells = {},
-        .notes = {}};
+        .model = given, .order = DrawOrder(std::vector<std::uint32_t>{1, 0}), .cells = {}, .notes = {}};
     ordered.model.parents = {1, 1};
     CHECK(check_painting(given, ordered, {2000, 1}).wrong_picture > 100);
     ordered.model.parents = {0, 1};
@@ -92,9 +85,7 @@ TEST_CASE("the judge finds pieces that are not where their polygon was, or belon
 TEST_CASE("the judge sees a square of which one corner is two, a rounding apart") {
     PolygonModel model = two_squares();
     const glm::dvec3 away_m(7e5, -6e5, 4e5);
-    for (glm::dvec3& vertex_m : model.vertices_m) {
-        vertex_m += away_m;
-    }
+    for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m += away_m; }
     const double rounding_m = 1.2e-10;
     model.vertices_m.push_back(model.vertices_m[2] + glm::dvec3(rounding_m, rounding_m, 0.0));
     model.corner_vertices = {0, 1, 2, 8, 3, 4, 5, 6, 7};

@@ -39,8 +39,7 @@ Soup slivers(RandomGenerator& dice, int polygons) {
         const glm::dvec3 along = dice.direction() * dice.between(0.3, 1.2);
         const glm::dvec3 across = glm::normalize(glm::cross(along, dice.direction()));
         const double place = dice.next();
-        soup.push_back(
-            {at, at + along, at + along * place + across * (glm::length(along) / aspect)});
+        soup.push_back({at, at + along, at + along * place + across * (glm::length(along) / aspect)});
     }
     return soup;
 }
@@ -81,9 +80,7 @@ Soup decals(RandomGenerator& dice, int polygons) {
             }
         }
     }
-    if (dice.next() < 0.3) {
-        add_backs(soup);
-    }
+    if (dice.next() < 0.3) { add_backs(soup); }
     return soup;
 }
 
@@ -100,16 +97,13 @@ Soup t_junctions(RandomGenerator& dice, int polygons) {
         for (int i = 0; i < cuts; ++i) {
             const double y = -0.5 + static_cast<double>(i) / cuts;
             const double next_y = -0.5 + static_cast<double>(i + 1) / cuts;
-            soup.push_back(
-                {{x, y, z}, {next_x, y, next_z}, {next_x, next_y, next_z}, {x, next_y, z}});
+            soup.push_back({{x, y, z}, {next_x, y, next_z}, {next_x, next_y, next_z}, {x, next_y, z}});
         }
         x = next_x;
         z = next_z;
         cuts = cuts % 3 + 1;
     }
-    if (dice.next() < 0.5) {
-        add_backs(soup);
-    }
+    if (dice.next() < 0.5) { add_backs(soup); }
     return soup;
 }
 
@@ -121,15 +115,12 @@ Soup bent(RandomGenerator& dice, int polygons) {
     } else {
         for (int i = std::max(2, polygons / 6); i > 0; --i) {
             const glm::dvec3 centre = point_within(dice, 0.9);
-            add_box(
-                soup, centre, any_attitude(dice), glm::dvec3(0.1, 0.3, dice.between(0.05, 0.5)));
+            add_box(soup, centre, any_attitude(dice), glm::dvec3(0.1, 0.3, dice.between(0.05, 0.5)));
         }
     }
     const double bend_m = 2.0 * std::pow(10.0, dice.between(-7.0, -5.0));
     for (auto& polygon : soup) {
-        for (glm::dvec3& corner : polygon) {
-            corner += dice.direction() * (bend_m * dice.next());
-        }
+        for (glm::dvec3& corner : polygon) { corner += dice.direction() * (bend_m * dice.next()); }
     }
     return soup;
 }
@@ -167,8 +158,6 @@ constexpr std::array<Kind, 8> kinds{{
 
 } // namespace
 
-std::span<const Kind> plate_kinds() {
-    return kinds;
-}
+std::span<const Kind> plate_kinds() { return kinds; }
 
 } // namespace octant::tests::fuzz

@@ -74,9 +74,7 @@ glm::dvec3 RaySource::next_eye_m() {
 Vec RaySource::next_ray(const Vec& eye) {
     const Facet* facet = &any_facet();
     for (int i = 0; i < tries_for_a_facing_polygon; ++i) {
-        if (glm::dot(eye - facet->middle, facet->normal) > 0.0L) {
-            break;
-        }
+        if (glm::dot(eye - facet->middle, facet->normal) > 0.0L) { break; }
         facet = &any_facet();
     }
     const bool by_side = dice_.next() < share_of_rays_by_sides;

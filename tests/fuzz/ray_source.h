@@ -9,20 +9,17 @@
 
 namespace octant::tests::fuzz {
 
-/// Eyes and targets where painting orders go wrong: eyes on all scales and near the planes at which
-/// facings and cells change, targets all over polygons and close to their sides.
+/// Eyes and targets where painting orders go wrong: eyes on all scales and near the planes at which facings and cells
+/// change, targets all over polygons and close to their sides.
 class RaySource {
 public:
     /// Keeps a reference to `facets`.
-    RaySource(const Facets& facets, std::uint64_t seed)
-        : facets_(facets)
-        , dice_(seed) {}
+    RaySource(const Facets& facets, std::uint64_t seed) : facets_(facets), dice_(seed) {}
 
     /// The next eye, body axes, metres.
     glm::dvec3 next_eye_m();
 
-    /// A direction (unit) from an eye (from the model's middle) to a polygon that faces it, if one
-    /// is found quickly.
+    /// A direction (unit) from an eye (from the model's middle) to a polygon that faces it, if one is found quickly.
     Vec next_ray(const Vec& eye);
 
 private:

@@ -1,5 +1,5 @@
-// A. Zeller, R. Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", IEEE Transactions
-// on Software Engineering 28(2), 2002: ddmin, with complements only.
+// A. Zeller, R. Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", IEEE Transactions on Software
+// Engineering 28(2), 2002: ddmin, with complements only.
 #include "tests/fuzz/reducer.h"
 
 #include <algorithm>
@@ -21,11 +21,7 @@ ObjPolygons without(const ObjPolygons& model, std::size_t first, std::size_t cou
 
 } // namespace
 
-ObjPolygons reduced(
-    ObjPolygons model,
-    Outcome outcome,
-    const TrialOptions& options,
-    const ReductionLimits& limits) {
+ObjPolygons reduced(ObjPolygons model, Outcome outcome, const TrialOptions& options, const ReductionLimits& limits) {
     const auto begin = std::chrono::steady_clock::now();
     int trials = 0;
     const auto may_go_on = [&] {
@@ -38,9 +34,7 @@ ObjPolygons reduced(
         bool less = false;
         for (std::size_t at = 0; at < model.polygons.size() && may_go_on();) {
             const std::size_t count = std::min(chunk, model.polygons.size() - at);
-            if (count == model.polygons.size()) {
-                break;
-            }
+            if (count == model.polygons.size()) { break; }
             ObjPolygons fewer = without(model, at, count);
             ++trials;
             if (tried(fewer, options).outcome == outcome) {

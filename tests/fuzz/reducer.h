@@ -10,12 +10,9 @@ struct ReductionLimits {
     double wall_s = 120.0;
 };
 
-/// A model that fails as `outcome` tells with fewer polygons: halves, quarters, ... and single ones
-/// are left out as long as what stays fails in the same way.
+/// A model that fails as `outcome` tells with fewer polygons: halves, quarters, ... and single ones are left out as
+/// long as what stays fails in the same way.
 ObjPolygons reduced(
-    ObjPolygons model,
-    Outcome outcome,
-    const TrialOptions& options,
-    const ReductionLimits& limits = {});
+    ObjPolygons model, Outcome outcome, const TrialOptions& options, const ReductionLimits& limits = {});
 
 } // namespace octant::tests::fuzz

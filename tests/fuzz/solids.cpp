@@ -24,15 +24,13 @@ glm::dmat3 any_attitude(RandomGenerator& dice) {
     return {x, y, glm::cross(x, y)};
 }
 
-void add_box(
-    Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, const glm::dvec3& half_m) {
+void add_box(Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, const glm::dvec3& half_m) {
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
             const int next = (axis + 1) % 3;
             const int last = (axis + 2) % 3;
             std::vector<glm::dvec3> face;
-            constexpr std::array<std::array<double, 2>, 4> ways{
-                {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+            constexpr std::array<std::array<double, 2>, 4> ways{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
             for (const auto& way : ways) {
                 glm::dvec3 at(0.0);
                 at[axis] = side * half_m[axis];
@@ -45,14 +43,12 @@ void add_box(
     }
 }
 
-void add_disc(
-    Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, double radius_m, int corners) {
+void add_disc(Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, double radius_m, int corners) {
     std::vector<glm::dvec3> polygon;
     for (int i = 0; i < corners; ++i) {
         const double angle_rad = 2.0 * pi * i / corners;
         polygon.push_back(
-            centre +
-            axes * glm::dvec3(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), 0.0));
+            centre + axes * glm::dvec3(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), 0.0));
     }
     soup.push_back(polygon);
 }

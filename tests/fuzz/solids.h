@@ -27,12 +27,10 @@ glm::dmat3 any_attitude(RandomGenerator& dice);
 glm::dmat3 attitude_along(const glm::dvec3& along);
 
 /// Adds the six outward faces of a box.
-void add_box(
-    Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, const glm::dvec3& half_m);
+void add_box(Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, const glm::dvec3& half_m);
 
 /// Adds a polygon of `corners` corners on a circle, its normal the attitude's third axis.
-void add_disc(
-    Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, double radius_m, int corners);
+void add_disc(Soup& soup, const glm::dvec3& centre, const glm::dmat3& axes, double radius_m, int corners);
 
 /// Adds the same polygons seen from behind.
 void add_backs(Soup& soup);

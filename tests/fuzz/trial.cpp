@@ -37,15 +37,9 @@ struct Report {
 };
 
 Outcome outcome_of(const PaintingCounts& counts) {
-    if (counts.bad_sequences > 0) {
-        return Outcome::BadSequence;
-    }
-    if (counts.wrong_order > 0) {
-        return Outcome::WrongOrder;
-    }
-    if (counts.wrong_picture > 0) {
-        return Outcome::WrongPicture;
-    }
+    if (counts.bad_sequences > 0) { return Outcome::BadSequence; }
+    if (counts.wrong_order > 0) { return Outcome::WrongOrder; }
+    if (counts.wrong_picture > 0) { return Outcome::WrongPicture; }
     return counts.wrong_decal > 0 ? Outcome::WrongDecal : Outcome::Right;
 }
 
@@ -56,13 +50,10 @@ void set_what(Report& report, const std::string& what) {
 /// Why a model's order is not proved right; empty if it is.
 std::string gap_in_proof(const visuals::draworder::OrderedModel& ordered) {
     const std::filesystem::path file = scratch_folder() / "certificate.txt";
-    write_file(
-        file, visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
+    write_file(file, visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
     const auto certificate = visuals::verify::read_certificate(file);
     const auto verdict = visuals::verify::verify(certificate);
-    if (verdict.failure) {
-        return fmt::format("line {}: {}", verdict.failure->line, verdict.failure->what);
-    }
+    if (verdict.failure) { return fmt::format("line {}: {}", verdict.failure->line, verdict.failure->what); }
     return verdict.proved() ? "" : fmt::format("{} claims without proof", verdict.unproved);
 }
 
@@ -77,12 +68,8 @@ Report order_and_check(const std::filesystem::path& file, const TrialOptions& op
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         const PaintingCounts counts = check_painting(given, ordered, {options.rays, options.seed});
         report.outcome = outcome_of(counts);
-        report.counts = {
-            long(given.polygons.size()),
-            long(ordered.model.polygons.size()),
-            long(ordered.order.cell_count()),
-            counts.hits,
-            counts.open,
+        report.counts = {long(given.polygons.size()), long(ordered.model.polygons.size()),
+            long(ordered.order.cell_count()), counts.hits, counts.open,
             counts.wrong_order + counts.wrong_picture + counts.wrong_decal};
         report.build_s = spent.count();
         set_what(report, counts.first);
@@ -109,8 +96,7 @@ void limit_to(int cpu_s) {
     setrlimit(RLIMIT_CORE, &none);
 }
 
-[[noreturn]] void
-be_child(int pipe_end, const std::filesystem::path& file, const TrialOptions& options) {
+[[noreturn]] void be_child(int pipe_end, const std::filesystem::path& file, const TrialOptions& options) {
     limit_to(options.cpu_s);
     const Report report = order_and_check(file, options);
     const bool sent = write(pipe_end, &report, sizeof report) == ssize_t(sizeof report);
@@ -119,8 +105,7 @@ be_child(int pipe_end, const std::filesystem::path& file, const TrialOptions& op
 
 TrialResult result_of(const Report& report) {
     const auto& counts = report.counts;
-    return {
-        .outcome = report.outcome,
+    return {.outcome = report.outcome,
         .polygons = counts[0],
         .pieces = counts[1],
         .cells = counts[2],
@@ -140,8 +125,7 @@ TrialResult result_of_end(int status, const ObjPolygons& model) {
         result.what = "used up its CPU seconds";
     } else {
         result.outcome = number == SIGABRT ? Outcome::Abort : Outcome::Crash;
-        result.what = number == 0 ? "ended without a report"
-                                  : fmt::format("signal {} ({})", number, strsignal(number));
+        result.what = number == 0 ? "ended without a report" : fmt::format("signal {} ({})", number, strsignal(number));
     }
     return result;
 }
@@ -152,9 +136,7 @@ TrialResult tried(const ObjPolygons& model, const TrialOptions& options) {
     const std::filesystem::path file = scratch_folder() / "model.obj";
     write_file(file, text_of(model, "a trial of the fuzzer"));
     std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) {
-        throw Error("expected a pipe to a child process, got none");
-    }
+    if (pipe(ends.data()) != 0) { throw Error("expected a pipe to a child process, got none"); }
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
@@ -169,8 +151,7 @@ TrialResult tried(const ObjPolygons& model, const TrialOptions& options) {
     const bool reported = read(ends[0], &report, sizeof report) == ssize_t(sizeof report);
     close(ends[0]);
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
     const bool ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     return reported && ended_well ? result_of(report) : result_of_end(status, model);
 }

@@ -23,21 +23,10 @@ enum class Outcome {
     Right
 };
 
-inline constexpr std::array<std::string_view, 10> outcome_names{
-    "crash",
-    "abort",
-    "timeout",
-    "refused",
-    "bad-sequence",
-    "wrong-order",
-    "wrong-picture",
-    "wrong-decal",
-    "not-proved",
-    "right"};
+inline constexpr std::array<std::string_view, 10> outcome_names{"crash", "abort", "timeout", "refused", "bad-sequence",
+    "wrong-order", "wrong-picture", "wrong-decal", "not-proved", "right"};
 
-inline std::string_view name_of(Outcome outcome) {
-    return outcome_names[static_cast<std::size_t>(outcome)];
-}
+inline std::string_view name_of(Outcome outcome) { return outcome_names[static_cast<std::size_t>(outcome)]; }
 
 struct TrialOptions {
     int rays = 4000;
@@ -59,8 +48,8 @@ struct TrialResult {
     std::string what; ///< of a failure; empty if right
 };
 
-/// Reads, orders and checks a model in a child process of its own, so that nothing it does harms
-/// the caller. Throws Error when no child can be started.
+/// Reads, orders and checks a model in a child process of its own, so that nothing it does harms the caller. Throws
+/// Error when no child can be started.
 TrialResult tried(const ObjPolygons& model, const TrialOptions& options);
 
 } // namespace octant::tests::fuzz

@@ -1,6 +1,5 @@
-// Judges simplified meshes against their original by sampling: octant-mesh-judge ORIGINAL.obj
-// RESULT.obj... Shares no code with the simplifiers: its own reader, nearest-point search and
-// topology counts.
+// Judges simplified meshes against their original by sampling: octant-mesh-judge ORIGINAL.obj RESULT.obj... Shares no
+// code with the simplifiers: its own reader, nearest-point search and topology counts.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,21 +20,13 @@ namespace {
 
 using Vec = std::array<double, 3>;
 
-Vec operator-(const Vec& a, const Vec& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-Vec operator+(const Vec& a, const Vec& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
+Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
-Vec operator*(const Vec& a, double s) {
-    return {a[0] * s, a[1] * s, a[2] * s};
-}
+Vec operator*(const Vec& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 
-double dot(const Vec& a, const Vec& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vec cross(const Vec& a, const Vec& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -59,8 +50,7 @@ double squared_distance(const Vec& p, const Triangle& triangle) {
     const Vec n = triangle.normal();
     const double n2 = dot(n, n);
     if (n2 > 0.0) {
-        const bool inside = dot(cross(b - a, p - a), n) >= 0.0 &&
-                            dot(cross(c - b, p - b), n) >= 0.0 &&
+        const bool inside = dot(cross(b - a, p - a), n) >= 0.0 && dot(cross(c - b, p - b), n) >= 0.0 &&
                             dot(cross(a - c, p - c), n) >= 0.0;
         if (inside) {
             const double height = dot(p - a, n);
@@ -68,8 +58,7 @@ double squared_distance(const Vec& p, const Triangle& triangle) {
         }
     }
     double least = std::numeric_limits<double>::infinity();
-    for (const Vec& q :
-         {nearest_on_segment(p, a, b), nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)}) {
+    for (const Vec& q : {nearest_on_segment(p, a, b), nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)}) {
         least = std::min(least, dot(p - q, p - q));
     }
     return least;
@@ -78,8 +67,7 @@ double squared_distance(const Vec& p, const Triangle& triangle) {
 /// A tree of boxes over the triangles of a mesh.
 class Surface {
 public:
-    explicit Surface(const PeerMesh& mesh)
-        : order_(mesh.triangles.size()) {
+    explicit Surface(const PeerMesh& mesh) : order_(mesh.triangles.size()) {
         for (const auto& [a, b, c] : mesh.triangles) {
             triangles_.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
         }
@@ -90,8 +78,7 @@ public:
 
     const Triangle& triangle(std::size_t i) const { return triangles_[i]; }
 
-    /// The nearest triangle and its squared distance. `guess` is any triangle; a near one saves
-    /// time.
+    /// The nearest triangle and its squared distance. `guess` is any triangle; a near one saves time.
     std::pair<std::size_t, double> nearest(const Vec& p, std::size_t guess) const {
         std::pair<std::size_t, double> best{guess, squared_distance(p, triangles_[guess])};
         nearest_in(0, p, best);
@@ -126,18 +113,14 @@ private:
         nodes_.push_back(node);
         if (last - first > 4) {
             const Vec size = node.max - node.min;
-            const auto axis =
-                static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+            const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
             const auto centre = [&](std::size_t i) {
                 return triangles_[i].a[axis] + triangles_[i].b[axis] + triangles_[i].c[axis];
             };
             const std::size_t middle = (first + last) / 2;
-            const auto at = [&](std::size_t i) {
-                return order_.begin() + static_cast<std::ptrdiff_t>(i);
-            };
-            std::nth_element(at(first), at(middle), at(last), [&](std::size_t i, std::size_t j) {
-                return centre(i) < centre(j);
-            });
+            const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+            std::nth_element(
+                at(first), at(middle), at(last), [&](std::size_t i, std::size_t j) { return centre(i) < centre(j); });
             build(first, middle);
             nodes_[index].right = build(middle, last);
         }
@@ -158,41 +141,31 @@ private:
         if (node.right == 0) {
             for (std::size_t i = node.first; i < node.last; ++i) {
                 const double d2 = squared_distance(p, triangles_[order_[i]]);
-                if (d2 < best.second) {
-                    best = {order_[i], d2};
-                }
+                if (d2 < best.second) { best = {order_[i], d2}; }
             }
             return;
         }
         std::array children = {index + 1, node.right};
         std::array distances = {
-            squared_distance_to_box(p, nodes_[children[0]]),
-            squared_distance_to_box(p, nodes_[children[1]])};
+            squared_distance_to_box(p, nodes_[children[0]]), squared_distance_to_box(p, nodes_[children[1]])};
         if (distances[1] < distances[0]) {
             std::swap(children[0], children[1]);
             std::swap(distances[0], distances[1]);
         }
         for (std::size_t k = 0; k < 2; ++k) {
-            if (distances.at(k) < best.second) {
-                nearest_in(children.at(k), p, best);
-            }
+            if (distances.at(k) < best.second) { nearest_in(children.at(k), p, best); }
         }
     }
 
     bool has_agreeing_in(std::size_t index, const Vec& p, double limit2, const Vec& normal) const {
         const Node& node = nodes_[index];
-        if (squared_distance_to_box(p, node) > limit2) {
-            return false;
-        }
+        if (squared_distance_to_box(p, node) > limit2) { return false; }
         if (node.right != 0) {
-            return has_agreeing_in(index + 1, p, limit2, normal) ||
-                   has_agreeing_in(node.right, p, limit2, normal);
+            return has_agreeing_in(index + 1, p, limit2, normal) || has_agreeing_in(node.right, p, limit2, normal);
         }
         for (std::size_t i = node.first; i < node.last; ++i) {
             const Triangle& triangle = triangles_[order_[i]];
-            if (dot(triangle.normal(), normal) >= 0.0 && squared_distance(p, triangle) <= limit2) {
-                return true;
-            }
+            if (dot(triangle.normal(), normal) >= 0.0 && squared_distance(p, triangle) <= limit2) { return true; }
         }
         return false;
     }
@@ -208,18 +181,13 @@ PeerMesh welded(const PeerMesh& mesh) {
     std::vector<std::uint32_t> new_index;
     PeerMesh made;
     for (const Vec& vertex : mesh.vertices) {
-        const auto [place, added] =
-            places.emplace(vertex, static_cast<std::uint32_t>(made.vertices.size()));
-        if (added) {
-            made.vertices.push_back(vertex);
-        }
+        const auto [place, added] = places.emplace(vertex, static_cast<std::uint32_t>(made.vertices.size()));
+        if (added) { made.vertices.push_back(vertex); }
         new_index.push_back(place->second);
     }
     for (const auto& [a, b, c] : mesh.triangles) {
         const std::array<std::uint32_t, 3> now{new_index[a], new_index[b], new_index[c]};
-        if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0]) {
-            made.triangles.push_back(now);
-        }
+        if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0]) { made.triangles.push_back(now); }
     }
     return made;
 }
@@ -257,9 +225,7 @@ std::size_t count_shells(const PeerMesh& mesh) {
     std::vector<std::uint32_t> parents(mesh.vertices.size());
     std::iota(parents.begin(), parents.end(), 0U);
     const auto root = [&](std::uint32_t vertex) {
-        while (parents[vertex] != vertex) {
-            vertex = parents[vertex] = parents[parents[vertex]];
-        }
+        while (parents[vertex] != vertex) { vertex = parents[vertex] = parents[parents[vertex]]; }
         return vertex;
     };
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -267,9 +233,7 @@ std::size_t count_shells(const PeerMesh& mesh) {
         parents[root(c)] = root(a);
     }
     std::set<std::uint32_t> roots;
-    for (const auto& triangle : mesh.triangles) {
-        roots.insert(root(triangle[0]));
-    }
+    for (const auto& triangle : mesh.triangles) { roots.insert(root(triangle[0])); }
     return roots.size();
 }
 
@@ -279,10 +243,7 @@ Topology topology(const PeerMesh& mesh) {
     std::vector<std::vector<std::uint32_t>> neighbours(mesh.triangles.size());
     for (std::size_t i = 0; i < uses.size();) {
         const std::size_t first = i;
-        while (i < uses.size() && uses[i].low == uses[first].low &&
-               uses[i].high == uses[first].high) {
-            ++i;
-        }
+        while (i < uses.size() && uses[i].low == uses[first].low && uses[i].high == uses[first].high) { ++i; }
         found.open_edges += i - first == 1 ? 1U : 0U;
         found.non_manifold_edges += i - first > 2 ? 1U : 0U;
         if (i - first == 2 && uses[first].rising != uses[first + 1].rising) {
@@ -294,9 +255,7 @@ Topology topology(const PeerMesh& mesh) {
     found.patches.assign(mesh.triangles.size(), none);
     std::uint32_t patch = 0;
     for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
-        if (found.patches[start] != none) {
-            continue;
-        }
+        if (found.patches[start] != none) { continue; }
         std::vector<std::uint32_t> open{start};
         found.patches[start] = patch;
         while (!open.empty()) {
@@ -335,9 +294,7 @@ std::vector<Sample> area_samples(const Surface& surface, std::size_t triangles, 
     std::size_t triangle = 0;
     for (std::size_t i = 0; i < count && total > 0.0; ++i) {
         const double place = total * (static_cast<double>(i) + unit()) / static_cast<double>(count);
-        while (triangle + 1 < triangles && before + areas[triangle] < place) {
-            before += areas[triangle++];
-        }
+        while (triangle + 1 < triangles && before + areas[triangle] < place) { before += areas[triangle++]; }
         const Triangle& t = surface.triangle(triangle);
         const double u = std::sqrt(unit());
         const double v = unit();
@@ -396,11 +353,8 @@ struct Original {
     double diagonal;
 
     explicit Original(PeerMesh read)
-        : mesh(std::move(read))
-        , surface(mesh)
-        , samples(area_samples(surface, mesh.triangles.size(), sample_count))
-        , parts(topology(mesh))
-        , diagonal(::diagonal(mesh)) {}
+        : mesh(std::move(read)), surface(mesh), samples(area_samples(surface, mesh.triangles.size(), sample_count)),
+          parts(topology(mesh)), diagonal(::diagonal(mesh)) {}
 };
 
 struct Result {
@@ -410,19 +364,15 @@ struct Result {
     std::vector<Sample> samples;
 
     explicit Result(PeerMesh read)
-        : mesh(std::move(read))
-        , surface(mesh)
-        , parts(topology(mesh))
-        , samples(area_samples(surface, mesh.triangles.size(), sample_count)) {}
+        : mesh(std::move(read)), surface(mesh), parts(topology(mesh)),
+          samples(area_samples(surface, mesh.triangles.size(), sample_count)) {}
 };
 
-/// The share of a result's area that opposes the nearest original surface and has no original
-/// surface of its direction at hand: none within `tolerance` more than the nearest distance.
-/// Without the tolerance, walls thinner than the error would count, where the nearest surface is
-/// the other side. A patch of the result that opposes a patch of the original in most of their
-/// common area is oriented otherwise there, not folded.
-double folded_share(
-    const Original& original, const Result& result, const Distances& back, double tolerance) {
+/// The share of a result's area that opposes the nearest original surface and has no original surface of its direction
+/// at hand: none within `tolerance` more than the nearest distance. Without the tolerance, walls thinner than the error
+/// would count, where the nearest surface is the other side. A patch of the result that opposes a patch of the original
+/// in most of their common area is oriented otherwise there, not folded.
+double folded_share(const Original& original, const Result& result, const Distances& back, double tolerance) {
     struct Seen {
         std::size_t opposed = 0;
         std::size_t agreed = 0;
@@ -436,15 +386,12 @@ double folded_share(
         const bool opposes = dot(original.surface.triangle(nearest).normal(), normal) < 0.0;
         const Vec other = opposes ? normal : normal * -1.0;
         if (!original.surface.has_agreeing(sample.point, distance + tolerance, other)) {
-            const auto patches =
-                std::pair{result.parts.patches[sample.triangle], original.parts.patches[nearest]};
+            const auto patches = std::pair{result.parts.patches[sample.triangle], original.parts.patches[nearest]};
             ++(opposes ? seen[patches].opposed : seen[patches].agreed);
         }
     }
     std::size_t folded = 0;
-    for (const auto& [patches, count] : seen) {
-        folded += std::min(count.opposed, count.agreed);
-    }
+    for (const auto& [patches, count] : seen) { folded += std::min(count.opposed, count.agreed); }
     return static_cast<double>(folded) / static_cast<double>(sample_count);
 }
 
@@ -465,30 +412,16 @@ void judge(const Original& original, const std::string& path) {
     const double tolerance = 2.0 * rms + 1e-7 * original.diagonal;
     const double folded = folded_share(original, result, back, tolerance);
     const double unit = 1.0 / original.diagonal;
-    std::printf(
-        "{\"file\": \"%s\", \"faces\": %zu, \"vertices\": %zu, \"diagonal\": %.9g, "
-        "\"rms\": %.6g, \"max\": %.6g, \"rms_forth\": %.6g, \"rms_back\": %.6g, \"max_forth\": "
-        "%.6g, "
-        "\"max_back\": %.6g, \"folded\": %.6g, \"open_edges\": %zu, \"non_manifold_edges\": %zu, "
-        "\"shells\": %zu, \"faces_before\": %zu, \"open_edges_before\": %zu, "
-        "\"non_manifold_edges_before\": %zu, \"shells_before\": %zu}\n",
-        path.c_str(),
-        result.mesh.triangles.size(),
-        result.mesh.vertices.size(),
-        original.diagonal,
-        rms * unit,
-        std::max(forth.max, back.max) * unit,
-        forth.rms * unit,
-        back.rms * unit,
-        forth.max * unit,
-        back.max * unit,
-        folded,
-        result.parts.open_edges,
-        result.parts.non_manifold_edges,
-        result.parts.shells,
-        original.mesh.triangles.size(),
-        original.parts.open_edges,
-        original.parts.non_manifold_edges,
+    std::printf("{\"file\": \"%s\", \"faces\": %zu, \"vertices\": %zu, \"diagonal\": %.9g, "
+                "\"rms\": %.6g, \"max\": %.6g, \"rms_forth\": %.6g, \"rms_back\": %.6g, \"max_forth\": "
+                "%.6g, "
+                "\"max_back\": %.6g, \"folded\": %.6g, \"open_edges\": %zu, \"non_manifold_edges\": %zu, "
+                "\"shells\": %zu, \"faces_before\": %zu, \"open_edges_before\": %zu, "
+                "\"non_manifold_edges_before\": %zu, \"shells_before\": %zu}\n",
+        path.c_str(), result.mesh.triangles.size(), result.mesh.vertices.size(), original.diagonal, rms * unit,
+        std::max(forth.max, back.max) * unit, forth.rms * unit, back.rms * unit, forth.max * unit, back.max * unit,
+        folded, result.parts.open_edges, result.parts.non_manifold_edges, result.parts.shells,
+        original.mesh.triangles.size(), original.parts.open_edges, original.parts.non_manifold_edges,
         original.parts.shells);
     std::fflush(stdout);
 }
@@ -497,19 +430,16 @@ void judge(const Original& original, const std::string& path) {
 
 int main(int argc, char** argv) {
     if (argc < 3) {
-        std::fputs(
-            "octant-mesh-judge ORIGINAL.obj RESULT.obj...\n"
-            "Prints one JSON object per result: distances as fractions of the original's diagonal "
-            "by 200,000 points of each\nsurface and all vertices, the share of the result's area "
-            "that opposes the nearest original surface, edges, shells.\n",
+        std::fputs("octant-mesh-judge ORIGINAL.obj RESULT.obj...\n"
+                   "Prints one JSON object per result: distances as fractions of the original's diagonal "
+                   "by 200,000 points of each\nsurface and all vertices, the share of the result's area "
+                   "that opposes the nearest original surface, edges, shells.\n",
             stderr);
         return 2;
     }
     try {
         const Original original(welded(read_obj(argv[1])));
-        for (int i = 2; i < argc; ++i) {
-            judge(original, argv[i]);
-        }
+        for (int i = 2; i < argc; ++i) { judge(original, argv[i]); }
     } catch (const std::exception& error) {
         std::fprintf(stderr, "octant-mesh-judge: %s\n", error.what());
         return 2;

@@ -39,14 +39,11 @@ constexpr int wrong_input = 2;
 constexpr int not_built = 3;
 
 int usage() {
-    std::fputs(
-        "octant-peers METHOD IN.obj FACES OUT.obj [--repeat N]\n"
-        "Simplifies by another library, prints {method, faces, vertices, time_ms}: the median of N "
-        "runs.\nMethods:",
+    std::fputs("octant-peers METHOD IN.obj FACES OUT.obj [--repeat N]\n"
+               "Simplifies by another library, prints {method, faces, vertices, time_ms}: the median of N "
+               "runs.\nMethods:",
         stderr);
-    for (const Method& method : methods) {
-        std::fprintf(stderr, " %s", method.name);
-    }
+    for (const Method& method : methods) { std::fprintf(stderr, " %s", method.name); }
     std::fputs("\nExit code 2: wrong input; 3: built without that library.\n", stderr);
     return wrong_input;
 }
@@ -62,12 +59,8 @@ int run(const Method& method, const std::array<std::string, 3>& words, int repea
     }
     std::sort(times_ms.begin(), times_ms.end());
     write_obj(words[2], result.mesh);
-    std::printf(
-        "{\"method\": \"%s\", \"faces\": %zu, \"vertices\": %zu, \"time_ms\": %.3f}\n",
-        method.name,
-        result.mesh.triangles.size(),
-        result.mesh.vertices.size(),
-        times_ms[times_ms.size() / 2]);
+    std::printf("{\"method\": \"%s\", \"faces\": %zu, \"vertices\": %zu, \"time_ms\": %.3f}\n", method.name,
+        result.mesh.triangles.size(), result.mesh.vertices.size(), times_ms[times_ms.size() / 2]);
     return 0;
 }
 
@@ -76,15 +69,10 @@ int run(const Method& method, const std::array<std::string, 3>& words, int repea
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const bool repeats = words.size() == 6 && words[4] == "--repeat";
-    if (words.size() != 4 && !repeats) {
-        return usage();
-    }
-    const auto* method = std::find_if(methods.begin(), methods.end(), [&](const Method& known) {
-        return words[0] == known.name;
-    });
-    if (method == methods.end()) {
-        return usage();
-    }
+    if (words.size() != 4 && !repeats) { return usage(); }
+    const auto* method =
+        std::find_if(methods.begin(), methods.end(), [&](const Method& known) { return words[0] == known.name; });
+    if (method == methods.end()) { return usage(); }
     if (method->simplify == nullptr) {
         std::printf("not built with %s\n", method->library);
         return not_built;

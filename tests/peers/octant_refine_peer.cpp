@@ -37,18 +37,12 @@ int compare(const Hierarchy& mesh, std::size_t rounds) {
     std::vector<std::unique_ptr<PeerRefinement>> peers;
     constexpr std::array orders = {SplitOrder::CoarseFirst, SplitOrder::BySubtree};
     for (const SplitOrder order : orders) {
-        for (const bool together : {false, true}) {
-            peers.push_back(our_refinement(mesh, order, together));
-        }
+        for (const bool together : {false, true}) { peers.push_back(our_refinement(mesh, order, together)); }
     }
 #ifdef OCTANT_PEER_OPENMESH
     try {
-        for (const SplitOrder order : orders) {
-            peers.push_back(openmesh_refinement(mesh, order));
-        }
-    } catch (const std::runtime_error& fault) {
-        std::fprintf(stderr, "OpenMesh left out: %s\n", fault.what());
-    }
+        for (const SplitOrder order : orders) { peers.push_back(openmesh_refinement(mesh, order)); }
+    } catch (const std::runtime_error& fault) { std::fprintf(stderr, "OpenMesh left out: %s\n", fault.what()); }
 #else
     std::fputs("OpenMesh left out: not built with it\n", stderr);
 #endif
@@ -68,13 +62,9 @@ int compare(const Hierarchy& mesh, std::size_t rounds) {
     for (std::size_t i = 0; i < peers.size(); ++i) {
         const bool right = peers[i]->faces() == expected;
         same = same && right;
-        std::printf(
-            "%-34s %6.2f million splits/s (best %6.2f), %6.1f bytes a vertex, %s\n",
-            peers[i]->name.c_str(),
-            1e-6 * splits / median(times_s[i]),
-            1e-6 * splits / *std::min_element(times_s[i].begin(), times_s[i].end()),
-            peers[i]->heap_bytes / vertices,
-            right ? "the original's faces" : "NOT the original's faces");
+        std::printf("%-34s %6.2f million splits/s (best %6.2f), %6.1f bytes a vertex, %s\n", peers[i]->name.c_str(),
+            1e-6 * splits / median(times_s[i]), 1e-6 * splits / *std::min_element(times_s[i].begin(), times_s[i].end()),
+            peers[i]->heap_bytes / vertices, right ? "the original's faces" : "NOT the original's faces");
     }
     return same ? 0 : 1;
 }
@@ -84,10 +74,9 @@ int compare(const Hierarchy& mesh, std::size_t rounds) {
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     if (words.empty() || words.size() > 3) {
-        std::fputs(
-            "octant-refine-peer MESH [BASE-VERTICES [ROUNDS]]\n"
-            "Splits everything from the base mesh to the original, ours and OpenMesh's in turn; "
-            "medians of processor time.\n",
+        std::fputs("octant-refine-peer MESH [BASE-VERTICES [ROUNDS]]\n"
+                   "Splits everything from the base mesh to the original, ours and OpenMesh's in turn; "
+                   "medians of processor time.\n",
             stderr);
         return 2;
     }
@@ -95,11 +84,7 @@ int main(int argc, char** argv) {
         const std::size_t base = words.size() > 1 ? std::stoul(words[1]) : 100;
         const std::size_t rounds = words.size() > 2 ? std::stoul(words[2]) : 31;
         const Hierarchy mesh = read_hierarchy(words[0], base);
-        std::printf(
-            "%s: %zu vertices, base %zu\n",
-            words[0].c_str(),
-            mesh->leaf_count(),
-            mesh->roots().size());
+        std::printf("%s: %zu vertices, base %zu\n", words[0].c_str(), mesh->leaf_count(), mesh->roots().size());
         return compare(mesh, rounds);
     } catch (const std::exception& fault) {
         std::fprintf(stderr, "octant-refine-peer: %s\n", fault.what());

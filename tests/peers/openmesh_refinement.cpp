@@ -1,8 +1,7 @@
-// OpenMesh's view-dependent progressive meshes: its hierarchy (VHierarchy), front (VFront) and mesh
-// (vertex_split) are in its library; the step that finds the active cut vertices and applies a
-// split is in its viewer application only, and is done here the way that application does it: cut
-// vertices by a walk around the vertex with VHierarchy::is_ancestor, forced splits while both are
-// one.
+// OpenMesh's view-dependent progressive meshes: its hierarchy (VHierarchy), front (VFront) and mesh (vertex_split) are
+// in its library; the step that finds the active cut vertices and applies a split is in its viewer application only,
+// and is done here the way that application does it: cut vertices by a walk around the vertex with
+// VHierarchy::is_ancestor, forced splits while both are one.
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/VDPM/MeshTraits.hh>
 #include <OpenMesh/Tools/VDPM/VFront.hh>
@@ -21,26 +20,19 @@ using Node = OpenMesh::VDPM::VHierarchyNodeHandle;
 using NodeIndex = OpenMesh::VDPM::VHierarchyNodeIndex;
 using Vertex = OpenMesh::VertexHandle;
 
-OpenMesh::Vec3f vec(const glm::vec3& v) {
-    return {v.x, v.y, v.z};
-}
+OpenMesh::Vec3f vec(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
 class OpenMeshRefinement : public PeerRefinement {
 public:
     OpenMeshRefinement(const Hierarchy& hierarchy, SplitOrder order)
-        : source_(*hierarchy)
-        , order_(split_order(*hierarchy, order))
-        , handles_(source_.node_count())
-        , vertices_(source_.node_count(), none) {
+        : source_(*hierarchy), order_(split_order(*hierarchy, order)), handles_(source_.node_count()),
+          vertices_(source_.node_count(), none) {
         const double before = heap_bytes_now();
         number_vertices();
         make_nodes();
         make_base();
         mesh_ = base_;
-        mesh_.reserve(
-            source_.leaf_count(),
-            source_.leaf_count() + source_.face_count() + 1000,
-            source_.face_count());
+        mesh_.reserve(source_.leaf_count(), source_.leaf_count() + source_.face_count() + 1000, source_.face_count());
         restart();
         split_all();
         heap_bytes = heap_bytes_now() - before - base_bytes_;
@@ -53,26 +45,20 @@ public:
             mesh_.data(vertex) = base_.data(vertex);
         }
         std::vector<Node> roots;
-        for (unsigned i = 0; i < tree_.num_roots(); ++i) {
-            roots.push_back(tree_.root_handle(i));
-        }
+        for (unsigned i = 0; i < tree_.num_roots(); ++i) { roots.push_back(tree_.root_handle(i)); }
         front_.clear();
         front_.init(roots, static_cast<unsigned>(tree_.num_nodes() - tree_.num_roots()) / 2);
     }
 
     void split_all() override {
         for (const std::uint32_t node : order_) {
-            if (front_.is_active(handles_[node])) {
-                force(handles_[node]);
-            }
+            if (front_.is_active(handles_[node])) { force(handles_[node]); }
         }
     }
 
     FaceSet faces() const override {
         std::vector<std::uint32_t> leaf_of(source_.leaf_count(), none);
-        for (std::uint32_t leaf = 0; leaf < source_.leaf_count(); ++leaf) {
-            leaf_of[vertices_[leaf]] = leaf;
-        }
+        for (std::uint32_t leaf = 0; leaf < source_.leaf_count(); ++leaf) { leaf_of[vertices_[leaf]] = leaf; }
         FaceSet faces;
         for (const OpenMesh::FaceHandle face : mesh_.faces()) {
             std::array<std::uint32_t, 3> corners{};
@@ -87,13 +73,11 @@ public:
     }
 
 private:
-    /// Its nodes and vertices lie in the order in which they come.
-    /// A split keeps its vertex for the first child, as ours, and adds one for the second.
+    /// Its nodes and vertices lie in the order in which they come. A split keeps its vertex for the first child, as
+    /// ours, and adds one for the second.
     void number_vertices() {
         std::uint32_t next = 0;
-        for (const std::uint32_t root : source_.roots()) {
-            vertices_[root] = next++;
-        }
+        for (const std::uint32_t root : source_.roots()) { vertices_[root] = next++; }
         for (const std::uint32_t node : order_) {
             vertices_[source_.split_of(node).first] = vertices_[node];
             vertices_[source_.split_of(node).second] = next++;
@@ -122,18 +106,13 @@ private:
             put(split.second, tree_.lchild_handle(parent));
             put(split.first, tree_.rchild_handle(parent));
         }
-        for (std::uint32_t node = static_cast<std::uint32_t>(source_.leaf_count());
-             node < source_.node_count();
+        for (std::uint32_t node = static_cast<std::uint32_t>(source_.leaf_count()); node < source_.node_count();
              ++node) {
             // OpenMesh has left and right seen from the added vertex.
             const std::uint32_t left = source_.split_of(node).right_cut;
             const std::uint32_t right = source_.split_of(node).left_cut;
-            if (left != none) {
-                tree_.node(handles_[node]).set_fund_lcut(tree_.node_index(handles_[left]));
-            }
-            if (right != none) {
-                tree_.node(handles_[node]).set_fund_rcut(tree_.node_index(handles_[right]));
-            }
+            if (left != none) { tree_.node(handles_[node]).set_fund_lcut(tree_.node_index(handles_[left])); }
+            if (right != none) { tree_.node(handles_[node]).set_fund_rcut(tree_.node_index(handles_[right])); }
         }
     }
 
@@ -146,16 +125,11 @@ private:
     void make_base() {
         const double before = heap_bytes_now();
         std::vector<std::uint32_t> node_of(source_.leaf_count(), none);
-        for (const std::uint32_t root : source_.roots()) {
-            node_of[vertices_[root]] = root;
-        }
+        for (const std::uint32_t root : source_.roots()) { node_of[vertices_[root]] = root; }
         for (std::uint32_t vertex = 0; vertex < source_.leaf_count(); ++vertex) {
             const std::uint32_t node = node_of[vertex];
-            const Vertex made = base_.add_vertex(
-                node == none ? OpenMesh::Vec3f(0.0F) : vec(source_.position_m(node)));
-            if (node != none) {
-                base_.data(made).set_vhierarchy_node_handle(handles_[node]);
-            }
+            const Vertex made = base_.add_vertex(node == none ? OpenMesh::Vec3f(0.0F) : vec(source_.position_m(node)));
+            if (node != none) { base_.data(made).set_vhierarchy_node_handle(handles_[node]); }
         }
         const std::vector<bool> is_base = source_.base_faces();
         for (std::size_t face = 0; face < is_base.size(); ++face) {
@@ -163,9 +137,7 @@ private:
                 std::array<Vertex, 3> corners;
                 for (std::size_t k = 0; k < 3; ++k) {
                     std::uint32_t node = source_.faces()[face][k];
-                    while (source_.parent(node) != none) {
-                        node = source_.parent(node);
-                    }
+                    while (source_.parent(node) != none) { node = source_.parent(node); }
                     corners.at(k) = Vertex(static_cast<int>(vertices_[node]));
                 }
                 base_.add_face(corners[0], corners[1], corners[2]);
@@ -183,15 +155,9 @@ private:
         right.invalidate();
         for (auto at = mesh_.vv_iter(tree_.vertex_handle(node)); at.is_valid(); ++at) {
             const NodeIndex index = tree_.node_index(mesh_.data(*at).vhierarchy_node_handle());
-            if (has_left && !left.is_valid() && tree_.is_ancestor(index, left_index)) {
-                left = *at;
-            }
-            if (has_right && !right.is_valid() && tree_.is_ancestor(index, right_index)) {
-                right = *at;
-            }
-            if (left.is_valid() && right.is_valid()) {
-                break;
-            }
+            if (has_left && !left.is_valid() && tree_.is_ancestor(index, left_index)) { left = *at; }
+            if (has_right && !right.is_valid() && tree_.is_ancestor(index, right_index)) { right = *at; }
+            if (left.is_valid() && right.is_valid()) { break; }
         }
     }
 
@@ -238,8 +204,7 @@ private:
 
 std::unique_ptr<PeerRefinement> openmesh_refinement(const Hierarchy& mesh, SplitOrder order) {
     auto made = std::make_unique<OpenMeshRefinement>(mesh, order);
-    made->name = order == SplitOrder::BySubtree ? "OpenMesh VDPM, by subtree"
-                                                : "OpenMesh VDPM, coarse first";
+    made->name = order == SplitOrder::BySubtree ? "OpenMesh VDPM, by subtree" : "OpenMesh VDPM, coarse first";
     return made;
 }
 

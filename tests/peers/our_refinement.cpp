@@ -11,9 +11,7 @@ namespace refine = visuals::refine;
 class OurRefinement : public PeerRefinement {
 public:
     OurRefinement(const Hierarchy& mesh, SplitOrder order, bool together)
-        : front_(mesh, {.repair = false})
-        , nodes_(split_order(*mesh, order))
-        , together_(together) {}
+        : front_(mesh, {.repair = false}), nodes_(split_order(*mesh, order)), together_(together) {}
 
     void restart() override { front_.restart(); }
 
@@ -22,9 +20,7 @@ public:
             front_.split_all(nodes_);
             return;
         }
-        for (const std::uint32_t node : nodes_) {
-            front_.split(node);
-        }
+        for (const std::uint32_t node : nodes_) { front_.split(node); }
     }
 
     FaceSet faces() const override {
@@ -33,9 +29,7 @@ public:
         for (std::size_t at = 0; at < indices.size(); at += 3) {
             if (front_.face_at(at / 3) != refine::none) {
                 faces.push_back(
-                    {front_.node_at(indices[at]),
-                     front_.node_at(indices[at + 1]),
-                     front_.node_at(indices[at + 2])});
+                    {front_.node_at(indices[at]), front_.node_at(indices[at + 1]), front_.node_at(indices[at + 2])});
             }
         }
         sort_faces(faces);
@@ -52,15 +46,13 @@ private:
 
 } // namespace
 
-std::unique_ptr<PeerRefinement>
-our_refinement(const Hierarchy& mesh, SplitOrder order, bool together) {
+std::unique_ptr<PeerRefinement> our_refinement(const Hierarchy& mesh, SplitOrder order, bool together) {
     auto made = std::make_unique<OurRefinement>(mesh, order, together);
     made->split_all();
     made->name = order == SplitOrder::BySubtree ? "octant, by subtree" : "octant, coarse first";
     made->name += together ? ", one call" : "";
     made->heap_bytes = static_cast<double>(
-        mesh->bytes() + made->front().bytes() +
-        made->front().vertices().size() * sizeof(refine::RefinedVertex));
+        mesh->bytes() + made->front().bytes() + made->front().vertices().size() * sizeof(refine::RefinedVertex));
     return made;
 }
 

@@ -34,12 +34,8 @@ Mesh cgal_mesh(const PeerMesh& mesh) {
     namespace processing = CGAL::Polygon_mesh_processing;
     std::vector<Kernel::Point_3> points;
     std::vector<std::vector<std::size_t>> polygons;
-    for (const auto& [x, y, z] : mesh.vertices) {
-        points.emplace_back(x, y, z);
-    }
-    for (const auto& [a, b, c] : mesh.triangles) {
-        polygons.push_back({a, b, c});
-    }
+    for (const auto& [x, y, z] : mesh.vertices) { points.emplace_back(x, y, z); }
+    for (const auto& [a, b, c] : mesh.triangles) { polygons.push_back({a, b, c}); }
     processing::merge_duplicate_polygons_in_polygon_soup(points, polygons);
     processing::orient_polygon_soup(points, polygons);
     Mesh made;
@@ -70,9 +66,7 @@ PeerResult cgal_lindstrom_turk(const PeerMesh& mesh, std::size_t faces) {
     Mesh work = cgal_mesh(mesh);
     PeerResult result;
     result.time_ms = timed_ms([&] {
-        simplification::edge_collapse(
-            work,
-            FaceCountStop{faces},
+        simplification::edge_collapse(work, FaceCountStop{faces},
             CGAL::parameters::get_cost(simplification::LindstromTurk_cost<Mesh>())
                 .get_placement(simplification::LindstromTurk_placement<Mesh>()));
     });
@@ -90,9 +84,7 @@ PeerResult cgal_garland_heckbert(const PeerMesh& mesh, std::size_t faces) {
         const Policies policies(work);
         const Placement placement(policies.get_placement());
         simplification::edge_collapse(
-            work,
-            FaceCountStop{faces},
-            CGAL::parameters::get_cost(policies.get_cost()).get_placement(placement));
+            work, FaceCountStop{faces}, CGAL::parameters::get_cost(policies.get_cost()).get_placement(placement));
     });
     work.collect_garbage();
     result.mesh = peer_mesh(work);

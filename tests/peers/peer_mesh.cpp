@@ -26,9 +26,7 @@ PeerMesh without_unused_vertices(const PeerMesh& mesh) {
     PeerMesh used;
     std::vector<std::uint32_t> places(mesh.vertices.size(), unused);
     for (const auto& triangle : mesh.triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            places[vertex] = 0;
-        }
+        for (const std::uint32_t vertex : triangle) { places[vertex] = 0; }
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (places[i] != unused) {
@@ -36,17 +34,13 @@ PeerMesh without_unused_vertices(const PeerMesh& mesh) {
             used.vertices.push_back(mesh.vertices[i]);
         }
     }
-    for (const auto& [a, b, c] : mesh.triangles) {
-        used.triangles.push_back({places[a], places[b], places[c]});
-    }
+    for (const auto& [a, b, c] : mesh.triangles) { used.triangles.push_back({places[a], places[b], places[c]}); }
     return used;
 }
 
 PeerMesh read_obj(const std::string& path) {
     std::ifstream file(path);
-    if (!file) {
-        throw std::runtime_error(path + ": cannot be read");
-    }
+    if (!file) { throw std::runtime_error(path + ": cannot be read"); }
     PeerMesh mesh;
     std::string line;
     while (std::getline(file, line)) {
@@ -58,34 +52,22 @@ PeerMesh read_obj(const std::string& path) {
             words >> x >> y >> z;
         } else if (kind == "f") {
             std::vector<std::uint32_t> corners;
-            for (std::string word; words >> word;) {
-                corners.push_back(corner_vertex(word, mesh.vertices.size()));
-            }
+            for (std::string word; words >> word;) { corners.push_back(corner_vertex(word, mesh.vertices.size())); }
             for (std::size_t i = 2; i < corners.size(); ++i) {
                 mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
             }
         }
     }
-    if (mesh.triangles.empty()) {
-        throw std::runtime_error(path + ": no faces");
-    }
+    if (mesh.triangles.empty()) { throw std::runtime_error(path + ": no faces"); }
     return without_unused_vertices(mesh);
 }
 
 void write_obj(const std::string& path, const PeerMesh& mesh) {
     std::FILE* file = std::fopen(path.c_str(), "w");
-    if (file == nullptr) {
-        throw std::runtime_error(path + ": cannot be written");
-    }
-    for (const auto& [x, y, z] : mesh.vertices) {
-        std::fprintf(file, "v %.17g %.17g %.17g\n", x, y, z);
-    }
-    for (const auto& [a, b, c] : mesh.triangles) {
-        std::fprintf(file, "f %u %u %u\n", a + 1, b + 1, c + 1);
-    }
-    if (std::fclose(file) != 0) {
-        throw std::runtime_error(path + ": cannot be written");
-    }
+    if (file == nullptr) { throw std::runtime_error(path + ": cannot be written"); }
+    for (const auto& [x, y, z] : mesh.vertices) { std::fprintf(file, "v %.17g %.17g %.17g\n", x, y, z); }
+    for (const auto& [a, b, c] : mesh.triangles) { std::fprintf(file, "f %u %u %u\n", a + 1, b + 1, c + 1); }
+    if (std::fclose(file) != 0) { throw std::runtime_error(path + ": cannot be written"); }
 }
 
 } // namespace octant::tests::peers

@@ -20,16 +20,12 @@ using Quadric = OpenMesh::Decimater::ModQuadricT<Mesh>;
 Mesh openmesh(const PeerMesh& mesh) {
     Mesh made;
     std::vector<Mesh::VertexHandle> vertices;
-    for (const auto& [x, y, z] : mesh.vertices) {
-        vertices.push_back(made.add_vertex({x, y, z}));
-    }
+    for (const auto& [x, y, z] : mesh.vertices) { vertices.push_back(made.add_vertex({x, y, z})); }
     int refused = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
         refused += made.add_face(vertices[a], vertices[b], vertices[c]).is_valid() ? 0 : 1;
     }
-    if (refused > 0) {
-        std::fprintf(stderr, "openmesh-quadric: %d faces left out\n", refused);
-    }
+    if (refused > 0) { std::fprintf(stderr, "openmesh-quadric: %d faces left out\n", refused); }
     return made;
 }
 

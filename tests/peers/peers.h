@@ -20,8 +20,8 @@ struct PeerResult {
     double time_ms = 0.0; ///< processor time of the simplification alone: no reading or writing
 };
 
-/// Reads v and f of an OBJ file; polygons become fans, vertices without triangles are dropped.
-/// Throws std::runtime_error.
+/// Reads v and f of an OBJ file; polygons become fans, vertices without triangles are dropped. Throws
+/// std::runtime_error.
 PeerMesh read_obj(const std::string& path);
 
 void write_obj(const std::string& path, const PeerMesh& mesh);

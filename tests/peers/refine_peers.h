@@ -45,35 +45,27 @@ enum class SplitOrder {
     BySubtree    ///< a node's subtree before the next node
 };
 
-inline std::vector<std::uint32_t>
-split_order(const visuals::refine::ProgressiveMesh& mesh, SplitOrder order) {
+inline std::vector<std::uint32_t> split_order(const visuals::refine::ProgressiveMesh& mesh, SplitOrder order) {
     std::vector<std::uint32_t> nodes = mesh.coarsest_first();
-    if (order == SplitOrder::BySubtree) {
-        std::sort(nodes.rbegin(), nodes.rend());
-    }
+    if (order == SplitOrder::BySubtree) { std::sort(nodes.rbegin(), nodes.rend()); }
     return nodes;
 }
 
 /// `together`: handed over in one call.
-std::unique_ptr<PeerRefinement>
-our_refinement(const Hierarchy& mesh, SplitOrder order, bool together);
+std::unique_ptr<PeerRefinement> our_refinement(const Hierarchy& mesh, SplitOrder order, bool together);
 
-/// OpenMesh's view-dependent progressive meshes over the same hierarchy. Throws
-/// std::runtime_error where its node numbers have too few bits for the hierarchy's depth.
+/// OpenMesh's view-dependent progressive meshes over the same hierarchy. Throws std::runtime_error where its node
+/// numbers have too few bits for the hierarchy's depth.
 std::unique_ptr<PeerRefinement> openmesh_refinement(const Hierarchy& mesh, SplitOrder order);
 
 inline void sort_faces(FaceSet& faces) {
     for (auto& face : faces) {
-        while (face[0] > face[1] || face[0] > face[2]) {
-            face = {face[1], face[2], face[0]};
-        }
+        while (face[0] > face[1] || face[0] > face[2]) { face = {face[1], face[2], face[0]}; }
     }
     std::sort(faces.begin(), faces.end());
 }
 
-inline double cpu_s() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+inline double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Bytes handed out by malloc, blocks of their own (mmap) included.
 inline double heap_bytes_now() {

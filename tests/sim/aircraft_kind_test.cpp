@@ -14,8 +14,7 @@ TEST_CASE("every known aircraft is found by its name, and no other name is taken
     CHECK(sim::find_aircraft_kind("kite") == nullptr);
     CHECK(sim::find_aircraft_kind("") == nullptr);
     CHECK_THROWS_WITH(
-        sim::aircraft_kind("kite"),
-        "expected aircraft f15 or 500md or f15-detailed or 500md-detailed, got 'kite'");
+        sim::aircraft_kind("kite"), "expected aircraft f15 or 500md or f15-detailed or 500md-detailed, got 'kite'");
 }
 
 TEST_CASE("a pilot is handed over an aircraft at a speed that it can fly") {

@@ -16,14 +16,10 @@ using namespace octant;
 
 namespace {
 
-std::filesystem::path scratch(const std::string& name) {
-    return tests::scratch_folder() / name;
-}
+std::filesystem::path scratch(const std::string& name) { return tests::scratch_folder() / name; }
 
 void check_vector(const glm::dvec3& got, const glm::dvec3& expected) {
-    for (int axis = 0; axis < 3; ++axis) {
-        CHECK(got[axis] == Approx(expected[axis]).margin(1e-12));
-    }
+    for (int axis = 0; axis < 3; ++axis) { CHECK(got[axis] == Approx(expected[axis]).margin(1e-12)); }
 }
 
 } // namespace
@@ -35,21 +31,17 @@ TEST_CASE("a level aircraft heading north has its nose north, right wing east an
     check_vector(q * glm::dvec3(0, 0, 1), {0, 0, -1});
 }
 
-TEST_CASE(
-    "heading 90 points east, positive pitch lifts the nose, positive roll drops the right wing") {
-    check_vector(
-        body_to_world_from_euler({rad_from_deg(90), 0, 0}) * glm::dvec3(1, 0, 0), {1, 0, 0});
+TEST_CASE("heading 90 points east, positive pitch lifts the nose, positive roll drops the right wing") {
+    check_vector(body_to_world_from_euler({rad_from_deg(90), 0, 0}) * glm::dvec3(1, 0, 0), {1, 0, 0});
     CHECK((body_to_world_from_euler({0, 0.3, 0}) * glm::dvec3(1, 0, 0)).z == Approx(std::sin(0.3)));
-    CHECK(
-        (body_to_world_from_euler({0, 0, 0.3}) * glm::dvec3(0, 1, 0)).z == Approx(-std::sin(0.3)));
+    CHECK((body_to_world_from_euler({0, 0, 0.3}) * glm::dvec3(0, 1, 0)).z == Approx(-std::sin(0.3)));
 }
 
 TEST_CASE("Euler angles survive the way to a rotation and back") {
     for (double heading = 0.0; heading < 6.2; heading += 0.7) {
         for (double pitch = -1.5; pitch <= 1.5; pitch += 0.5) {
             for (double roll = -3.0; roll <= 3.0; roll += 0.75) {
-                const EulerAngles back =
-                    euler_from_body_to_world(body_to_world_from_euler({heading, pitch, roll}));
+                const EulerAngles back = euler_from_body_to_world(body_to_world_from_euler({heading, pitch, roll}));
                 CHECK(wrapped_to_pi(back.heading_rad - heading) == Approx(0.0).margin(1e-9));
                 CHECK(back.pitch_rad == Approx(pitch).margin(1e-9));
                 CHECK(back.roll_rad == Approx(roll).margin(1e-9));
@@ -68,9 +60,7 @@ TEST_CASE("straight up and down keep a heading and give no roll") {
 TEST_CASE("numbers are read whole, finite and in the C locale or not at all") {
     CHECK(finite_number("-1.5e3") == -1500.0);
     CHECK(finite_number("+2") == 2.0);
-    for (const char* bad : {"", "1,5", "nan", "inf", "1x", " 1", "--1"}) {
-        CHECK_FALSE(finite_number(bad));
-    }
+    for (const char* bad : {"", "1,5", "nan", "inf", "1x", " 1", "--1"}) { CHECK_FALSE(finite_number(bad)); }
     CHECK(whole_number("-12") == -12);
     CHECK_FALSE(whole_number("1.0"));
     CHECK_FALSE(whole_number("99999999999999999999"));
@@ -88,11 +78,9 @@ TEST_CASE("a missing file, a folder and a binary file are refused by name") {
     const auto path = scratch("binary");
     write_file(path, std::string_view("a\0b", 3));
     CHECK_THROWS_WITH(read_text_file(path), path.string() + ": expected text, got binary data");
-    CHECK_THROWS_WITH(
-        read_file("/dev/zero"), "/dev/zero: expected a regular file, got a device or pipe");
+    CHECK_THROWS_WITH(read_file("/dev/zero"), "/dev/zero: expected a regular file, got a device or pipe");
     write_file(path, std::string(1001, 'x'));
-    CHECK_THROWS_WITH(
-        read_file(path, 1000), path.string() + ": expected at most 1000 bytes, got more");
+    CHECK_THROWS_WITH(read_file(path, 1000), path.string() + ": expected at most 1000 bytes, got more");
 }
 
 TEST_CASE("a file is written whole, replaced whole, and a full disk leaves nothing behind") {
@@ -103,9 +91,7 @@ TEST_CASE("a file is written whole, replaced whole, and a full disk leaves nothi
     CHECK_THROWS_WITH(write_file("/dev/full", "x"), Catch::Contains("No space left on device"));
     CHECK_THROWS_WITH(write_file("/nowhere/x", "x"), Catch::Contains("No such file or directory"));
     const auto folder = std::filesystem::directory_iterator(path.parent_path());
-    for (const auto& entry : folder) {
-        CHECK(entry.path().extension() != ".part");
-    }
+    for (const auto& entry : folder) { CHECK(entry.path().extension() != ".part"); }
 }
 
 TEST_CASE("a growing file keeps what was flushed") {

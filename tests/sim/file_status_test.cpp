@@ -15,9 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path scratch(const std::string& name) {
-    return tests::scratch_folder() / name;
-}
+fs::path scratch(const std::string& name) { return tests::scratch_folder() / name; }
 
 /// A link that leads to itself.
 fs::path link_in_a_circle() {
@@ -39,8 +37,7 @@ TEST_CASE("files and folders are told apart, and what cannot be looked up is not
     CHECK(path_exists("/dev/null"));
     CHECK_FALSE(is_file("/dev/null"));
     const fs::path circle = link_in_a_circle();
-    for (const fs::path& name :
-         {circle, circle / "in", fs::path(std::string(5000, 'n')), fs::path()}) {
+    for (const fs::path& name : {circle, circle / "in", fs::path(std::string(5000, 'n')), fs::path()}) {
         CHECK_FALSE(path_exists(name));
         CHECK_FALSE(is_file(name));
         CHECK_FALSE(is_folder(name));
@@ -79,8 +76,7 @@ TEST_CASE("a file that is too large is refused by its size, unread") {
     const fs::path file = scratch("sparse");
     write_file(file, "");
     fs::resize_file(file, std::uintmax_t{40} << 30);
-    CHECK_THROWS_WITH(
-        read_file(file), file.string() + ": expected at most 268435456 bytes, got more");
+    CHECK_THROWS_WITH(read_file(file), file.string() + ": expected at most 268435456 bytes, got more");
     fs::remove(file);
 }
 
@@ -88,9 +84,8 @@ TEST_CASE("a text from outside becomes one line that a terminal only shows") {
     CHECK(one_line("a\nb\r\nc\td") == "a b  c d");
     CHECK(one_line("\x1b[31mred\x1b[0m\x07") == "?[31mred?[0m?");
     CHECK(one_line("caf\xC3\xA9 \xE2\x82\xAC") == "caf\xC3\xA9 \xE2\x82\xAC");
-    CHECK(
-        one_line("\xC2\x9B"
-                 "31m \xFF \x7F") == "?31m ? ?");
+    CHECK(one_line("\xC2\x9B"
+                   "31m \xFF \x7F") == "?31m ? ?");
     CHECK(one_line("\xE2\x82") == "??");
     CHECK(one_line("").empty());
 }

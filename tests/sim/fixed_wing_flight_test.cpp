@@ -8,12 +8,11 @@
 
 using namespace octant;
 using namespace octant::tests;
-using sim::PilotedFlight;
 using sim::PilotControls;
+using sim::PilotedFlight;
 
 TEST_CASE("an F-15 starts level on its heading with its nose a little up") {
-    const auto state =
-        sim::trimmed_state(sim::aircraft_kind("f15"), {1, 2, 3000}, rad_from_deg(90), 200);
+    const auto state = sim::trimmed_state(sim::aircraft_kind("f15"), {1, 2, 3000}, rad_from_deg(90), 200);
     CHECK(state.velocity_mps.x == Approx(200));
     CHECK(state.velocity_mps.z == 0.0);
     CHECK(state.load_factor == 1.0);
@@ -54,10 +53,7 @@ TEST_CASE("a banked pull of 4 g turns an F-15 as its speed and load factor say")
     const auto pilot = [&](double) {
         const double bank_error = wrapped_to_pi(bank - angles_of(*flight).roll_rad);
         const double level = flight->state().velocity_mps.z;
-        return PilotControls{
-            (4.0 - 0.05 * level - 1.0) / (7.33 - 1.0),
-            std::clamp(1.0 * bank_error, -1.0, 1.0),
-            0.0,
+        return PilotControls{(4.0 - 0.05 * level - 1.0) / (7.33 - 1.0), std::clamp(1.0 * bank_error, -1.0, 1.0), 0.0,
             std::clamp(0.7 + 0.2 * (235.0 - speed_mps(*flight)), 0.0, 1.0)};
     };
     fly(*flight, 6, pilot, [](const PilotedFlight&) {});
@@ -71,17 +67,14 @@ TEST_CASE("a banked pull of 4 g turns an F-15 as its speed and load factor say")
     const double turned = wrapped_to_two_pi(angles_of(*flight).heading_rad - before);
     CHECK(load_factor == Approx(4.0).margin(0.15));
     CHECK(speed == Approx(235).margin(6));
-    CHECK(
-        turned / 5.0 ==
-        Approx(gravity_mps2 * std::sqrt(load_factor * load_factor - 1.0) / speed).epsilon(0.03));
+    CHECK(turned / 5.0 == Approx(gravity_mps2 * std::sqrt(load_factor * load_factor - 1.0) / speed).epsilon(0.03));
     CHECK(std::abs(flight->state().position_m.z - 300) < 100);
 }
 
 TEST_CASE("in a bank with the stick centred the nose of an F-15 drops") {
     const auto flight = trimmed_f15(235);
     fly(
-        *flight,
-        5,
+        *flight, 5,
         [](double t) {
             return PilotControls{0, t < 0.5 ? 0.7 : 0.0, 0, 0.3};
         },
@@ -99,8 +92,7 @@ TEST_CASE("a stick at its stops never takes an F-15 beyond its load factors") {
             double fastest = 0.0;
             double before = 1.0;
             fly(
-                *flight,
-                20,
+                *flight, 20,
                 [&](double) {
                     return PilotControls{stick, 0, 0, 1};
                 },
@@ -113,12 +105,8 @@ TEST_CASE("a stick at its stops never takes an F-15 beyond its load factors") {
                 });
             CHECK(most <= 7.33 + 1e-9);
             CHECK(least >= -3.0 - 1e-9);
-            if (speed >= 300.0 && stick > 0.0) {
-                CHECK(most > 7.2);
-            }
-            if (speed >= 200.0 && stick < 0.0) {
-                CHECK(least < -2.9);
-            }
+            if (speed >= 300.0 && stick > 0.0) { CHECK(most > 7.2); }
+            if (speed >= 200.0 && stick < 0.0) { CHECK(least < -2.9); }
             // What is faster than the pilot's rate is the wing that stalls.
             CHECK(fastest < 12.0);
         }
@@ -129,8 +117,7 @@ TEST_CASE("the load factor of an F-15 comes on at no more than 6 g a second") {
     const auto flight = trimmed_f15(300, 3000);
     double before = 1.0;
     fly(
-        *flight,
-        2,
+        *flight, 2,
         [](double t) {
             return PilotControls{t < 1.5 ? 1.0 : -1.0, 0, 0, 0.8};
         },
@@ -177,8 +164,7 @@ TEST_CASE("an F-15 rolls at most at its limit, and the slower it flies the slowe
         double fastest = 0.0;
         glm::dquat attitude = flight->state().body_to_world;
         fly(
-            *flight,
-            2,
+            *flight, 2,
             [&](double) {
                 return PilotControls{0, 1, 0, flight->trim_throttle()};
             },
@@ -205,13 +191,11 @@ TEST_CASE("right is right: roll, turn and rudder of an F-15") {
     hold(*yawed, 2, {0, 0, 1, 0.3});
     const double turned = wrapped_to_pi(angles_of(*yawed).heading_rad - rad_from_deg(70));
     CHECK(turned > rad_from_deg(4));
-    const glm::dvec3 in_body =
-        glm::conjugate(yawed->state().body_to_world) * yawed->state().velocity_mps;
+    const glm::dvec3 in_body = glm::conjugate(yawed->state().body_to_world) * yawed->state().velocity_mps;
     CHECK(in_body.y < 0);
     CHECK(std::abs(in_body.y) / speed_mps(*yawed) < std::sin(rad_from_deg(7)));
     hold(*yawed, 3, {0, 0, 0, 0.3});
-    const glm::dvec3 after =
-        glm::conjugate(yawed->state().body_to_world) * yawed->state().velocity_mps;
+    const glm::dvec3 after = glm::conjugate(yawed->state().body_to_world) * yawed->state().velocity_mps;
     CHECK(std::abs(after.y) < 0.2);
 }
 

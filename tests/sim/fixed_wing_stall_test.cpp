@@ -7,15 +7,14 @@
 
 using namespace octant;
 using namespace octant::tests;
-using sim::PilotedFlight;
 using sim::PilotControls;
+using sim::PilotedFlight;
 
 namespace {
 
 /// Angle between the nose and the velocity, in the aircraft's plane of symmetry.
 double alpha_rad(const PilotedFlight& flight) {
-    const glm::dvec3 in_body =
-        glm::conjugate(flight.state().body_to_world) * flight.state().velocity_mps;
+    const glm::dvec3 in_body = glm::conjugate(flight.state().body_to_world) * flight.state().velocity_mps;
     return std::atan2(in_body.z, in_body.x);
 }
 
@@ -33,8 +32,7 @@ TEST_CASE("a slow F-15 held back stalls, sinks nose down, and recovers when rele
     hold(*flight, 1, {1, 0, 0, 0});
     CHECK(flight->warnings().stalled);
     fly(
-        *flight,
-        9,
+        *flight, 9,
         [](double) {
             return PilotControls{1, 0, 0, 0};
         },
@@ -61,9 +59,7 @@ TEST_CASE("an F-15 left to itself without thrust slows down, stalls and dives ou
     bool stalled = false;
     double slowest = 1e9;
     fly(
-        *flight,
-        70,
-        [](double) { return PilotControls{}; },
+        *flight, 70, [](double) { return PilotControls{}; },
         [&](const PilotedFlight& f) {
             stalled = stalled || f.warnings().stalled;
             slowest = std::min(slowest, speed_mps(f));
@@ -109,9 +105,7 @@ TEST_CASE("an F-15 thrown straight up comes down nose first and flies again") {
     CHECK(angles_of(*flight).pitch_rad > rad_from_deg(60));
     double slowest = 1e9;
     fly(
-        *flight,
-        40,
-        [](double) { return PilotControls{}; },
+        *flight, 40, [](double) { return PilotControls{}; },
         [&](const PilotedFlight& f) { slowest = std::min(slowest, speed_mps(f)); });
     CHECK(slowest < 60);
     CHECK(speed_mps(*flight) > 100);

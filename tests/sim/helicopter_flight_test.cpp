@@ -9,16 +9,15 @@
 
 using namespace octant;
 using namespace octant::tests;
-using sim::PilotedFlight;
 using sim::PilotControls;
+using sim::PilotedFlight;
 
 namespace {
 
 constexpr double heading = 0.8;
 
 std::unique_ptr<PilotedFlight> trimmed(double speed_mps, double height_m = 300.0) {
-    return sim::make_piloted_flight(
-        sim::aircraft_kind("500md"),
+    return sim::make_piloted_flight(sim::aircraft_kind("500md"),
         sim::trimmed_state(sim::aircraft_kind("500md"), {0, 0, height_m}, heading, speed_mps));
 }
 
@@ -52,8 +51,7 @@ TEST_CASE("a 500MD in trim holds height, speed and attitude with the cyclic cent
     }
 }
 
-TEST_CASE(
-    "a pushed cyclic moves a hovering 500MD forward, a pulled one back, a centred one holds") {
+TEST_CASE("a pushed cyclic moves a hovering 500MD forward, a pulled one back, a centred one holds") {
     const auto flight = trimmed(0);
     const double trim = flight->trim_throttle();
     hold(*flight, 6, {-0.4, 0, 0, trim});
@@ -93,8 +91,7 @@ TEST_CASE("cyclic to the side slides a hovering 500MD and turns a flying one") {
     const double rate = wrapped_to_two_pi(angles_of(*flying).heading_rad - before) / 5.0;
     CHECK(rate == Approx(gravity_mps2 * std::tan(rad_from_deg(45)) / 40.0).epsilon(0.06));
     // Nose along the path.
-    const glm::dvec3 in_body =
-        glm::conjugate(flying->state().body_to_world) * flying->state().velocity_mps;
+    const glm::dvec3 in_body = glm::conjugate(flying->state().body_to_world) * flying->state().velocity_mps;
     CHECK(std::abs(in_body.y) < 0.05 * speed_mps(*flying));
 }
 
@@ -105,8 +102,7 @@ TEST_CASE("pedals turn a hovering 500MD on the spot and slip a flying one") {
     CHECK(glm::length(hovering->state().position_m - glm::dvec3(0, 0, 300)) < 0.5);
     const auto flying = trimmed(50);
     hold(*flying, 4, {0, 0, 1, flying->trim_throttle()});
-    const glm::dvec3 in_body =
-        glm::conjugate(flying->state().body_to_world) * flying->state().velocity_mps;
+    const glm::dvec3 in_body = glm::conjugate(flying->state().body_to_world) * flying->state().velocity_mps;
     CHECK(in_body.y < -1);
     CHECK(in_body.y > -12);
 }
@@ -118,8 +114,7 @@ TEST_CASE("bank, roll rate and load factor of a 500MD stay within its limits") {
     double fastest = 0.0;
     glm::dquat attitude = flight->state().body_to_world;
     fly(
-        *flight,
-        20,
+        *flight, 20,
         [](double t) {
             return PilotControls{0.3, std::fmod(t, 8.0) < 4.0 ? 1.0 : -1.0, 0, 1};
         },
@@ -162,9 +157,7 @@ TEST_CASE("a 500MD cannot hover where the air is too thin for its power") {
 TEST_CASE("flat out a 500MD flies about its never-exceed speed, and pushed over hardly more") {
     const auto level = trimmed(50);
     fly(
-        *level,
-        120,
-        [&](double) { return level_flat_out(*level); },
+        *level, 120, [&](double) { return level_flat_out(*level); },
         [](const PilotedFlight& f) { CHECK(speed_mps(f) < 79); });
     CHECK(speed_mps(*level) == Approx(77).margin(2));
     CHECK(std::abs(level->state().velocity_mps.z) < 1);
@@ -172,8 +165,7 @@ TEST_CASE("flat out a 500MD flies about its never-exceed speed, and pushed over 
     const auto pushed = trimmed(60, 2000);
     double fastest = 0.0;
     fly(
-        *pushed,
-        60,
+        *pushed, 60,
         [](double) {
             return PilotControls{-1, 0, 0, 0.4};
         },

@@ -22,10 +22,8 @@ TEST_CASE("a function of a library that is opened late is called like any other"
 }
 
 TEST_CASE("a library or a function that is not there is named in one line") {
-    CHECK_THROWS_WITH(
-        late_nothing(1.0), "expected libm.so.6 with no_such_root on this system, got none");
-    CHECK_THROWS_WITH(
-        late_nowhere(1.0), "expected liboctant-is-not-there.so.1 on this system, got none");
+    CHECK_THROWS_WITH(late_nothing(1.0), "expected libm.so.6 with no_such_root on this system, got none");
+    CHECK_THROWS_WITH(late_nowhere(1.0), "expected liboctant-is-not-there.so.1 on this system, got none");
     CHECK_THROWS_AS(late_nowhere(1.0), Error);
 }
 

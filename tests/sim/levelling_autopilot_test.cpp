@@ -35,8 +35,7 @@ Levelled levelled(const char* name, double speed_mps, const PilotControls& contr
         const bool stalled = flight.warnings().stalled;
         flight.step(levelling.controls(before));
         const AircraftState& after = flight.state();
-        end.max_turn_radps =
-            std::max(end.max_turn_radps, turn_radps(before.body_to_world, after.body_to_world));
+        end.max_turn_radps = std::max(end.max_turn_radps, turn_radps(before.body_to_world, after.body_to_world));
         end.max_load_factor = std::max(end.max_load_factor, after.load_factor);
         end.stalled_again = end.stalled_again || (!stalled && flight.warnings().stalled);
         end.seconds += step_s;
@@ -54,15 +53,10 @@ TEST_CASE("levelling flies an aircraft level from any attitude, within its limit
         double max_s;
     };
 
-    const std::array cases{
-        Case{"f15", 150, {0, 0.7, 0, 0.8}, 15},
-        Case{"f15", 150, {-0.3, 0, 0, 0.5}, 15},
-        Case{"f15", 150, {-1, 1, 0, 0.3}, 15},
-        Case{"f15", 250, {0.5, 0.5, 0, 0.9}, 20},
-        Case{"f15", 150, {1, 0, 0, 0}, 40},
-        Case{"500md", 40, {0, 0.7, 0, 0.8}, 10},
-        Case{"500md", 40, {0.5, 0.2, 0, 0.9}, 10},
-        Case{"500md", 40, {-1, 1, 0, 0.3}, 10},
+    const std::array cases{Case{"f15", 150, {0, 0.7, 0, 0.8}, 15}, Case{"f15", 150, {-0.3, 0, 0, 0.5}, 15},
+        Case{"f15", 150, {-1, 1, 0, 0.3}, 15}, Case{"f15", 250, {0.5, 0.5, 0, 0.9}, 20},
+        Case{"f15", 150, {1, 0, 0, 0}, 40}, Case{"500md", 40, {0, 0.7, 0, 0.8}, 10},
+        Case{"500md", 40, {0.5, 0.2, 0, 0.9}, 10}, Case{"500md", 40, {-1, 1, 0, 0.3}, 10},
         Case{"500md", 0, {0, 0, 1, 0.2}, 15}};
     for (const Case& each : cases) {
         CAPTURE(each.name, each.controls.pitch, each.controls.roll);

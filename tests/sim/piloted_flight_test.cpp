@@ -13,13 +13,9 @@ using sim::PilotControls;
 
 namespace {
 
-bool is_helicopter(const sim::AircraftKind& kind) {
-    return kind.flight_model == sim::FlightModel::Helicopter;
-}
+bool is_helicopter(const sim::AircraftKind& kind) { return kind.flight_model == sim::FlightModel::Helicopter; }
 
-double speed_of(const sim::AircraftKind& kind) {
-    return is_helicopter(kind) ? 30.0 : 200.0;
-}
+double speed_of(const sim::AircraftKind& kind) { return is_helicopter(kind) ? 30.0 : 200.0; }
 
 } // namespace
 
@@ -74,8 +70,7 @@ TEST_CASE("controls that are not numbers count as 0, those out of range as the e
 
 TEST_CASE("times are those of the steps, exactly") {
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        const auto flight =
-            sim::make_piloted_flight(kind, sim::trimmed_state(kind, {0, 0, 1000}, 0.0, speed_of(kind)));
+        const auto flight = sim::make_piloted_flight(kind, sim::trimmed_state(kind, {0, 0, 1000}, 0.0, speed_of(kind)));
         for (long step = 1; step < 5000; ++step) {
             flight->step({});
             REQUIRE(flight->state().time_s == sim::time_of_step(step));
@@ -85,8 +80,7 @@ TEST_CASE("times are those of the steps, exactly") {
 
 TEST_CASE("positions go as the velocities say") {
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        const auto flight =
-            sim::make_piloted_flight(kind, sim::trimmed_state(kind, {0, 0, 3000}, 0.3, speed_of(kind)));
+        const auto flight = sim::make_piloted_flight(kind, sim::trimmed_state(kind, {0, 0, 3000}, 0.3, speed_of(kind)));
         sim::AircraftState before = flight->state();
         double worst = 0.0;
         fly(*flight, 60, WildPilot(4), [&](const sim::PilotedFlight& f) {
@@ -115,8 +109,7 @@ TEST_CASE("any start flies: standing still, backwards, upside down, without a lo
                     CHECK(flight->trim_throttle() <= 1.0);
                     bool good = true;
                     fly(
-                        *flight,
-                        30,
+                        *flight, 30,
                         [](double) {
                             return PilotControls{0, 0, 0, 0.5};
                         },

@@ -22,9 +22,7 @@ TEST_CASE("at the equinox the sun rises in the east at six and is highest in the
 }
 
 TEST_CASE("at midsummer the noon sun stands the obliquity higher, and in the south lower") {
-    CHECK(
-        sim::sun_position(45.0, midsummer, 12.0).elevation_deg ==
-        Approx(45.0 + 23.45).margin(0.01));
+    CHECK(sim::sun_position(45.0, midsummer, 12.0).elevation_deg == Approx(45.0 + 23.45).margin(0.01));
     const sim::SunPosition south = sim::sun_position(-45.0, midsummer, 12.0);
     CHECK(south.elevation_deg == Approx(45.0 - 23.45).margin(0.01));
     const bool in_the_north = south.azimuth_deg < 1e-6 || south.azimuth_deg > 360.0 - 1e-6;
@@ -41,19 +39,9 @@ TEST_CASE("a time of day and year is read, and what no calendar has is not") {
     REQUIRE(time);
     CHECK(*time == sim::SolarTime{2024, 2, 29, 17 * 60 + 5});
     CHECK(sim::day_of_year(*time) == 60);
-    for (const char* const wrong :
-         {"2023-02-29T17:05",
-          "2024-13-01T00:00",
-          "2024-00-01T00:00",
-          "2024-04-31T00:00",
-          "2024-04-30T24:00",
-          "2024-04-30T23:60",
-          "2024-04-30 23:50",
-          "2024-4-30T23:50",
-          "2024-04-30T23:5",
-          "2024-04-30T+3:50",
-          "2024-04-30T23:50Z",
-          ""}) {
+    for (const char* const wrong : {"2023-02-29T17:05", "2024-13-01T00:00", "2024-00-01T00:00", "2024-04-31T00:00",
+             "2024-04-30T24:00", "2024-04-30T23:60", "2024-04-30 23:50", "2024-4-30T23:50", "2024-04-30T23:5",
+             "2024-04-30T+3:50", "2024-04-30T23:50Z", ""}) {
         INFO(wrong);
         CHECK_FALSE(sim::solar_time_from_text(wrong));
     }
@@ -61,8 +49,6 @@ TEST_CASE("a time of day and year is read, and what no calendar has is not") {
 
 TEST_CASE("every day of a year is found again by its number") {
     for (const int year : {2023, 2024}) {
-        for (int day = 1; day <= 365; ++day) {
-            CHECK(sim::day_of_year(sim::on_day({year, 7, 4, 30}, day)) == day);
-        }
+        for (int day = 1; day <= 365; ++day) { CHECK(sim::day_of_year(sim::on_day({year, 7, 4, 30}, day)) == day); }
     }
 }

@@ -10,16 +10,14 @@ using sim::Trajectory;
 
 namespace {
 
-AircraftState
-sample(double time_s, glm::dvec3 position_m, glm::dvec3 velocity_mps, double heading_rad) {
+AircraftState sample(double time_s, glm::dvec3 position_m, glm::dvec3 velocity_mps, double heading_rad) {
     return {time_s, position_m, velocity_mps, body_to_world_from_euler({heading_rad, 0, 0}), 1.0};
 }
 
 } // namespace
 
 TEST_CASE("a trajectory goes through its samples and stays at its ends") {
-    const Trajectory path(
-        {sample(1, {0, 0, 0}, {10, 0, 0}, 0), sample(2, {10, 0, 0}, {10, 0, 0}, 1)});
+    const Trajectory path({sample(1, {0, 0, 0}, {10, 0, 0}, 0), sample(2, {10, 0, 0}, {10, 0, 0}, 1)});
     CHECK(path.state_at(0.0).position_m.x == 0.0);
     CHECK(path.state_at(1.0).time_s == 1.0);
     CHECK(path.state_at(1.5).position_m.x == Approx(5.0));
@@ -28,8 +26,7 @@ TEST_CASE("a trajectory goes through its samples and stays at its ends") {
 }
 
 TEST_CASE("outside its times a trajectory gives the sample at that end as it is") {
-    const Trajectory path(
-        {sample(1, {0, 0, 0}, {10, 0, 0}, 0), sample(2, {10, 0, 0}, {20, 0, 0}, 1)});
+    const Trajectory path({sample(1, {0, 0, 0}, {10, 0, 0}, 0), sample(2, {10, 0, 0}, {20, 0, 0}, 1)});
     CHECK(path.state_at(0.0).time_s == 1.0);
     CHECK(path.state_at(0.0).velocity_mps.x == 10.0);
     CHECK(path.state_at(9.0).time_s == 2.0);
@@ -45,9 +42,7 @@ TEST_CASE("heading turns evenly between samples") {
 
 TEST_CASE("position and velocity are continuous across a sample") {
     const Trajectory path(
-        {sample(0, {0, 0, 0}, {1, 2, 0}, 0),
-         sample(1, {3, 1, 0}, {0, 1, 1}, 0),
-         sample(2, {4, 0, 2}, {2, 0, 0}, 0)});
+        {sample(0, {0, 0, 0}, {1, 2, 0}, 0), sample(1, {3, 1, 0}, {0, 1, 1}, 0), sample(2, {4, 0, 2}, {2, 0, 0}, 0)});
     const auto before = path.state_at(1.0 - 1e-7);
     const auto after = path.state_at(1.0 + 1e-7);
     CHECK(glm::length(before.position_m - after.position_m) < 1e-6);
@@ -55,9 +50,7 @@ TEST_CASE("position and velocity are continuous across a sample") {
 }
 
 TEST_CASE("steps and times convert without drift") {
-    for (long step = -10; step < 5000; ++step) {
-        CHECK(sim::step_at(sim::time_of_step(step)) == step);
-    }
+    for (long step = -10; step < 5000; ++step) { CHECK(sim::step_at(sim::time_of_step(step)) == step); }
     CHECK(sim::step_at(0.05 * 799) == 799 * 6);
     CHECK(sim::step_at(1e7) == 1'200'000'000L);
     CHECK(sim::step_at(-1e7) == -1'200'000'000L);

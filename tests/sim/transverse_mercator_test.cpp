@@ -19,8 +19,7 @@ struct Known {
     double convergence_deg;
 };
 
-constexpr Known known[] = {
-    {{47.0, 8.0}, {48.5, 10.25}, {166273.011028, 169223.933968}, 1.6855341264},
+constexpr Known known[] = {{{47.0, 8.0}, {48.5, 10.25}, {166273.011028, 169223.933968}, 1.6855341264},
     {{-33.5, 179.99}, {-33.4, -179.9}, {10233.219568, 11085.841690}, -0.0605529340}, // date line
     {{89.99, 20.0}, {89.98, -150.0}, {-387.909113, 3316.881738}, -170.0000005970},   // pole
     {{64.0, -21.9}, {64.2, -21.2}, {34006.659678, 22482.808628}, 0.6302291024}};
@@ -32,13 +31,10 @@ TEST_CASE("places lie in a transverse Mercator frame where PROJ has them, and co
         const TransverseMercator frame(each.origin);
         const FramePosition local = frame.place_of(each.place);
         CHECK(glm::distance(local.east_north_m, each.at_m) < 2e-6);
-        CHECK(
-            std::abs(wrapped_to_pi(local.north_bearing_rad + rad_from_deg(each.convergence_deg))) <
-            1e-6);
+        CHECK(std::abs(wrapped_to_pi(local.north_bearing_rad + rad_from_deg(each.convergence_deg))) < 1e-6);
         const GeoPosition back = frame.geo_from_local(local.east_north_m);
         CHECK(back.latitude_deg == Approx(each.place.latitude_deg).margin(1e-11));
-        CHECK(
-            std::abs(std::remainder(back.longitude_deg - each.place.longitude_deg, 360.0)) < 1e-7);
+        CHECK(std::abs(std::remainder(back.longitude_deg - each.place.longitude_deg, 360.0)) < 1e-7);
     }
 }
 
@@ -61,8 +57,7 @@ TEST_CASE("every place on the earth is finite in a frame, and what comes back is
             CHECK(std::isfinite(local.north_bearing_rad));
         }
     }
-    for (const glm::dvec2& at_m :
-         {glm::dvec2(1e12, 3.0), {-5.0, -1e12}, {4e6, 9e6}, {0.0, 4.8e6}}) {
+    for (const glm::dvec2& at_m : {glm::dvec2(1e12, 3.0), {-5.0, -1e12}, {4e6, 9e6}, {0.0, 4.8e6}}) {
         const GeoPosition place = frame.geo_from_local(at_m);
         CHECK(std::abs(place.latitude_deg) <= 90.0);
         CHECK(std::abs(place.longitude_deg) <= 180.0);

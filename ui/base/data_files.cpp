@@ -28,9 +28,7 @@ bool looks_like_file(const std::string& name) {
 
 [[noreturn]] void throw_unknown_aircraft(const std::string& name) {
     throw Error(fmt::format(
-        "aircraft: expected {} or an OBJ file, got '{}'",
-        fmt::join(built_in_models, ", "),
-        printable(name)));
+        "aircraft: expected {} or an OBJ file, got '{}'", fmt::join(built_in_models, ", "), printable(name)));
 }
 
 } // namespace
@@ -45,16 +43,12 @@ fs::path data_folder() {
     candidates.push_back(program.parent_path().parent_path() / "share" / "octant");
     candidates.emplace_back(OCTANT_SOURCE_DIR);
     for (const fs::path& place : candidates) {
-        if (holds_data(place)) {
-            return place;
-        }
+        if (holds_data(place)) { return place; }
     }
     std::vector<std::string> names;
-    std::transform(candidates.begin(), candidates.end(), std::back_inserter(names), [](const fs::path& p) {
-        return p.string();
-    });
-    throw Error(fmt::format(
-        "expected the program's models and paths in one of {}; set OCTANT_DATA to their folder",
+    std::transform(
+        candidates.begin(), candidates.end(), std::back_inserter(names), [](const fs::path& p) { return p.string(); });
+    throw Error(fmt::format("expected the program's models and paths in one of {}; set OCTANT_DATA to their folder",
         fmt::join(names, ", ")));
 }
 
@@ -63,22 +57,14 @@ fs::path aircraft_file(const std::string& name_or_file) {
     if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
         return data_folder() / models / kind->model_file;
     }
-    if (name_or_file == example_model) {
-        return data_folder() / models / fmt::format("{}.obj", example_model);
-    }
-    if (looks_like_file(name_or_file)) {
-        return name_or_file;
-    }
+    if (name_or_file == example_model) { return data_folder() / models / fmt::format("{}.obj", example_model); }
+    if (looks_like_file(name_or_file)) { return name_or_file; }
     throw_unknown_aircraft(name_or_file);
 }
 
 const sim::AircraftKind& aircraft_kind_of(const std::string& name_or_file) {
-    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
-        return *kind;
-    }
-    if (name_or_file != example_model && !looks_like_file(name_or_file)) {
-        throw_unknown_aircraft(name_or_file);
-    }
+    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) { return *kind; }
+    if (name_or_file != example_model && !looks_like_file(name_or_file)) { throw_unknown_aircraft(name_or_file); }
     return sim::aircraft_kind("f15");
 }
 
@@ -88,13 +74,9 @@ fs::path path_file(const std::string& name_or_file, const std::string& aircraft)
         const std::string_view whose = kind.simple_type_name.empty() ? kind.name : kind.simple_type_name;
         return data_folder() / "flightpaths" / fmt::format("{}-{}.toml", whose, name_or_file);
     }
-    if (looks_like_file(name_or_file)) {
-        return name_or_file;
-    }
-    throw Error(fmt::format(
-        "path: expected {}, a .toml, .csv, .igc, .gpx or .acmi file, got '{}'",
-        fmt::join(built_in_paths, ", "),
-        printable(name_or_file)));
+    if (looks_like_file(name_or_file)) { return name_or_file; }
+    throw Error(fmt::format("path: expected {}, a .toml, .csv, .igc, .gpx or .acmi file, got '{}'",
+        fmt::join(built_in_paths, ", "), printable(name_or_file)));
 }
 
 } // namespace octant::ui::base

@@ -21,27 +21,22 @@ inline constexpr auto built_in_models = [] {
     return names;
 }();
 
-/// Built-in paths, of which each known aircraft has its own or another's, in the order of the 1989
-/// paper.
-inline constexpr std::array<std::string_view, 4> built_in_paths{
-    "straight", "jinking", "pop-up", "turn"};
+/// Built-in paths, of which each known aircraft has its own or another's, in the order of the 1989 paper.
+inline constexpr std::array<std::string_view, 4> built_in_paths{"straight", "jinking", "pop-up", "turn"};
 
-/// Where the program's own models and paths lie: OCTANT_DATA when set, else the installed prefix
-/// beside the program, else the source tree it was built from. Throws Error when none of them has
-/// them, naming the places.
+/// Where the program's own models and paths lie: OCTANT_DATA when set, else the installed prefix beside the program,
+/// else the source tree it was built from. Throws Error when none of them has them, naming the places.
 std::filesystem::path data_folder();
 
-/// File of an aircraft: a name of built_in_models or a file. Throws Error for a name that is
-/// neither, listing the built-in ones.
+/// File of an aircraft: a name of built_in_models or a file. Throws Error for a name that is neither, listing the
+/// built-in ones.
 std::filesystem::path aircraft_file(const std::string& name_or_file);
 
-/// The aircraft whose flight model and built-in paths a model flies with: its own, or, for the
-/// typeless model and files, of which no more than the shape is known, the F-15's. Throws Error as
-/// aircraft_file.
+/// The aircraft whose flight model and built-in paths a model flies with: its own, or, for the typeless model and
+/// files, of which no more than the shape is known, the F-15's. Throws Error as aircraft_file.
 const sim::AircraftKind& aircraft_kind_of(const std::string& name_or_file);
 
-/// File of a path for an aircraft: a name of built_in_paths or a file. Throws Error as
-/// aircraft_file.
+/// File of a path for an aircraft: a name of built_in_paths or a file. Throws Error as aircraft_file.
 std::filesystem::path path_file(const std::string& name_or_file, const std::string& aircraft);
 
 } // namespace octant::ui::base

@@ -12,46 +12,33 @@
 
 namespace octant::ui::base {
 
-/// What a command found, as it is printed for people and for programs: nothing, a truth value, a
-/// number, text, a list, or named figures in the order in which they were set. The values of JSON,
-/// in a type that costs a file next to nothing to include.
+/// What a command found, as it is printed for people and for programs: nothing, a truth value, a number, text, a list,
+/// or named figures in the order in which they were set. The values of JSON, in a type that costs a file next to
+/// nothing to include.
 class JsonValue {
 public:
     using List = std::vector<JsonValue>;
     using JsonMembers = std::vector<std::pair<std::string, JsonValue>>;
-    using Value = std::variant<
-        std::monostate,
-        bool,
-        std::int64_t,
-        std::uint64_t,
-        double,
-        std::string,
-        List,
-        JsonMembers>;
+    using Value =
+        std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, JsonMembers>;
 
     JsonValue() = default;
 
-    JsonValue(std::initializer_list<std::pair<std::string, JsonValue>> named)
-        : value_(JsonMembers(named)) {}
+    JsonValue(std::initializer_list<std::pair<std::string, JsonValue>> named) : value_(JsonMembers(named)) {}
 
     template <class Number>
 
-    requires std::is_arithmetic_v<Number> JsonValue(Number number)
-        : value_(stored(number)) {}
+    requires std::is_arithmetic_v<Number> JsonValue(Number number) : value_(stored(number)) {}
 
-    JsonValue(std::string text)
-        : value_(std::move(text)) {}
+    JsonValue(std::string text) : value_(std::move(text)) {}
 
-    JsonValue(const char* text)
-        : value_(std::string(text)) {}
+    JsonValue(const char* text) : value_(std::string(text)) {}
 
     /// Nothing where there is none.
     template <class Known>
-    JsonValue(const std::optional<Known>& known)
-        : JsonValue(known ? JsonValue(*known) : JsonValue()) {}
+    JsonValue(const std::optional<Known>& known) : JsonValue(known ? JsonValue(*known) : JsonValue()) {}
 
-    JsonValue(const std::vector<std::string>& lines)
-        : value_(List(lines.begin(), lines.end())) {}
+    JsonValue(const std::vector<std::string>& lines) : value_(List(lines.begin(), lines.end())) {}
 
     /// A list, also an empty one.
     static JsonValue list(List members) {
@@ -60,8 +47,7 @@ public:
         return results;
     }
 
-    /// The figure of a name. A new name stands last and has nothing yet. Asserts that this is
-    /// nothing or named figures.
+    /// The figure of a name. A new name stands last and has nothing yet. Asserts that this is nothing or named figures.
     JsonValue& operator[](std::string_view name);
 
     /// One more member. Asserts that this is nothing or a list.

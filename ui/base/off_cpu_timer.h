@@ -7,8 +7,7 @@
 
 namespace octant::ui::base {
 
-/// Time since it was made in which the thread that made it had no processor: it waited, or others
-/// pushed it aside.
+/// Time since it was made in which the thread that made it had no processor: it waited, or others pushed it aside.
 class OffCpuTimer {
 public:
     /// On the thread that made it.

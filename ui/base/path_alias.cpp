@@ -24,8 +24,7 @@ void set_path_alias(const std::filesystem::path& folder, const std::string& name
 
 std::string with_path_aliases(std::string text) {
     for (const auto& [folder, name] : path_aliases()) {
-        for (std::size_t at = text.find(folder); at != std::string::npos;
-             at = text.find(folder, at + name.size())) {
+        for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at + name.size())) {
             text.replace(at, folder.size(), name);
         }
     }

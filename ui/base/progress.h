@@ -8,8 +8,8 @@ namespace octant::ui::base {
 /// Steps a second as progress tells them: "250", "3.4", "0.062".
 std::string rate_text(double per_s);
 
-/// Progress of long work on stderr: one line redrawn in place when stderr is a terminal, else a
-/// plain line every few seconds; nothing when quiet.
+/// Progress of long work on stderr: one line redrawn in place when stderr is a terminal, else a plain line every few
+/// seconds; nothing when quiet.
 class Progress {
 public:
     /// `steps`: what is counted.

@@ -22,17 +22,13 @@ struct AsJson {
 
     Json operator()(const JsonValue::List& list) const {
         auto json = Json::array();
-        for (const JsonValue& member : list) {
-            json.push_back(json_of(member));
-        }
+        for (const JsonValue& member : list) { json.push_back(json_of(member)); }
         return json;
     }
 
     Json operator()(const JsonValue::JsonMembers& named) const {
         auto json = Json::object();
-        for (const auto& [name, json_value] : named) {
-            json[name] = json_of(json_value);
-        }
+        for (const auto& [name, json_value] : named) { json[name] = json_of(json_value); }
         return json;
     }
 
@@ -42,27 +38,19 @@ struct AsJson {
     }
 };
 
-Json json_of(const JsonValue& results) {
-    return std::visit(AsJson(), results.value());
-}
+Json json_of(const JsonValue& results) { return std::visit(AsJson(), results.value()); }
 
 } // namespace
 
 std::string text_of_value(const JsonValue& json_value) {
-    if (const auto* text = std::get_if<std::string>(&json_value.value())) {
-        return one_line(*text);
-    }
-    if (const auto* number = std::get_if<double>(&json_value.value())) {
-        return fmt::format("{:.6g}", *number);
-    }
+    if (const auto* text = std::get_if<std::string>(&json_value.value())) { return one_line(*text); }
+    if (const auto* number = std::get_if<double>(&json_value.value())) { return fmt::format("{:.6g}", *number); }
     return json_of(json_value).dump();
 }
 
 std::string text_of_results(const JsonValue& results) {
     const auto* named = std::get_if<JsonValue::JsonMembers>(&results.value());
-    if (named == nullptr) {
-        return text_of_value(results) + "\n";
-    }
+    if (named == nullptr) { return text_of_value(results) + "\n"; }
     std::size_t width = 0;
     for (const auto& [name, json_value] : *named) {
         const bool in_column = !std::holds_alternative<JsonValue::List>(json_value.value());
@@ -71,9 +59,7 @@ std::string text_of_results(const JsonValue& results) {
     std::string text;
     for (const auto& [name, json_value] : *named) {
         if (const auto* list = std::get_if<JsonValue::List>(&json_value.value())) {
-            for (const JsonValue& member : *list) {
-                text += text_of_value(member) + "\n";
-            }
+            for (const JsonValue& member : *list) { text += text_of_value(member) + "\n"; }
         } else {
             text += fmt::format("{:<{}}  {}\n", name, width, text_of_value(json_value));
         }

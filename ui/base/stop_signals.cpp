@@ -30,9 +30,7 @@ void store_signal(int number) {
 void set_handler(int number, void (*handler)(int)) {
     struct sigaction current_action {};
 
-    if (sigaction(number, nullptr, &current_action) != 0 || current_action.sa_handler == SIG_IGN) {
-        return;
-    }
+    if (sigaction(number, nullptr, &current_action) != 0 || current_action.sa_handler == SIG_IGN) { return; }
 
     struct sigaction chosen_action {};
 
@@ -45,26 +43,18 @@ void set_handler(int number, void (*handler)(int)) {
 } // namespace
 
 StopSignals::StopSignals() {
-    for (const HandledSignal& stop : signal_handler_is_set) {
-        set_handler(stop.number, store_signal);
-    }
+    for (const HandledSignal& stop : signal_handler_is_set) { set_handler(stop.number, store_signal); }
 }
 
 StopSignals::~StopSignals() {
-    for (const HandledSignal& stop : signal_handler_is_set) {
-        set_handler(stop.number, SIG_DFL);
-    }
+    for (const HandledSignal& stop : signal_handler_is_set) { set_handler(stop.number, SIG_DFL); }
 }
 
-bool StopSignals::received() {
-    return received_signal != 0;
-}
+bool StopSignals::received() { return received_signal != 0; }
 
 std::string StopSignals::name() {
     for (const HandledSignal& stop : signal_handler_is_set) {
-        if (stop.number == received_signal) {
-            return stop.name;
-        }
+        if (stop.number == received_signal) { return stop.name; }
     }
     return {};
 }

@@ -4,9 +4,8 @@
 
 namespace octant::ui::base {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only remembered, so that what is being
-/// written can be ended in order; the second ends the program at once. Signals that were ignored
-/// before (nohup) stay so. One at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only remembered, so that what is being written can be ended
+/// in order; the second ends the program at once. Signals that were ignored before (nohup) stay so. One at a time.
 class StopSignals {
 public:
     StopSignals();
@@ -23,8 +22,8 @@ public:
     static std::string name();
 };
 
-/// Thrown by work of which a part is of no use once a stop signal came, when its files are in order:
-/// the program then ends by the signal.
+/// Thrown by work of which a part is of no use once a stop signal came, when its files are in order: the program then
+/// ends by the signal.
 struct StoppedBySignal {};
 
 /// Ends the program by the signal that came, as whoever started it expects; returns where none did.

@@ -8,9 +8,7 @@ namespace octant::ui::base {
 /// Wall time since it was made or last restarted.
 class Stopwatch {
 public:
-    double ms() const {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-    }
+    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
 
     double s() const { return ms() / 1000.0; }
 
@@ -28,8 +26,6 @@ private:
 };
 
 /// Processor time of this program so far, all threads together.
-inline double process_cpu_s() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+inline double process_cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 } // namespace octant::ui::base

@@ -11,21 +11,15 @@ namespace {
 
 fs::path user_folder(const char* variable, const char* below_home) {
     const char* const own = std::getenv(variable);
-    if (own != nullptr && fs::path(own).is_absolute()) {
-        return fs::path(own) / "octant";
-    }
+    if (own != nullptr && fs::path(own).is_absolute()) { return fs::path(own) / "octant"; }
     const char* const home = std::getenv("HOME");
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / below_home / "octant";
 }
 
 } // namespace
 
-fs::path configuration_folder() {
-    return user_folder("XDG_CONFIG_HOME", ".config");
-}
+fs::path configuration_folder() { return user_folder("XDG_CONFIG_HOME", ".config"); }
 
-fs::path cache_folder() {
-    return user_folder("XDG_CACHE_HOME", ".cache");
-}
+fs::path cache_folder() { return user_folder("XDG_CACHE_HOME", ".cache"); }
 
 } // namespace octant::ui::base

@@ -11,13 +11,9 @@
 
 namespace octant::ui::base {
 
-std::string program_version() {
-    return OCTANT_VERSION;
-}
+std::string program_version() { return OCTANT_VERSION; }
 
-std::string program_commit() {
-    return OCTANT_COMMIT;
-}
+std::string program_commit() { return OCTANT_COMMIT; }
 
 std::string program_hash() {
     static const std::string text = [] {

@@ -10,8 +10,8 @@ std::string program_version();
 /// Commit it was built from, with "+" when the tree had changes; "unknown" outside a checkout.
 std::string program_commit();
 
-/// A hash of the program file that runs, 16 hex digits: two programs of the same commit that were
-/// built from other changes have others. Empty where it cannot be read.
+/// A hash of the program file that runs, 16 hex digits: two programs of the same commit that were built from other
+/// changes have others. Empty where it cannot be read.
 std::string program_hash();
 
 } // namespace octant::ui::base

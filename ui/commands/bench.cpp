@@ -1,4 +1,5 @@
 #include "ui/commands/bench.h"
+
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
@@ -44,9 +45,7 @@ struct Feature {
 /// A feature that is a field of a part of the settings: a flag or a share.
 template <auto part, auto field>
 constexpr Feature feature(std::string_view name, double on = 1.0) {
-    return {
-        name,
-        [](const RunSettings& settings) { return static_cast<double>((settings.*part).*field); },
+    return {name, [](const RunSettings& settings) { return static_cast<double>((settings.*part).*field); },
         [](RunSettings& settings, double share) {
             auto& value = (settings.*part).*field;
             value = static_cast<std::remove_reference_t<decltype(value)>>(share);
@@ -60,8 +59,7 @@ using scene::AirSettings;
 using scene::GroundSettings;
 using scene::SurfaceSettings;
 
-constexpr std::array features{
-    feature<&RunSettings::air, &AirSettings::sky>("sky"),
+constexpr std::array features{feature<&RunSettings::air, &AirSettings::sky>("sky"),
     feature<&RunSettings::air, &AirSettings::relief_shadows>("relief shadows"),
     feature<&RunSettings::surface, &SurfaceSettings::shadows>("aircraft's shadows"),
     feature<&RunSettings::ground, &GroundSettings::near_detail>("near detail"),
@@ -74,9 +72,7 @@ constexpr std::array features{
 /// The settings of a scene with each feature's share as `share_of` says.
 template <class ShareOf>
 RunSettings with_features(RunSettings settings, const ShareOf& share_of) {
-    for (const Feature& feature : features) {
-        feature.put(settings, share_of(feature));
-    }
+    for (const Feature& feature : features) { feature.put(settings, share_of(feature)); }
     return settings;
 }
 
@@ -105,8 +101,7 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
         add("airfield", with_airfield);
         scenes.back().is_optional = true;
     }
-    const RunSettings by_default =
-        with([](const Feature& feature) { return feature.share(RunSettings()); });
+    const RunSettings by_default = with([](const Feature& feature) { return feature.share(RunSettings()); });
     add("those of the defaults", by_default);
     add("all of them", with([](const Feature& feature) { return feature.on; }));
     if (scene.settings.drawing.renderer != settings::RendererKind::Gl) {
@@ -151,10 +146,9 @@ settings::RunSettings by_gl(settings::RunSettings settings) {
 /// The platform's floor, drawn by OpenGL with one sample a pixel.
 class BaselineScene {
 public:
-    explicit BaselineScene(const settings::RunSettings& settings)
-        : renderer_(flight::make_renderer(by_gl(settings))) {
-        plan_.view_to_clip = scene::view_to_clip(
-            {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
+    explicit BaselineScene(const settings::RunSettings& settings) : renderer_(flight::make_renderer(by_gl(settings))) {
+        plan_.view_to_clip =
+            scene::view_to_clip({}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
         grid_ = visuals::gl::bare_grid(baseline_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
         planning::StepWriter(plan_).add_ground();
@@ -219,22 +213,17 @@ struct Timed {
 template <class Value>
 double median_of(const Timed& timed, Value value) {
     std::vector<double> values;
-    for (const report::FrameRecord& record : timed.records) {
-        values.push_back(static_cast<double>(value(record)));
-    }
+    for (const report::FrameRecord& record : timed.records) { values.push_back(static_cast<double>(value(record))); }
     return median(std::move(values));
 }
 
 BenchResult result_of(const Timed& timed, double floor_ms) {
     using Record = report::FrameRecord;
     std::vector<double> frame_ms;
-    for (const Record& record : timed.records) {
-        frame_ms.push_back(record.frame_ms);
-    }
+    for (const Record& record : timed.records) { frame_ms.push_back(record.frame_ms); }
     const report::Statistics statistics = report::statistics_of_times(frame_ms);
     const double triangles = median_of(timed, [](const Record& r) { return r.terrain_triangles; });
-    return {
-        .name = timed.name,
+    return {.name = timed.name,
         .median_ms = statistics.p50_ms,
         .p99_ms = statistics.p99_ms,
         .ratio = statistics.p50_ms / floor_ms,
@@ -246,56 +235,44 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .draw_wait_ms = median_of(timed, [](const Record& r) { return r.draw_wait_ms; }),
         .cpu_ms = median(timed.cpu_ms),
         .triangles = static_cast<int>(triangles),
-        .ms_per_1000_triangles =
-            triangles > 0.0 ? std::optional(statistics.p50_ms * 1000.0 / triangles) : std::nullopt,
+        .ms_per_1000_triangles = triangles > 0.0 ? std::optional(statistics.p50_ms * 1000.0 / triangles) : std::nullopt,
         .hash = timed.hash.value()};
 }
 
 /// "f15+500md"; "10 f15" where all are alike.
 std::string names_of(const std::vector<std::string>& aircraft) {
-    const bool are_alike =
-        std::ranges::adjacent_find(aircraft, std::not_equal_to<>()) == aircraft.end();
+    const bool are_alike = std::ranges::adjacent_find(aircraft, std::not_equal_to<>()) == aircraft.end();
     return are_alike && aircraft.size() > 1 ? fmt::format("{} {}", aircraft.size(), aircraft[0])
                                             : fmt::format("{}", fmt::join(aircraft, "+"));
 }
 
 std::string name_of(const settings::RunSettings& settings) {
     const bool gl = settings.drawing.renderer == settings::RendererKind::Gl;
-    return fmt::format(
-        "{}, {}, {}",
-        std::filesystem::path(settings.path.terrain).filename().string(),
-        names_of(settings.path.aircraft),
-        gl ? "OpenGL" : "raster");
+    return fmt::format("{}, {}, {}", std::filesystem::path(settings.path.terrain).filename().string(),
+        names_of(settings.path.aircraft), gl ? "OpenGL" : "raster");
 }
 
 std::vector<std::string> terrains_of(const BenchOptions& options) {
-    if (!options.terrains.empty()) {
-        return options.terrains;
-    }
+    if (!options.terrains.empty()) { return options.terrains; }
     return options.features ? std::vector<std::string>{"hills"}
                             : std::vector<std::string>{"hills", "canyon", "background60"};
 }
 
-/// A scene for each ground and renderer: both, unless one is asked for; features are measured with
-/// OpenGL beside them anyway.
+/// A scene for each ground and renderer: both, unless one is asked for; features are measured with OpenGL beside them
+/// anyway.
 std::vector<BenchScene> scenes_of(const BenchOptions& options) {
     using settings::RendererKind;
     std::vector<BenchScene> scenes;
     const RendererKind wanted = options.settings.drawing.renderer;
-    const RendererKind asked =
-        wanted == RendererKind::Auto && options.features ? RendererKind::Raster : wanted;
+    const RendererKind asked = wanted == RendererKind::Auto && options.features ? RendererKind::Raster : wanted;
     for (const std::string& terrain : terrains_of(options)) {
         for (const RendererKind kind : {RendererKind::Raster, RendererKind::Gl}) {
-            if (asked != RendererKind::Auto && asked != kind) {
-                continue;
-            }
+            if (asked != RendererKind::Auto && asked != kind) { continue; }
             settings::RunSettings settings = options.settings;
             settings.path.terrain = terrain;
             settings.time.frames = timed_frames(options) + warm_up_frames;
             settings.drawing.renderer = kind;
-            if (kind == RendererKind::Gl && settings.view.samples == 16) {
-                settings.view.samples.reset();
-            }
+            if (kind == RendererKind::Gl && settings.view.samples == 16) { settings.view.samples.reset(); }
             const BenchScene scene{name_of(settings), settings, false};
             if (options.triangle_counts) {
                 std::ranges::move(triangle_count_scenes(scene), std::back_inserter(scenes));
@@ -313,17 +290,14 @@ std::unique_ptr<flight::Session> session_of(const BenchScene& scene, bool quiet)
     try {
         return std::make_unique<flight::Session>(scene.settings);
     } catch (const Error& error) {
-        if (!scene.is_optional) {
-            throw;
-        }
+        if (!scene.is_optional) { throw; }
         base::print_note(quiet, fmt::format("left out: {}", error.what()));
         return nullptr;
     }
 }
 
 /// Draws scenes and the floor in turn.
-std::vector<BenchResult>
-timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options) {
+std::vector<BenchResult> timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options) {
     BaselineScene floor(options.settings);
     std::vector<Timed> timed(1);
     timed[0].name = fmt::format("floor: bare grid of {} triangles", baseline_triangles);
@@ -341,25 +315,19 @@ timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options
         double before_ms = cpu_ms_so_far();
         const auto add = [&](Timed& to, const report::FrameRecord& record, const auto& drawn) {
             const double after_ms = cpu_ms_so_far();
-            if (counts) {
-                to.add(record, after_ms - before_ms, drawn.picture());
-            }
+            if (counts) { to.add(record, after_ms - before_ms, drawn.picture()); }
             before_ms = cpu_ms_so_far();
         };
         add(timed[0], floor.draw(), floor);
         for (std::size_t i = 0; i < sessions.size(); ++i) {
-            if (frame < sessions[i]->frames()) {
-                add(timed[i + 1], sessions[i]->draw(frame), *sessions[i]);
-            }
+            if (frame < sessions[i]->frames()) { add(timed[i + 1], sessions[i]->draw(frame), *sessions[i]); }
         }
         progress.show(frame + 1);
     }
     progress.finish();
     std::vector<BenchResult> results;
     const double floor_ms = result_of(timed[0], 1.0).median_ms;
-    for (const Timed& scene_frames : timed) {
-        results.push_back(result_of(scene_frames, floor_ms));
-    }
+    for (const Timed& scene_frames : timed) { results.push_back(result_of(scene_frames, floor_ms)); }
     return results;
 }
 
@@ -371,9 +339,7 @@ int timed_frames(const BenchOptions& options) {
 
 std::vector<BenchResult> run_bench(const BenchOptions& options) {
     const std::vector<BenchScene> scenes = scenes_of(options);
-    if (!options.features) {
-        return timed_in_turn(scenes, options);
-    }
+    if (!options.features) { return timed_in_turn(scenes, options); }
     std::vector<BenchResult> results;
     for (const BenchScene& scene : scenes) {
         std::vector<BenchResult> of_scene = timed_in_turn(feature_scenes(scene), options);

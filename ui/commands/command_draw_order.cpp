@@ -49,9 +49,7 @@ public:
         : progress_(what, 100, quiet, unit) {}
 
     void show(double share) {
-        if (watch_.ms() > 1000.0) {
-            progress_.show(static_cast<int>(100.0 * share));
-        }
+        if (watch_.ms() > 1000.0) { progress_.show(static_cast<int>(100.0 * share)); }
     }
 
     /// Ends the display; the milliseconds since the beginning.
@@ -89,24 +87,18 @@ using visuals::draworder::OrderMethod;
 
 /// Throws Error where one file would be written over another, or over the model.
 void check_not_overwriting(const DrawOrderOptions& options) {
-    const std::array<std::pair<const char*, std::string>, 3> written{
-        {{"--export", options.export_file},
-         {"--export-model", options.export_model},
-         {"--certificate", options.certificate}}};
+    const std::array<std::pair<const char*, std::string>, 3> written{{{"--export", options.export_file},
+        {"--export-model", options.export_model}, {"--certificate", options.certificate}}};
     for (std::size_t i = 0; i < written.size(); ++i) {
         const auto& [name, file] = written[i];
         for (std::size_t other = i + 1; other < written.size(); ++other) {
             if (is_same_file(file, written[other].second)) {
-                throw Error(fmt::format(
-                    "{}: expected another file than {}, got '{}' for both",
-                    name,
-                    written[other].first,
-                    printable(file)));
+                throw Error(fmt::format("{}: expected another file than {}, got '{}' for both", name,
+                    written[other].first, printable(file)));
             }
         }
         if (is_same_file(file, options.model) && path_exists(options.model)) {
-            throw Error(fmt::format(
-                "{}: expected another file than the model, got '{}'", name, printable(file)));
+            throw Error(fmt::format("{}: expected another file than the model, got '{}'", name, printable(file)));
         }
     }
 }
@@ -114,96 +106,66 @@ void check_not_overwriting(const DrawOrderOptions& options) {
 /// Throws Error for options that do not go together.
 void check_exclusive(const DrawOrderOptions& options) {
     if (options.model.empty() == options.verify.empty()) {
-        throw Error(
-            options.model.empty()
-                ? "expected a model, or --verify with a certificate, got neither"
-                : "--verify: expected no model beside a certificate, which holds its own, got '" +
-                      printable(options.model) + "'");
+        throw Error(options.model.empty()
+                        ? "expected a model, or --verify with a certificate, got neither"
+                        : "--verify: expected no model beside a certificate, which holds its own, got '" +
+                              printable(options.model) + "'");
     }
-    if (options.certificate.empty()) {
-        return;
-    }
+    if (options.certificate.empty()) { return; }
     if (!options.check_file.empty()) {
-        throw Error(
-            "--certificate: expected orders that this command finds, got those of --check '" +
-            printable(options.check_file) + "'");
+        throw Error("--certificate: expected orders that this command finds, got those of --check '" +
+                    printable(options.check_file) + "'");
     }
     if (options.order.method == OrderMethod::Paper) {
-        throw Error(
-            "--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
-            "all from a distance on, got --method paper");
+        throw Error("--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
+                    "all from a distance on, got --method paper");
     }
 }
 
 void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
-    table.insert(
-        table.end(),
-        {text_option(
-             "model",
-             "NAME|FILE",
-             fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")),
-             options.model),
-         text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
-         value_option(
-             {"method",
-              "KIND",
-              "paper (8 octants as printed), cells (octants divided further, exact from a distance "
-              "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
-             options.order.method),
-         value_option(
-             {"order-seconds",
-              "SECONDS",
-              "cells, tree: about so long is searched; then polygons are divided as by bsp",
-              0.001,
-              3600},
-             options.order.seconds),
-         text_option(
-             "--order-cache",
-             "DIR",
-             "keep the orders in this folder, and read them where the same model is ordered again",
-             options.cache),
-         value_option(
-             {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
-             options.order.min_distance_radii)});
+    table.insert(table.end(),
+        {text_option("model", "NAME|FILE",
+             fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")), options.model),
+            text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
+            value_option({"method", "KIND",
+                             "paper (8 octants as printed), cells (octants divided further, exact from a distance "
+                             "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
+                options.order.method),
+            value_option(
+                {"order-seconds", "SECONDS",
+                    "cells, tree: about so long is searched; then polygons are divided as by bsp", 0.001, 3600},
+                options.order.seconds),
+            text_option("--order-cache", "DIR",
+                "keep the orders in this folder, and read them where the same model is ordered again", options.cache),
+            value_option({"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
+                options.order.min_distance_radii)});
 }
 
 void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
-    table.insert(
-        table.end(),
+    table.insert(table.end(),
         {flag("--table", "show every cell and its list, P1 the first polygon", options.table),
-         text_option("--export", "FILE", "write the orders as text", options.export_file),
-         text_option(
-             "--export-model",
-             "FILE.obj",
-             "write the polygons, split where they had to be, that the orders speak of",
-             options.export_model),
-         text_option(
-             "--certificate",
-             "FILE",
-             "write for each pair of polygons what proves that it is painted right; not of paper",
-             options.certificate),
-         text_option(
-             "--verify",
-             "FILE",
-             "check a certificate without rounding, in place of all else",
-             options.verify),
-         {.name = "--check",
-          .form = "[FILE]",
-          .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
-                     "those just found",
-          .arity = Arity::Optional,
-          .read =
-              [&options](const Words& words) {
-                  options.check = true;
-                  options.check_file = words.front();
-              }},
-         with_shown_default(
-             fmt::format("{}", default_rays),
-             value_option(
-                 {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
-                 options.rays)),
-         flag("--json", "results as JSON", options.json),
-         flag("--quiet", "no progress, no notes", options.quiet)});
+            text_option("--export", "FILE", "write the orders as text", options.export_file),
+            text_option("--export-model", "FILE.obj",
+                "write the polygons, split where they had to be, that the orders speak of", options.export_model),
+            text_option("--certificate", "FILE",
+                "write for each pair of polygons what proves that it is painted right; not of paper",
+                options.certificate),
+            text_option(
+                "--verify", "FILE", "check a certificate without rounding, in place of all else", options.verify),
+            {.name = "--check",
+                .form = "[FILE]",
+                .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
+                           "those just found",
+                .arity = Arity::Optional,
+                .read =
+                    [&options](const Words& words) {
+                        options.check = true;
+                        options.check_file = words.front();
+                    }},
+            with_shown_default(fmt::format("{}", default_rays),
+                value_option(
+                    {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9}, options.rays)),
+            flag("--json", "results as JSON", options.json), flag("--quiet", "no progress, no notes", options.quiet)});
 }
 
 void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
@@ -215,14 +177,11 @@ void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& option
 /// another or over the model.
 void check_draw_order_options(const DrawOrderOptions& options) {
     check_exclusive(options);
-    if (!options.verify.empty()) {
-        return;
-    }
+    if (!options.verify.empty()) { return; }
     check_not_overwriting(options);
     if (!options.export_model.empty() && !options.export_model.ends_with(".obj")) {
         throw Error(fmt::format(
-            "--export-model: expected a file name that ends in .obj, got '{}'",
-            printable(options.export_model)));
+            "--export-model: expected a file name that ends in .obj, got '{}'", printable(options.export_model)));
     }
 }
 
@@ -266,8 +225,7 @@ bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& pe
         results["first_unproved"] = fmt::format("{}:{}", file, *certificate.first_unproved);
     }
     if (verdict.failure) {
-        results["refused"] =
-            fmt::format("{}:{}: {}", file, verdict.failure->line, verdict.failure->what);
+        results["refused"] = fmt::format("{}:{}: {}", file, verdict.failure->line, verdict.failure->what);
     }
     results["verify_ms"] = percents.finish();
     results["proved"] = verdict.proved();
@@ -275,11 +233,8 @@ bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& pe
 }
 
 /// Writes the certificate of an order, and adds to the figures what it leaves unproved.
-void write_certificate(
-    const std::string& file, const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
-    if (proved.model.polygons.empty()) {
-        throw Error("--certificate: expected polygons that can be seen, got none");
-    }
+void write_certificate(const std::string& file, const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
+    if (proved.model.polygons.empty()) { throw Error("--certificate: expected polygons that can be seen, got none"); }
     write_file(file, certificate_text(proved, quiet, results));
     base::print_note(quiet, "certificate: " + file);
 }
@@ -287,9 +242,7 @@ void write_certificate(
 /// Seeks the proofs of an order and checks them without rounding, without a file; adds to the
 /// figures. False where something is not proved.
 bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
-    if (proved.model.polygons.empty()) {
-        return true;
-    }
+    if (proved.model.polygons.empty()) { return true; }
     const std::string text = certificate_text(proved, quiet, results);
     PercentProgress percents("verifying", quiet);
     return all_proofs_hold(proofs::certificate_of(text, "certificate"), percents, results);
@@ -323,8 +276,7 @@ struct PreparedOrder {
     models::polygons::PolygonModel model;
     models::polygons::FileAxes axes;
     orderfile::CellOrders orders;
-    std::optional<draworder::DrawOrder>
-        order; ///< as it is proved; nothing for cells that were read
+    std::optional<draworder::DrawOrder> order; ///< as it is proved; nothing for cells that were read
 };
 
 std::string cell_name(const PreparedOrder& work, std::size_t cell) {
@@ -361,13 +313,9 @@ void add_size(JsonValue& results, const orderfile::CellOrders& orders) {
 }
 
 /// Finds the orders of a model, or reads them from the cache.
-ordercache::CachedOrder find_or_read_orders(
-    models::polygons::PolygonModel model,
-    const std::optional<std::string>& cache,
-    const draworder::OrderOptions& options) {
-    if (cache) {
-        return ordercache::cached_order(*cache, std::move(model), options);
-    }
+ordercache::CachedOrder find_or_read_orders(models::polygons::PolygonModel model,
+    const std::optional<std::string>& cache, const draworder::OrderOptions& options) {
+    if (cache) { return ordercache::cached_order(*cache, std::move(model), options); }
     return {.ordered = draworder::ordered(std::move(model), options), .file = {}, .notes = {}};
 }
 
@@ -382,9 +330,7 @@ draworder::DrawOrder order_to_prove(const draworder::OrderedModel& ordered) {
 /// Finds the orders, or reads those that are to be checked.
 PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results) {
     world::OrderModel input = world::load_order_model(options.model, options.axes);
-    for (const std::string& note : input.model.notes) {
-        base::print_note(options.quiet, "note: " + note);
-    }
+    for (const std::string& note : input.model.notes) { base::print_note(options.quiet, "note: " + note); }
     results["model"] = input.model.name;
     if (!options.check_file.empty()) {
         const std::size_t faces = input.model.polygons.size();
@@ -407,17 +353,11 @@ PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results)
     ordercache::CachedOrder cached = find_or_read_orders(std::move(input.model), options.cache, order);
     draworder::OrderedModel& ordered = cached.ordered;
     const double build_ms = percents.finish();
-    for (const std::string& note : cached.notes) {
-        base::print_note(options.quiet, "note: " + note);
-    }
+    for (const std::string& note : cached.notes) { base::print_note(options.quiet, "note: " + note); }
     add_order_results(results, ordered, polygons);
-    if (options.cache) {
-        results["from_cache"] = cached.was_cached;
-    }
+    if (options.cache) { results["from_cache"] = cached.was_cached; }
     results["build_ms"] = build_ms;
-    for (const std::string& note : ordered.notes) {
-        base::print_note(options.quiet, "note: " + note);
-    }
+    for (const std::string& note : ordered.notes) { base::print_note(options.quiet, "note: " + note); }
     if (options.json) {
         results["notes"] = ordered.notes; // else they are said
     }
@@ -431,14 +371,10 @@ void export_files(const PreparedOrder& work, const DrawOrderOptions& options) {
         models::polygons::write_obj(options.export_model, work.model, work.axes);
         base::print_note(options.quiet, "model: " + options.export_model);
     }
-    if (options.export_file.empty()) {
-        return;
-    }
+    if (options.export_file.empty()) { return; }
     orderfile::CellOrders orders = work.orders;
     for (orderfile::ListedCell& cell : orders.cells) {
-        if (cell.directions.empty()) {
-            cell.planes = separation::without_redundant(cell.planes);
-        }
+        if (cell.directions.empty()) { cell.planes = separation::without_redundant(cell.planes); }
     }
     write_file(options.export_file, orderfile::order_text(orders, work.axes));
     base::print_note(options.quiet, "orders: " + options.export_file);
@@ -450,20 +386,14 @@ std::string unproved_pair_text(const PreparedOrder& work, const orderfile::Unpro
         return fmt::format("cell {}: P{} is not listed and may face an eye", cell, doubt.first + 1);
     }
     return fmt::format(
-        "cell {}: P{} is painted before P{} and may hide part of it",
-        cell,
-        doubt.first + 1,
-        doubt.later + 1);
+        "cell {}: P{} is painted before P{} and may hide part of it", cell, doubt.first + 1, doubt.later + 1);
 }
 
 /// Adds to the figures; false when something could not be certified.
 bool write_and_check_certificate(const PreparedOrder& work, const DrawOrderOptions& options, JsonValue& results) {
-    base::Progress progress(
-        "checking cells", static_cast<int>(work.orders.cells.size()), options.quiet, "cells");
-    const orderfile::OrderCheck check =
-        orderfile::check_order(work.model, work.orders, [&](std::size_t done, std::size_t) {
-            progress.show(static_cast<int>(done));
-        });
+    base::Progress progress("checking cells", static_cast<int>(work.orders.cells.size()), options.quiet, "cells");
+    const orderfile::OrderCheck check = orderfile::check_order(
+        work.model, work.orders, [&](std::size_t done, std::size_t) { progress.show(static_cast<int>(done)); });
     progress.finish();
     results["pairs"] = check.pairs;
     results["pairs_certified_by_planes"] = check.by_plane;
@@ -492,37 +422,30 @@ bool ray_test_passes(const PreparedOrder& work, int rays, JsonValue& results) {
 
 void print_table(const std::vector<orderfile::OrderRow>& rows) {
     for (const orderfile::OrderRow& row : rows) {
-        const std::string cell =
-            row.region.empty() ? row.cell : fmt::format("{}  [{}]", row.cell, row.region);
+        const std::string cell = row.region.empty() ? row.cell : fmt::format("{}  [{}]", row.cell, row.region);
         std::fputs(fmt::format("{}\t{}\n", cell, row.list).c_str(), stdout);
     }
 }
 
-void print_results(
-    const PreparedOrder& work, const DrawOrderOptions& options, bool checked, JsonValue results) {
-    const auto rows = options.table ? orderfile::order_table(work.model, work.orders, work.axes)
-                                    : std::vector<orderfile::OrderRow>{};
+void print_results(const PreparedOrder& work, const DrawOrderOptions& options, bool checked, JsonValue results) {
+    const auto rows =
+        options.table ? orderfile::order_table(work.model, work.orders, work.axes) : std::vector<orderfile::OrderRow>{};
     if (options.json) {
         for (const orderfile::OrderRow& row : rows) {
-            results["table"].push_back(
-                {{"cell", row.cell}, {"region", row.region}, {"order", row.list}});
+            results["table"].push_back({{"cell", row.cell}, {"region", row.region}, {"order", row.list}});
         }
         base::print_value(results, true);
         return;
     }
     print_table(rows);
-    if (!options.table || checked) {
-        base::print_value(results, false);
-    }
+    if (!options.table || checked) { base::print_value(results, false); }
 }
 
 void verify(const DrawOrderOptions& options) {
     JsonValue results;
     const bool good = verify_certificate(options.verify, options.quiet, results);
     base::print_value(results, options.json);
-    if (!good) {
-        throw CheckFailed();
-    }
+    if (!good) { throw CheckFailed(); }
 }
 
 void draw_order(const DrawOrderOptions& options) {
@@ -531,15 +454,12 @@ void draw_order(const DrawOrderOptions& options) {
         verify(options);
         return;
     }
-    if (options.cache) {
-        ordercache::make_cache_folder(*options.cache);
-    }
+    if (options.cache) { ordercache::make_cache_folder(*options.cache); }
     JsonValue results;
     const PreparedOrder work = prepare_order(options, results);
     export_files(work, options);
     if (!options.certificate.empty()) {
-        write_certificate(
-            options.certificate, {work.model, *work.order, work.axes}, options.quiet, results);
+        write_certificate(options.certificate, {work.model, *work.order, work.axes}, options.quiet, results);
     }
     bool good = true;
     if (options.check && work.orders.parts) {
@@ -548,25 +468,18 @@ void draw_order(const DrawOrderOptions& options) {
         good = write_and_check_certificate(work, options, results);
     }
     const int rays = options.rays.value_or(options.check ? default_rays : 0);
-    if (rays > 0) {
-        good = ray_test_passes(work, rays, results) && good;
-    }
+    if (rays > 0) { good = ray_test_passes(work, rays, results) && good; }
     const bool checked = options.check || rays > 0;
-    if (checked) {
-        results["right"] = good;
-    }
+    if (checked) { results["right"] = good; }
     print_results(work, options, checked, std::move(results));
-    if (!good) {
-        throw CheckFailed();
-    }
+    if (!good) { throw CheckFailed(); }
 }
 
 } // namespace
 
 Command draw_order_command() {
     auto options = std::make_shared<DrawOrderOptions>();
-    Command command = {
-        .name = "draw-order",
+    Command command = {.name = "draw-order",
         .summary = "Finds, shows, exports and checks the painting orders of a model",
         .footer = "Exit code 1: a check said no. A file of orders speaks of the model that "
                   "--export-model "

@@ -4,9 +4,9 @@
 #include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/value_option.h"
 #include "ui/commands/packet_replay.h"
 #include "ui/commands/settings_options.h"
+#include "ui/commands/value_option.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
 #include "ui/flight/sender.h"
@@ -51,19 +51,15 @@ struct FlyOptions {
 /// Waits until the wall clock reaches the frame's simulated time.
 void wait_for(const base::Stopwatch& since_start, double time_s) {
     const double left_s = time_s - since_start.s();
-    if (left_s > 0.0) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
-    }
+    if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
 }
 
 /// Throws Error when the command line sets anything beside --replay that could change pictures.
 void check_no_settings_with_replay(const FlyOptions& options) {
-    constexpr std::array<std::string_view, 4> harmless{
-        "--realtime", "--pictures", "--warm-up", "--order-cache"};
+    constexpr std::array<std::string_view, 4> harmless{"--realtime", "--pictures", "--warm-up", "--order-cache"};
     for (const std::string& name : options.given) {
         if (std::ranges::find(harmless, name) == harmless.end()) {
-            throw Error(fmt::format(
-                "--replay: expected no option beside it that may change pictures, got {}", name));
+            throw Error(fmt::format("--replay: expected no option beside it that may change pictures, got {}", name));
         }
     }
 }
@@ -73,23 +69,16 @@ void check_options(const FlyOptions& options) {
     if (options.if_new && !options.record.folder) {
         throw Error("--if-new: expected --record DIR beside it, got none");
     }
-    if (options.record.video) {
-        report::check_video(*options.record.video);
-    }
-    if (!options.replay) {
-        return;
-    }
+    if (options.record.video) { report::check_video(*options.record.video); }
+    if (!options.replay) { return; }
     check_no_settings_with_replay(options);
-    if (options.if_new) {
-        throw Error("--if-new: expected no --replay beside it, got one");
-    }
+    if (options.if_new) { throw Error("--if-new: expected no --replay beside it, got one"); }
     if (options.settings.time.part) {
         throw Error("--replay: expected a recording of a whole flight, got one of a part");
     }
     if (options.record.folder && is_same_file(*options.record.folder, options.replay->folder)) {
         throw Error(fmt::format(
-            "--record: expected another folder than that of --replay, got {}",
-            options.record.folder->string()));
+            "--record: expected another folder than that of --replay, got {}", options.record.folder->string()));
     }
 }
 
@@ -97,38 +86,26 @@ void check_options(const FlyOptions& options) {
 void start_replay(const flight::Replay& replay, flight::Session& session, bool quiet) {
     flight::check_frames(replay, session.frames());
     if (static_cast<int>(replay.quality_targets.size()) < session.frames()) {
-        base::print_note(
-            quiet,
-            fmt::format(
-                "note: {} has {} of {} frames; these are flown",
-                replay.folder.string(),
-                replay.quality_targets.size(),
-                session.frames()));
+        base::print_note(quiet, fmt::format("note: {} has {} of {} frames; these are flown", replay.folder.string(),
+                                    replay.quality_targets.size(), session.frames()));
     }
     session.replay(replay.quality_targets);
 }
 
-/// Every frame of the session, recorded, until a signal comes. What ended the flight before its
-/// last frame, empty = nothing did.
+/// Every frame of the session, recorded, until a signal comes. What ended the flight before its last frame, empty =
+/// nothing did.
 std::string fly_frames(
-    const FlyOptions& options,
-    flight::Session& session,
-    flight::Sender& sender,
-    flight::FlightRecorder& recorder) {
+    const FlyOptions& options, flight::Session& session, flight::Sender& sender, flight::FlightRecorder& recorder) {
     const std::optional<std::string>& part = options.settings.time.part;
     const int first = part ? session.begin_frame_range(*settings::part_from_text(*part)).first : 0;
     const int count = session.frames() - first;
     base::Progress progress(session.world().flight.title, count, options.quiet);
-    for (const std::string& line : sender.wait_for_channels(session)) {
-        base::print_note(false, line);
-    }
+    for (const std::string& line : sender.wait_for_channels(session)) { base::print_note(false, line); }
     const base::Stopwatch since_start;
     int frame = first;
     for (; frame < session.frames() && !(base::StopSignals::received() && frame > first); ++frame) {
         const double due_s = (frame - first) / session.rate_hz();
-        if (options.settings.time.realtime) {
-            wait_for(since_start, due_s);
-        }
+        if (options.settings.time.realtime) { wait_for(since_start, due_s); }
         report::FrameRecord record = session.draw(frame);
         if (options.settings.time.realtime) {
             const double late_s = since_start.s() - due_s;
@@ -141,27 +118,18 @@ std::string fly_frames(
         progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
-    for (const std::string& line : sender.channel_lines()) {
-        base::print_note(false, line);
-    }
+    for (const std::string& line : sender.channel_lines()) { base::print_note(false, line); }
     return frame == session.frames()
                ? std::string()
-               : fmt::format(
-                     "{} after {} of {} frames", base::StopSignals::name(), frame - first, count);
+               : fmt::format("{} after {} of {} frames", base::StopSignals::name(), frame - first, count);
 }
 
 /// What the automatic share of smooth polygons came to.
 std::string shading_note(const visuals::shading::ShadingState& shading) {
-    if (shading.has_no_gain) {
-        return "shading: flat polygons are not measurably faster here, so all are smooth";
-    }
-    return fmt::format(
-        "shading: {} of {} polygons smooth; frames take {:.2f} ms with all flat, {:.2f} ms more "
-        "with all smooth",
-        shading.smooth,
-        shading.polygons,
-        shading.fit.ms[0] + shading.fit.ms[1],
-        shading.fit.ms[2]);
+    if (shading.has_no_gain) { return "shading: flat polygons are not measurably faster here, so all are smooth"; }
+    return fmt::format("shading: {} of {} polygons smooth; frames take {:.2f} ms with all flat, {:.2f} ms more "
+                       "with all smooth",
+        shading.smooth, shading.polygons, shading.fit.ms[0] + shading.fit.ms[1], shading.fit.ms[2]);
 }
 
 void fly(FlyOptions options) {
@@ -169,13 +137,11 @@ void fly(FlyOptions options) {
     options.settings.time.realtime = options.settings.time.realtime || !options.send.empty();
     const bool live = options.settings.path.name == settings::live_path;
     if (live && !options.replay) {
-        throw Error(
-            "path: expected a path or a track, got 'live', which others fly: octant listen");
+        throw Error("path: expected a path or a track, got 'live', which others fly: octant listen");
     }
     options.settings = world::with_absolute_paths(options.settings);
     if (options.if_new && flight::is_already_recorded(options.record, options.settings)) {
-        base::print_note(
-            options.quiet, fmt::format("{} is done already", options.record.folder->string()));
+        base::print_note(options.quiet, fmt::format("{} is done already", options.record.folder->string()));
         return;
     }
     flight::Sender sender(options.send);
@@ -184,12 +150,10 @@ void fly(FlyOptions options) {
         base::print_note(options.quiet, fmt::format("note: {}", note));
     }
     for (const std::string& note :
-         world::near_detail_warnings(session.world(), options.settings.ground, options.given)) {
+        world::near_detail_warnings(session.world(), options.settings.ground, options.given)) {
         base::print_note(options.quiet, fmt::format("note: {}", note));
     }
-    if (options.replay && !live) {
-        start_replay(*options.replay, session, options.quiet);
-    }
+    if (options.replay && !live) { start_replay(*options.replay, session, options.quiet); }
     const base::StopSignals stop_signals;
     flight::FlightRecorder recorder(options.record, options.settings, session);
     std::string stopped;
@@ -200,67 +164,43 @@ void fly(FlyOptions options) {
     } else {
         stopped = fly_frames(options, session, sender, recorder);
     }
-    if (!stopped.empty()) {
-        base::print_note(options.quiet, fmt::format("note: ended by {}", stopped));
-    }
+    if (!stopped.empty()) { base::print_note(options.quiet, fmt::format("note: ended by {}", stopped)); }
     const flight::FlightResult end = recorder.finish(session, stopped);
-    if (session.shading() && !options.replay) {
-        base::print_note(options.quiet, shading_note(*session.shading()));
-    }
-    for (const std::string& note : end.notes) {
-        base::print_note(options.quiet, note);
-    }
-    for (const std::string& missing_programs : end.missing_programs) {
-        base::print_note(false, missing_programs);
-    }
+    if (session.shading() && !options.replay) { base::print_note(options.quiet, shading_note(*session.shading())); }
+    for (const std::string& note : end.notes) { base::print_note(options.quiet, note); }
+    for (const std::string& missing_programs : end.missing_programs) { base::print_note(false, missing_programs); }
     if (end.statistics.frames == 0) {
-        base::print_note(
-            options.quiet,
+        base::print_note(options.quiet,
             fmt::format(
-                "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them",
-                session.frames()));
+                "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them", session.frames()));
     }
     std::optional<flight::ReplayComparison> verdict;
     if (options.replay && stopped.empty()) {
         verdict = flight::compare_with_recording(*options.replay, end.state_hash, end.picture_hash);
     }
     print_summary(end, verdict, options.json);
-    if (!end.fault.empty()) {
-        throw Error(end.fault);
-    }
-    if (verdict && !verdict->is_same) {
-        throw CheckFailed();
-    }
+    if (!end.fault.empty()) { throw Error(end.fault); }
+    if (verdict && !verdict->is_same) { throw CheckFailed(); }
 }
 
 std::vector<Option> options_of(FlyOptions& options) {
     std::vector<Option> table = {
-        text_option(
-            "--record",
-            "DIR",
-            "write the recording and its report into this folder",
-            options.record.folder),
-        text_option(
-            "--video",
-            "FILE.mp4",
-            "write a video (needs ffmpeg; frame times then include the encoder's load)",
+        text_option("--record", "DIR", "write the recording and its report into this folder", options.record.folder),
+        text_option("--video", "FILE.mp4", "write a video (needs ffmpeg; frame times then include the encoder's load)",
             options.record.video),
         {.name = "--replay",
-         .form = "DIR",
-         .meaning =
-             "fly the recording in DIR, a folder or a packed file, again by its rows, as far as "
-             "they go, and check that states and pictures are the same (exit code 1 when not, or "
-             "when it was cut short and has none to compare with)",
-         .read =
-             [&options](const Words& words) {
-                 const std::filesystem::path folder = report::recording_folder(words.front());
-                 options.replay = flight::read_replay(folder);
-                 options.record.replay_of = folder;
-                 options.settings = settings::read_settings(folder / "run.json");
-             }},
-        list_option(
-            "--send",
-            "fdm|dis|xplane|cigi|tacview:HOST:PORT",
+            .form = "DIR",
+            .meaning = "fly the recording in DIR, a folder or a packed file, again by its rows, as far as "
+                       "they go, and check that states and pictures are the same (exit code 1 when not, or "
+                       "when it was cut short and has none to compare with)",
+            .read =
+                [&options](const Words& words) {
+                    const std::filesystem::path folder = report::recording_folder(words.front());
+                    options.replay = flight::read_replay(folder);
+                    options.record.replay_of = folder;
+                    options.settings = settings::read_settings(folder / "run.json");
+                }},
+        list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as fast as the clock goes: "
             "fdm: the first one as FlightGear's native FDM; xplane: the first one as X-Plane's "
             "DATA; dis: all as DIS entity states; "
@@ -268,16 +208,11 @@ std::vector<Option> options_of(FlyOptions& options) {
             "OWN "
             "[8005], whose picture is waited for, so that several show one frame; "
             "tacview:PORT: for readers of Tacview's telemetry",
-            Arity::Repeatable,
-            options.send),
-        text_option(
-            "--swept",
-            "HOW",
-            "how octant sweep flies this one beside others, for its report",
+            Arity::Repeatable, options.send),
+        text_option("--swept", "HOW", "how octant sweep flies this one beside others, for its report",
             options.record.batch_context),
         flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
-        flag("--json", "summary as JSON", options.json),
-        flag("--quiet", "no progress, no notes", options.quiet)};
+        flag("--json", "summary as JSON", options.json), flag("--quiet", "no progress, no notes", options.quiet)};
     add_setting_options(table, options.settings, &options.given);
     return table;
 }
@@ -286,22 +221,20 @@ std::vector<Option> options_of(FlyOptions& options) {
 
 Command fly_command() {
     auto options = std::make_shared<FlyOptions>();
-    return {
-        .name = "fly",
+    return {.name = "fly",
         .summary = "Flies a path without a window, as fast as it can, and records it",
         .options = options_of(*options),
-        .footer =
-            "Examples:\n"
-            "  octant fly straight\n"
-            "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
-            "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
-            "turn.mp4\n"
-            "  octant fly --settings my-flight/run.json --record the-same\n"
-            "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
-            "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
-            "  octant fly --replay fitted\n"
-            "  octant fly turn --send fdm:127.0.0.1:5550\n"
-            "  octant fly turn --send cigi:127.0.0.1:8004 --send cigi:127.0.0.1:8014",
+        .footer = "Examples:\n"
+                  "  octant fly straight\n"
+                  "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
+                  "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
+                  "turn.mp4\n"
+                  "  octant fly --settings my-flight/run.json --record the-same\n"
+                  "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
+                  "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
+                  "  octant fly --replay fitted\n"
+                  "  octant fly turn --send fdm:127.0.0.1:5550\n"
+                  "  octant fly turn --send cigi:127.0.0.1:8004 --send cigi:127.0.0.1:8014",
         .run = [options] { fly(*options); }};
 }
 

@@ -1,4 +1,5 @@
 #include "ui/commands/command_line.h"
+
 #include "sim/base/error.h"
 
 #include <CLI/CLI.hpp>
@@ -16,8 +17,8 @@
 
 namespace octant::ui::commands {
 
-// Distance of words: F. J. Damerau, "A technique for computer detection and correction of spelling
-// errors", Comm. ACM 7(3), 1964; swaps of neighbours only.
+// Distance of words: F. J. Damerau, "A technique for computer detection and correction of spelling errors", Comm. ACM
+// 7(3), 1964; swaps of neighbours only.
 
 namespace {
 
@@ -27,9 +28,7 @@ std::size_t distance_of(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1);
     std::vector<std::size_t> last(b.size() + 1);
     std::vector<std::size_t> now(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        last[j] = j;
-    }
+    for (std::size_t j = 0; j <= b.size(); ++j) { last[j] = j; }
     for (std::size_t i = 1; i <= a.size(); ++i) {
         now[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
@@ -53,9 +52,7 @@ std::string_view without_dashes(std::string_view word) {
 
 std::optional<std::string> nearest_spelling(std::string_view word, std::span<const std::string> known) {
     const std::string_view bare = without_dashes(word);
-    if (bare.empty() || bare.size() > longest_word) {
-        return std::nullopt;
-    }
+    if (bare.empty() || bare.size() > longest_word) { return std::nullopt; }
     // One fault in three letters is a slip, more is another word.
     std::size_t least = 1 + bare.size() / 3;
     const std::string* nearest = nullptr;
@@ -94,18 +91,15 @@ void count_words(CLI::Option& option, const Option& row) {
         break;
     case Arity::Repeatable:
     case Arity::OneOrMore:
-        option.type_size(row.words_per_use)
-            ->expected(unlimited_words)
-            ->allow_extra_args(row.arity == Arity::OneOrMore);
+        option.type_size(row.words_per_use)->expected(unlimited_words)->allow_extra_args(row.arity == Arity::OneOrMore);
         break;
     }
 }
 
 CLI::Option* add_option(CLI::App& app, const Option& row) {
     if (row.arity == Arity::None) {
-        const std::string meaning = row.shown_default.empty()
-                                        ? row.meaning
-                                        : fmt::format("{} [{}]", row.meaning, row.shown_default);
+        const std::string meaning =
+            row.shown_default.empty() ? row.meaning : fmt::format("{} [{}]", row.meaning, row.shown_default);
         return app.add_flag(row.name, meaning)->group(row.heading);
     }
     CLI::Option* const option = app.add_option(row.name, CLI::callback_t(), row.meaning);
@@ -114,34 +108,27 @@ CLI::Option* add_option(CLI::App& app, const Option& row) {
     return option->default_str(row.shown_default)->group(row.heading);
 }
 
-/// Help without the library's mark of names that unset a flag, as in "--no-sky{false}": it reads as
-/// if a word followed them.
+/// Help without the library's mark of names that unset a flag, as in "--no-sky{false}": it reads as if a word followed
+/// them.
 class HelpFormatter final : public CLI::Formatter {
 public:
     std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
-        return CLI::detail::find_and_replace(
-            CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
+        return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
     }
 };
 
-bool is_truth(std::string_view word) {
-    return word == "true" || word == "false";
-}
+bool is_truth(std::string_view word) { return word == "true" || word == "false"; }
 
 /// The words given for an option.
 Words words_of(const CLI::Option& option, const Option& row) {
-    if (row.arity == Arity::None) {
-        return {option.as<bool>() ? "true" : "false"};
-    }
+    if (row.arity == Arity::None) { return {option.as<bool>() ? "true" : "false"}; }
     return option.reduced_results();
 }
 
 /// The parser that the tables of a program make.
 class Parser {
 public:
-    explicit Parser(const Program& program)
-        : program_(program)
-        , app_(program.about) {
+    explicit Parser(const Program& program) : program_(program), app_(program.about) {
         app_.set_version_flag("--version", program.version);
         app_.formatter(std::make_shared<HelpFormatter>());
         app_.get_formatter()->column_width(column_width);
@@ -151,25 +138,20 @@ public:
     }
 
     /// Throws CLI::ParseError where the line is wrong or asks for help.
-    void parse(int argument_count, const char* const* arguments) {
-        app_.parse(argument_count, arguments);
-    }
+    void parse(int argument_count, const char* const* arguments) { app_.parse(argument_count, arguments); }
 
     std::string help() const { return with_single_gaps(app_.help()); }
 
     std::string help_of_all() const {
         std::string text = app_.help();
-        for (const Parsed& parsed : parsed_) {
-            text += fmt::format("\n\n{}", parsed.app->help(parsed.before));
-        }
+        for (const Parsed& parsed : parsed_) { text += fmt::format("\n\n{}", parsed.app->help(parsed.before)); }
         return with_single_gaps(text);
     }
 
     /// What is wrong with the line, where parse() found `fault`.
     std::string parse_error_text(const CLI::ParseError& fault, const Words& line) const {
         const Parsed* const parsed = named();
-        const std::vector<Command>& commands =
-            parsed == nullptr ? program_.commands : parsed->command->commands;
+        const std::vector<Command>& commands = parsed == nullptr ? program_.commands : parsed->command->commands;
         if (!commands.empty()) {
             const std::string name = parsed == nullptr ? "" : full_name(*parsed) + ": ";
             return name + option_of_other_command_error(commands, first_extra(line));
@@ -205,9 +187,7 @@ public:
                 check_no_empty_words(row, readings.back().second);
             }
         }
-        for (const auto& [row, words] : readings) {
-            row->read(words);
-        }
+        for (const auto& [row, words] : readings) { row->read(words); }
         return parsed.command->run;
     }
 
@@ -225,28 +205,21 @@ private:
         std::string before;                ///< the words before its name
     };
 
-    void
-    add_commands(CLI::App& app, const std::vector<Command>& commands, const std::string& before) {
+    void add_commands(CLI::App& app, const std::vector<Command>& commands, const std::string& before) {
         app.require_subcommand(1);
         for (const Command& command : commands) {
             Parsed parsed{&command, app.add_subcommand(command.name, command.summary), {}, before};
             parsed.app->footer(command.footer);
-            for (const Option& row : command.options) {
-                parsed.options.push_back(add_option(*parsed.app, row));
-            }
+            for (const Option& row : command.options) { parsed.options.push_back(add_option(*parsed.app, row)); }
             parsed_.push_back(parsed);
-            if (!command.commands.empty()) {
-                add_commands(*parsed.app, command.commands, before + " " + command.name);
-            }
+            if (!command.commands.empty()) { add_commands(*parsed.app, command.commands, before + " " + command.name); }
         }
     }
 
     /// The innermost command that the line names; null where it names none.
     const Parsed* named() const {
         const CLI::App* app = &app_;
-        while (!app->get_subcommands().empty()) {
-            app = app->get_subcommands().front();
-        }
+        while (!app->get_subcommands().empty()) { app = app->get_subcommands().front(); }
         const auto found = std::ranges::find(parsed_, app, &Parsed::app);
         return found == parsed_.end() ? nullptr : &*found;
     }
@@ -254,8 +227,7 @@ private:
     /// As a person types it after the program's name.
     static std::string full_name(const Parsed& parsed) {
         const std::string before = parsed.before.substr(std::string_view("octant").size());
-        return before.empty() ? parsed.command->name
-                              : fmt::format("{} {}", before.substr(1), parsed.command->name);
+        return before.empty() ? parsed.command->name : fmt::format("{} {}", before.substr(1), parsed.command->name);
     }
 
     static bool is(const CLI::ParseError& fault, CLI::ExitCodes code) {
@@ -274,61 +246,40 @@ private:
         return found == line.end() ? std::string() : *found;
     }
 
-    static std::string
-    option_of_other_command_error(const std::vector<Command>& commands, const std::string& got) {
+    static std::string option_of_other_command_error(const std::vector<Command>& commands, const std::string& got) {
         Words names;
-        for (const Command& command : commands) {
-            names.push_back(command.name);
-        }
-        return fmt::format(
-            "expected a command ({}), got {}{}",
-            fmt::join(names, ", "),
-            got.empty() ? "none" : printable(got),
-            did_you_mean(got, names));
+        for (const Command& command : commands) { names.push_back(command.name); }
+        return fmt::format("expected a command ({}), got {}{}", fmt::join(names, ", "),
+            got.empty() ? "none" : printable(got), did_you_mean(got, names));
     }
 
     std::string unexpected_word_error(const Parsed& parsed, const Words& line) const {
         const std::string got = first_extra(line);
-        if (!got.starts_with('-')) {
-            return fmt::format("expected no further argument, got '{}'", printable(got));
-        }
+        if (!got.starts_with('-')) { return fmt::format("expected no further argument, got '{}'", printable(got)); }
         Words names{"--help"};
         for (const CLI::Option* const option : parsed.options) {
-            for (const std::string& name : option->get_lnames()) {
-                names.push_back("--" + name);
-            }
+            for (const std::string& name : option->get_lnames()) { names.push_back("--" + name); }
         }
         const std::string name = got.substr(0, got.find('='));
-        return fmt::format(
-            "expected one of its options, got {}{}", printable(got), did_you_mean(name, names));
+        return fmt::format("expected one of its options, got {}{}", printable(got), did_you_mean(name, names));
     }
 
-    /// Throws Error for a flag with another value than true or false, and for a name that unsets a
-    /// flag with any: what --no-near-detail=0 should mean nobody can say.
+    /// Throws Error for a flag with another value than true or false, and for a name that unsets a flag with any: what
+    /// --no-near-detail=0 should mean nobody can say.
     static void check_flag_values(const Parsed& parsed, const Words& line) {
         for (const std::string& word : line) {
             const std::size_t equals = word.find('=');
-            if (!word.starts_with("--") || equals == std::string::npos) {
-                continue;
-            }
+            if (!word.starts_with("--") || equals == std::string::npos) { continue; }
             const std::string name = word.substr(0, equals);
             for (std::size_t i = 0; i < parsed.options.size(); ++i) {
                 const Option& row = parsed.command->options[i];
-                if (row.arity != Arity::None || !parsed.options[i]->check_name(name)) {
-                    continue;
-                }
+                if (row.arity != Arity::None || !parsed.options[i]->check_name(name)) { continue; }
                 const std::string value = word.substr(equals + 1);
                 if (row.name.find("!" + name) != std::string::npos) {
-                    throw Error(fmt::format(
-                        "{}: expected nothing after it, got {}; {}=true or {}=false is taken",
-                        name,
-                        printable(value),
-                        first_name(row),
-                        first_name(row)));
+                    throw Error(fmt::format("{}: expected nothing after it, got {}; {}=true or {}=false is taken", name,
+                        printable(value), first_name(row), first_name(row)));
                 }
-                if (!is_truth(value)) {
-                    throw Error(missing_words_error(row, {value}));
-                }
+                if (!is_truth(value)) { throw Error(missing_words_error(row, {value})); }
             }
         }
     }
@@ -336,30 +287,22 @@ private:
     /// Throws Error for a word of no letters, as a shell gives for a variable that is not set.
     static void check_no_empty_words(const Option& row, const Words& words) {
         const bool may_be_empty = row.arity == Arity::None || row.arity == Arity::Optional;
-        if (!may_be_empty && std::ranges::find(words, "") != words.end()) {
-            throw Error(missing_words_error(row, {}));
-        }
+        if (!may_be_empty && std::ranges::find(words, "") != words.end()) { throw Error(missing_words_error(row, {})); }
     }
 
-    static std::string first_name(const Option& row) {
-        return row.name.substr(0, row.name.find(','));
-    }
+    static std::string first_name(const Option& row) { return row.name.substr(0, row.name.find(',')); }
 
     /// The option's words are too few or too many.
     static std::string missing_words_error(const Option& row, const Words& got) {
         std::string name = first_name(row);
         if (!name.starts_with('-')) {
-            std::ranges::transform(name, name.begin(), [](unsigned char c) {
-                return static_cast<char>(std::toupper(c));
-            });
+            std::ranges::transform(
+                name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
         }
-        const std::string form = row.arity == Arity::None ? "nothing, =true or =false after it"
+        const std::string form = row.arity == Arity::None               ? "nothing, =true or =false after it"
                                  : row.form.empty() || row.form == name ? "a word"
                                                                         : row.form;
-        return fmt::format(
-            "{}: expected {}{}, got {}",
-            name,
-            form,
+        return fmt::format("{}: expected {}{}, got {}", name, form,
             row.arity == Arity::One && got.size() > 1 ? " once" : "",
             got.empty() ? "none" : printable(fmt::format("{}", fmt::join(got, " "))));
     }
@@ -375,15 +318,12 @@ std::function<void()> printing(std::string text) {
 
 } // namespace
 
-std::function<void()>
-parse_command_line(const Program& program, int argument_count, const char* const* arguments) {
+std::function<void()> parse_command_line(const Program& program, int argument_count, const char* const* arguments) {
     Parser parser(program);
     try {
         parser.parse(argument_count, arguments);
         return parser.chosen_action(Words(arguments + 1, arguments + argument_count));
-    } catch (const CLI::CallForHelp&) {
-        return printing(parser.help());
-    } catch (const CLI::CallForAllHelp&) {
+    } catch (const CLI::CallForHelp&) { return printing(parser.help()); } catch (const CLI::CallForAllHelp&) {
         return printing(parser.help_of_all());
     } catch (const CLI::CallForVersion& version) {
         return printing(fmt::format("{}\n", version.what()));

@@ -11,14 +11,9 @@ namespace octant::ui::commands {
 
 Command manual_command(std::shared_ptr<const Program> program) {
     auto form = std::make_shared<std::string>("man");
-    Option what = choice_option(
-        "form",
-        "FORM",
-        "man, a manual page; bash or zsh, completion",
-        {"man", "bash", "zsh"},
-        *form);
-    return {
-        .name = "manual",
+    Option what =
+        choice_option("form", "FORM", "man, a manual page; bash or zsh, completion", {"man", "bash", "zsh"}, *form);
+    return {.name = "manual",
         .summary = "Prints the manual page, or what completes command lines in a shell",
         .options = {std::move(what)},
         .footer = "Examples:\n"

@@ -1,10 +1,10 @@
-#include "models/measure/sampled_distance.h"
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
+#include "models/measure/sampled_distance.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel_for.h"
-#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
+#include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/value_option.h"
@@ -46,9 +46,7 @@ struct MeshComparison {
 
 models::TriangleMesh read_surface(const std::string& path) {
     models::TriangleMesh mesh = world::load_mesh(path);
-    if (mesh.triangles.empty()) {
-        throw_error_in(path, "expected a mesh with triangles, got none");
-    }
+    if (mesh.triangles.empty()) { throw_error_in(path, "expected a mesh with triangles, got none"); }
     return mesh;
 }
 
@@ -89,18 +87,12 @@ JsonValue distance_results(const measure::OneWayDistance& way, const MeshCompari
     results["hausdorff_most_units"] = way.max_hausdorff_m;
     results["rms_units"] = way.rms_m;
     results["mean_units"] = way.mean_m;
-    if (found.coloured) {
-        results["colour_rms"] = way.colour_rms;
-    }
+    if (found.coloured) { results["colour_rms"] = way.colour_rms; }
     return results;
 }
 
 measure::OneWayDistance two_sided_distance(const measure::MeshDistance& distance) {
-    return {
-        distance.min_hausdorff_m(),
-        distance.max_hausdorff_m(),
-        distance.rms_m(),
-        distance.mean_m(),
+    return {distance.min_hausdorff_m(), distance.max_hausdorff_m(), distance.rms_m(), distance.mean_m(),
         distance.colour_rms()};
 }
 
@@ -120,28 +112,18 @@ JsonValue defect_results(const measure::MeshDefects& defects) {
     return results;
 }
 
-void print_row(
-    const std::string& name,
-    const measure::MeshDistance& distance,
-    double measure::OneWayDistance::*statistic,
-    double unit) {
+void print_row(const std::string& name, const measure::MeshDistance& distance,
+    double measure::OneWayDistance::*statistic, double unit) {
     const auto both = two_sided_distance(distance);
-    std::fputs(
-        fmt::format(
-            "{:<28} {:>12.5g} {:>12.5g} {:>12.5g}\n",
-            name,
-            distance.there.*statistic / unit,
-            distance.back.*statistic / unit,
-            both.*statistic / unit)
-            .c_str(),
+    std::fputs(fmt::format("{:<28} {:>12.5g} {:>12.5g} {:>12.5g}\n", name, distance.there.*statistic / unit,
+                   distance.back.*statistic / unit, both.*statistic / unit)
+                   .c_str(),
         stdout);
 }
 
 void print_text(const MeshComparison& found) {
     using Way = measure::OneWayDistance;
-    std::fputs(
-        fmt::format("{:<28} {:>12} {:>12} {:>12}\n", "", "A to B", "B to A", "larger").c_str(),
-        stdout);
+    std::fputs(fmt::format("{:<28} {:>12} {:>12} {:>12}\n", "", "A to B", "B to A", "larger").c_str(), stdout);
 
     struct LengthUnit {
         const char* name;
@@ -149,9 +131,7 @@ void print_text(const MeshComparison& found) {
     };
 
     for (const LengthUnit& kind : {LengthUnit{"of A's diagonal", found.diagonal_m}, LengthUnit{"units", 1.0}}) {
-        if (!(kind.unit > 0.0)) {
-            continue;
-        }
+        if (!(kind.unit > 0.0)) { continue; }
         const auto row = [&](const std::string& name, double Way::*statistic) {
             print_row(fmt::format("{}, {}", name, kind.name), found.distance, statistic, kind.unit);
         };
@@ -160,24 +140,14 @@ void print_text(const MeshComparison& found) {
         row("rms", &Way::rms_m);
         row("mean", &Way::mean_m);
     }
-    if (found.coloured) {
-        print_row("colour rms, of 0..1", found.distance, &Way::colour_rms, 1.0);
-    }
+    if (found.coloured) { print_row("colour rms, of 0..1", found.distance, &Way::colour_rms, 1.0); }
     const JsonValue defects = defect_results(found.defects);
     for (const auto& [name, statistic] : std::get<JsonValue::JsonMembers>(defects.value())) {
-        std::fputs(
-            fmt::format("B: {:<25} {:>12}\n", name, base::text_of_value(statistic)).c_str(), stdout);
+        std::fputs(fmt::format("B: {:<25} {:>12}\n", name, base::text_of_value(statistic)).c_str(), stdout);
     }
-    std::fputs(
-        fmt::format(
-            "B: {:<25} {:>12.3g}\n{:<28} {:>12.5g}\n{:<28} {:>12.4g}\n",
-            "flipped_area_share",
-            found.flipped_area_share,
-            "A's diagonal, units",
-            found.diagonal_m,
-            "time, ms",
-            found.measure_ms)
-            .c_str(),
+    std::fputs(fmt::format("B: {:<25} {:>12.3g}\n{:<28} {:>12.5g}\n{:<28} {:>12.4g}\n", "flipped_area_share",
+                   found.flipped_area_share, "A's diagonal, units", found.diagonal_m, "time, ms", found.measure_ms)
+                   .c_str(),
         stdout);
 }
 
@@ -230,28 +200,21 @@ constexpr const char* footer =
 
 std::vector<Option> options_of(MeshErrorOptions& options) {
     return {
-        required(text_option(
-            "A",
-            "MESH",
-            "the original: " + world::built_in_mesh_names() +
-                " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
+        required(text_option("A", "MESH",
+            "the original: " + world::built_in_mesh_names() + " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
             options.a)),
         required(text_option("B", "MESH", "what was made of it", options.b)),
-        value_option(
-            {"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100},
-            options.tightness),
+        value_option({"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100}, options.tightness),
         value_option({"samples", "N", "points each way, for rms and mean", 1, 1e9}, options.samples),
         value_option({"threads", "N", "that measure [all processors]", 1, 256}, options.threads),
-        flag("--json", "results as JSON", options.json),
-        flag("--quiet", "no progress", options.quiet)};
+        flag("--json", "results as JSON", options.json), flag("--quiet", "no progress", options.quiet)};
 }
 
 } // namespace
 
 Command mesh_error_command() {
     auto options = std::make_shared<MeshErrorOptions>();
-    return {
-        .name = "mesh-error",
+    return {.name = "mesh-error",
         .summary = "Measures how far two triangle meshes are apart, and what is wrong with B",
         .options = options_of(*options),
         .footer = footer,

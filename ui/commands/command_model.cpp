@@ -40,27 +40,21 @@ struct View {
     glm::dvec3 towards;
 };
 
-constexpr std::array views{
-    View{{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
-    View{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+constexpr std::array views{View{{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, View{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
     View{{0, -1, 0}, {0, 0, -1}, {1, 0, 0}}};
 
 /// Samples of one view, the nearest surface at each.
 class Pane {
 public:
     Pane(int width, int height)
-        : width_(width)
-        , height_(height)
-        , depths_(cells(), -std::numeric_limits<double>::infinity())
-        , colours_(cells(), background_colour) {}
+        : width_(width), height_(height), depths_(cells(), -std::numeric_limits<double>::infinity()),
+          colours_(cells(), background_colour) {}
 
     /// Corners: x and y in samples from the upper left corner, z towards the eye.
     void draw(const std::array<glm::dvec3, 3>& corners, const glm::vec3& colour) {
         const auto [a, b, c] = corners;
         const double area = cross(b - a, c - a);
-        if (area == 0.0) {
-            return;
-        }
+        if (area == 0.0) { return; }
         const int first_x = clamped(std::min({a.x, b.x, c.x}), width_);
         const int last_x = clamped(std::max({a.x, b.x, c.x}), width_);
         const int first_y = clamped(std::min({a.y, b.y, c.y}), height_);
@@ -71,9 +65,7 @@ public:
                 const double u = cross(c - b, p - b) / area;
                 const double v = cross(a - c, p - c) / area;
                 const double w = 1.0 - u - v;
-                if (u >= 0.0 && v >= 0.0 && w >= 0.0) {
-                    put(x, y, u * a.z + v * b.z + w * c.z, colour);
-                }
+                if (u >= 0.0 && v >= 0.0 && w >= 0.0) { put(x, y, u * a.z + v * b.z + w * c.z, colour); }
             }
         }
     }
@@ -90,22 +82,17 @@ public:
     }
 
 private:
-    std::size_t cells() const {
-        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    }
+    std::size_t cells() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
     std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-               static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
 
     static int clamped(double place, int size) {
         return static_cast<int>(std::clamp(std::floor(place), 0.0, size - 1.0));
     }
 
-    static double cross(const glm::dvec3& one, const glm::dvec3& other) {
-        return one.x * other.y - one.y * other.x;
-    }
+    static double cross(const glm::dvec3& one, const glm::dvec3& other) { return one.x * other.y - one.y * other.x; }
 
     void put(int x, int y, double depth, const glm::vec3& colour) {
         if (depth > depths_[index(x, y)]) {
@@ -147,10 +134,8 @@ Pane pane_of(const models::TriangleMesh& body, const View& view, int width, int 
         std::array<glm::dvec3, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3 off_m = body.vertices_m[body.triangles[t][k]] - fit.middle_m;
-            corners.at(k) = glm::dvec3(
-                0.5 * width + fit.samples_per_m * glm::dot(off_m, view.right),
-                0.5 * height - fit.samples_per_m * glm::dot(off_m, view.up),
-                glm::dot(off_m, view.towards));
+            corners.at(k) = glm::dvec3(0.5 * width + fit.samples_per_m * glm::dot(off_m, view.right),
+                0.5 * height - fit.samples_per_m * glm::dot(off_m, view.up), glm::dot(off_m, view.towards));
         }
         const double facing = glm::dot(models::normal_of(body, body.triangles[t]), view.towards);
         const double light = (facing < 0.0 ? 0.5 : 1.0) * (0.3 + 0.7 * std::abs(facing));
@@ -159,23 +144,17 @@ Pane pane_of(const models::TriangleMesh& body, const View& view, int width, int 
     return pane;
 }
 
-std::byte byte_of(float part) {
-    return static_cast<std::byte>(std::lround(std::clamp(part, 0.0F, 1.0F) * 255.0F));
-}
+std::byte byte_of(float part) { return static_cast<std::byte>(std::lround(std::clamp(part, 0.0F, 1.0F) * 255.0F)); }
 
-/// Three views of a mesh in body axes, side by side at one scale: from its left, from above (the
-/// nose points left in both) and from ahead. Orthographic, in the colours of the mesh, lit from
-/// the eye; what is seen from its back is half as bright. Same mesh, same bytes.
+/// Three views of a mesh in body axes, side by side at one scale: from its left, from above (the nose points left in
+/// both) and from ahead. Orthographic, in the colours of the mesh, lit from the eye; what is seen from its back is half
+/// as bright. Same mesh, same bytes.
 report::Picture three_views(const models::TriangleMesh& body, int pane_width_px, int height_px) {
     const int panes = static_cast<int>(views.size());
     report::Picture picture{pane_width_px * panes, height_px, 3, {}};
-    picture.bytes.resize(
-        static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(height_px) * 3);
+    picture.bytes.resize(static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(height_px) * 3);
     for (int number = 0; number < panes; ++number) {
-        const Pane pane = pane_of(
-            body,
-            views.at(static_cast<std::size_t>(number)),
-            pane_width_px * samples_a_side,
+        const Pane pane = pane_of(body, views.at(static_cast<std::size_t>(number)), pane_width_px * samples_a_side,
             height_px * samples_a_side);
         for (int y = 0; y < height_px; ++y) {
             for (int x = 0; x < pane_width_px; ++x) {
@@ -200,24 +179,19 @@ struct ModelInfoOptions {
 };
 
 models::TriangleMesh read_any_mesh(const std::string& file) {
-    return models::meshfile::is_chain_file(file)
-               ? std::move(models::meshfile::read_chain(file).levels.front().mesh)
-               : world::load_mesh(file, {.pictures = true});
+    return models::meshfile::is_chain_file(file) ? std::move(models::meshfile::read_chain(file).levels.front().mesh)
+                                                 : world::load_mesh(file, {.pictures = true});
 }
 
 void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m = axes.body_from_file(vertex_m);
-    }
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
 }
 
 /// Which unit of length an aircraft of this length was probably modelled in.
 std::string scale_in_words(double length) {
     constexpr double min_m = 2.0;
     constexpr double max_m = 90.0;
-    if (length >= min_m && length <= max_m) {
-        return "metres";
-    }
+    if (length >= min_m && length <= max_m) { return "metres"; }
     constexpr double m_per_cm = 0.01;
     constexpr double m_per_mm = 0.001;
     if (length * m_per_cm >= min_m && length * m_per_cm <= max_m) {
@@ -233,10 +207,9 @@ void add_materials(base::JsonValue& results, const models::TriangleMesh& mesh) {
     std::vector<std::pair<std::string, std::size_t>> lines; // how often each comes
     for (const models::Material& material : mesh.materials) {
         const glm::vec3& colour = material.colour;
-        std::string line = fmt::format(
-            "{} ({:.2f} {:.2f} {:.2f})", printable(material.name), colour.x, colour.y, colour.z);
-        const auto known =
-            std::ranges::find(lines, line, &std::pair<std::string, std::size_t>::first);
+        std::string line =
+            fmt::format("{} ({:.2f} {:.2f} {:.2f})", printable(material.name), colour.x, colour.y, colour.z);
+        const auto known = std::ranges::find(lines, line, &std::pair<std::string, std::size_t>::first);
         if (known == lines.end()) {
             lines.emplace_back(std::move(line), 1);
         } else {
@@ -245,8 +218,7 @@ void add_materials(base::JsonValue& results, const models::TriangleMesh& mesh) {
     }
     results["materials"] = base::JsonValue::list({});
     for (const auto& [line, count] : lines) {
-        results["materials"].push_back(
-            count == 1 ? line : fmt::format("{}, {} times", line, count));
+        results["materials"].push_back(count == 1 ? line : fmt::format("{}, {} times", line, count));
     }
     results["vertex_colours"] = !mesh.colours.empty();
 }
@@ -264,9 +236,7 @@ void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
 
 void show_model_info(const ModelInfoOptions& options) {
     world::check_axes(options.axes);
-    if (!options.picture.empty()) {
-        check_can_write(options.picture);
-    }
+    if (!options.picture.empty()) { check_can_write(options.picture); }
     models::TriangleMesh mesh = read_any_mesh(options.file);
     const world::AircraftAxes axes = world::aircraft_axes(options.axes, options.file, mesh);
     turn_into_body(mesh, axes.axes);
@@ -282,9 +252,7 @@ void show_model_info(const ModelInfoOptions& options) {
     results["axes_are"] = world::axes_text(axes);
     add_surface(results, mesh);
     add_materials(results, mesh);
-    for (const std::string& note : mesh.notes) {
-        base::print_note(options.quiet, "note: " + note);
-    }
+    for (const std::string& note : mesh.notes) { base::print_note(options.quiet, "note: " + note); }
     if (!options.picture.empty()) {
         constexpr int pane_px = 400;
         constexpr int height_px = 320;
@@ -296,24 +264,14 @@ void show_model_info(const ModelInfoOptions& options) {
 
 Command model_info_command() {
     auto options = std::make_shared<ModelInfoOptions>();
-    return {
-        .name = "info",
+    return {.name = "info",
         .summary = "Size, axes, surface and materials of a mesh, and a picture of three views",
-        .options =
-            {required(text_option(
-                 "file",
-                 "FILE",
-                 "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .chain) or a built-in name",
-                 options->file)),
-             text_option(
-                 "--picture",
-                 "OUT.png",
-                 "draw it from its left, from above and from ahead; the nose points left",
-                 options->picture),
-             text_option(
-                 "--axes", "X,Y,Z|auto", "where x, y and z of the file point", options->axes),
-             flag("--json", "as JSON", options->json),
-             flag("--quiet", "no notes", options->quiet)},
+        .options = {required(text_option("file", "FILE",
+                        "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .chain) or a built-in name", options->file)),
+            text_option("--picture", "OUT.png",
+                "draw it from its left, from above and from ahead; the nose points left", options->picture),
+            text_option("--axes", "X,Y,Z|auto", "where x, y and z of the file point", options->axes),
+            flag("--json", "as JSON", options->json), flag("--quiet", "no notes", options->quiet)},
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
                   "(red green blue) and how often, vertex_colours, picture.\n"
@@ -324,8 +282,7 @@ Command model_info_command() {
 } // namespace
 
 Command model_command() {
-    return {
-        .name = "model",
+    return {.name = "model",
         .summary = "Looks at aircraft and meshes before they fly",
         .footer = "Example:\n  octant model info f15 --picture f15.png",
         .commands = {model_info_command()}};

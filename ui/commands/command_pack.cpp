@@ -1,5 +1,5 @@
-#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
+#include "ui/base/results_text.h"
 #include "ui/commands/commands.h"
 #include "ui/report/packed_recording.h"
 
@@ -28,12 +28,9 @@ void pack(const PackOptions& options) {
     }
     const std::filesystem::path file = options.out.value_or(folder.string() + ".zip");
     const report::PackResult packing = report::pack_recording(folder, file, options.with_terrain);
-    for (const std::string& note : packing.notes) {
-        base::print_note(options.quiet, "note: " + note);
-    }
+    for (const std::string& note : packing.notes) { base::print_note(options.quiet, "note: " + note); }
     if (options.json) {
-        base::print_value(
-            {{"file", file.string()}, {"files", packing.files}, {"notes", packing.notes}}, true);
+        base::print_value({{"file", file.string()}, {"files", packing.files}, {"notes", packing.notes}}, true);
     }
     base::print_note(options.quiet, fmt::format("packed: {}, {} files", file.string(), packing.files));
 }
@@ -42,20 +39,16 @@ void pack(const PackOptions& options) {
 
 Command pack_command() {
     auto options = std::make_shared<PackOptions>();
-    return {
-        .name = "pack",
+    return {.name = "pack",
         .summary = "Makes one file of a recording, to be reported and flown again anywhere",
-        .options =
-            {required(text_option("folder", "DIR", "folder of a recording", options->folder)),
-             with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
-             flag("--with-terrain", "pack the terrain file too", options->with_terrain),
-             flag("--json", "what was packed as JSON", options->json),
-             flag("--quiet", "no notes", options->quiet)},
-        .footer =
-            "Examples:\n"
-            "  octant pack my-flight --out my-flight.zip\n"
-            "On any machine then: octant report my-flight.zip --out page.html; and octant fly\n"
-            "--replay or --settings my-flight.zip.",
+        .options = {required(text_option("folder", "DIR", "folder of a recording", options->folder)),
+            with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
+            flag("--with-terrain", "pack the terrain file too", options->with_terrain),
+            flag("--json", "what was packed as JSON", options->json), flag("--quiet", "no notes", options->quiet)},
+        .footer = "Examples:\n"
+                  "  octant pack my-flight --out my-flight.zip\n"
+                  "On any machine then: octant report my-flight.zip --out page.html; and octant fly\n"
+                  "--replay or --settings my-flight.zip.",
         .run = [options] { pack(*options); }};
 }
 

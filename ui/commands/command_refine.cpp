@@ -3,8 +3,8 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
+#include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/value_option.h"
@@ -60,23 +60,17 @@ std::vector<refine::Sphere> regions_from(const Words& words) {
     std::vector<refine::Sphere> regions;
     for (std::size_t first = 0; first + region_words <= words.size(); first += region_words) {
         if (words[first] != "sphere") {
-            throw Error(fmt::format(
-                "--region: expected sphere X Y Z RADIUS, got '{}'", printable(words[first])));
+            throw Error(fmt::format("--region: expected sphere X Y Z RADIUS, got '{}'", printable(words[first])));
         }
         std::array<double, region_words - 1> numbers{};
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             const std::string& word = words[first + 1 + i];
             const auto number = finite_number(word);
-            if (!number) {
-                throw Error(
-                    fmt::format("--region: expected a finite number, got '{}'", printable(word)));
-            }
+            if (!number) { throw Error(fmt::format("--region: expected a finite number, got '{}'", printable(word))); }
             numbers[i] = *number;
         }
         const auto& [x, y, z, radius] = numbers;
-        if (radius < 0.0) {
-            throw Error(fmt::format("--region: expected a radius of at least 0, got {}", radius));
-        }
+        if (radius < 0.0) { throw Error(fmt::format("--region: expected a radius of at least 0, got {}", radius)); }
         regions.push_back({{x, y, z}, radius});
     }
     return regions;
@@ -86,14 +80,10 @@ refine::RefineView view_of(const RefineOptions& options) {
     const glm::dvec3& eye_m = *options.eye_m;
     const glm::dvec3& look_m = *options.look_m;
     const double away_m = glm::distance(eye_m, look_m);
-    if (!(away_m > 0.0)) {
-        throw Error("--look: expected another point than --eye");
-    }
+    if (!(away_m > 0.0)) { throw Error("--look: expected another point than --eye"); }
     const glm::dvec3 ahead = (look_m - eye_m) / away_m;
-    const glm::dvec3 up =
-        std::abs(ahead.z) > 0.999 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
-    return refine::picture_view(
-        eye_m, look_m, up, rad_from_deg(options.fov_deg), options.size_px.x, options.size_px.y);
+    const glm::dvec3 up = std::abs(ahead.z) > 0.999 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    return refine::picture_view(eye_m, look_m, up, rad_from_deg(options.fov_deg), options.size_px.x, options.size_px.y);
 }
 
 refine::SplitRule rule_of(const std::string& name) {
@@ -109,9 +99,7 @@ std::string nodes_text(const refine::ActiveMesh& active) {
                        "the original vertices below it; all from 0\n";
     for (std::size_t vertex = 0; vertex < active.nodes.size(); ++vertex) {
         text += fmt::format("{}", active.nodes[vertex]);
-        for (const std::uint32_t original : active.originals[vertex]) {
-            text += fmt::format(" {}", original);
-        }
+        for (const std::uint32_t original : active.originals[vertex]) { text += fmt::format(" {}", original); }
         text += "\n";
     }
     return text;
@@ -123,29 +111,19 @@ visuals::refine::ColourBy colour_by(const RefineOptions& options) {
                                           : visuals::refine::ColourBy::Nothing;
 }
 
-void write_results(
-    const refine::SelectiveRefiner& refiner,
-    const RefineOptions& options,
-    bool has_material_colours) {
+void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions& options, bool has_material_colours) {
     if (!options.partition.empty()) {
         const bool by_level = options.colour_by == "level";
         models::meshfile::write_mesh(
-            options.partition,
-            visuals::refine::partition_mesh(
-                refiner,
-                by_level ? visuals::refine::ColourBy::Level : visuals::refine::ColourBy::Region));
+            options.partition, visuals::refine::partition_mesh(refiner,
+                                   by_level ? visuals::refine::ColourBy::Level : visuals::refine::ColourBy::Region));
         base::print_note(options.input.quiet, "partition: " + options.partition);
     }
-    if (options.out.empty() && options.nodes.empty()) {
-        return;
-    }
+    if (options.out.empty() && options.nodes.empty()) { return; }
     refine::ActiveMesh active = refine::active_mesh(refiner);
-    if (has_material_colours) {
-        active.mesh.colours.clear();
-    }
+    if (has_material_colours) { active.mesh.colours.clear(); }
     if (!options.out.empty()) {
-        models::meshfile::write_mesh(
-            options.out, visuals::refine::coloured_mesh(active, colour_by(options)));
+        models::meshfile::write_mesh(options.out, visuals::refine::coloured_mesh(active, colour_by(options)));
         base::print_note(options.input.quiet, "active mesh: " + options.out);
     }
     if (!options.nodes.empty()) {
@@ -155,16 +133,11 @@ void write_results(
 }
 
 /// Splits what is asked for; adds to the figures.
-void refine_all(
-    refine::SelectiveRefiner& refiner,
-    const RefineOptions& options,
-    const std::optional<refine::RefineView>& view,
-    JsonValue& results) {
+void refine_all(refine::SelectiveRefiner& refiner, const RefineOptions& options,
+    const std::optional<refine::RefineView>& view, JsonValue& results) {
     const base::Stopwatch watch;
     refine::refine_regions(refiner, options.regions);
-    if (view) {
-        refine::refine_for_view(refiner, *view, options.error_px);
-    }
+    if (view) { refine::refine_for_view(refiner, *view, options.error_px); }
     const refine::RefinerCounts& counts = refiner.counts();
     results["requested_splits"] = counts.splits - counts.forced_by_rule;
     results["forced_by_rule"] = counts.forced_by_rule;
@@ -179,40 +152,29 @@ void refine_all(
 
 void check_mesh_name(const char* option, const std::string& file) {
     if (!file.empty() && !models::meshfile::is_mesh_file(file)) {
-        throw Error(fmt::format(
-            "{}: expected a mesh file such as mesh.obj or mesh.ply, got '{}'",
-            option,
-            printable(file)));
+        throw Error(
+            fmt::format("{}: expected a mesh file such as mesh.obj or mesh.ply, got '{}'", option, printable(file)));
     }
 }
 
 void refine_mesh(RefineOptions options) {
     options.input.base = static_cast<std::size_t>(options.base);
-    if (options.vertices > 0) {
-        options.input.max_vertices = static_cast<std::size_t>(options.vertices);
-    }
+    if (options.vertices > 0) { options.input.max_vertices = static_cast<std::size_t>(options.vertices); }
     if ((options.error_px > 0.0) != options.eye_m.has_value() ||
         options.eye_m.has_value() != options.look_m.has_value()) {
-        throw Error(fmt::format(
-            "--error-px, --eye, --look: expected all three or none, got{}{}{}",
-            options.error_px > 0.0 ? " --error-px" : "",
-            options.eye_m ? " --eye" : "",
+        throw Error(fmt::format("--error-px, --eye, --look: expected all three or none, got{}{}{}",
+            options.error_px > 0.0 ? " --error-px" : "", options.eye_m ? " --eye" : "",
             options.look_m ? " --look" : ""));
     }
     std::optional<refine::RefineView> view;
-    if (options.error_px > 0.0) {
-        view = view_of(options);
-    }
+    if (options.error_px > 0.0) { view = view_of(options); }
     check_mesh_name("--out", options.out);
     check_mesh_name("--out-partition", options.partition);
     if (!options.save.empty() && !refine::is_progressive_file(options.save)) {
-        throw Error(fmt::format(
-            "--save: expected a file name that ends in .pm, got '{}'", printable(options.save)));
+        throw Error(fmt::format("--save: expected a file name that ends in .pm, got '{}'", printable(options.save)));
     }
     for (const std::string& file : {options.save, options.out, options.partition, options.nodes}) {
-        if (!file.empty()) {
-            check_can_write(file);
-        }
+        if (!file.empty()) { check_can_write(file); }
     }
     const base::Stopwatch watch;
     const world::RefineMesh input = world::load_refine_mesh(options.input);
@@ -222,16 +184,14 @@ void refine_mesh(RefineOptions options) {
     results["original_vertices"] = mesh->leaf_count();
     results["original_faces"] = mesh->face_count();
     results["base_vertices"] = mesh->roots().size();
-    results["hierarchy_bytes_a_vertex"] =
-        static_cast<double>(mesh->bytes()) / static_cast<double>(mesh->leaf_count());
+    results["hierarchy_bytes_a_vertex"] = static_cast<double>(mesh->bytes()) / static_cast<double>(mesh->leaf_count());
     results["load_ms"] = watch.ms();
     if (!options.save.empty()) {
         refine::write_progressive(options.save, *mesh);
         base::print_note(options.input.quiet, "progressive mesh: " + options.save);
     }
     results["rule"] = options.rule;
-    refine::SelectiveRefiner refiner(
-        mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
+    refine::SelectiveRefiner refiner(mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
     refine_all(refiner, options, view, results);
     write_results(refiner, options, input.has_material_colours);
     base::print_value(results, options.json);
@@ -239,30 +199,22 @@ void refine_mesh(RefineOptions options) {
 
 std::vector<Option> model_options(RefineOptions& options) {
     constexpr double far_m = 1e9;
-    return {
-        required(text_option(
-            "in",
-            "MESH|FILE.pm",
-            "a mesh: " + world::built_in_mesh_names() +
-                " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
-            options.input.file)),
+    return {required(text_option("in", "MESH|FILE.pm",
+                "a mesh: " + world::built_in_mesh_names() +
+                    " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
+                options.input.file)),
         value_option(
-            {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9},
-            options.base),
-        value_option(
-            {"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9},
-            options.vertices),
+            {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9}, options.base),
+        value_option({"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9}, options.vertices),
         {.name = "--region",
-         .form = "sphere X Y Z RADIUS",
-         .meaning = "every original vertex inside is active (file axes, repeatable)",
-         .arity = Arity::OneOrMore,
-         .read = [&options](const Words& words) { options.regions = regions_from(words); },
-         .words_per_use = static_cast<int>(region_words)},
+            .form = "sphere X Y Z RADIUS",
+            .meaning = "every original vertex inside is active (file axes, repeatable)",
+            .arity = Arity::OneOrMore,
+            .read = [&options](const Words& words) { options.regions = regions_from(words); },
+            .words_per_use = static_cast<int>(region_words)},
         value_option(
-            {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6},
-            options.error_px),
-        value_option(
-            {"eye", "X,Y,Z", "where the view is from, file axes", -far_m, far_m}, options.eye_m),
+            {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6}, options.error_px),
+        value_option({"eye", "X,Y,Z", "where the view is from, file axes", -far_m, far_m}, options.eye_m),
         value_option({"look", "X,Y,Z", "what it looks at", -far_m, far_m}, options.look_m),
         value_option({"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg),
         value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)};
@@ -270,53 +222,41 @@ std::vector<Option> model_options(RefineOptions& options) {
 
 void add_method_options(std::vector<Option>& table, RefineOptions& options) {
     table.insert(
-        table.end(),
-        {choice_option(
-             "--rule",
-             "RULE",
-             "what a split needs: two cut vertices (selective), the faces beside (hoppe, 1997) or "
-             "all vertices around (xia, 1996)",
-             {"selective", "hoppe", "xia"},
-             options.rule),
-         flag("--no-repair", "leave faces that have turned over", options.no_repair),
-         text_option("--save", "FILE.pm", "write the progressive mesh", options.save),
-         text_option("--out", "FILE", "write the active mesh", options.out),
-         choice_option(
-             "--colour-by",
-             "WHAT",
-             "colours of --out: each active vertex its own (region) or by original vertices below "
-             "it (level)",
-             {"none", "region", "level"},
-             options.colour_by),
-         text_option(
-             "--out-partition",
-             "FILE",
-             "write the original mesh coloured by active vertices",
-             options.partition),
-         text_option("--nodes", "FILE", "write the list of active nodes", options.nodes),
-         flag("--json", "results as JSON", options.json),
-         flag("--quiet", "no progress, no notes", options.input.quiet)});
+        table.end(), {choice_option("--rule", "RULE",
+                          "what a split needs: two cut vertices (selective), the faces beside (hoppe, 1997) or "
+                          "all vertices around (xia, 1996)",
+                          {"selective", "hoppe", "xia"}, options.rule),
+                         flag("--no-repair", "leave faces that have turned over", options.no_repair),
+                         text_option("--save", "FILE.pm", "write the progressive mesh", options.save),
+                         text_option("--out", "FILE", "write the active mesh", options.out),
+                         choice_option("--colour-by", "WHAT",
+                             "colours of --out: each active vertex its own (region) or by original vertices below "
+                             "it (level)",
+                             {"none", "region", "level"}, options.colour_by),
+                         text_option("--out-partition", "FILE", "write the original mesh coloured by active vertices",
+                             options.partition),
+                         text_option("--nodes", "FILE", "write the list of active nodes", options.nodes),
+                         flag("--json", "results as JSON", options.json),
+                         flag("--quiet", "no progress, no notes", options.input.quiet)});
 }
 
 } // namespace
 
 Command refine_command() {
     auto options = std::make_shared<RefineOptions>();
-    Command command = {
-        .name = "refine",
+    Command command = {.name = "refine",
         .summary = "Makes progressive meshes and refines them where it is asked for",
         .options = model_options(*options),
-        .footer =
-            "Without --region and --error-px the active mesh is the base mesh.\n"
-            "Keys of --json: model, original_vertices, original_faces, base_vertices,\n"
-            "  hierarchy_bytes_a_vertex, load_ms, rule, requested_splits, forced_by_rule,\n"
-            "  turned_faces_before_repair, forced_by_repair, turned_faces, vertices, faces, "
-            "refine_ms.\n"
-            "Examples:\n"
-            "  octant refine bunny.ply --base 100 --save bunny.pm\n"
-            "  octant refine bunny.pm --region sphere -0.05 0.1 0 0.02 --out ear.ply --nodes "
-            "ear.txt\n"
-            "  octant refine bunny.pm --error-px 1 --eye 0,0.1,0.4 --look 0,0.1,0 --out seen.obj",
+        .footer = "Without --region and --error-px the active mesh is the base mesh.\n"
+                  "Keys of --json: model, original_vertices, original_faces, base_vertices,\n"
+                  "  hierarchy_bytes_a_vertex, load_ms, rule, requested_splits, forced_by_rule,\n"
+                  "  turned_faces_before_repair, forced_by_repair, turned_faces, vertices, faces, "
+                  "refine_ms.\n"
+                  "Examples:\n"
+                  "  octant refine bunny.ply --base 100 --save bunny.pm\n"
+                  "  octant refine bunny.pm --region sphere -0.05 0.1 0 0.02 --out ear.ply --nodes "
+                  "ear.txt\n"
+                  "  octant refine bunny.pm --error-px 1 --eye 0,0.1,0.4 --look 0,0.1,0 --out seen.obj",
         .run = [options] { refine_mesh(*options); }};
     add_method_options(command.options, *options);
     return command;

@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
+#include "ui/base/results_text.h"
 #include "ui/commands/commands.h"
 #include "ui/report/comparison.h"
 #include "ui/report/html_report.h"
@@ -40,103 +40,70 @@ base::JsonValue results_of_run(const report::LoadedRecording& recording) {
             summary[statistic.key] = value;
         }
     }
-    const auto known = [](const std::string& text) {
-        return text.empty() ? base::JsonValue() : base::JsonValue(text);
-    };
-    return {
-        {"folder", recording.display_name},
-        {"title", recording.run.title},
-        {"host", recording.run.machine_info.host},
-        {"frames", recording.flight.frames()},
-        {"ended_early", recording.ended_early},
-        {"stopped", known(recording.run.stopped)},
-        {"disagreement", known(recording.disagreement)},
-        {"noise", recording.run.noise},
-        {"state_hash", known(recording.run.state_hash)},
-        {"picture_hash", known(recording.run.picture_hash)},
+    const auto known = [](const std::string& text) { return text.empty() ? base::JsonValue() : base::JsonValue(text); };
+    return {{"folder", recording.display_name}, {"title", recording.run.title},
+        {"host", recording.run.machine_info.host}, {"frames", recording.flight.frames()},
+        {"ended_early", recording.ended_early}, {"stopped", known(recording.run.stopped)},
+        {"disagreement", known(recording.disagreement)}, {"noise", recording.run.noise},
+        {"state_hash", known(recording.run.state_hash)}, {"picture_hash", known(recording.run.picture_hash)},
         {"summary", summary}};
 }
 
 void make_report(const ReportOptions& options) {
     const std::optional<report::Gate> gate =
         options.gate.empty() ? std::nullopt : std::optional(report::read_gate(options.gate));
-    if (gate && options.folders.size() < 2) {
-        throw Error("--gate: expected two recordings or more, got one");
-    }
+    if (gate && options.folders.size() < 2) { throw Error("--gate: expected two recordings or more, got one"); }
     std::vector<report::LoadedRecording> recordings;
     for (const std::string& folder : options.folders) {
         recordings.push_back(report::load_recording(report::recording_folder(folder)));
         if (recordings.back().ended_early) {
-            base::print_note(
-                options.quiet,
-                fmt::format(
-                    "note: {} ended early, after {} frames",
-                    folder,
-                    recordings.back().flight.frames()));
+            base::print_note(options.quiet,
+                fmt::format("note: {} ended early, after {} frames", folder, recordings.back().flight.frames()));
         }
     }
     const std::filesystem::path first = options.folders.front();
     if (options.out.empty() && std::filesystem::is_regular_file(first)) {
         throw Error("--out: expected a file for the report of a packed recording, got none");
     }
-    const std::filesystem::path file =
-        options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
-    write_file(
-        file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
+    const std::filesystem::path file = options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
+    write_file(file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
     base::print_note(options.quiet, fmt::format("report: {}", file.string()));
     const std::vector<std::string> faults =
         gate ? report::gate_failures(recordings, *gate) : std::vector<std::string>();
     if (options.json) {
         base::JsonValue list = base::JsonValue::list({});
-        std::ranges::for_each(
-            recordings, [&](const auto& each) { list.push_back(results_of_run(each)); });
-        base::print_value(
-            {{"report", file.string()}, {"recordings", list}, {"gate_faults", faults}}, true);
+        std::ranges::for_each(recordings, [&](const auto& each) { list.push_back(results_of_run(each)); });
+        base::print_value({{"report", file.string()}, {"recordings", list}, {"gate_faults", faults}}, true);
     } else {
         for (const report::LoadedRecording& recording : recordings) {
             if (!recording.disagreement.empty()) {
-                const std::string line = fmt::format(
-                    "{}: summary and rows disagree, as if rows were cut off: {}\n",
-                    printable(recording.display_name),
-                    recording.disagreement);
+                const std::string line = fmt::format("{}: summary and rows disagree, as if rows were cut off: {}\n",
+                    printable(recording.display_name), recording.disagreement);
                 std::fputs(line.c_str(), stdout);
             }
         }
-        for (const std::string& fault : faults) {
-            std::fputs((fault + "\n").c_str(), stdout);
-        }
+        for (const std::string& fault : faults) { std::fputs((fault + "\n").c_str(), stdout); }
     }
-    const bool cut = std::ranges::any_of(
-        recordings, [](const auto& recording) { return !recording.disagreement.empty(); });
-    if (!faults.empty() || cut) {
-        throw CheckFailed();
-    }
+    const bool cut =
+        std::ranges::any_of(recordings, [](const auto& recording) { return !recording.disagreement.empty(); });
+    if (!faults.empty() || cut) { throw CheckFailed(); }
 }
 
 } // namespace
 
 Command report_command() {
     auto options = std::make_shared<ReportOptions>();
-    return {
-        .name = "report",
+    return {.name = "report",
         .summary = "Makes report.html from recordings; several are compared side by side",
-        .options =
-            {required(list_option(
-                 "folders",
-                 "DIR...",
-                 "folders of recordings, also of flights that were killed, or packed ones",
-                 Arity::OneOrMore,
-                 options->folders)),
-             with_shown_default(
-                 "report.html in the first folder",
-                 text_option("--out", "FILE.html", "the page to write", options->out)),
-             text_option(
-                 "--gate",
-                 "FIGURE=N%,...",
-                 "exit code 1 where a recording's figures are above the first one's by more",
-                 options->gate),
-             flag("--json", "figures of each recording as JSON", options->json),
-             flag("--quiet", "no notes", options->quiet)},
+        .options = {required(list_option("folders", "DIR...",
+                        "folders of recordings, also of flights that were killed, or packed ones", Arity::OneOrMore,
+                        options->folders)),
+            with_shown_default("report.html in the first folder",
+                text_option("--out", "FILE.html", "the page to write", options->out)),
+            text_option("--gate", "FIGURE=N%,...",
+                "exit code 1 where a recording's figures are above the first one's by more", options->gate),
+            flag("--json", "figures of each recording as JSON", options->json),
+            flag("--quiet", "no notes", options->quiet)},
         .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
                   "written and says so.\n"
                   "Examples:\n"

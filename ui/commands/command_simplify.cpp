@@ -3,11 +3,11 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
-#include "ui/base/results_text.h"
 #include "ui/base/memory.h"
+#include "ui/base/results_text.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/value_option.h"
 #include "ui/commands/simplify_run.h"
+#include "ui/commands/value_option.h"
 #include "ui/world/mesh_loader.h"
 
 #include <filesystem>
@@ -29,24 +29,20 @@ void check_output(const SimplifyArguments& command, const std::string& name) {
     const std::filesystem::path out = name;
     for (const std::string& input : command.files) {
         if (&input != &command.files.back() && is_same_file(input, out)) {
-            throw Error(fmt::format(
-                "OUT: expected another file than the input, got '{}'", printable(name)));
+            throw Error(fmt::format("OUT: expected another file than the input, got '{}'", printable(name)));
         }
     }
     if (is_same_file(command.polygons, out)) {
-        throw Error(
-            fmt::format("OUT: expected another file than the input, got '{}'", printable(name)));
+        throw Error(fmt::format("OUT: expected another file than the input, got '{}'", printable(name)));
     }
     if (command.chain != meshfile::is_chain_file(out)) {
-        throw Error(fmt::format(
-            "OUT: expected a name that ends in .chain with --chain, and another one without, got "
-            "'{}'",
+        throw Error(fmt::format("OUT: expected a name that ends in .chain with --chain, and another one without, got "
+                                "'{}'",
             printable(name)));
     }
     if (!command.chain && !meshfile::is_writable_mesh_file(out)) {
-        throw Error(fmt::format(
-            "OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
-            "'{}'",
+        throw Error(fmt::format("OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
+                                "'{}'",
             printable(name)));
     }
     check_can_write(out);
@@ -58,13 +54,10 @@ struct NamedFlag {
     bool is_given;
 };
 
-/// Throws Error where an option stands with one of others that would have no effect or contradict
-/// it.
+/// Throws Error where an option stands with one of others that would have no effect or contradict it.
 void check_exclusive(std::string_view option, const std::vector<NamedFlag>& others) {
     for (const NamedFlag& other : others) {
-        if (other.is_given) {
-            throw Error(fmt::format("{}: expected no {} with it, got both", option, other.name));
-        }
+        if (other.is_given) { throw Error(fmt::format("{}: expected no {} with it, got both", option, other.name)); }
     }
 }
 
@@ -74,96 +67,74 @@ void assign_files(SimplifyArguments& command) {
     command.in = command.files.front();
     if (command.shared_border) {
         if (count < 2 || command.out_dir.empty()) {
-            throw Error(fmt::format(
-                "--shared-border: expected two meshes or more and --out-dir, got {} and {}",
-                count,
+            throw Error(fmt::format("--shared-border: expected two meshes or more and --out-dir, got {} and {}", count,
                 command.out_dir.empty() ? "none" : "one"));
         }
         return;
     }
-    if (!command.out_dir.empty()) {
-        throw Error("--out-dir: expected --shared-border with it, got none");
-    }
+    if (!command.out_dir.empty()) { throw Error("--out-dir: expected --shared-border with it, got none"); }
     if (count == 1 && !command.chart.empty()) {
-        check_exclusive(
-            "--chart without OUT",
-            {{"--faces", command.faces > 0},
-             {"--vertices", command.vertices > 0},
-             {"--error", !command.error.empty()},
-             {"--chain", command.chain}});
+        check_exclusive("--chart without OUT", {{"--faces", command.faces > 0}, {"--vertices", command.vertices > 0},
+                                                   {"--error", !command.error.empty()}, {"--chain", command.chain}});
         return;
     }
-    if (count != 2) {
-        throw Error(fmt::format("expected IN and OUT, got {} files", count));
-    }
+    if (count != 2) { throw Error(fmt::format("expected IN and OUT, got {} files", count)); }
     command.out = command.files.back();
     check_output(command, command.out);
 }
 
 void check_chart_options(const SimplifyArguments& command) {
     if (!command.chart.ends_with(".html")) {
-        throw Error(fmt::format(
-            "--chart: expected a name that ends in .html, got '{}'", printable(command.chart)));
+        throw Error(fmt::format("--chart: expected a name that ends in .html, got '{}'", printable(command.chart)));
     }
     std::vector<std::string> others = command.files; // OUT, too
     others.push_back(command.polygons);
     for (const std::string& other : others) {
         if (is_same_file(other, command.chart)) {
-            throw Error(fmt::format(
-                "--chart: expected another file than '{}', got the same", printable(other)));
+            throw Error(fmt::format("--chart: expected another file than '{}', got the same", printable(other)));
         }
     }
     check_can_write(command.chart);
 }
 
-/// The outputs of --shared-border: the inputs' names in another folder.
-/// The folder is made, so that it is known before the work that all can be written.
+/// The outputs of --shared-border: the inputs' names in another folder. The folder is made, so that it is known before
+/// the work that all can be written.
 void check_folder_options(const SimplifyArguments& command) {
     std::set<std::filesystem::path> names;
     for (const std::string& file : command.files) {
         const std::filesystem::path name = std::filesystem::path(file).filename();
         if (is_same_file(file, std::filesystem::path(command.out_dir) / name)) {
-            throw Error(fmt::format(
-                "--out-dir: expected another folder than that of '{}'", printable(file)));
+            throw Error(fmt::format("--out-dir: expected another folder than that of '{}'", printable(file)));
         }
         if (!meshfile::is_writable_mesh_file(name)) {
-            throw Error(fmt::format(
-                "--shared-border: expected meshes that can be written again, such as .obj or .ply, "
-                "got '{}'",
+            throw Error(fmt::format("--shared-border: expected meshes that can be written again, such as .obj or .ply, "
+                                    "got '{}'",
                 printable(file)));
         }
         if (!names.insert(name).second) {
             throw Error(fmt::format(
-                "--shared-border: expected files of different names, got '{}' twice",
-                printable(name.string())));
+                "--shared-border: expected files of different names, got '{}' twice", printable(name.string())));
         }
     }
     make_folder(command.out_dir);
-    for (const std::filesystem::path& name : names) {
-        check_can_write(command.out_dir / name);
-    }
+    for (const std::filesystem::path& name : names) { check_can_write(command.out_dir / name); }
 }
 
 void check_goals(const SimplifyArguments& command) {
-    if (!command.error.empty()) {
-        error_m_from(command.error, 1.0);
-    }
+    if (!command.error.empty()) { error_m_from(command.error, 1.0); }
     const int goals = static_cast<int>(command.vertices > 0) + static_cast<int>(command.faces > 0) +
                       static_cast<int>(!command.error.empty());
     if (command.out.empty() && !command.shared_border) {
         return; // A chart alone has none.
     }
     if (command.chain ? goals > 0 && command.faces == 0 : goals != 1) {
-        throw Error(fmt::format(
-            "expected {}, got {} goals",
+        throw Error(fmt::format("expected {}, got {} goals",
             command.chain ? "--chain alone or with --faces of its coarsest level"
                           : "one of --vertices, --faces and --error",
             goals));
     }
     if (paper_measure(command.method) && (command.chain || !command.error.empty())) {
-        throw Error(fmt::format(
-            "--method {}: expected --vertices or --faces alone, got {}",
-            command.method,
+        throw Error(fmt::format("--method {}: expected --vertices or --faces alone, got {}", command.method,
             command.chain ? "--chain" : "--error"));
     }
 }
@@ -179,71 +150,42 @@ void check_unused_options(const SimplifyArguments& command) {
     const NamedFlag chart{"--chart", !command.chart.empty()};
     const NamedFlag shared_border{"--shared-border", command.shared_border};
     if (paper_measure(command.method)) {
-        check_exclusive(
-            "--method " + command.method,
-            {uv_error,
-             normal_error,
-             colour_error,
-             effort,
-             steps,
-             max_seconds,
-             chart,
-             shared_border,
-             {"--keep-shells", command.keep_shells},
-             {"--keep-topology", command.keep_topology},
-             {"--keep-seams-apart", command.keep_seams_apart},
-             {"--lock-border", command.lock_border}});
+        check_exclusive("--method " + command.method,
+            {uv_error, normal_error, colour_error, effort, steps, max_seconds, chart, shared_border,
+                {"--keep-shells", command.keep_shells}, {"--keep-topology", command.keep_topology},
+                {"--keep-seams-apart", command.keep_seams_apart}, {"--lock-border", command.lock_border}});
     } else if (!command.method.empty()) {
         check_exclusive("--method " + command.method, {effort, steps});
     }
     if (command.chain) {
-        check_exclusive(
-            "--chain", {uv_error, normal_error, colour_error, shared_border, max_seconds});
+        check_exclusive("--chain", {uv_error, normal_error, colour_error, shared_border, max_seconds});
     }
-    if (chart.is_given) {
-        check_exclusive("--chart", {shared_border, max_seconds});
-    }
-    if (max_seconds.is_given) {
-        check_exclusive("--max-seconds", {steps});
-    }
+    if (chart.is_given) { check_exclusive("--chart", {shared_border, max_seconds}); }
+    if (max_seconds.is_given) { check_exclusive("--max-seconds", {steps}); }
     // With several tries the effort limits each of them.
     const bool has_several_tries = !command.error.empty() || has_attribute_bound(command);
-    if (effort.is_given && !has_several_tries) {
-        check_exclusive("--effort", {steps, max_seconds});
-    }
+    if (effort.is_given && !has_several_tries) { check_exclusive("--effort", {steps, max_seconds}); }
 }
 
 void check_simplify_options(SimplifyArguments& command) {
     assign_files(command);
     check_goals(command);
     check_unused_options(command);
-    if (!command.polygons.empty() && !command.chain) {
-        throw Error("--polygons: expected --chain with it, got none");
-    }
-    if (!command.chart.empty()) {
-        check_chart_options(command);
-    }
-    if (command.shared_border) {
-        check_folder_options(command);
-    }
+    if (!command.polygons.empty() && !command.chain) { throw Error("--polygons: expected --chain with it, got none"); }
+    if (!command.chart.empty()) { check_chart_options(command); }
+    if (command.shared_border) { check_folder_options(command); }
 }
 
 void run(SimplifyArguments command) {
     check_simplify_options(command);
     base::release_free_memory();
     base::JsonValue results;
-    if (!command.shared_border) {
-        results["in"] = command.in;
-    }
-    if (!command.out.empty()) {
-        results["out"] = command.out;
-    }
-    const bool is_reached = command.shared_border ? simplify_with_shared_borders(command, results)
-                                                  : simplify_one(command, results);
+    if (!command.shared_border) { results["in"] = command.in; }
+    if (!command.out.empty()) { results["out"] = command.out; }
+    const bool is_reached =
+        command.shared_border ? simplify_with_shared_borders(command, results) : simplify_one(command, results);
     base::print_value(results, command.json);
-    if (!is_reached) {
-        throw CheckFailed();
-    }
+    if (!is_reached) { throw CheckFailed(); }
 }
 
 /// Options of one group, with its heading in help.
@@ -255,163 +197,98 @@ void add_group(std::vector<Option>& table, std::string_view heading, std::vector
 }
 
 std::vector<Option> goal_options(SimplifyArguments& command) {
-    std::vector<Option> table{required(list_option(
-        "files",
-        "IN OUT",
+    std::vector<Option> table{required(list_option("files", "IN OUT",
         "mesh to simplify: " + world::built_in_mesh_names() +
             " or a file: .obj, .ply, .stl, .off, .gltf, .glb, .ac, .wrl; and the file to write, "
             "whose ending says how. With --shared-border only meshes; with --chart OUT may be "
             "left out",
-        Arity::OneOrMore,
-        command.files))};
-    add_group(
-        table,
-        "How far (one of them)",
-        {value_option(
-             {"faces",
-              "N",
-              "down to so many triangles; with --chain of the coarsest level [no goal]",
-              1,
-              2e9},
+        Arity::OneOrMore, command.files))};
+    add_group(table, "How far (one of them)",
+        {value_option({"faces", "N", "down to so many triangles; with --chain of the coarsest level [no goal]", 1, 2e9},
              command.faces),
-         value_option(
-             {"vertices", "N", "down to so many vertices [no goal]", 1, 2e9}, command.vertices),
-         text_option(
-             "--error",
-             "E|P%",
-             "to as few triangles as possible no farther off than this, both ways: in units of the "
-             "file, or as 0.1% of the diagonal of its bounding box",
-             command.error)});
+            value_option({"vertices", "N", "down to so many vertices [no goal]", 1, 2e9}, command.vertices),
+            text_option("--error", "E|P%",
+                "to as few triangles as possible no farther off than this, both ways: in units of the "
+                "file, or as 0.1% of the diagonal of its bounding box",
+                command.error)});
     return table;
 }
 
 void add_bound_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(
-        table,
-        "What attributes may lose",
-        {value_option(
-             {"uv-error",
-              "U",
-              "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
-              1e-9,
-              1e9},
+    add_group(table, "What attributes may lose",
+        {value_option({"uv-error", "U", "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
+                          1e-9, 1e9},
              command.uv_error),
-         value_option(
-             {"normal-error", "DEGREES", "normals may be off by so much [no bound]", 0.01, 180},
-             command.normal_error),
-         value_option(
-             {"colour-error",
-              "SHARE",
-              "colours may be off by so much: a length in red, green and blue 0..1 [no bound]",
-              1e-4,
-              2},
-             command.colour_error),
-         value_option(
-             {"colour-weight",
-              "W",
-              "what a colour difference of 1 counts as, in diagonals [0.015; as printed 0.1]",
-              0,
-              1000},
-             command.colour_weight)});
+            value_option({"normal-error", "DEGREES", "normals may be off by so much [no bound]", 0.01, 180},
+                command.normal_error),
+            value_option({"colour-error", "SHARE",
+                             "colours may be off by so much: a length in red, green and blue 0..1 [no bound]", 1e-4, 2},
+                command.colour_error),
+            value_option({"colour-weight", "W",
+                             "what a colour difference of 1 counts as, in diagonals [0.015; as printed 0.1]", 0, 1000},
+                command.colour_weight)});
 }
 
 void add_constraint_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(
-        table,
-        "What stays",
-        {flag(
-             "--keep-shells",
-             "no part of the mesh vanishes, even if the goal is then out of reach",
+    add_group(table, "What stays",
+        {flag("--keep-shells", "no part of the mesh vanishes, even if the goal is then out of reach",
              command.keep_shells),
-         flag(
-             "--keep-topology",
-             "no part vanishes, no hole is closed and no handle cut, even if the goal is then out "
-             "of reach; --chain implies it",
-             command.keep_topology),
-         flag(
-             "--keep-seams-apart",
-             "weld only vertices that agree to the bit, colours too",
-             command.keep_seams_apart),
-         flag(
-             "--lock-border",
-             "all vertices of open borders stay where they are, even if the goal is then out of "
-             "reach; implies --keep-topology",
-             command.lock_border),
-         flag(
-             "--shared-border",
-             "simplify several meshes as one, so that no gap opens along their common borders; "
-             "goals count for all together",
-             command.shared_border),
-         text_option(
-             "--out-dir",
-             "DIR",
-             "with --shared-border: the folder for the results, which have the file names of the "
-             "inputs",
-             command.out_dir)});
+            flag("--keep-topology",
+                "no part vanishes, no hole is closed and no handle cut, even if the goal is then out "
+                "of reach; --chain implies it",
+                command.keep_topology),
+            flag("--keep-seams-apart", "weld only vertices that agree to the bit, colours too",
+                command.keep_seams_apart),
+            flag("--lock-border",
+                "all vertices of open borders stay where they are, even if the goal is then out of "
+                "reach; implies --keep-topology",
+                command.lock_border),
+            flag("--shared-border",
+                "simplify several meshes as one, so that no gap opens along their common borders; "
+                "goals count for all together",
+                command.shared_border),
+            text_option("--out-dir", "DIR",
+                "with --shared-border: the folder for the results, which have the file names of the "
+                "inputs",
+                command.out_dir)});
 }
 
 void add_work_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(
-        table,
-        "How much work",
-        {value_option(
-             {"effort",
-              "0..9",
-              "how long to optimize: each one more doubles the steps, as long as some help; 5 and "
-              "more look at "
-              "more points; 0 makes none [4]",
-              0,
-              9},
+    add_group(table, "How much work",
+        {value_option({"effort", "0..9",
+                          "how long to optimize: each one more doubles the steps, as long as some help; 5 and "
+                          "more look at "
+                          "more points; 0 makes none [4]",
+                          0, 9},
              command.effort),
-         value_option(
-             {"max-seconds",
-              "S",
-              "stop optimizing after this time; a note gives the --steps that repeat the result. "
-              "Collapses and "
-              "certificates may take longer [no limit]",
-              1e-3,
-              1e6},
-             command.max_seconds),
-         value_option(
-             {"steps",
-              "N",
-              "number of optimization steps, over all tries where --error or a bound needs "
-              "several; with "
-              "--chain and --chart for each level [given by --effort]",
-              0,
-              2e9},
-             command.steps),
-         choice_option(
-             "--method",
-             "KIND",
-             "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
-             "triangle or bidirectional [surface]",
-             {"surface", "fast", "plane", "triangle", "bidirectional"},
-             command.method),
-         value_option(
-             {"threads",
-              "N",
-              "number of threads; the result does not depend on it [all processors]",
-              1,
-              1024},
-             command.threads)});
-    add_group(
-        table,
-        "What is written",
-        {text_option(
-             "--chart",
-             "FILE.html",
+            value_option({"max-seconds", "S",
+                             "stop optimizing after this time; a note gives the --steps that repeat the result. "
+                             "Collapses and "
+                             "certificates may take longer [no limit]",
+                             1e-3, 1e6},
+                command.max_seconds),
+            value_option({"steps", "N",
+                             "number of optimization steps, over all tries where --error or a bound needs "
+                             "several; with "
+                             "--chain and --chart for each level [given by --effort]",
+                             0, 2e9},
+                command.steps),
+            choice_option("--method", "KIND",
+                "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
+                "triangle or bidirectional [surface]",
+                {"surface", "fast", "plane", "triangle", "bidirectional"}, command.method),
+            value_option(
+                {"threads", "N", "number of threads; the result does not depend on it [all processors]", 1, 1024},
+                command.threads)});
+    add_group(table, "What is written",
+        {text_option("--chart", "FILE.html",
              "a page that plots errors of levels of the mesh against their faces, and gives the "
              "command that makes each",
              command.chart),
-         flag("--chain", "levels of detail, halving, into OUT.chain", command.chain),
-         text_option(
-             "--polygons",
-             "FILE.obj",
-             "with --chain: polygons for its far end, instead of the last level",
-             command.polygons),
-         flag("--json", "results as JSON", command.json),
-         flag("--quiet", "no progress, no notes", command.quiet)});
+            flag("--chain", "levels of detail, halving, into OUT.chain", command.chain),
+            text_option("--polygons", "FILE.obj", "with --chain: polygons for its far end, instead of the last level",
+                command.polygons),
+            flag("--json", "results as JSON", command.json), flag("--quiet", "no progress, no notes", command.quiet)});
 }
 
 constexpr const char* simplify_footer =
@@ -447,8 +324,7 @@ constexpr const char* simplify_footer =
 
 Command simplify_command() {
     auto work = std::make_shared<SimplifyArguments>();
-    Command command = {
-        .name = "simplify",
+    Command command = {.name = "simplify",
         .summary = "Reduces triangles of a mesh and certifies how far the result is off",
         .options = goal_options(*work),
         .footer = simplify_footer,

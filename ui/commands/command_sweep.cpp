@@ -64,48 +64,32 @@ std::unique_ptr<sweep::Engine> engine_of(
     engine.jobs = options.jobs.value_or(0);
     engine.tasks = options.tasks.value_or(0);
     engine.minutes = options.minutes.value_or(engine.minutes);
-    engine.program =
-        options.program ? options.program->string() : fs::read_symlink("/proc/self/exe").string();
-    if (options.hosts) {
-        engine.hosts = fs::absolute(*options.hosts);
-    }
-    if (options.on == "slurm") {
-        return sweep::slurm_engine(sweep, folder, engine);
-    }
+    engine.program = options.program ? options.program->string() : fs::read_symlink("/proc/self/exe").string();
+    if (options.hosts) { engine.hosts = fs::absolute(*options.hosts); }
+    if (options.on == "slurm") { return sweep::slurm_engine(sweep, folder, engine); }
     return options.on == "parallel" ? sweep::parallel_engine(sweep, folder, engine)
                                     : sweep::local_engine(sweep, folder, engine);
 }
 
-std::vector<sweep::RunResult>
-results_of(const sweep::Sweep& sweep, const sweep::SweepFolder& folder, bool with_videos) {
+std::vector<sweep::RunResult> results_of(
+    const sweep::Sweep& sweep, const sweep::SweepFolder& folder, bool with_videos) {
     std::vector<sweep::RunResult> results;
-    for (const sweep::SweepRun& run : sweep.runs) {
-        results.push_back(sweep::result_of(folder, run, with_videos));
-    }
+    for (const sweep::SweepRun& run : sweep.runs) { results.push_back(sweep::result_of(folder, run, with_videos)); }
     return results;
 }
 
 /// Has flown what is not done yet, and tries again what failed. What came of all runs.
 std::vector<sweep::RunResult> fly_all(
-    const SweepOptions& options,
-    const sweep::Sweep& sweep,
-    const sweep::SweepFolder& folder,
-    sweep::Engine& engine) {
+    const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder, sweep::Engine& engine) {
     const bool quiet = options.engine.quiet;
     std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - unfinished_runs(results).size();
-    if (done_before > 0) {
-        base::print_note(quiet, fmt::format("flights that are done already: {}", done_before));
-    }
+    if (done_before > 0) { base::print_note(quiet, fmt::format("flights that are done already: {}", done_before)); }
     for (int attempt = 0; attempt <= options.retries && !base::StopSignals::received(); ++attempt) {
         const std::vector<std::size_t> left = unfinished_runs(results);
-        if (left.empty()) {
-            break;
-        }
+        if (left.empty()) { break; }
         if (attempt > 0) {
-            base::print_note(
-                quiet,
-                fmt::format("note: flights that failed and are tried again: {}", left.size()));
+            base::print_note(quiet, fmt::format("note: flights that failed and are tried again: {}", left.size()));
         }
         engine.fly(left);
         results = results_of(sweep, folder, options.engine.videos);
@@ -113,20 +97,14 @@ std::vector<sweep::RunResult> fly_all(
     return results;
 }
 
-/// Flies the parts of what is not done yet and puts them together; gives what came of the whole
-/// flights.
-SweepResults fly_in_parts(
-    const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
+/// Flies the parts of what is not done yet and puts them together; gives what came of the whole flights.
+SweepResults fly_in_parts(const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
     const auto count = static_cast<std::size_t>(*options.split);
     const bool videos = options.engine.videos;
     std::vector<sweep::RunResult> results = results_of(sweep, folder, videos);
     sweep::Sweep to_fly{sweep.name, {}};
-    for (const std::size_t run : unfinished_runs(results)) {
-        to_fly.runs.push_back(sweep.runs[run]);
-    }
-    if (to_fly.runs.empty()) {
-        return {std::move(results), fmt::format("each in {} parts", *options.split)};
-    }
+    for (const std::size_t run : unfinished_runs(results)) { to_fly.runs.push_back(sweep.runs[run]); }
+    if (to_fly.runs.empty()) { return {std::move(results), fmt::format("each in {} parts", *options.split)}; }
     const sweep::Sweep parts = sweep::split_sweep(to_fly, *options.split, videos);
     const sweep::SweepFolder part_folder(folder.path() / "parts");
     part_folder.prepare(parts);
@@ -144,14 +122,9 @@ SweepResults fly_in_parts(
             continue;
         }
         std::vector<fs::path> recordings;
-        for (const sweep::RunResult& part : own) {
-            recordings.push_back(part_folder.recording(part.name));
-        }
+        for (const sweep::RunResult& part : own) { recordings.push_back(part_folder.recording(part.name)); }
         try {
-            sweep::merge_parts(
-                whole,
-                folder.recording(whole.name),
-                recordings,
+            sweep::merge_parts(whole, folder.recording(whole.name), recordings,
                 videos ? std::optional(folder.video(whole.name)) : std::nullopt);
         } catch (const Error& fault) {
             result.fault = fault.what();
@@ -163,27 +136,22 @@ SweepResults fly_in_parts(
             fs::remove_all(part, ignored);
         }
     }
-    return {
-        std::move(results), fmt::format("each in {} parts, {}", *options.split, engine->machine_sharing())};
+    return {std::move(results), fmt::format("each in {} parts, {}", *options.split, engine->machine_sharing())};
 }
 
 std::vector<std::size_t> unfinished_runs(const std::vector<sweep::RunResult>& results) {
     std::vector<std::size_t> runs;
     for (std::size_t i = 0; i < results.size(); ++i) {
-        if (!results[i].done) {
-            runs.push_back(i);
-        }
+        if (!results[i].done) { runs.push_back(i); }
     }
     return runs;
 }
 
-/// Has an engine fly what is not done yet, in parts where that is asked for, and tries again what
-/// failed. Throws Error when the engine itself fails.
+/// Has an engine fly what is not done yet, in parts where that is asked for, and tries again what failed. Throws Error
+/// when the engine itself fails.
 SweepResults fly_unfinished_runs(
     const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
-    if (options.split) {
-        return fly_in_parts(options, sweep, folder);
-    }
+    if (options.split) { return fly_in_parts(options, sweep, folder); }
     const std::unique_ptr<sweep::Engine> engine = engine_of(options, sweep, folder);
     std::vector<sweep::RunResult> results = fly_all(options, sweep, folder, *engine);
     return {std::move(results), engine->machine_sharing()};
@@ -196,119 +164,75 @@ void print_list(const sweep::Sweep& sweep, bool json) {
         base::JsonValue runs = base::JsonValue::list({});
         for (const sweep::SweepRun& run : sweep.runs) {
             base::JsonValue varied;
-            for (const auto& [name, value] : run.varied) {
-                varied[name] = value;
-            }
+            for (const auto& [name, value] : run.varied) { varied[name] = value; }
             runs.push_back({{"name", run.name}, {"repeat", run.repeat}, {"varied", varied}});
         }
         base::print_value({{"name", sweep.name}, {"runs", runs}}, true);
         return;
     }
-    for (const sweep::SweepRun& run : sweep.runs) {
-        std::fputs((run.name + "\n").c_str(), stdout);
-    }
+    for (const sweep::SweepRun& run : sweep.runs) { std::fputs((run.name + "\n").c_str(), stdout); }
 }
 
-/// What the report says before its flights: those that are not done, and runs that differ though
-/// they must not.
+/// What the report says before its flights: those that are not done, and runs that differ though they must not.
 std::vector<report::HtmlTable> problem_table(
     const std::vector<sweep::RunResult>& results, const std::vector<std::string>& hash_mismatches) {
     std::vector<report::HtmlTable> tables;
     if (const auto missing = unfinished_runs(results); !missing.empty()) {
-        tables.push_back(
-            {"Flights that are not done", {"flight", "why"}, {}, "The same command flies them."});
-        for (const std::size_t i : missing) {
-            tables.back().rows.push_back({results[i].name, results[i].fault});
-        }
+        tables.push_back({"Flights that are not done", {"flight", "why"}, {}, "The same command flies them."});
+        for (const std::size_t i : missing) { tables.back().rows.push_back({results[i].name, results[i].fault}); }
     }
     if (!hash_mismatches.empty()) {
         tables.push_back({"Runs that differ in nothing did not show the same", {"what"}, {}, ""});
-        for (const std::string& line : hash_mismatches) {
-            tables.back().rows.push_back({line});
-        }
+        for (const std::string& line : hash_mismatches) { tables.back().rows.push_back({line}); }
     }
     return tables;
 }
 
-void write_results(
-    const sweep::Sweep& sweep,
-    const sweep::SweepFolder& folder,
-    const std::vector<sweep::RunResult>& results,
-    const std::vector<std::string>& hash_mismatches) {
+void write_results(const sweep::Sweep& sweep, const sweep::SweepFolder& folder,
+    const std::vector<sweep::RunResult>& results, const std::vector<std::string>& hash_mismatches) {
     write_file(folder.path() / "sweep.csv", sweep::sweep_csv(folder, sweep, results));
     std::vector<report::LoadedRecording> recordings;
     for (const sweep::RunResult& result : results) {
-        if (result.done) {
-            recordings.push_back(report::load_recording(folder.recording(result.name)));
-        }
+        if (result.done) { recordings.push_back(report::load_recording(folder.recording(result.name))); }
     }
-    write_file(
-        folder.path() / "report.html",
+    write_file(folder.path() / "report.html",
         report::html_report(recordings, problem_table(results, hash_mismatches), folder.path()));
 }
 
-void print_end(
-    const sweep::Sweep& sweep,
-    const std::vector<sweep::RunResult>& results,
-    const std::vector<std::string>& hash_mismatches,
-    const std::string& machine_sharing,
-    bool json) {
+void print_end(const sweep::Sweep& sweep, const std::vector<sweep::RunResult>& results,
+    const std::vector<std::string>& hash_mismatches, const std::string& machine_sharing, bool json) {
     const std::size_t missing = unfinished_runs(results).size();
     if (json) {
         base::JsonValue runs = base::JsonValue::list({});
         for (const sweep::RunResult& result : results) {
-            runs.push_back(
-                {{"name", result.name},
-                 {"done", result.done},
-                 {"fault", result.done ? std::string() : result.fault},
-                 {"host", result.host},
-                 {"state_hash", result.state_hash},
-                 {"picture_hash", result.picture_hash},
-                 {"noise", result.noise}});
+            runs.push_back({{"name", result.name}, {"done", result.done},
+                {"fault", result.done ? std::string() : result.fault}, {"host", result.host},
+                {"state_hash", result.state_hash}, {"picture_hash", result.picture_hash}, {"noise", result.noise}});
         }
-        base::print_value(
-            {{"name", sweep.name},
-             {"flown", machine_sharing},
-             {"done", results.size() - missing},
-             {"of", results.size()},
-             {"differences", hash_mismatches},
-             {"runs", runs}},
+        base::print_value({{"name", sweep.name}, {"flown", machine_sharing}, {"done", results.size() - missing},
+                              {"of", results.size()}, {"differences", hash_mismatches}, {"runs", runs}},
             true);
         return;
     }
     std::fputs(
-        fmt::format("{} of {} flights done, {}\n", results.size() - missing, results.size(), machine_sharing)
-            .c_str(),
+        fmt::format("{} of {} flights done, {}\n", results.size() - missing, results.size(), machine_sharing).c_str(),
         stdout);
     for (const sweep::RunResult& result : results) {
-        if (!result.done) {
-            std::fputs(fmt::format("failed: {}: {}\n", result.name, result.fault).c_str(), stdout);
-        }
+        if (!result.done) { std::fputs(fmt::format("failed: {}: {}\n", result.name, result.fault).c_str(), stdout); }
     }
-    for (const std::string& line : hash_mismatches) {
-        std::fputs((line + "\n").c_str(), stdout);
-    }
+    for (const std::string& line : hash_mismatches) { std::fputs((line + "\n").c_str(), stdout); }
 }
 
 /// Throws Error for an option that the engine asked for does not have.
 void check_engine(const SweepOptions& options) {
     const auto refuse = [&](std::string_view option, std::string_view engines) {
-        throw Error(
-            fmt::format("{}: expected --on {} beside it, got {}", option, engines, options.on));
+        throw Error(fmt::format("{}: expected --on {} beside it, got {}", option, engines, options.on));
     };
     const bool slurm = options.on == "slurm";
-    if (options.tasks && !slurm) {
-        refuse("--tasks", "slurm");
-    }
-    if (!options.engine.sbatch_options.empty() && !slurm) {
-        refuse("--sbatch", "slurm");
-    }
-    if (options.hosts && options.on != "parallel") {
-        refuse("--hosts", "parallel");
-    }
-    if (options.minutes && options.on == "local") {
-        refuse("--minutes", "slurm or parallel");
-    }
+    if (options.tasks && !slurm) { refuse("--tasks", "slurm"); }
+    if (!options.engine.sbatch_options.empty() && !slurm) { refuse("--sbatch", "slurm"); }
+    if (options.hosts && options.on != "parallel") { refuse("--hosts", "parallel"); }
+    if (options.minutes && options.on == "local") { refuse("--minutes", "slurm or parallel"); }
 }
 
 void run_sweep(const SweepOptions& options) {
@@ -322,8 +246,7 @@ void run_sweep(const SweepOptions& options) {
         sweep::split_sweep(sweep, *options.split, options.engine.videos);
     }
     const bool quiet = options.engine.quiet;
-    const sweep::SweepFolder folder(
-        fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
+    const sweep::SweepFolder folder(fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
     folder.prepare(sweep);
     if (options.engine.videos) {
         make_folder(folder.path() / "videos");
@@ -334,85 +257,51 @@ void run_sweep(const SweepOptions& options) {
     const std::vector<std::string> hash_mismatches = sweep::hash_mismatches(sweep, flown.results);
     write_results(sweep, folder, flown.results, hash_mismatches);
     print_end(sweep, flown.results, hash_mismatches, flown.machine_sharing, options.json);
-    base::print_note(
-        quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
-    if (!hash_mismatches.empty() || !unfinished_runs(flown.results).empty()) {
-        throw CheckFailed();
-    }
+    base::print_note(quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
+    if (!hash_mismatches.empty() || !unfinished_runs(flown.results).empty()) { throw CheckFailed(); }
 }
 
 } // namespace
 
 Command sweep_command() {
     auto options = std::make_shared<SweepOptions>();
-    return {
-        .name = "sweep",
+    return {.name = "sweep",
         .summary = "Flies many flights, by a table of what they vary, and reports them together",
-        .options =
-            {required(text_option("file", "FILE.toml", "what is flown", options->file)),
-             with_shown_default(
-                 "the sweep's name",
-                 text_option("--out", "DIR", "folder of all of it", options->out)),
-             flag("--list", "print the flights and fly none", options->list),
-             choice_option(
-                 "--on",
-                 "ENGINE",
-                 "who flies: local, processes of this machine; slurm, a job array; parallel, GNU "
-                 "parallel over ssh, all machines seeing the folder",
-                 {"local", "slurm", "parallel"},
-                 options->on),
-             value_option(
-                 {"retries", "N", "how often a flight that failed is tried again", 0, 100},
-                 options->retries),
-             flag(
-                 "--share-cores",
-                 "fly several at once on a machine; frame times then depend on each other",
-                 options->engine.share_cores),
-             value_option(
-                 {"jobs", "N", "flights at once: here, on each machine, of the array", 1, 10000},
-                 options->jobs),
-             value_option(
-                 {"tasks", "N", "tasks of the job array [one a flight, at most 1000]", 1, 100000},
-                 options->tasks),
-             value_option(
-                 {"minutes", "N", "time limit of a task or a flight on engines [60]", 1, 100000},
-                 options->minutes),
-             value_option(
-                 {"split",
-                  "N",
-                  "fly each flight in N parts, of consecutive frames, and put these together",
-                  2,
-                  10000},
-                 options->split),
-             flag(
-                 "--video",
-                 "write a video of each flight, videos/NAME.mp4",
-                 options->engine.videos),
-             list_option(
-                 "--sbatch",
-                 "OPTION",
-                 "a further option of sbatch, such as --sbatch=--partition=long",
-                 Arity::Repeatable,
-                 options->engine.sbatch_options),
-             text_option("--hosts", "FILE", "GNU parallel's file of machines", options->hosts),
-             with_shown_default(
-                 "this one",
-                 text_option(
-                     "--program",
-                     "FILE",
-                     "octant as the machines that fly call it",
-                     options->program)),
-             flag("--json", "results as JSON", options->json),
-             flag("--quiet", "no progress, no notes", options->engine.quiet)},
-        .footer =
-            "Examples:\n"
-            "  octant sweep budgets.toml --list\n"
-            "  octant sweep budgets.toml --out budgets\n"
-            "  octant sweep budgets.toml --on slurm --minutes 30 --sbatch=--partition=long\n"
-            "  octant sweep budgets.toml --on parallel --hosts machines.txt\n"
-            "  octant sweep long.toml --split 4 --share-cores --video\n"
-            "Flights that are done are not flown again. Exit code 1: some failed, or runs that\n"
-            "differ in nothing did not show the same.",
+        .options = {required(text_option("file", "FILE.toml", "what is flown", options->file)),
+            with_shown_default("the sweep's name", text_option("--out", "DIR", "folder of all of it", options->out)),
+            flag("--list", "print the flights and fly none", options->list),
+            choice_option("--on", "ENGINE",
+                "who flies: local, processes of this machine; slurm, a job array; parallel, GNU "
+                "parallel over ssh, all machines seeing the folder",
+                {"local", "slurm", "parallel"}, options->on),
+            value_option({"retries", "N", "how often a flight that failed is tried again", 0, 100}, options->retries),
+            flag("--share-cores", "fly several at once on a machine; frame times then depend on each other",
+                options->engine.share_cores),
+            value_option(
+                {"jobs", "N", "flights at once: here, on each machine, of the array", 1, 10000}, options->jobs),
+            value_option(
+                {"tasks", "N", "tasks of the job array [one a flight, at most 1000]", 1, 100000}, options->tasks),
+            value_option(
+                {"minutes", "N", "time limit of a task or a flight on engines [60]", 1, 100000}, options->minutes),
+            value_option(
+                {"split", "N", "fly each flight in N parts, of consecutive frames, and put these together", 2, 10000},
+                options->split),
+            flag("--video", "write a video of each flight, videos/NAME.mp4", options->engine.videos),
+            list_option("--sbatch", "OPTION", "a further option of sbatch, such as --sbatch=--partition=long",
+                Arity::Repeatable, options->engine.sbatch_options),
+            text_option("--hosts", "FILE", "GNU parallel's file of machines", options->hosts),
+            with_shown_default("this one",
+                text_option("--program", "FILE", "octant as the machines that fly call it", options->program)),
+            flag("--json", "results as JSON", options->json),
+            flag("--quiet", "no progress, no notes", options->engine.quiet)},
+        .footer = "Examples:\n"
+                  "  octant sweep budgets.toml --list\n"
+                  "  octant sweep budgets.toml --out budgets\n"
+                  "  octant sweep budgets.toml --on slurm --minutes 30 --sbatch=--partition=long\n"
+                  "  octant sweep budgets.toml --on parallel --hosts machines.txt\n"
+                  "  octant sweep long.toml --split 4 --share-cores --video\n"
+                  "Flights that are done are not flown again. Exit code 1: some failed, or runs that\n"
+                  "differ in nothing did not show the same.",
         .run = [options] { run_sweep(*options); }};
 }
 

@@ -1,8 +1,8 @@
-#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
+#include "ui/base/results_text.h"
 #include "ui/commands/command_terrain_parts.h"
-#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
+#include "ui/commands/value_option.h"
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_check.h"
@@ -43,22 +43,14 @@ void check(CheckOptions options) {
         results["key_pixels"] = check_result.key_pixels;
         base::print_value(results, true);
     } else {
-        std::fputs(
-            fmt::format(
-                "{} views, {} triangles, {} drawn: {} views with faults\n{}\n{} pixels of key "
-                "colour inside the ground\n",
-                check_result.views,
-                check_result.triangles,
-                check_result.drawn,
-                check_result.cracked_views,
-                check_result.edges.text(),
-                check_result.key_pixels)
-                .c_str(),
+        std::fputs(fmt::format("{} views, {} triangles, {} drawn: {} views with faults\n{}\n{} pixels of key "
+                               "colour inside the ground\n",
+                       check_result.views, check_result.triangles, check_result.drawn, check_result.cracked_views,
+                       check_result.edges.text(), check_result.key_pixels)
+                       .c_str(),
             stdout);
     }
-    if (check_result.cracked_views > 0) {
-        throw CheckFailed();
-    }
+    if (check_result.cracked_views > 0) { throw CheckFailed(); }
 }
 
 std::vector<Option> options_of(CheckOptions& options) {
@@ -66,21 +58,14 @@ std::vector<Option> options_of(CheckOptions& options) {
     std::vector<Option> table;
     add_terrain_options(table, options.view);
     add_mesh_options(table, options.mesh);
-    table.insert(
-        table.end(),
+    table.insert(table.end(),
         {value_option({"views", "N", "random views", 1, 1e8}, asked.views),
-         value_option({"seed", "S", "another seed, other views", 0, 1e9}, asked.seed),
-         value_option({"every", "N", "only every Nth view of them is made", 1, 1e6}, asked.every),
-         value_option(
-             {"draw-every",
-              "N",
-              "every Nth view made is drawn over a key colour; 0 = none",
-              0,
-              1e6},
-             asked.draw_every),
-         curved_option(options.view.curved),
-         flag("--json", "as JSON", options.json),
-         flag("--quiet", "no progress", asked.quiet)});
+            value_option({"seed", "S", "another seed, other views", 0, 1e9}, asked.seed),
+            value_option({"every", "N", "only every Nth view of them is made", 1, 1e6}, asked.every),
+            value_option({"draw-every", "N", "every Nth view made is drawn over a key colour; 0 = none", 0, 1e6},
+                asked.draw_every),
+            curved_option(options.view.curved), flag("--json", "as JSON", options.json),
+            flag("--quiet", "no progress", asked.quiet)});
     return table;
 }
 
@@ -88,10 +73,8 @@ std::vector<Option> options_of(CheckOptions& options) {
 
 Command terrain_check_command() {
     auto options = std::make_shared<CheckOptions>();
-    return {
-        .name = "check",
-        .summary =
-            "Looks for cracks and holes in the meshes of random views, by edge and by picture",
+    return {.name = "check",
+        .summary = "Looks for cracks and holes in the meshes of random views, by edge and by picture",
         .options = options_of(*options),
         .footer = "Exit code 1 when there is a crack or a hole.\n"
                   "Example:\n  octant terrain check canyon --views 10000 --seed 1",

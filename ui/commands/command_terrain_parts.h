@@ -20,19 +20,15 @@ Command terrain_error_command();
 Command terrain_query_command();
 Command terrain_check_command();
 
-/// Adds how far the system of a ground from files is from true at its corners, or what is taken for
-/// granted without one, and how far the ground lies from the files, as far as either is known.
-void add_accuracy(
-    const std::optional<models::heights::CoordinateSystem>& system,
-    const glm::dvec2& half_extent_m,
-    const std::optional<models::heights::HeightDeviation>& deviation,
-    base::JsonValue& results);
+/// Adds how far the system of a ground from files is from true at its corners, or what is taken for granted without
+/// one, and how far the ground lies from the files, as far as either is known.
+void add_accuracy(const std::optional<models::heights::CoordinateSystem>& system, const glm::dvec2& half_extent_m,
+    const std::optional<models::heights::HeightDeviation>& deviation, base::JsonValue& results);
 
 /// What notes say.
 std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes);
 
-/// Shows the figures of a file made by import, after checking all of it where `verify`. Throws
-/// Error for a damaged one.
+/// Shows the figures of a file made by import, after checking all of it where `verify`. Throws Error for a damaged one.
 void show_ground_file(const std::string& file, bool verify, bool json);
 
 } // namespace octant::ui::commands

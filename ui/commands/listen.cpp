@@ -26,28 +26,17 @@ constexpr double poll_interval_s = 0.0005; ///< in steps, for the next packet
 base::JsonValue::JsonMembers results_of_run(const sim::links::LiveTraffic& traffic) {
     base::JsonValue vehicles = base::JsonValue::list({});
     for (const sim::links::VehicleReport& vehicle : traffic.vehicle_reports()) {
-        vehicles.push_back(
-            {{"protocol", std::string(sim::links::name_of(vehicle.protocol))},
-             {"name", vehicle.name},
-             {"marking", vehicle.marking},
-             {"from", sim::links::text_of(vehicle.source)},
-             {"packets", vehicle.packets},
-             {"latitude_deg", vehicle.latitude_deg},
-             {"longitude_deg", vehicle.longitude_deg},
-             {"altitude_m", vehicle.altitude_m},
-             {"shown", vehicle.is_shown}});
+        vehicles.push_back({{"protocol", std::string(sim::links::name_of(vehicle.protocol))}, {"name", vehicle.name},
+            {"marking", vehicle.marking}, {"from", sim::links::text_of(vehicle.source)}, {"packets", vehicle.packets},
+            {"latitude_deg", vehicle.latitude_deg}, {"longitude_deg", vehicle.longitude_deg},
+            {"altitude_m", vehicle.altitude_m}, {"shown", vehicle.is_shown}});
     }
     base::JsonValue packets = base::JsonValue::list({});
     for (const sim::links::PacketReport& form : traffic.packet_reports()) {
-        packets.push_back(
-            {{"from", sim::links::text_of(form.source)},
-             {"what", form.text},
-             {"packets", form.packets},
-             {"refused", form.is_wrong}});
+        packets.push_back({{"from", sim::links::text_of(form.source)}, {"what", form.text}, {"packets", form.packets},
+            {"refused", form.is_wrong}});
     }
-    return {
-        {"vehicles", std::move(vehicles)},
-        {"packets", std::move(packets)},
+    return {{"vehicles", std::move(vehicles)}, {"packets", std::move(packets)},
         {"packets_untold", traffic.counts().untold}};
 }
 
@@ -55,15 +44,10 @@ base::JsonValue::JsonMembers results_of_run(const sim::links::LiveTraffic& traff
 class HeadlessListener {
 public:
     explicit HeadlessListener(const ListenOptions& options)
-        : options_(options)
-        , listener_(options.listener)
-        , sender_(options.send)
-        , session_(options.settings)
-        , recorder_(options.record, options.settings, session_) {
+        : options_(options), listener_(options.listener), sender_(options.send), session_(options.settings),
+          recorder_(options.record, options.settings, session_) {
         listener_.attach(session_);
-        if (options.record.folder) {
-            listener_.start_packet_recording(*options.record.folder);
-        }
+        if (options.record.folder) { listener_.start_packet_recording(*options.record.folder); }
     }
 
     flight::FlightResult fly() {
@@ -78,15 +62,11 @@ public:
             const bool drawn = draw(due_s + frame_s);
             frame += drawn ? 1 : 0;
             due_s = std::max(due_s + frame_s, listener_.now_s() - frame_s);
-            if (listener_.has_ended() && !(step && drawn)) {
-                break;
-            }
+            if (listener_.has_ended() && !(step && drawn)) { break; }
         }
         if (base::StopSignals::received()) {
             base::print_note(
-                options_.quiet,
-                fmt::format(
-                    "note: ended by {} after {} pictures", base::StopSignals::name(), frame));
+                options_.quiet, fmt::format("note: ended by {} after {} pictures", base::StopSignals::name(), frame));
         }
         listener_.finish();
         return recorder_.finish(session_);
@@ -103,17 +83,13 @@ private:
 
     void wait_until(double due_s) const {
         const double left_s = due_s - listener_.now_s();
-        if (left_s > 0.0) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
-        }
+        if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
     }
 
     /// Returns false where there is nothing to draw.
     bool draw(double next_due_s) {
         const std::optional<double> time_s = listener_.take(session_);
-        for (const std::string& line : listener_.take_new_messages()) {
-            base::print_note(options_.quiet, line);
-        }
+        for (const std::string& line : listener_.take_new_messages()) { base::print_note(options_.quiet, line); }
         if (!time_s) {
             listener_.contact_hosts();
             return false;
@@ -149,37 +125,22 @@ private:
 } // namespace
 
 void listen_without_window(const ListenOptions& options) {
-    if (options.record.video) {
-        report::check_video(*options.record.video);
-    }
+    if (options.record.video) { report::check_video(*options.record.video); }
     HeadlessListener run(options);
     const flight::FlightResult end = run.fly();
-    for (const std::string& note : end.notes) {
-        base::print_note(options.quiet, note);
-    }
-    for (const std::string& missing_programs : end.missing_programs) {
-        base::print_note(false, missing_programs);
-    }
+    for (const std::string& note : end.notes) { base::print_note(options.quiet, note); }
+    for (const std::string& missing_programs : end.missing_programs) { base::print_note(false, missing_programs); }
     for (const sim::links::PacketReport& form : run.traffic().packet_reports()) {
         if (form.is_wrong) {
-            base::print_note(
-                options.quiet,
-                fmt::format(
-                    "note: {} packets from {}: {}",
-                    form.packets,
-                    sim::links::text_of(form.source),
-                    form.text));
+            base::print_note(options.quiet,
+                fmt::format("note: {} packets from {}: {}", form.packets, sim::links::text_of(form.source), form.text));
         }
     }
     if (const long untold = run.traffic().counts().untold; untold > 0) {
-        base::print_note(
-            options.quiet,
-            fmt::format("note: {} packets more, of too many kinds to tell each", untold));
+        base::print_note(options.quiet, fmt::format("note: {} packets more, of too many kinds to tell each", untold));
     }
     print_summary(end, std::nullopt, options.json, results_of_run(run.traffic()));
-    if (!end.fault.empty()) {
-        throw Error(end.fault);
-    }
+    if (!end.fault.empty()) { throw Error(end.fault); }
 }
 
 } // namespace octant::ui::commands

@@ -24,12 +24,11 @@ struct ListenOptions {
     bool quiet = false;
 };
 
-/// The options of listening, without those of the settings, and the settings that count for a
-/// flight from outside.
+/// The options of listening, without those of the settings, and the settings that count for a flight from outside.
 std::vector<Option> listen_options(ListenOptions& options);
 
-/// Shows what comes without a window, until as many frames or seconds have passed as the settings
-/// say or a stop signal comes, completes the recording and prints a summary. Throws Error.
+/// Shows what comes without a window, until as many frames or seconds have passed as the settings say or a stop signal
+/// comes, completes the recording and prints a summary. Throws Error.
 void listen_without_window(const ListenOptions& options);
 
 } // namespace octant::ui::commands

@@ -38,21 +38,15 @@ void add_options(const Command& command, std::string& page) {
         page += fmt::format(".TP\n.B {}", in_roff(option.name));
         page += option.form.empty() ? "\n" : fmt::format(" {}\n", in_roff(option.form));
         page += in_roff(option.meaning);
-        page += option.shown_default.empty()
-                    ? "\n"
-                    : fmt::format(" [{}]\n", in_roff(option.shown_default));
+        page += option.shown_default.empty() ? "\n" : fmt::format(" [{}]\n", in_roff(option.shown_default));
     }
 }
 
 /// Lines that stay as they are.
 void add_lines(std::string_view text, std::string& page) {
-    if (text.empty()) {
-        return;
-    }
+    if (text.empty()) { return; }
     page += ".PP\n.nf\n";
-    for (const std::string_view line : split_lines(text)) {
-        page += in_roff(line) + "\n";
-    }
+    for (const std::string_view line : split_lines(text)) { page += in_roff(line) + "\n"; }
     page += ".fi\n";
 }
 
@@ -61,9 +55,7 @@ void add_command(const Command& command, const std::string& before, std::string&
     page += fmt::format(".SS \"{}\"\n{}.\n", in_roff(name), in_roff(command.summary));
     add_options(command, page);
     add_lines(command.footer, page);
-    for (const Command& each : command.commands) {
-        add_command(each, name, page);
-    }
+    for (const Command& each : command.commands) { add_command(each, name, page); }
 }
 
 /// "--vsync,!--no-vsync" as words.
@@ -71,9 +63,7 @@ std::string option_words(const Option& option) {
     std::string words;
     for (std::string_view name : split_fields(option.name, ',')) {
         name.remove_prefix(name.starts_with('!') ? 1 : 0);
-        if (name.starts_with('-')) {
-            words += " " + std::string(name);
-        }
+        if (name.starts_with('-')) { words += " " + std::string(name); }
     }
     return words;
 }
@@ -82,36 +72,25 @@ std::string option_words(const Option& option) {
 void add_case(const Command& command, const std::string& before, std::string& text) {
     const std::string name = before.empty() ? command.name : before + " " + command.name;
     std::string words = "--help";
-    for (const Option& option : command.options) {
-        words += option_words(option);
-    }
-    for (const Command& each : command.commands) {
-        words += " " + each.name;
-    }
+    for (const Option& option : command.options) { words += option_words(option); }
+    for (const Command& each : command.commands) { words += " " + each.name; }
     text += fmt::format("    '{}') words=\"{}\" ;;\n", name, words);
-    for (const Command& each : command.commands) {
-        add_case(each, name, text);
-    }
+    for (const Command& each : command.commands) { add_case(each, name, text); }
 }
 
 } // namespace
 
 std::string man_page(const Program& program) {
-    std::string page = fmt::format(
-        ".TH OCTANT 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n"
-        "octant \\- flight simulation over level\\-of\\-detail terrain, drawn and timed\n"
-        ".SH SYNOPSIS\n.B octant\n.I COMMAND\n[options]\n.SH DESCRIPTION\n{}\n",
-        in_roff(program.version.substr(0, program.version.find('\n'))),
-        in_roff(program.about));
+    std::string page = fmt::format(".TH OCTANT 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n"
+                                   "octant \\- flight simulation over level\\-of\\-detail terrain, drawn and timed\n"
+                                   ".SH SYNOPSIS\n.B octant\n.I COMMAND\n[options]\n.SH DESCRIPTION\n{}\n",
+        in_roff(program.version.substr(0, program.version.find('\n'))), in_roff(program.about));
     add_lines(program.footer, page);
     page += ".SH COMMANDS\n";
-    for (const Command& command : program.commands) {
-        add_command(command, "octant", page);
-    }
-    page +=
-        ".SH EXIT STATUS\n0: done. 1: a check said no. 2: wrong input or environment, told in one "
-        "line.\nA flight that a signal ended has its report, then ends the program by that "
-        "signal.\n";
+    for (const Command& command : program.commands) { add_command(command, "octant", page); }
+    page += ".SH EXIT STATUS\n0: done. 1: a check said no. 2: wrong input or environment, told in one "
+            "line.\nA flight that a signal ended has its report, then ends the program by that "
+            "signal.\n";
     page += ".SH ENVIRONMENT\n.TP\n.B OCTANT_DATA\nfolder of the program's models and paths\n";
     return page;
 }
@@ -123,8 +102,7 @@ std::string bash_completion(const Program& program) {
     for (const Command& command : program.commands) {
         names += " " + command.name;
         if (!command.commands.empty()) {
-            with_commands +=
-                fmt::format("{}'{} '*", with_commands.empty() ? "" : "|", command.name);
+            with_commands += fmt::format("{}'{} '*", with_commands.empty() ? "" : "|", command.name);
         }
         add_case(command, "", cases);
     }
@@ -151,14 +129,11 @@ _octant() {{
 }}
 complete -o filenames -F _octant octant
 )",
-        names,
-        cases,
-        with_commands);
+        names, cases, with_commands);
 }
 
 std::string zsh_completion(const Program& program) {
-    return "#compdef octant\nautoload -U +X bashcompinit && bashcompinit\n" +
-           bash_completion(program);
+    return "#compdef octant\nautoload -U +X bashcompinit && bashcompinit\n" + bash_completion(program);
 }
 
 } // namespace octant::ui::commands

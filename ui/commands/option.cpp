@@ -17,29 +17,19 @@ Option required(Option option) {
 }
 
 Option flag(std::string names, std::string meaning, bool& value) {
-    return {
-        .name = std::move(names),
+    return {.name = std::move(names),
         .meaning = std::move(meaning),
         .arity = Arity::None,
         .read = [&value](const Words& words) { value = words.front() == "true"; }};
 }
 
-Option choice_option(
-    std::string name,
-    std::string form,
-    std::string meaning,
-    std::vector<std::string_view> choices,
+Option choice_option(std::string name, std::string form, std::string meaning, std::vector<std::string_view> choices,
     std::string& value) {
     Option option{
-        .name = name,
-        .form = std::move(form),
-        .meaning = std::move(meaning),
-        .read = {},
-        .shown_default = value};
-    option.read =
-        [name = std::move(name), choices = std::move(choices), &value](const Words& words) {
-            value = choices[settings::read_choice({name, "", ""}, words.front(), choices)];
-        };
+        .name = name, .form = std::move(form), .meaning = std::move(meaning), .read = {}, .shown_default = value};
+    option.read = [name = std::move(name), choices = std::move(choices), &value](const Words& words) {
+        value = choices[settings::read_choice({name, "", ""}, words.front(), choices)];
+    };
     return option;
 }
 

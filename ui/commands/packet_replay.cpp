@@ -17,18 +17,12 @@ namespace octant::ui::commands {
 namespace {
 
 /// Throws Error for packets whose entity types look like aircraft that the recording has not.
-void check_shapes(
-    const std::filesystem::path& folder, const flight::LiveOptions& options, std::size_t count) {
+void check_shapes(const std::filesystem::path& folder, const flight::LiveOptions& options, std::size_t count) {
     for (const auto& [type, aircraft] : options.shapes) {
         if (aircraft >= count) {
-            throw_error_at(
-                folder / flight::packets_file_name,
-                1,
+            throw_error_at(folder / flight::packets_file_name, 1,
                 fmt::format(
-                    "expected entity type {} to be one of {} aircraft from 0, got number {}",
-                    type,
-                    count,
-                    aircraft));
+                    "expected entity type {} to be one of {} aircraft from 0, got number {}", type, count, aircraft));
         }
     }
 }
@@ -36,10 +30,7 @@ void check_shapes(
 } // namespace
 
 PacketReplay replay_packets(
-    const flight::Replay& replay,
-    flight::Session& session,
-    flight::FlightRecorder& recorder,
-    bool quiet) {
+    const flight::Replay& replay, flight::Session& session, flight::FlightRecorder& recorder, bool quiet) {
     const flight::PacketFile file = flight::read_packets(replay.folder);
     check_shapes(replay.folder, file.options, session.world().scene.aircraft.size());
     // A killed flight's last rows may be missing from either file.
@@ -50,26 +41,19 @@ PacketReplay replay_packets(
     std::size_t frame = 0;
     for (; frame < frames && !(base::StopSignals::received() && frame > 0); ++frame) {
         const flight::PacketFrame& of_frame = file.frames[frame];
-        for (const sim::links::Datagram& packet : of_frame.packets) {
-            live->take(packet);
-        }
-        if (of_frame.has_overlay_lines) {
-            session.pictures().set_overlay_lines(of_frame.overlay_lines);
-        }
+        for (const sim::links::Datagram& packet : of_frame.packets) { live->take(packet); }
+        if (of_frame.has_overlay_lines) { session.pictures().set_overlay_lines(of_frame.overlay_lines); }
         flight::apply_host_visibility(*live, session);
-        if (!of_frame.time_of_day.empty()) {
-            flight::set_time_of_day(of_frame.time_of_day, session);
-        }
+        if (!of_frame.time_of_day.empty()) { flight::set_time_of_day(of_frame.time_of_day, session); }
         report::FrameRecord record = session.draw_at(of_frame.time_s, std::nullopt);
         live->fill_in(record, of_frame.time_s);
         recorder.add(record, session);
         progress.show(static_cast<int>(frame) + 1, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
-    std::string stopped =
-        frame == frames
-            ? std::string()
-            : fmt::format("{} after {} of {} frames", base::StopSignals::name(), frame, frames);
+    std::string stopped = frame == frames
+                              ? std::string()
+                              : fmt::format("{} after {} of {} frames", base::StopSignals::name(), frame, frames);
     return {std::move(live), std::move(stopped)};
 }
 

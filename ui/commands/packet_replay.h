@@ -18,12 +18,9 @@ struct PacketReplay {
     std::string stopped;
 };
 
-/// Flies a recorded live flight again in a session of its settings: the same packets for the same
-/// pictures, until a stop signal comes. Throws Error.
+/// Flies a recorded live flight again in a session of its settings: the same packets for the same pictures, until a
+/// stop signal comes. Throws Error.
 PacketReplay replay_packets(
-    const flight::Replay& replay,
-    flight::Session& session,
-    flight::FlightRecorder& recorder,
-    bool quiet);
+    const flight::Replay& replay, flight::Session& session, flight::FlightRecorder& recorder, bool quiet);
 
 } // namespace octant::ui::commands

@@ -18,8 +18,7 @@ namespace {
 /// Makes an option of each setting that it is shown.
 class OptionAdder {
 public:
-    explicit OptionAdder(std::vector<Option>& options)
-        : options_(options) {}
+    explicit OptionAdder(std::vector<Option>& options) : options_(options) {}
 
     template <class Value>
     void operator()(const SettingInfo& info, Value& value) {
@@ -34,20 +33,13 @@ private:
     }
 
     static Option option_of(const SettingInfo& info, bool& value) {
-        return with_shown_default(
-            value ? "true" : "false",
+        return with_shown_default(value ? "true" : "false",
             flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value));
     }
 
     static Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
-        return with_shown_default(
-            values.front(),
-            list_option(
-                fmt::format("--{}", info.name),
-                std::string(info.form),
-                std::string(info.meaning),
-                Arity::Repeatable,
-                values));
+        return with_shown_default(values.front(), list_option(fmt::format("--{}", info.name), std::string(info.form),
+                                                      std::string(info.meaning), Arity::Repeatable, values));
     }
 
     std::vector<Option>& options_;
@@ -66,22 +58,15 @@ void record_given_options(std::span<Option> options, std::vector<std::string>& g
 
 } // namespace
 
-void add_setting_options(
-    std::vector<Option>& options, RunSettings& settings, std::vector<std::string>* given) {
+void add_setting_options(std::vector<Option>& options, RunSettings& settings, std::vector<std::string>* given) {
     const std::size_t own = options.size();
-    options.push_back(
-        {.name = "--settings",
-         .form = "FILE",
-         .meaning =
-             "take settings from FILE or from a recording (run.json, folder or packed file); other "
-             "options override them",
-         .read = [&settings](const Words& words) {
-             settings = settings::read_settings(words.front());
-         }});
+    options.push_back({.name = "--settings",
+        .form = "FILE",
+        .meaning = "take settings from FILE or from a recording (run.json, folder or packed file); other "
+                   "options override them",
+        .read = [&settings](const Words& words) { settings = settings::read_settings(words.front()); }});
     settings::visit_settings(settings, OptionAdder(options));
-    if (given != nullptr) {
-        record_given_options(std::span(options).subspan(own), *given);
-    }
+    if (given != nullptr) { record_given_options(std::span(options).subspan(own), *given); }
 }
 
 } // namespace octant::ui::commands

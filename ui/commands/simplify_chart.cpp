@@ -44,8 +44,7 @@ report::Plot plot_of(const Levels& levels) {
 std::string chart_alt_text(const Levels& levels) {
     std::string text;
     for (const ChartLevel& level : levels) {
-        text +=
-            fmt::format("{}{} faces: {:.3g}", text.empty() ? "" : "; ", level.faces, level.error_m);
+        text += fmt::format("{}{} faces: {:.3g}", text.empty() ? "" : "; ", level.faces, level.error_m);
     }
     return "Largest distance by the number of faces. " + text + ".";
 }
@@ -53,8 +52,7 @@ std::string chart_alt_text(const Levels& levels) {
 /// The picture without what stands before it, with a name and a description.
 std::string named_picture(std::string_view svg, const std::string& name, const std::string& text) {
     std::string picture(svg.substr(std::min(svg.find("<svg"), svg.size())));
-    for (const auto& [begin, end] :
-         {std::pair("<title>", "</title>"), std::pair("<desc>", "</desc>")}) {
+    for (const auto& [begin, end] : {std::pair("<title>", "</title>"), std::pair("<desc>", "</desc>")}) {
         const std::size_t first = picture.find(begin);
         const std::size_t last = picture.find(end);
         if (first != picture.npos && last != picture.npos) {
@@ -62,14 +60,9 @@ std::string named_picture(std::string_view svg, const std::string& name, const s
         }
     }
     const std::size_t inside = picture.find('>');
-    picture.insert(
-        inside + 1,
-        fmt::format(
-            "<title id=\"chart-name\">{}</title><desc id=\"chart-text\">{}</desc>",
-            report::escaped(name),
-            report::escaped(text)));
-    picture.insert(
-        std::string_view("<svg").size(),
+    picture.insert(inside + 1, fmt::format("<title id=\"chart-name\">{}</title><desc id=\"chart-text\">{}</desc>",
+                                   report::escaped(name), report::escaped(text)));
+    picture.insert(std::string_view("<svg").size(),
         " role=\"img\" aria-labelledby=\"chart-name\" aria-describedby=\"chart-text\"");
     return picture;
 }
@@ -78,16 +71,12 @@ report::HtmlTable table_of(const Levels& levels, double diagonal_m) {
     report::HtmlTable table;
     table.header = {"faces", "largest distance", "% of the diagonal", "made by"};
     for (const ChartLevel& level : levels) {
-        table.rows.push_back(
-            {fmt::format("{}", level.faces),
-             fmt::format("{:.4g}", level.error_m),
-             fmt::format("{:.3g}", 100.0 * level.error_m / diagonal_m),
-             level.made_by});
+        table.rows.push_back({fmt::format("{}", level.faces), fmt::format("{:.4g}", level.error_m),
+            fmt::format("{:.3g}", 100.0 * level.error_m / diagonal_m), level.made_by});
     }
-    table.note =
-        "The largest distance is certified: no point of either surface is farther from the "
-        "other one. It is in the units of the file, before coordinates are rounded by the format "
-        "of OUT.";
+    table.note = "The largest distance is certified: no point of either surface is farther from the "
+                 "other one. It is in the units of the file, before coordinates are rounded by the format "
+                 "of OUT.";
     return table;
 }
 
@@ -99,15 +88,13 @@ std::string chart_page(const std::string& mesh, const Levels& levels, double dia
     const report::Plot plot = plot_of(levels);
     if (!plot.series.front().x.empty()) {
         const auto svg = report::plot_svg(plot);
-        if (!svg) {
-            throw Error("--chart: expected gnuplot on PATH, got none");
-        }
+        if (!svg) { throw Error("--chart: expected gnuplot on PATH, got none"); }
         figure = "<figure class=\"card\" style=\"background:#fff\">\n" +
                  named_picture(*svg, name, chart_alt_text(levels)) + "</figure>\n";
     }
-    return report::page_head(name, "one") + "<header><h1>" + report::escaped(name) +
-           "</h1></header>\n" + figure + "<div class=\"card\">\n" +
-           report::html_of(table_of(levels, diagonal_m)) + "</div>\n</main>\n</body>\n</html>\n";
+    return report::page_head(name, "one") + "<header><h1>" + report::escaped(name) + "</h1></header>\n" + figure +
+           "<div class=\"card\">\n" + report::html_of(table_of(levels, diagonal_m)) +
+           "</div>\n</main>\n</body>\n</html>\n";
 }
 
 } // namespace octant::ui::commands

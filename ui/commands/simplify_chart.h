@@ -13,11 +13,9 @@ struct ChartLevel {
     std::string made_by;  ///< the command that makes it, or what it is
 };
 
-/// A page with a plot and a table of the errors of a mesh's levels of detail by their faces: one
-/// HTML text without scripts or outside references, without the plot where all levels are exact.
-/// `mesh` is the name of its file, `levels` begin with the mesh itself. Throws Error where gnuplot
-/// is missing.
-std::string
-chart_page(const std::string& mesh, const std::vector<ChartLevel>& levels, double diagonal_m);
+/// A page with a plot and a table of the errors of a mesh's levels of detail by their faces: one HTML text without
+/// scripts or outside references, without the plot where all levels are exact. `mesh` is the name of its file, `levels`
+/// begin with the mesh itself. Throws Error where gnuplot is missing.
+std::string chart_page(const std::string& mesh, const std::vector<ChartLevel>& levels, double diagonal_m);
 
 } // namespace octant::ui::commands

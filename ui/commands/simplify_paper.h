@@ -6,12 +6,10 @@
 
 namespace octant::ui::commands {
 
-/// Adds what the 2005 paper states about its runs to the figures of `octant simplify`: how the
-/// paper was read, contractions, feet of perpendiculars, sums of the errors, and what is no
-/// manifold any more because the paper has no test that keeps it.
-void add_paper_results(
-    base::JsonValue& results,
-    const models::simplify::PaperOptions& options,
+/// Adds what the 2005 paper states about its runs to the figures of `octant simplify`: how the paper was read,
+/// contractions, feet of perpendiculars, sums of the errors, and what is no manifold any more because the paper has no
+/// test that keeps it.
+void add_paper_results(base::JsonValue& results, const models::simplify::PaperOptions& options,
     const models::simplify::PaperResult& result);
 
 } // namespace octant::ui::commands

@@ -43,20 +43,19 @@ struct SimplifyArguments {
 /// Whether an attribute has a bound.
 bool has_attribute_bound(const SimplifyArguments& command);
 
-/// A largest error of `octant simplify` from text: "0.5" in the file's units or "0.1%" of the
-/// diagonal. Throws Error for anything else.
+/// A largest error of `octant simplify` from text: "0.5" in the file's units or "0.1%" of the diagonal. Throws Error
+/// for anything else.
 double error_m_from(const std::string& text, double diagonal_m);
 
 /// The paper's measure where the method is one of the paper's.
 std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& method);
 
-/// Simplifies one mesh in the way that the command says: to a file, to levels of detail, as a chart
-/// or as printed. Writes the files and adds to the figures. Returns whether the goal was reached.
-/// Throws Error.
+/// Simplifies one mesh in the way that the command says: to a file, to levels of detail, as a chart or as printed.
+/// Writes the files and adds to the figures. Returns whether the goal was reached. Throws Error.
 bool simplify_one(const SimplifyArguments& command, base::JsonValue& results);
 
-/// Simplifies several meshes as one, so that their common borders stay common, and writes each to
-/// the folder, all or none. Returns whether all goals were reached. Throws Error.
+/// Simplifies several meshes as one, so that their common borders stay common, and writes each to the folder, all or
+/// none. Returns whether all goals were reached. Throws Error.
 bool simplify_with_shared_borders(const SimplifyArguments& command, base::JsonValue& results);
 
 } // namespace octant::ui::commands

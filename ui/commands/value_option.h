@@ -20,13 +20,12 @@ std::string default_text(const std::optional<Value>& value) {
     return value ? settings::text_of(*value) : "";
 }
 
-/// An option that is read as a setting of the type is, within the bounds of `info`, under the name
-/// of `info` behind `dashes`. Its default is shown unless `info.meaning` ends with [words on it].
+/// An option that is read as a setting of the type is, within the bounds of `info`, under the name of `info` behind
+/// `dashes`. Its default is shown unless `info.meaning` ends with [words on it].
 template <class Value>
 Option value_option(const settings::FieldInfo& info, Value& value, std::string_view dashes = "--") {
     const std::string name = fmt::format("{}{}", dashes, info.name);
-    return {
-        .name = name,
+    return {.name = name,
         .form = std::string(info.form),
         .meaning = std::string(info.meaning),
         .read =

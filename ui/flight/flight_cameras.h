@@ -18,8 +18,7 @@ struct FlightCamera {
     double aircraft_radius_m = 0.0;
 };
 
-/// The cameras of all frames of a run, where a session with these settings has them. Loads the
-/// world. Throws Error.
+/// The cameras of all frames of a run, where a session with these settings has them. Loads the world. Throws Error.
 std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings);
 
 } // namespace octant::ui::flight

@@ -29,18 +29,11 @@ namespace scene = visuals::scene;
 namespace {
 
 std::string adaptation_text(const StressSettings& stress) {
-    return fmt::format(
-        "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
-        "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
-        "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
-        stress.min_triangles,
-        stress.max_triangles,
-        stress.min_stress,
-        stress.max_stress,
-        100.0 * stress.max_fall,
-        100.0 * stress.max_rise,
-        stress.filter_s,
-        stress.max_counted_stress);
+    return fmt::format("terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
+                       "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
+                       "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
+        stress.min_triangles, stress.max_triangles, stress.min_stress, stress.max_stress, 100.0 * stress.max_fall,
+        100.0 * stress.max_rise, stress.filter_s, stress.max_counted_stress);
 }
 
 } // namespace
@@ -50,9 +43,7 @@ report::PixelView pixel_view_of(const visuals::scene::Picture& picture) {
 }
 
 report::RunInfo run_info(
-    const settings::RunSettings& settings,
-    const Session& session,
-    const std::filesystem::path& folder) {
+    const settings::RunSettings& settings, const Session& session, const std::filesystem::path& folder) {
     const world::Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
@@ -64,20 +55,15 @@ report::RunInfo run_info(
     info.rate_hz = session.rate_hz();
     info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
     info.machine = report::read_machine_info(std::chrono::system_clock::now());
-    info.facts = {
-        {"ground", session.world().ground_name},
+    info.facts = {{"ground", session.world().ground_name},
         {"path turned by", fmt::format("{:.1f} degrees", deg_from_rad(flight.heading_rad))},
         {"path lifted by", fmt::format("{:.1f} m", flight.offset_m)},
-        {"lowest clearance",
-         fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
+        {"lowest clearance", fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
         {"drawn by", session.renderer().info().description}};
     if (settings.adapt.terrain) {
-        info.facts.emplace_back(
-            "adaptation", adaptation_text(stress_settings(settings, session.rate_hz())));
+        info.facts.emplace_back("adaptation", adaptation_text(stress_settings(settings, session.rate_hz())));
     }
-    for (const flightpaths::LegStart& leg : flight.legs) {
-        info.legs.push_back({leg.label, leg.time_s});
-    }
+    for (const flightpaths::LegStart& leg : flight.legs) { info.legs.push_back({leg.label, leg.time_s}); }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);
     info.files = world::files_to_copy(settings, session.world().aircraft.order_files);
@@ -93,15 +79,10 @@ bool is_already_recorded(const RecordOptions& options, const settings::RunSettin
     using Json = nlohmann::ordered_json;
     const auto file = *options.folder / "run.json";
     const Json run = report::parsed_json(file, read_text_file(file));
-    const Json program = {
-        {"name", "octant"},
-        {"version", base::program_version()},
-        {"commit", base::program_commit()},
+    const Json program = {{"name", "octant"}, {"version", base::program_version()}, {"commit", base::program_commit()},
         {"hash", base::program_hash()}};
     Json inputs = Json::object();
-    for (const auto& [input, hash] : world::input_hashes(settings)) {
-        inputs[base::json_from_file_name(input)] = hash;
-    }
+    for (const auto& [input, hash] : world::input_hashes(settings)) { inputs[base::json_from_file_name(input)] = hash; }
     return run.contains("summary") && !run.contains("stopped") &&
            run.value("settings", Json()) ==
                settings::settings_json(world::settings_in_recording(settings, *options.folder)) &&
@@ -117,20 +98,15 @@ std::string write_report(const std::filesystem::path& folder) {
 
 FlightRecorder::FlightRecorder(
     const RecordOptions& options, const settings::RunSettings& settings, const Session& session)
-    : options_(options)
-    , picture_every_(settings.time.pictures.value_or(
-          std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {
+    : options_(options),
+      picture_every_(settings.time.pictures.value_or(std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {
     if (options.video) {
-        video_.emplace(
-            *options.video,
-            report::VideoFormat{
-                settings.view.size_px.x, settings.view.size_px.y, 4, false, session.rate_hz()});
+        video_.emplace(*options.video,
+            report::VideoFormat{settings.view.size_px.x, settings.view.size_px.y, 4, false, session.rate_hz()});
     }
     if (options.folder) {
         report::RunInfo info = run_info(settings, session, *options.folder);
-        if (options.replay_of) {
-            info.facts.emplace_back("replay of", options.replay_of->filename().string());
-        }
+        if (options.replay_of) { info.facts.emplace_back("replay of", options.replay_of->filename().string()); }
         if (!options.batch_context.empty()) {
             info.facts.emplace_back(report::batch_context_fact, options.batch_context);
         }
@@ -153,14 +129,10 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
             recording_->add_picture(record.frame, pixel_view_of(session.picture()));
         }
     }
-    if (video_) {
-        video_->add(pixel_view_of(session.picture()));
-    }
+    if (video_) { video_->add(pixel_view_of(session.picture())); }
     record.record_ms = writing.ms();
     if (recording_) {
-        if (tracks_) {
-            tracks_->write_until(record.sim_time_s);
-        }
+        if (tracks_) { tracks_->write_until(record.sim_time_s); }
         if (live_tracks_) {
             const StateSource& source = session.simulation().source();
             live_tracks_->add(session.states().front(), source.is_flown(0), source.frame());
@@ -184,12 +156,8 @@ FlightResult FlightRecorder::finish(const Session& session, const std::string& s
         }
     }
     if (recording_) {
-        end.statistics = recording_->finish(
-            {end.state_hash,
-             end.picture_hash,
-             report::read_cpu_times(),
-             visuals::groundfile::tile_damage_messages(),
-             stopped});
+        end.statistics = recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times(),
+            visuals::groundfile::tile_damage_messages(), stopped});
         slow_pictures_.write(*options_.folder);
         if (tracks_) {
             tracks_.reset();

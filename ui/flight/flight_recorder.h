@@ -38,15 +38,13 @@ struct FlightResult {
     std::string fault;
 };
 
-/// True when the folder holds a finished recording of these settings and input files by this very
-/// program file, and the video is there where one was asked for.
+/// True when the folder holds a finished recording of these settings and input files by this very program file, and the
+/// video is there where one was asked for.
 bool is_already_recorded(const RecordOptions& options, const settings::RunSettings& settings);
 
 /// What run.json says of a flight that is recorded into a folder. Settings name files absolutely.
 report::RunInfo run_info(
-    const settings::RunSettings& settings,
-    const Session& session,
-    const std::filesystem::path& folder);
+    const settings::RunSettings& settings, const Session& session, const std::filesystem::path& folder);
 
 /// Makes a folder's report.html anew; gives a line that says where it is. Throws Error.
 std::string write_report(const std::filesystem::path& folder);
@@ -54,21 +52,17 @@ std::string write_report(const std::filesystem::path& folder);
 /// A picture as the report's files take it; refers to it.
 report::PixelView pixel_view_of(const visuals::scene::Picture& picture);
 
-/// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
-/// figures are kept.
+/// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the figures are kept.
 class FlightRecorder {
 public:
     /// Makes the folder with run.json and the track files. Throws Error.
-    FlightRecorder(
-        const RecordOptions& options,
-        const settings::RunSettings& settings,
-        const Session& session);
+    FlightRecorder(const RecordOptions& options, const settings::RunSettings& settings, const Session& session);
 
     /// Takes the frame that the session has just drawn. Throws Error (disk full).
     void add(report::FrameRecord record, Session& session);
 
-    /// Ends the recording and writes its report. `stopped` says what ended the flight before its
-    /// last frame, empty = nothing did. Throws Error.
+    /// Ends the recording and writes its report. `stopped` says what ended the flight before its last frame, empty =
+    /// nothing did. Throws Error.
     FlightResult finish(const Session& session, const std::string& stopped = {});
 
 private:

@@ -17,21 +17,16 @@ namespace scene = visuals::scene;
 std::uint32_t id_at(const scene::Picture& picture, int x, int y) {
     std::uint32_t id = 0;
     const std::size_t pixel =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-        static_cast<std::size_t>(x);
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
     std::memcpy(&id, picture.rgba.data() + 4 * pixel, sizeof id);
     return id;
 }
 
 /// Whether a number occurs in the picture within `reach` pixels of a place, in either direction.
-bool occurs_in_neighbourhood(
-    const scene::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
+bool occurs_in_neighbourhood(const scene::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
     for (int v = std::max(at.y - reach, 0); v <= std::min(at.y + reach, picture.height - 1); ++v) {
-        for (int u = std::max(at.x - reach, 0); u <= std::min(at.x + reach, picture.width - 1);
-             ++u) {
-            if (id_at(picture, u, v) == id) {
-                return true;
-            }
+        for (int u = std::max(at.x - reach, 0); u <= std::min(at.x + reach, picture.width - 1); ++u) {
+            if (id_at(picture, u, v) == id) { return true; }
         }
     }
     return false;
@@ -43,15 +38,12 @@ public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
     EnlargedReference(const settings::RunSettings& settings, const world::World& world)
-        : settings_(settings)
-        , world_(world) {
+        : settings_(settings), world_(world) {
         settings_.view.size_px *= scale;
     }
 
     const scene::Picture& picture(int frame) {
-        if (!session_) {
-            session_ = std::make_unique<Session>(settings_, PictureContent::PolygonIds, nullptr, world_);
-        }
+        if (!session_) { session_ = std::make_unique<Session>(settings_, PictureContent::PolygonIds, nullptr, world_); }
         session_->draw(frame);
         return session_->picture();
     }
@@ -71,23 +63,16 @@ IdDifference difference_of(const scene::Picture& picture, const scene::Picture& 
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const std::uint32_t id = id_at(picture, x, y);
-            if (id == id_at(reference, x, y)) {
-                continue;
-            }
+            if (id == id_at(reference, x, y)) { continue; }
             ++difference.differing;
-            if (!occurs_in_neighbourhood(reference, {x, y}, 1, id)) {
-                difference.unmatched.emplace_back(x, y);
-            }
+            if (!occurs_in_neighbourhood(reference, {x, y}, 1, id)) { difference.unmatched.emplace_back(x, y); }
         }
     }
     return difference;
 }
 
-long count_wrong_ids(
-    std::span<const glm::ivec2> pixels,
-    const scene::Picture& picture,
-    const scene::Picture& large_reference,
-    int scale) {
+long count_wrong_ids(std::span<const glm::ivec2> pixels, const scene::Picture& picture,
+    const scene::Picture& large_reference, int scale) {
     return std::ranges::count_if(pixels, [&](const glm::ivec2& pixel) {
         const glm::ivec2 middle = pixel * scale + scale / 2;
         const int reach = scale + scale / 2;
@@ -117,10 +102,7 @@ ComparisonWorlds load_comparison_worlds(const settings::RunSettings& settings) {
     return {std::move(world), std::move(other)};
 }
 
-IdComparison compare_with_depth_buffer(
-    const settings::RunSettings& settings,
-    const ComparisonWorlds& worlds,
-    int every,
+IdComparison compare_with_depth_buffer(const settings::RunSettings& settings, const ComparisonWorlds& worlds, int every,
     const std::function<void(int compared, int frames)>& on_frame) {
     const auto [painted, depth_buffered] = comparison_settings(settings);
     Session painter(painted, PictureContent::PolygonIds, nullptr, worlds.painted);
@@ -152,17 +134,13 @@ namespace {
 scene::Picture draw_id_picture(Session& session, const settings::RunSettings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const planning::Scene& scene = session.world().scene;
-    planning::Planner planner(
-        scene,
-        settings,
-        scene.ground->mesher(
-            landscape::mesh_settings(session.settings(), scene.ground_texture != nullptr)));
+    planning::Planner planner(scene, settings,
+        scene.ground->mesher(landscape::mesh_settings(session.settings(), scene.ground_texture != nullptr)));
     planner.reset_detail(session.camera());
     planning::IdPlan ids(scene);
     const auto renderer = session.renderer().sibling(settings.view.size_px, 1);
     renderer->load_models(ids.models());
-    const planning::PlannedFrame frame =
-        planner.plan({session.camera(), session.states(), session.triangle_target()});
+    const planning::PlannedFrame frame = planner.plan({session.camera(), session.states(), session.triangle_target()});
     scene::Picture picture;
     renderer->draw(ids.of(frame.plan));
     renderer->finish_and_read(picture);
@@ -181,8 +159,8 @@ PixelCheck check_pixels(Session& session) {
     const IdDifference difference = difference_of(picture, draw_id_picture(session, depth_buffered));
     PixelCheck check{.pixels = difference.pixels, .differing = difference.differing};
     if (!difference.unmatched.empty()) {
-        check.wrong = count_wrong_ids(
-            difference.unmatched, picture, draw_id_picture(session, large), EnlargedReference::scale);
+        check.wrong =
+            count_wrong_ids(difference.unmatched, picture, draw_id_picture(session, large), EnlargedReference::scale);
     }
     return check;
 }

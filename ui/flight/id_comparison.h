@@ -22,16 +22,12 @@ struct IdDifference {
 };
 
 /// Compares two pictures of the same size (asserted).
-IdDifference
-difference_of(const visuals::scene::Picture& picture, const visuals::scene::Picture& reference);
+IdDifference difference_of(const visuals::scene::Picture& picture, const visuals::scene::Picture& reference);
 
-/// How many of the pixels have a number that is in none of the 3 x 3 pixels around them in a
-/// reference that was drawn `scale` times as large.
-long count_wrong_ids(
-    std::span<const glm::ivec2> pixels,
-    const visuals::scene::Picture& picture,
-    const visuals::scene::Picture& large_reference,
-    int scale);
+/// How many of the pixels have a number that is in none of the 3 x 3 pixels around them in a reference that was drawn
+/// `scale` times as large.
+long count_wrong_ids(std::span<const glm::ivec2> pixels, const visuals::scene::Picture& picture,
+    const visuals::scene::Picture& large_reference, int scale);
 
 /// Sums over the frames of a run.
 struct IdComparison {
@@ -39,8 +35,7 @@ struct IdComparison {
     long differing = 0;
     /// Pixels whose number is in none of the reference's 3 x 3 pixels around them.
     long unmatched = 0;
-    /// Of the pixels apart, those whose number a reference of three times the size does not have
-    /// there either.
+    /// Of the pixels apart, those whose number a reference of three times the size does not have there either.
     long wrong = 0;
     int frames = 0;
     /// Frames in which something stood in front of an aircraft.
@@ -49,8 +44,8 @@ struct IdComparison {
     long unordered = 0;
 };
 
-/// The settings of a run that is compared pixel by pixel, as it is painted and by a depth buffer:
-/// one sample a pixel and no shadows, which have no numbers.
+/// The settings of a run that is compared pixel by pixel, as it is painted and by a depth buffer: one sample a pixel
+/// and no shadows, which have no numbers.
 struct ComparisonSettings {
     settings::RunSettings painted;
     settings::RunSettings depth_buffered;
@@ -67,16 +62,12 @@ struct ComparisonWorlds {
 /// Throws Error.
 ComparisonWorlds load_comparison_worlds(const settings::RunSettings& settings);
 
-/// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing
-/// hidden surfaces and with the depth buffer, and compares. Renderers round corners to 1/256 pixel,
-/// so that along an edge either of two polygons may be seen, and a tip be lost: where a number is
-/// missing, the reference is drawn again three times as large. Shadows are left out. `worlds` are
-/// those of the settings, but for the view's. `on_frame` is told of each frame that was compared and of
-/// how many there are. Throws Error.
-IdComparison compare_with_depth_buffer(
-    const settings::RunSettings& settings,
-    const ComparisonWorlds& worlds,
-    int every,
+/// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing hidden surfaces and with
+/// the depth buffer, and compares. Renderers round corners to 1/256 pixel, so that along an edge either of two polygons
+/// may be seen, and a tip be lost: where a number is missing, the reference is drawn again three times as large.
+/// Shadows are left out. `worlds` are those of the settings, but for the view's. `on_frame` is told of each frame that
+/// was compared and of how many there are. Throws Error.
+IdComparison compare_with_depth_buffer(const settings::RunSettings& settings, const ComparisonWorlds& worlds, int every,
     const std::function<void(int compared, int frames)>& on_frame);
 
 /// What the last picture of a session's window got wrong against a depth buffer.
@@ -88,8 +79,7 @@ struct PixelCheck {
     long wrong = 0;
 };
 
-/// Draws the session's last moment by order and by depth, beside its renderer, and compares. Throws
-/// Error (driver).
+/// Draws the session's last moment by order and by depth, beside its renderer, and compares. Throws Error (driver).
 PixelCheck check_pixels(Session& session);
 
 } // namespace octant::ui::flight

@@ -21,8 +21,7 @@ constexpr int margin_share = 40;
 constexpr int share_of_triangles = 4;
 constexpr int fewest_triangles = 1000;
 
-settings::RunSettings
-inset_settings(const settings::RunSettings& settings, const glm::ivec2& size_px) {
+settings::RunSettings inset_settings(const settings::RunSettings& settings, const glm::ivec2& size_px) {
     settings::RunSettings own = settings;
     own.view.kind = *settings.view.inset;
     own.view.inset.reset();
@@ -30,8 +29,7 @@ inset_settings(const settings::RunSettings& settings, const glm::ivec2& size_px)
     own.view.azimuth_deg = 0.0;
     own.view.elevation_deg = 0.0;
     own.view.zoom = 1.0;
-    own.ground.triangles =
-        std::max(fewest_triangles, scene::triangle_target(settings) / share_of_triangles);
+    own.ground.triangles = std::max(fewest_triangles, scene::triangle_target(settings) / share_of_triangles);
     return own;
 }
 
@@ -44,8 +42,7 @@ scene::PixelRect inset_rectangle(const glm::ivec2& picture_px) {
     return {at_px.x, at_px.y, size_px.x, size_px.y};
 }
 
-InsetView::InsetView(const settings::RunSettings& settings, const planning::Scene& scene)
-    : scene_(scene) {
+InsetView::InsetView(const settings::RunSettings& settings, const planning::Scene& scene) : scene_(scene) {
     update_rectangle(settings);
     planner_.emplace(scene_, settings_);
 }
@@ -63,9 +60,7 @@ void InsetView::apply_settings(const settings::RunSettings& settings) {
     planner_.reset();
     update_rectangle(settings);
     mesher = landscape::reuse_or_make_mesher(
-        std::move(mesher),
-        *scene_.ground,
-        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
+        std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
     must_reset_detail_ = must_reset_detail_ || !same_control || mesher.get() != before;
     planner_.emplace(scene_, settings_, std::move(mesher));
 }
@@ -79,11 +74,8 @@ void InsetView::set_sun(const settings::RunSettings& settings) {
     must_reset_detail_ = !planner_->set_sun() || must_reset_detail_;
 }
 
-const scene::FramePlan& InsetView::plan(
-    const scene::Camera& camera,
-    std::span<const sim::AircraftState> states,
-    std::span<const planning::ArticulatedPart> articulated_parts,
-    std::optional<double> smooth_share) {
+const scene::FramePlan& InsetView::plan(const scene::Camera& camera, std::span<const sim::AircraftState> states,
+    std::span<const planning::ArticulatedPart> articulated_parts, std::optional<double> smooth_share) {
     reset_detail(camera);
     planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
@@ -91,9 +83,7 @@ const scene::FramePlan& InsetView::plan(
     return planner_->plan(request).plan;
 }
 
-void InsetView::advance_without_drawing(
-    const scene::Camera& camera,
-    std::span<const sim::AircraftState> states,
+void InsetView::advance_without_drawing(const scene::Camera& camera, std::span<const sim::AircraftState> states,
     std::span<const planning::ArticulatedPart> articulated_parts) {
     reset_detail(camera);
     planning::PlanRequest request{camera, states};
@@ -103,9 +93,7 @@ void InsetView::advance_without_drawing(
 
 /// Before the first picture.
 void InsetView::reset_detail(const scene::Camera& camera) {
-    if (std::exchange(must_reset_detail_, false)) {
-        planner_->reset_detail(camera);
-    }
+    if (std::exchange(must_reset_detail_, false)) { planner_->reset_detail(camera); }
 }
 
 } // namespace octant::ui::flight

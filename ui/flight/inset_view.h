@@ -14,9 +14,8 @@ namespace octant::ui::flight {
 /// Where the second view lies in a picture of that size.
 visuals::scene::PixelRect inset_rectangle(const glm::ivec2& picture_px);
 
-/// A second view of a scene, in the lower right corner of the picture: ground meshed for it alone,
-/// with a quarter of the picture's triangles on a ninth of its area. Loads nothing and copies
-/// nothing of the scene.
+/// A second view of a scene, in the lower right corner of the picture: ground meshed for it alone, with a quarter of
+/// the picture's triangles on a ninth of its area. Loads nothing and copies nothing of the scene.
 class InsetView {
 public:
     /// For ViewSettings::inset (asserted). The scene must outlive it. Stays in its place.
@@ -27,8 +26,8 @@ public:
     InsetView(InsetView&&) = delete;
     InsetView& operator=(InsetView&&) = delete;
 
-    /// Takes other settings over, and the ground that the scene has now. The ground's detail goes
-    /// on where both it and its control are the same.
+    /// Takes other settings over, and the ground that the scene has now. The ground's detail goes on where both it and
+    /// its control are the same.
     void apply_settings(const settings::RunSettings& settings);
 
     /// Takes other settings over where only a look has changed.
@@ -43,7 +42,8 @@ public:
     visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
     /// Begins the work on the ground of the next picture, as Planner::prepare.
-    void begin_next_mesh(const visuals::scene::Camera& camera, const visuals::landscape::IdleThreadRunner& on_idle_thread) {
+    void begin_next_mesh(
+        const visuals::scene::Camera& camera, const visuals::landscape::IdleThreadRunner& on_idle_thread) {
         planner_->begin_next_mesh(camera, std::nullopt, on_idle_thread);
     }
 
@@ -51,16 +51,12 @@ public:
     void wait() { planner_->wait(); }
 
     /// `smooth_share`: SmoothTarget::share.
-    const visuals::scene::FramePlan& plan(
-        const visuals::scene::Camera& camera,
+    const visuals::scene::FramePlan& plan(const visuals::scene::Camera& camera,
         std::span<const sim::AircraftState> states,
-        std::span<const visuals::planning::ArticulatedPart> articulated_parts,
-        std::optional<double> smooth_share);
+        std::span<const visuals::planning::ArticulatedPart> articulated_parts, std::optional<double> smooth_share);
 
     /// Planner::advance_without_drawing, of what plan() would have been given.
-    void advance_without_drawing(
-        const visuals::scene::Camera& camera,
-        std::span<const sim::AircraftState> states,
+    void advance_without_drawing(const visuals::scene::Camera& camera, std::span<const sim::AircraftState> states,
         std::span<const visuals::planning::ArticulatedPart> articulated_parts);
 
 private:

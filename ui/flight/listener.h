@@ -22,8 +22,8 @@
 
 namespace octant::ui::flight {
 
-/// Where to listen. A port of -1 is not opened, 0 is any free one; one that is unset is the usual
-/// one of its protocol, which is closed where a channel is driven by its CIGI host alone.
+/// Where to listen. A port of -1 is not opened, 0 is any free one; one that is unset is the usual one of its protocol,
+/// which is closed where a channel is driven by its CIGI host alone.
 struct LiveInputOptions {
     std::string bind = "127.0.0.1";
     std::optional<int> fdm_port;
@@ -57,8 +57,8 @@ public:
     /// Seconds since the beginning, in whole microseconds.
     double now_s() const;
 
-    /// All packets that have come since the last call, to be moved from until the next one. now_s()
-    /// from then on lies behind their arrivals.
+    /// All packets that have come since the last call, to be moved from until the next one. now_s() from then on lies
+    /// behind their arrivals.
     std::vector<sim::links::Datagram>& drain();
 
     /// Whether CIGI is listened to.
@@ -109,31 +109,30 @@ struct ListenerOptions {
     LiveOptions live;
 };
 
-/// Lets packets fly a session, picture by picture, and writes into its pictures what is waited for,
-/// what comes from whom, and what is wrong with it.
+/// Lets packets fly a session, picture by picture, and writes into its pictures what is waited for, what comes from
+/// whom, and what is wrong with it.
 class Listener {
 public:
     /// Opens the ports. Throws Error.
     explicit Listener(const ListenerOptions& options);
 
-    /// Flies this session from now on, from the beginning. To be called again whenever its world
-    /// was loaded anew. The session must not draw without this any more.
+    /// Flies this session from now on, from the beginning. To be called again whenever its world was loaded anew. The
+    /// session must not draw without this any more.
     void attach(Session& session);
 
     /// From now on keeps what repeats the flight in this folder. Throws Error.
     void start_packet_recording(const std::filesystem::path& folder);
 
-    /// Takes what has come up to now; in steps, up to the next packet that moves something. Returns
-    /// the time for which the next picture is to be drawn; in steps nothing where there is none
-    /// yet. Throws Error (disk full).
+    /// Takes what has come up to now; in steps, up to the next packet that moves something. Returns the time for which
+    /// the next picture is to be drawn; in steps nothing where there is none yet. Throws Error (disk full).
     std::optional<double> take(Session& session);
 
-    /// Completes the record of the picture that was drawn after take(), and tells hosts of CIGI
-    /// that it is there, with the answers to what they asked.
+    /// Completes the record of the picture that was drawn after take(), and tells hosts of CIGI that it is there, with
+    /// the answers to what they asked.
     void finish_picture(report::FrameRecord& record);
 
-    /// In steps: sends a Start of Frame where hosts wait for a first one, at most ten a second, and
-    /// where one has sent its last message again.
+    /// In steps: sends a Start of Frame where hosts wait for a first one, at most ten a second, and where one has sent
+    /// its last message again.
     void contact_hosts();
 
     /// Ends the recording, if there is one. Throws Error (disk full).
@@ -147,8 +146,8 @@ public:
     /// Nothing can come any more, and all that came was taken.
     bool has_ended() const { return pending_.empty() && input_.has_ended(); }
 
-    /// What a person should be told who reads along: what is waited for, each sender and fault when
-    /// it first comes, and how things stand every ten seconds. After take().
+    /// What a person should be told who reads along: what is waited for, each sender and fault when it first comes, and
+    /// how things stand every ten seconds. After take().
     std::vector<std::string> take_new_messages();
 
     /// What is waited for, and what comes.

@@ -21,8 +21,8 @@ glm::dvec2 default_half_tangent(double aspect) {
     return {high * aspect, high};
 }
 
-/// Gives a camera the frustum of a host's view; sides that the host has not told are the usual
-/// ones. Leaves it as it is where sides meet.
+/// Gives a camera the frustum of a host's view; sides that the host has not told are the usual ones. Leaves it as it is
+/// where sides meet.
 void set_frustum(const sim::links::CigiViewDefinition& definition, double aspect, scene::Camera& camera) {
     const glm::dvec2 half = default_half_tangent(aspect);
     const auto side = [](bool is_given, double angle_rad, double default_camera) {
@@ -34,9 +34,7 @@ void set_frustum(const sim::links::CigiViewDefinition& definition, double aspect
         side(definition.sets.y, definition.right_rad, half.x), side(definition.sets.z, definition.top_rad, half.y));
     const glm::dvec2 size = most - least;
     constexpr double narrowest = 1e-3;
-    if (size.x < narrowest || size.y < narrowest) {
-        return;
-    }
+    if (size.x < narrowest || size.y < narrowest) { return; }
     camera.vertical_fov_rad = 2.0 * std::atan(0.5 * size.y);
     camera.middle = 0.5 * (least + most);
     camera.pixel_aspect = size.x / (size.y * aspect);
@@ -53,13 +51,11 @@ double width_rad(const scene::Camera& camera, double aspect) {
 scene::Camera LiveFlight::camera(
     std::span<const sim::AircraftState> states, const scene::Camera& default_camera, double aspect) const {
     const auto number = shown_view();
-    scene::Camera camera =
-        (number ? camera_of_view(*number, states, aspect) : std::nullopt).value_or(default_camera);
+    scene::Camera camera = (number ? camera_of_view(*number, states, aspect) : std::nullopt).value_or(default_camera);
     if (options_.channel != LiveChannel::Front) {
         const double side = options_.channel == LiveChannel::Left ? 1.0 : -1.0;
         camera.view_to_world =
-            camera.view_to_world *
-            glm::angleAxis(side * width_rad(camera, aspect), glm::dvec3(0.0, 1.0, 0.0));
+            camera.view_to_world * glm::angleAxis(side * width_rad(camera, aspect), glm::dvec3(0.0, 1.0, 0.0));
     }
     return camera;
 }
@@ -70,16 +66,13 @@ scene::Camera LiveFlight::inset_camera(
     const auto& views = traffic_.cigi().views();
     const auto number = shown_view();
     const auto next = number ? views.upper_bound(*number) : views.end();
-    return (next == views.end() ? std::nullopt : camera_of_view(next->first, states, aspect))
-        .value_or(default_camera);
+    return (next == views.end() ? std::nullopt : camera_of_view(next->first, states, aspect)).value_or(default_camera);
 }
 
 /// The view that was asked for or the lowest that the host has told.
 std::optional<std::uint16_t> LiveFlight::shown_view() const {
     const auto& views = traffic_.cigi().views();
-    if (options_.view) {
-        return static_cast<std::uint16_t>(*options_.view);
-    }
+    if (options_.view) { return static_cast<std::uint16_t>(*options_.view); }
     return views.empty() ? std::nullopt : std::optional(views.begin()->first);
 }
 
@@ -90,9 +83,7 @@ std::optional<scene::Camera> LiveFlight::camera_of_view(
     const auto& definitions = traffic_.cigi().definitions();
     const auto definition = views.find(number);
     const auto aircraft = definition == views.end() ? std::nullopt : aircraft_of(definition->second.entity);
-    if (!aircraft) {
-        return std::nullopt;
-    }
+    if (!aircraft) { return std::nullopt; }
     const sim::links::CigiViewControl& view = definition->second;
     const sim::AircraftState& state = states[*aircraft];
     scene::Camera camera;
@@ -113,25 +104,17 @@ std::optional<std::string> LiveFlight::frustum_line() const {
     const auto number = shown_view();
     const auto& definitions = traffic_.cigi().definitions();
     const auto defined = number ? definitions.find(*number) : definitions.end();
-    if (defined == definitions.end()) {
-        return std::nullopt;
-    }
+    if (defined == definitions.end()) { return std::nullopt; }
     if (defined->second.parallel) {
         return fmt::format("CIGI: view {} is orthographic; it is shown in perspective", *number);
     }
     scene::Camera camera;
     set_frustum(defined->second, aspect_, camera);
     constexpr double same = 0.02;
-    if (std::abs(camera.pixel_aspect - 1.0) <= same) {
-        return std::nullopt;
-    }
-    return fmt::format(
-        "CIGI: view {} has the shape {:.2f}:1, this picture {:.2f}:1; pixels are {:.2f} times as "
-        "wide as high",
-        *number,
-        camera.pixel_aspect * aspect_,
-        aspect_,
-        camera.pixel_aspect);
+    if (std::abs(camera.pixel_aspect - 1.0) <= same) { return std::nullopt; }
+    return fmt::format("CIGI: view {} has the shape {:.2f}:1, this picture {:.2f}:1; pixels are {:.2f} times as "
+                       "wide as high",
+        *number, camera.pixel_aspect * aspect_, aspect_, camera.pixel_aspect);
 }
 
 } // namespace octant::ui::flight

@@ -1,4 +1,5 @@
 #include "ui/flight/live_flight.h"
+
 #include "sim/base/axes.h"
 #include "sim/base/transverse_mercator.h"
 #include "sim/hidden_height.h"
@@ -31,21 +32,16 @@ constexpr std::array<std::pair<LiveHeightMode, std::string_view>, 3> names{
 
 std::optional<LiveHeightMode> live_height_mode_from(std::string_view name) {
     for (const auto& [height, known] : names) {
-        if (known == name) {
-            return height;
-        }
+        if (known == name) { return height; }
     }
     return std::nullopt;
 }
 
-std::string_view name_of(LiveHeightMode height) {
-    return names.at(static_cast<std::size_t>(height)).second;
-}
+std::string_view name_of(LiveHeightMode height) { return names.at(static_cast<std::size_t>(height)).second; }
 
 LiveGeoreference::LiveGeoreference(const world::World& world, std::optional<LiveHeightMode> height)
-    : world_(world)
-    , height_mode_is_given_(height.has_value())
-    , height_(height.value_or(world.ground_frame ? LiveHeightMode::Msl : LiveHeightMode::Offset)) {}
+    : world_(world), height_mode_is_given_(height.has_value()),
+      height_(height.value_or(world.ground_frame ? LiveHeightMode::Msl : LiveHeightMode::Offset)) {}
 
 std::optional<double> LiveGeoreference::ground_m(const glm::dvec2& at_m) const {
     return world_.scene.ground->height_at(at_m.x, at_m.y);
@@ -55,9 +51,7 @@ std::optional<double> LiveGeoreference::ground_m(const glm::dvec2& at_m) const {
 void LiveGeoreference::compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m) {
     constexpr double at_home_m = 1.0;
     const bool is_home = fix.above_home_m && std::abs(*fix.above_home_m) < at_home_m;
-    const auto theirs_m = fix.above_ground_m ? fix.above_ground_m
-                          : is_home          ? fix.above_home_m
-                                             : std::nullopt;
+    const auto theirs_m = fix.above_ground_m ? fix.above_ground_m : is_home ? fix.above_home_m : std::nullopt;
     if (ours_m && theirs_m) {
         our_ground_m_ = *ours_m;
         their_ground_m_ = fix.altitude_m - *theirs_m;
@@ -66,19 +60,14 @@ void LiveGeoreference::compare_grounds(const sim::links::Fix& fix, std::optional
     agl_unknown_ = height_ == LiveHeightMode::Agl && !fix.above_ground_m;
 }
 
-/// FlightGear, while it loads, says that it stands on the ground where it will fly: until a vehicle
-/// has moved a little its newest fix counts. One that has jumped begins anew.
+/// FlightGear, while it loads, says that it stands on the ground where it will fly: until a vehicle has moved a little
+/// its newest fix counts. One that has jumped begins anew.
 double LiveGeoreference::offset_m(
-    const sim::links::VehicleKey& key,
-    const sim::links::Fix& fix,
-    const glm::dvec2& at_m,
-    double ours_m) {
+    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m, double ours_m) {
     constexpr int settled = 3;
     constexpr double moved_m = 0.5;
     constexpr double jumped_m = 5000.0;
-    if (offsets_.size() >= max_offsets && !offsets_.contains(key)) {
-        offsets_.erase(offsets_.begin());
-    }
+    if (offsets_.size() >= max_offsets && !offsets_.contains(key)) { offsets_.erase(offsets_.begin()); }
     const auto [known, is_new] = offsets_.try_emplace(key, Offset{.last_at_m = at_m});
     Offset& offset = known->second;
     const double way_m = glm::distance(at_m, offset.last_at_m);
@@ -103,9 +92,7 @@ double LiveGeoreference::height_of(
     case LiveHeightMode::Msl:
         break;
     case LiveHeightMode::Agl:
-        if (ours_m && fix.above_ground_m) {
-            return *ours_m + *fix.above_ground_m;
-        }
+        if (ours_m && fix.above_ground_m) { return *ours_m + *fix.above_ground_m; }
         break;
     case LiveHeightMode::Offset:
         return fix.altitude_m + offset_m(key, fix, at_m, ours_m.value_or(0.0));
@@ -128,49 +115,34 @@ glm::dvec3 LiveGeoreference::over_ground(
     return {at_m, height_m};
 }
 
-sim::links::WorldPosition
-LiveGeoreference::world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
-    if (fix.local_m) {
-        return {.at_m = over_ground(key, fix, world_.flight.place_m + *fix.local_m)};
-    }
+sim::links::WorldPosition LiveGeoreference::world_position(
+    const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
+    if (fix.local_m) { return {.at_m = over_ground(key, fix, world_.flight.place_m + *fix.local_m)}; }
     const GeoPosition place{fix.latitude_deg, fix.longitude_deg};
-    if (frame() == nullptr) {
-        georeference_generated_ground(place);
-    }
+    if (frame() == nullptr) { georeference_generated_ground(place); }
     const FramePosition local = frame()->place_of(place);
-    return {
-        .at_m = over_ground(key, fix, local.east_north_m), .north_bearing_rad = local.north_bearing_rad};
+    return {.at_m = over_ground(key, fix, local.east_north_m), .north_bearing_rad = local.north_bearing_rad};
 }
 
 std::vector<std::string> LiveGeoreference::lines() const {
     std::vector<std::string> lines;
     if (assigned_frame_) {
-        lines.push_back(fmt::format(
-            "made ground, placed at the first position {:.5f}, {:.5f}",
-            assigned_frame_->origin().latitude_deg,
-            assigned_frame_->origin().longitude_deg));
+        lines.push_back(fmt::format("made ground, placed at the first position {:.5f}, {:.5f}",
+            assigned_frame_->origin().latitude_deg, assigned_frame_->origin().longitude_deg));
     }
     if (const Ellipsoid below = ellipsoid_below(origin()); !below.is_earth()) {
-        lines.push_back(
-            fmt::format("latitudes and longitudes are taken as places on {}", name_of_body(below)));
+        lines.push_back(fmt::format("latitudes and longitudes are taken as places on {}", name_of_body(below)));
     }
-    if (off_the_map_) {
-        lines.emplace_back("off the map");
-    }
+    if (off_the_map_) { lines.emplace_back("off the map"); }
     if (grounds_differ_ && height_ == LiveHeightMode::Msl) {
-        lines.push_back(fmt::format(
-            "grounds differ by {:.1f} m: theirs {:.1f} m, ours {:.1f} m; --height agl or offset",
-            our_ground_m_ - their_ground_m_,
-            their_ground_m_,
-            our_ground_m_));
+        lines.push_back(
+            fmt::format("grounds differ by {:.1f} m: theirs {:.1f} m, ours {:.1f} m; --height agl or offset",
+                our_ground_m_ - their_ground_m_, their_ground_m_, our_ground_m_));
     }
     constexpr double told_m = 5.0; // what stands may lie a little lower
-    if (under_ground_m_ > told_m) {
-        lines.push_back(fmt::format("{:.1f} m under our ground", under_ground_m_));
-    }
+    if (under_ground_m_ > told_m) { lines.push_back(fmt::format("{:.1f} m under our ground", under_ground_m_)); }
     if (agl_unknown_) {
-        lines.emplace_back(
-            "--height agl: the sender tells no height above ground, so that above the sea counts");
+        lines.emplace_back("--height agl: the sender tells no height above ground, so that above the sea counts");
     }
     return lines;
 }
@@ -184,9 +156,7 @@ constexpr int max_split_depth = 64;
 
 } // namespace
 
-const EarthFrame& WorldCigiGround::frame() const {
-    return frame_or_at_zero(place_.frame());
-}
+const EarthFrame& WorldCigiGround::frame() const { return frame_or_at_zero(place_.frame()); }
 
 glm::dvec3 WorldCigiGround::world_position(const glm::dvec3& place) const {
     return {frame().local_from_geo({place.x, place.y}), place.z};
@@ -198,33 +168,29 @@ glm::dvec3 WorldCigiGround::geodetic_position(const glm::dvec3& at_m) const {
 }
 
 std::optional<double> WorldCigiGround::height_m(const glm::dvec3& at_m) const {
-    return place_.frame() != nullptr ? world_.scene.ground->height_at(at_m.x, at_m.y)
-                                     : std::nullopt;
+    return place_.frame() != nullptr ? world_.scene.ground->height_at(at_m.x, at_m.y) : std::nullopt;
 }
 
 std::optional<sim::links::CigiSurfacePoint> WorldCigiGround::below(const glm::dvec3& place) const {
     const FramePosition local = frame().place_of({place.x, place.y});
     const glm::dvec3 at_m(local.east_north_m, place.z);
     const auto ground_m = height_m(at_m);
-    if (!ground_m) {
-        return std::nullopt;
-    }
+    if (!ground_m) { return std::nullopt; }
     constexpr double aside_m = 0.5;
     const auto slope = [&](const glm::dvec3& along) {
         const double ahead_m = height_m(at_m + along).value_or(*ground_m);
         const double behind_m = height_m(at_m - along).value_or(*ground_m);
         return (ahead_m - behind_m) / (2.0 * aside_m);
     };
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(
-        -slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
-    return sim::links::CigiSurfacePoint{
-        glm::dvec3(place.x, place.y, *ground_m),
+    const glm::dvec3 normal =
+        glm::normalize(glm::dvec3(-slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
+    return sim::links::CigiSurfacePoint{glm::dvec3(place.x, place.y, *ground_m),
         wrapped_to_two_pi(std::atan2(normal.x, normal.y) - local.north_bearing_rad),
         std::asin(std::clamp(normal.z, -1.0, 1.0))};
 }
 
-std::optional<sim::links::CigiGround::TerrainHit>
-WorldCigiGround::first_hit(const glm::dvec3& from, const glm::dvec3& to) const {
+std::optional<sim::links::CigiGround::TerrainHit> WorldCigiGround::first_hit(
+    const glm::dvec3& from, const glm::dvec3& to) const {
     const glm::dvec3 from_m = world_position(from);
     const glm::dvec3 to_m = world_position(to);
     const double length_m = glm::length(to_m - from_m);
@@ -271,36 +237,24 @@ std::optional<std::string> solar_time(const links::CigiCelestial& universal, dou
     namespace chrono = std::chrono;
     constexpr unsigned century = 100;
     constexpr unsigned ten_thousand = 10000;
-    const chrono::year_month_day date(
-        chrono::year(static_cast<int>(universal.date % ten_thousand)),
-        chrono::month(universal.date / (century * ten_thousand)),
-        chrono::day(universal.date / ten_thousand % century));
+    const chrono::year_month_day date(chrono::year(static_cast<int>(universal.date % ten_thousand)),
+        chrono::month(universal.date / (century * ten_thousand)), chrono::day(universal.date / ten_thousand % century));
     constexpr double minutes_a_degree = 4.0;
-    if (!date.ok()) {
-        return std::nullopt;
-    }
-    const auto time =
-        chrono::sys_days(date) + chrono::hours(universal.hour) +
-        chrono::minutes(universal.minute + std::lround(minutes_a_degree * longitude_deg));
+    if (!date.ok()) { return std::nullopt; }
+    const auto time = chrono::sys_days(date) + chrono::hours(universal.hour) +
+                      chrono::minutes(universal.minute + std::lround(minutes_a_degree * longitude_deg));
     const auto day = chrono::floor<chrono::days>(time);
     const chrono::year_month_day there(day);
     const auto minute = (time - day).count();
-    std::string text = fmt::format(
-        "{:04}-{:02}-{:02}T{:02}:{:02}",
-        static_cast<int>(there.year()),
-        static_cast<unsigned>(there.month()),
-        static_cast<unsigned>(there.day()),
-        minute / 60,
-        minute % 60);
+    std::string text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}", static_cast<int>(there.year()),
+        static_cast<unsigned>(there.month()), static_cast<unsigned>(there.day()), minute / 60, minute % 60);
     return sim::solar_time_from_text(text) ? std::optional(std::move(text)) : std::nullopt;
 }
 
 } // namespace
 
-visuals::scene::AirSettings air_from_cigi(
-    visuals::scene::AirSettings defaults,
-    const std::optional<links::CigiAtmosphere>& atmosphere,
-    const std::optional<links::CigiCelestial>& celestial,
+visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
+    const std::optional<links::CigiAtmosphere>& atmosphere, const std::optional<links::CigiCelestial>& celestial,
     const std::optional<GeoPosition>& place) {
     if (atmosphere) {
         constexpr double min_m = 50.0;
@@ -309,9 +263,7 @@ visuals::scene::AirSettings air_from_cigi(
     }
     if (celestial && celestial->is_valid) {
         const double longitude_deg = place ? place->longitude_deg : 0.0;
-        if (auto time = solar_time(*celestial, longitude_deg)) {
-            defaults.time = std::move(time);
-        }
+        if (auto time = solar_time(*celestial, longitude_deg)) { defaults.time = std::move(time); }
     }
     return defaults;
 }
@@ -328,26 +280,17 @@ constexpr std::array<std::pair<LiveChannel, std::string_view>, 3> channels{
 } // namespace
 
 std::optional<LiveChannel> live_channel_from(std::string_view name) {
-    const auto found =
-        std::ranges::find(channels, name, [](const auto& each) { return each.second; });
+    const auto found = std::ranges::find(channels, name, [](const auto& each) { return each.second; });
     return found == channels.end() ? std::nullopt : std::optional(found->first);
 }
 
-std::string_view name_of(LiveChannel channel) {
-    return channels.at(static_cast<std::size_t>(channel)).second;
-}
+std::string_view name_of(LiveChannel channel) { return channels.at(static_cast<std::size_t>(channel)).second; }
 
 LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
-    : options_(options)
-    , world_(world)
-    , place_(world, options.height)
-    , cigi_ground_(world, place_)
-    , traffic_(
-          [this](const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
-              return place_.world_position(key, fix);
-          },
-          &cigi_ground_,
-          ellipsoid_below(world.ground_place)) {}
+    : options_(options), world_(world), place_(world, options.height), cigi_ground_(world, place_),
+      traffic_([this](const sim::links::VehicleKey& key,
+                   const sim::links::Fix& fix) { return place_.world_position(key, fix); },
+          &cigi_ground_, ellipsoid_below(world.ground_place)) {}
 
 void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) {
     vehicle_states_.resize(states.size());
@@ -357,12 +300,8 @@ void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) 
     for (std::size_t i = 1; i < states.size(); ++i) {
         states[i].position_m = glm::dvec3(0.0, 0.0, sim::absent_height_m);
     }
-    for (std::size_t i = 0; i < shown; ++i) {
-        states[slots_[i].aircraft] = vehicle_states_[i];
-    }
-    for (sim::AircraftState& state : states) {
-        state.time_s = time_s;
-    }
+    for (std::size_t i = 0; i < shown; ++i) { states[slots_[i].aircraft] = vehicle_states_[i]; }
+    for (sim::AircraftState& state : states) { state.time_s = time_s; }
     turn_parts(time_s);
 }
 
@@ -370,38 +309,29 @@ bool LiveFlight::is_flown(std::size_t aircraft) const {
     return std::ranges::find(slots_, aircraft, &VehicleSlot::aircraft) != slots_.end();
 }
 
-/// The aircraft that shows what this vehicle is said to be: the free ones from its own number on,
-/// for entities of a type that has a shape those of that shape first.
-std::size_t
-LiveFlight::free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const {
+/// The aircraft that shows what this vehicle is said to be: the free ones from its own number on, for entities of a
+/// type that has a shape those of that shape first.
+std::size_t LiveFlight::free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const {
     const std::vector<std::uint32_t>& models = world_.scene.aircraft;
-    const bool has_number =
-        key.protocol == sim::links::Protocol::Cigi && key.vehicle < models.size();
+    const bool has_number = key.protocol == sim::links::Protocol::Cigi && key.vehicle < models.size();
     const std::size_t first = has_number ? static_cast<std::size_t>(key.vehicle) : 0;
     std::optional<std::size_t> any;
     const auto shape = type ? options_.shapes.find(*type) : options_.shapes.end();
     for (std::size_t i = 0; i < models.size(); ++i) {
         const std::size_t place = (first + i) % models.size();
-        if (is_flown(place)) {
-            continue;
-        }
-        if (shape == options_.shapes.end() || models[place] == models.at(shape->second)) {
-            return place;
-        }
+        if (is_flown(place)) { continue; }
+        if (shape == options_.shapes.end() || models[place] == models.at(shape->second)) { return place; }
         any = any.value_or(place);
     }
     return *any;
 }
 
-/// Gives the first vehicles an aircraft each; those that have one keep it while they are of one
-/// type.
+/// Gives the first vehicles an aircraft each; those that have one keep it while they are of one type.
 void LiveFlight::assign_aircraft(std::size_t vehicles) {
     for (std::size_t i = 0; i < vehicles; ++i) {
         const sim::links::VehicleKey& key = traffic_.vehicles()[i].key();
         const bool is_entity = key.protocol == sim::links::Protocol::Cigi;
-        const auto type = is_entity
-                              ? traffic_.cigi().type_of(static_cast<std::uint16_t>(key.vehicle))
-                              : std::nullopt;
+        const auto type = is_entity ? traffic_.cigi().type_of(static_cast<std::uint16_t>(key.vehicle)) : std::nullopt;
         if (i == slots_.size()) {
             slots_.push_back({no_aircraft, type});
             slots_[i].aircraft = free_aircraft(key, type);
@@ -415,11 +345,9 @@ void LiveFlight::assign_aircraft(std::size_t vehicles) {
 /// The aircraft that shows an entity of a CIGI host.
 std::optional<std::size_t> LiveFlight::aircraft_of(std::uint16_t entity) const {
     const auto vehicles = traffic_.vehicles();
-    const auto found =
-        std::ranges::find_if(vehicles, [entity](const sim::links::LiveVehicle& vehicle) {
-            return vehicle.key().protocol == sim::links::Protocol::Cigi &&
-                   vehicle.key().vehicle == entity;
-        });
+    const auto found = std::ranges::find_if(vehicles, [entity](const sim::links::LiveVehicle& vehicle) {
+        return vehicle.key().protocol == sim::links::Protocol::Cigi && vehicle.key().vehicle == entity;
+    });
     const auto number = static_cast<std::size_t>(found - vehicles.begin());
     return number < slots_.size() ? std::optional(slots_[number].aircraft) : std::nullopt;
 }
@@ -430,8 +358,7 @@ void LiveFlight::turn_parts(double time_s) {
     const double times_s = options_.step ? 0.0 : time_s - options_.delay_s;
     for (const sim::links::CigiPartPose& part : traffic_.cigi().parts().turned(times_s)) {
         if (const auto aircraft = aircraft_of(part.entity)) {
-            turned_.push_back(
-                {static_cast<std::uint32_t>(*aircraft), part.part, part.turn, part.offset_m});
+            turned_.push_back({static_cast<std::uint32_t>(*aircraft), part.part, part.turn, part.offset_m});
         }
     }
 }
@@ -447,16 +374,12 @@ std::vector<std::string> LiveFlight::lines() const {
     lines.insert(lines.end(), of_place.begin(), of_place.end());
     for (const VehicleSlot& place : slots_) {
         if (place.type && !options_.shapes.empty() && !options_.shapes.contains(*place.type)) {
-            lines.push_back(fmt::format(
-                "CIGI: --entities has no entity type {}: it is shown as {}",
-                *place.type,
+            lines.push_back(fmt::format("CIGI: --entities has no entity type {}: it is shown as {}", *place.type,
                 world_.scene.model_of(place.aircraft).polygons.name));
             break;
         }
     }
-    if (const auto line = frustum_line()) {
-        lines.push_back(*line);
-    }
+    if (const auto line = frustum_line()) { lines.push_back(*line); }
     return lines;
 }
 
@@ -466,9 +389,7 @@ void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
         return static_cast<int>(now.*count - reported_counts_.*count);
     };
     record.packets = since(&sim::links::TrafficCounts::accepted);
-    if (now.lost) {
-        record.packets_lost = static_cast<double>(*now.lost - reported_counts_.lost.value_or(0));
-    }
+    if (now.lost) { record.packets_lost = static_cast<double>(*now.lost - reported_counts_.lost.value_or(0)); }
     record.packets_late = since(&sim::links::TrafficCounts::late);
     record.packets_wrong = since(&sim::links::TrafficCounts::wrong);
     reported_counts_ = now;
@@ -477,9 +398,7 @@ void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
         record.host_frame = static_cast<int>(traffic_.cigi().host_frame() & positive);
     }
     record.stale = traffic_.is_stale() ? 1 : 0;
-    if (!traffic_.vehicles().empty()) {
-        record.jitter_ms = 1000.0 * traffic_.vehicles().front().clock().jitter_s();
-    }
+    if (!traffic_.vehicles().empty()) { record.jitter_ms = 1000.0 * traffic_.vehicles().front().clock().jitter_s(); }
     if (record.packets > 0 && traffic_.newest_s() > newest_s_) {
         newest_s_ = traffic_.newest_s();
         record.latency_ms = 1000.0 * (finished_s - newest_s_);

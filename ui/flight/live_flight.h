@@ -41,17 +41,16 @@ inline constexpr std::string_view live_height_mode_names = "msl, agl or offset";
 std::optional<LiveHeightMode> live_height_mode_from(std::string_view name);
 std::string_view name_of(LiveHeightMode height);
 
-/// Where fixes lie over the ground of a run. On ground with a place of its own they lie there; else
-/// the first fix is laid over the flight's place and the others around it; but fixes that would lie
-/// on the map if its middle were 0 N, 0 E mean that, as another octant does on such a ground.
+/// Where fixes lie over the ground of a run. On ground with a place of its own they lie there; else the first fix is
+/// laid over the flight's place and the others around it; but fixes that would lie on the map if its middle were 0 N, 0
+/// E mean that, as another octant does on such a ground.
 class LiveGeoreference {
 public:
-    /// The world must outlive this. Without a height it is Msl over ground that knows its place,
-    /// else Offset; hosts of CIGI always mean Msl then.
+    /// The world must outlive this. Without a height it is Msl over ground that knows its place, else Offset; hosts of
+    /// CIGI always mean Msl then.
     LiveGeoreference(const world::World& world, std::optional<LiveHeightMode> height);
 
-    sim::links::WorldPosition
-    world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
+    sim::links::WorldPosition world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
 
     /// How the world lies on the earth; null until that is known.
     const EarthFrame* frame() const { return assigned_frame_ ? &*assigned_frame_ : world_.ground_frame.get(); }
@@ -79,14 +78,9 @@ private:
     void georeference_generated_ground(const GeoPosition& first);
     void compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m);
     double offset_m(
-        const sim::links::VehicleKey& key,
-        const sim::links::Fix& fix,
-        const glm::dvec2& at_m,
-        double ours_m);
-    glm::dvec3 over_ground(
-        const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
-    double height_of(
-        const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
+        const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m, double ours_m);
+    glm::dvec3 over_ground(const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
+    double height_of(const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
 
     const world::World& world_;
     bool height_mode_is_given_;
@@ -105,13 +99,11 @@ private:
     bool agl_unknown_ = false;
 };
 
-/// What CIGI hosts ask of the ground of a run, by the place that it has on the earth. Until that is
-/// known nothing is inside the database. World and place must outlive this.
+/// What CIGI hosts ask of the ground of a run, by the place that it has on the earth. Until that is known nothing is
+/// inside the database. World and place must outlive this.
 class WorldCigiGround final : public sim::links::CigiGround {
 public:
-    WorldCigiGround(const world::World& world, const LiveGeoreference& place)
-        : world_(world)
-        , place_(place) {}
+    WorldCigiGround(const world::World& world, const LiveGeoreference& place) : world_(world), place_(place) {}
 
     std::optional<sim::links::CigiSurfacePoint> below(const glm::dvec3& place) const override;
 
@@ -132,14 +124,11 @@ private:
     const LiveGeoreference& place_;
 };
 
-/// Air as a host of CIGI has it: its visibility, from 50 m to 500 km, and the time of day at that
-/// longitude by its universal time; what it has not told as in `defaults`. Without a place its time is
-/// taken as the sun's own.
-visuals::scene::AirSettings air_from_cigi(
-    visuals::scene::AirSettings defaults,
+/// Air as a host of CIGI has it: its visibility, from 50 m to 500 km, and the time of day at that longitude by its
+/// universal time; what it has not told as in `defaults`. Without a place its time is taken as the sun's own.
+visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
     const std::optional<sim::links::CigiAtmosphere>& atmosphere,
-    const std::optional<sim::links::CigiCelestial>& celestial,
-    const std::optional<GeoPosition>& place);
+    const std::optional<sim::links::CigiCelestial>& celestial, const std::optional<GeoPosition>& place);
 
 /// Which of several pictures side by side this one is: left and right are turned by its own width.
 enum class LiveChannel { Front, Left, Right };
@@ -159,32 +148,29 @@ struct LiveOptions {
     LiveChannel channel = LiveChannel::Front;
     /// Which of a CIGI host's views is shown; nothing: the one of the lowest number.
     std::optional<int> view;
-    /// The types of a CIGI host's entities, and an aircraft of the world that has the shape of
-    /// each.
+    /// The types of a CIGI host's entities, and an aircraft of the world that has the shape of each.
     std::map<std::uint16_t, std::size_t> shapes;
 };
 
-/// Flies the aircraft of a world by packets: the vehicle that came first is the first aircraft, and
-/// so on, but a CIGI host's entity N is aircraft N, counted from 0, where there are as many, or one
-/// of the shape that its type has; aircraft that nobody flies yet are not seen, the first one waits
-/// at its place. Reads no clock: the same packets and times give the same states.
+/// Flies the aircraft of a world by packets: the vehicle that came first is the first aircraft, and so on, but a CIGI
+/// host's entity N is aircraft N, counted from 0, where there are as many, or one of the shape that its type has;
+/// aircraft that nobody flies yet are not seen, the first one waits at its place. Reads no clock: the same packets and
+/// times give the same states.
 class LiveFlight final : public StateSource {
 public:
     /// The world must outlive it.
     LiveFlight(const LiveOptions& options, const world::World& world);
 
     /// Takes the next packet in the order in which they came.
-    sim::links::LiveTraffic::PacketOutcome take(const sim::links::Datagram& packet) {
-        return traffic_.take(packet);
-    }
+    sim::links::LiveTraffic::PacketOutcome take(const sim::links::Datagram& packet) { return traffic_.take(packet); }
 
     void states_at(double time_s, std::span<sim::AircraftState> states) override;
 
     /// What a person should be told, a line each.
     std::vector<std::string> lines() const;
 
-    /// Fills in what came since the last frame that was filled in. `finished_s` is when its picture
-    /// was finished, on the clock of the packets.
+    /// Fills in what came since the last frame that was filled in. `finished_s` is when its picture was finished, on
+    /// the clock of the packets.
     void fill_in(report::FrameRecord& record, double finished_s);
 
     /// What was told for the first time since the last call.
@@ -199,15 +185,11 @@ public:
         return traffic_.cigi().message_for(picture, time_s);
     }
 
-    visuals::scene::Camera camera(
-        std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& default_camera,
-        double aspect) const override;
+    visuals::scene::Camera camera(std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& default_camera, double aspect) const override;
 
-    visuals::scene::Camera inset_camera(
-        std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& default_camera,
-        double aspect) const override;
+    visuals::scene::Camera inset_camera(std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& default_camera, double aspect) const override;
 
     std::span<const visuals::planning::ArticulatedPart> turned_parts() const override { return turned_; }
 
@@ -236,8 +218,7 @@ private:
     std::optional<visuals::scene::Camera> camera_of_view(
         std::uint16_t number, std::span<const sim::AircraftState> states, double aspect) const;
     std::optional<std::string> frustum_line() const;
-    std::size_t
-    free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const;
+    std::size_t free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const;
     void assign_aircraft(std::size_t vehicles);
     std::optional<std::size_t> aircraft_of(std::uint16_t entity) const;
     void turn_parts(double time_s);

@@ -32,11 +32,8 @@ std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings
 std::unique_ptr<raster::Renderer> make_raster_renderer(
     const settings::RunSettings& settings, std::shared_ptr<visuals::scene::WindowPicture> window) {
     const int threads = settings.drawing.raster_threads.value_or(core_count());
-    return std::make_unique<raster::Renderer>(
-        std::make_shared<raster::Workers>(threads),
-        settings.view.size_px,
-        settings.view.samples.value_or(16),
-        std::move(window));
+    return std::make_unique<raster::Renderer>(std::make_shared<raster::Workers>(threads), settings.view.size_px,
+        settings.view.samples.value_or(16), std::move(window));
 }
 
 std::unique_ptr<Renderer> make_renderer(const settings::RunSettings& settings) {
@@ -48,8 +45,7 @@ std::unique_ptr<Renderer> make_renderer(const settings::RunSettings& settings) {
     }
     std::unique_ptr<Renderer> renderer = make_gl_renderer(settings);
     const bool no_gpu = renderer->info().is_software;
-    return wanted == RendererKind::Auto && no_gpu ? make_raster_renderer(settings)
-                                                  : std::move(renderer);
+    return wanted == RendererKind::Auto && no_gpu ? make_raster_renderer(settings) : std::move(renderer);
 }
 
 } // namespace octant::ui::flight

@@ -40,21 +40,16 @@ std::optional<std::size_t> number_up_to(std::string_view text, std::size_t most)
     std::size_t number = 0;
     const char* const end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, number);
-    return read.ec == std::errc() && read.ptr == end && number <= most ? std::optional(number)
-                                                                       : std::nullopt;
+    return read.ec == std::errc() && read.ptr == end && number <= most ? std::optional(number) : std::nullopt;
 }
 
-links::Bytes bytes_of(std::string_view text) {
-    return std::as_bytes(std::span(text.data(), text.size()));
-}
+links::Bytes bytes_of(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
 
 /// Reads records one behind the other; stops at one that is not whole.
 class RecordReader {
 public:
     RecordReader(const std::filesystem::path& file, links::Bytes bytes)
-        : file_(file)
-        , reader_(bytes, links::ByteOrder::Big)
-        , bytes_(bytes) {}
+        : file_(file), reader_(bytes, links::ByteOrder::Big), bytes_(bytes) {}
 
     /// The frames that are whole.
     std::vector<PacketFrame> frames() {
@@ -72,9 +67,7 @@ public:
 private:
     template <class Number>
     std::optional<Number> number() {
-        if (bytes_.size() - at_ < sizeof(Number)) {
-            return std::nullopt;
-        }
+        if (bytes_.size() - at_ < sizeof(Number)) { return std::nullopt; }
         const auto value = reader_.at<Number>(at_);
         at_ += sizeof(Number);
         return value;
@@ -82,15 +75,11 @@ private:
 
     std::optional<links::Bytes> block() {
         const auto size = number<std::uint32_t>();
-        if (!size) {
-            return std::nullopt;
-        }
+        if (!size) { return std::nullopt; }
         if (*size > max_bytes_a_record) {
             throw_bad_record(fmt::format("a record of at most {} bytes, got {}", max_bytes_a_record, *size));
         }
-        if (bytes_.size() - at_ < *size) {
-            return std::nullopt;
-        }
+        if (bytes_.size() - at_ < *size) { return std::nullopt; }
         const links::Bytes block = bytes_.subspan(at_, *size);
         at_ += *size;
         return block;
@@ -98,9 +87,7 @@ private:
 
     bool next(PacketFrame& frame) {
         const auto kind = number<std::uint8_t>();
-        if (!kind) {
-            return false;
-        }
+        if (!kind) { return false; }
         switch (RecordKind{*kind}) {
         case RecordKind::Packet:
             return next_packet(frame);
@@ -111,8 +98,8 @@ private:
         case RecordKind::Picture: {
             const auto time_s = number<double>();
             if (time_s && !(*time_s > last_s_ && *time_s <= longest_s)) {
-                throw_bad_record(fmt::format(
-                    "a picture after {} s and up to {} s, got {}", last_s_, longest_s, *time_s));
+                throw_bad_record(
+                    fmt::format("a picture after {} s and up to {} s, got {}", last_s_, longest_s, *time_s));
             }
             complete_ = time_s.has_value();
             last_s_ = frame.time_s = time_s.value_or(0.0);
@@ -128,41 +115,29 @@ private:
         const auto port = number<std::uint16_t>();
         const auto arrival_s = number<double>();
         const auto bytes = block();
-        if (!protocol || !address || !port || !arrival_s || !bytes) {
-            return false;
-        }
+        if (!protocol || !address || !port || !arrival_s || !bytes) { return false; }
         if (!(std::abs(*arrival_s) <= longest_s)) {
             throw_bad_record(fmt::format("a time of arrival up to {} s, got {}", longest_s, *arrival_s));
         }
         frame.packets.push_back(
-            {links::Protocol{*protocol},
-             {*address, *port},
-             *arrival_s,
-             {bytes->begin(), bytes->end()}});
+            {links::Protocol{*protocol}, {*address, *port}, *arrival_s, {bytes->begin(), bytes->end()}});
         return true;
     }
 
     bool next_words(PacketFrame& frame) {
         const auto bytes = block();
-        if (!bytes) {
-            return false;
-        }
+        if (!bytes) { return false; }
         frame.has_overlay_lines = true;
-        for (const std::string_view line : split_lines(text_of(*bytes))) {
-            frame.overlay_lines.emplace_back(line);
-        }
+        for (const std::string_view line : split_lines(text_of(*bytes))) { frame.overlay_lines.emplace_back(line); }
         return true;
     }
 
     bool next_time_of_day(PacketFrame& frame) {
         const auto bytes = block();
-        if (!bytes) {
-            return false;
-        }
+        if (!bytes) { return false; }
         frame.time_of_day = text_of(*bytes);
         if (!sim::solar_time_from_text(frame.time_of_day)) {
-            throw_bad_record(
-                fmt::format("a time as YYYY-MM-DDTHH:MM, got '{}'", printable(frame.time_of_day)));
+            throw_bad_record(fmt::format("a time as YYYY-MM-DDTHH:MM, got '{}'", printable(frame.time_of_day)));
         }
         return true;
     }
@@ -182,14 +157,11 @@ private:
 /// "TYPE=AIRCRAFT,TYPE=AIRCRAFT" or none; nothing for other text.
 std::optional<std::map<std::uint16_t, std::size_t>> shapes_from(std::string_view word) {
     std::map<std::uint16_t, std::size_t> shapes;
-    for (const std::string_view pair :
-         word == none ? std::vector<std::string_view>() : split_fields(word, ',')) {
+    for (const std::string_view pair : word == none ? std::vector<std::string_view>() : split_fields(word, ',')) {
         const auto sides = split_fields(pair, '=');
         const auto type = number_up_to(sides.front(), std::numeric_limits<std::uint16_t>::max());
         const auto aircraft = number_up_to(sides.back(), links::LiveTraffic::max_vehicles);
-        if (sides.size() != 2 || !type || !aircraft) {
-            return std::nullopt;
-        }
+        if (sides.size() != 2 || !type || !aircraft) { return std::nullopt; }
         shapes.emplace(static_cast<std::uint16_t>(*type), *aircraft);
     }
     return shapes;
@@ -197,15 +169,9 @@ std::optional<std::map<std::uint16_t, std::size_t>> shapes_from(std::string_view
 
 std::string text_of(const LiveOptions& options) {
     std::vector<std::string> shapes;
-    for (const auto& [type, aircraft] : options.shapes) {
-        shapes.push_back(fmt::format("{}={}", type, aircraft));
-    }
-    return fmt::format(
-        "{} {} {} {} {} {}",
-        options.delay_s,
-        options.height ? name_of(*options.height) : "usual",
-        options.step ? "step" : "clock",
-        name_of(options.channel),
+    for (const auto& [type, aircraft] : options.shapes) { shapes.push_back(fmt::format("{}={}", type, aircraft)); }
+    return fmt::format("{} {} {} {} {} {}", options.delay_s, options.height ? name_of(*options.height) : "usual",
+        options.step ? "step" : "clock", name_of(options.channel),
         options.view ? fmt::format("{}", *options.view) : std::string(none),
         shapes.empty() ? std::string(none) : fmt::format("{}", fmt::join(shapes, ",")));
 }
@@ -221,20 +187,12 @@ LiveOptions options_of(const std::filesystem::path& file, std::string_view line)
     const auto number = number_up_to(view, std::numeric_limits<std::uint16_t>::max());
     const auto shapes = shapes_from(overlay_lines.size() == most ? overlay_lines[most - 1] : none);
     if (!delay_s || !channel || (!number && view != none) || !shapes) {
-        throw_error_at(
-            file,
-            1,
-            fmt::format(
-                "expected a delay, a height, a step, a channel, a view and shapes, got '{}'",
+        throw_error_at(file, 1,
+            fmt::format("expected a delay, a height, a step, a channel, a view and shapes, got '{}'",
                 printable(std::string(line))));
     }
-    return {
-        *delay_s,
-        live_height_mode_from(overlay_lines[1]),
-        overlay_lines[2] == "step",
-        *channel,
-        number ? std::optional(static_cast<int>(*number)) : std::nullopt,
-        *shapes};
+    return {*delay_s, live_height_mode_from(overlay_lines[1]), overlay_lines[2] == "step", *channel,
+        number ? std::optional(static_cast<int>(*number)) : std::nullopt, *shapes};
 }
 
 std::string text_record(RecordKind kind, std::string_view text) {
@@ -278,14 +236,10 @@ void PacketWriter::add_picture(double time_s) {
     record.add(time_s);
     file_.append(text_of(record.bytes()));
     constexpr long flushed_every = 30;
-    if (++pictures_ % flushed_every == 0) {
-        file_.flush();
-    }
+    if (++pictures_ % flushed_every == 0) { file_.flush(); }
 }
 
-void PacketWriter::finish() {
-    file_.flush();
-}
+void PacketWriter::finish() { file_.flush(); }
 
 PacketFile read_packets(const std::filesystem::path& folder) {
     const auto file = folder / packets_file_name;

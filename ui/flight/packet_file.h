@@ -14,10 +14,9 @@ namespace octant::ui::flight {
 /// The file of a live recording that repeats it: packets.bin beside run.json.
 inline constexpr const char* packets_file_name = "packets.bin";
 
-/// Writes what a live flight was made of, as it comes: a line of text with the options, then
-/// records of packets, of lines written into pictures, of times of day that the sun shows, and of
-/// pictures with their times. Numbers
-/// are big-endian.
+/// Writes what a live flight was made of, as it comes: a line of text with the options, then records of packets, of
+/// lines written into pictures, of times of day that the sun shows, and of pictures with their times. Numbers are
+/// big-endian.
 class PacketWriter {
 public:
     /// Makes the file. Throws Error.
@@ -27,8 +26,7 @@ public:
     void add_overlay_lines(const std::vector<std::string>& overlay_lines);
     void add_time_of_day(const std::string& time_of_day);
 
-    /// The picture for which all that was added since the last one counts. Throws Error (disk
-    /// full).
+    /// The picture for which all that was added since the last one counts. Throws Error (disk full).
     void add_picture(double time_s);
 
     /// Throws Error (disk full).
@@ -55,8 +53,7 @@ struct PacketFile {
     std::vector<PacketFrame> frames;
 };
 
-/// Reads it; what a killed flight left unfinished at its end is left out. Throws Error for a file
-/// that is damaged.
+/// Reads it; what a killed flight left unfinished at its end is left out. Throws Error for a file that is damaged.
 PacketFile read_packets(const std::filesystem::path& folder);
 
 } // namespace octant::ui::flight

@@ -18,9 +18,7 @@ namespace {
 constexpr int max_triangles = 100000000;
 
 std::string hash_verdict(const Replay& replay, const std::string& recorded, const std::string& now) {
-    if (!replay.ended) {
-        return "unknown";
-    }
+    if (!replay.ended) { return "unknown"; }
     return recorded == now ? "same" : "other";
 }
 
@@ -31,14 +29,11 @@ Replay read_replay(const std::filesystem::path& folder) {
     const report::RunFile run = report::read_run_file(folder / "run.json");
     const auto file = folder / "frames.csv";
     const report::FrameFile rows = report::read_frame_csv(file, quality_targets);
-    if (rows.records.empty()) {
-        throw_error_in(file, "expected the rows of a flight, got none");
-    }
-    const bool in_a_window = std::ranges::any_of(
-        run.facts, [](const auto& fact) { return fact.first == report::window_fact; });
+    if (rows.records.empty()) { throw_error_in(file, "expected the rows of a flight, got none"); }
+    const bool in_a_window =
+        std::ranges::any_of(run.facts, [](const auto& fact) { return fact.first == report::window_fact; });
     if (in_a_window) {
-        throw_error_in(
-            folder / "run.json",
+        throw_error_in(folder / "run.json",
             "expected a recording of octant fly, got one of a window, whose pictures follow the "
             "clock; --settings with this file repeats its flight");
     }
@@ -49,13 +44,8 @@ Replay read_replay(const std::filesystem::path& folder) {
             throw_error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
         }
         if (row.triangle_target < 1 || row.triangle_target > max_triangles) {
-            throw_error_at(
-                file,
-                frame + 2,
-                fmt::format(
-                    "expected a triangle_target from 1 to {}, got {}",
-                    max_triangles,
-                    row.triangle_target));
+            throw_error_at(file, frame + 2,
+                fmt::format("expected a triangle_target from 1 to {}, got {}", max_triangles, row.triangle_target));
         }
         replay.quality_targets.push_back({row.triangle_target, row.smooth_target});
     }
@@ -65,29 +55,21 @@ Replay read_replay(const std::filesystem::path& folder) {
 void check_frames(const Replay& replay, int frames) {
     const auto rows = static_cast<int>(replay.quality_targets.size());
     if (rows > frames) {
-        throw_error_at(
-            replay.folder / "frames.csv",
-            frames + 2,
+        throw_error_at(replay.folder / "frames.csv", frames + 2,
             fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
     }
 }
 
-ReplayComparison
-compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
+ReplayComparison compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
     ReplayComparison verdict;
     verdict.state_hash = hash_verdict(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
-    verdict.picture_hash =
-        hash_verdict(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
+    verdict.picture_hash = hash_verdict(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
     verdict.is_same = verdict.state_hash == "same" && verdict.picture_hash == "same";
     const std::string name = base::with_path_aliases(replay.folder.string());
-    verdict.line =
-        replay.ended
-            ? fmt::format(
-                  "{} states, {} pictures as {}", verdict.state_hash, verdict.picture_hash, name)
-            : fmt::format(
-                  "nothing to compare with: {} was cut short after {} frames and has no hashes",
-                  name,
-                  replay.quality_targets.size());
+    verdict.line = replay.ended
+                       ? fmt::format("{} states, {} pictures as {}", verdict.state_hash, verdict.picture_hash, name)
+                       : fmt::format("nothing to compare with: {} was cut short after {} frames and has no hashes",
+                             name, replay.quality_targets.size());
     return verdict;
 }
 

@@ -21,9 +21,8 @@ struct Replay {
     std::string picture_hash;
 };
 
-/// Reads run.json and frames.csv of a recording, a killed one too; its settings are for
-/// read_settings(). Throws Error with file and line for rows that are damaged, missing among others
-/// or without a triangle target.
+/// Reads run.json and frames.csv of a recording, a killed one too; its settings are for read_settings(). Throws Error
+/// with file and line for rows that are damaged, missing among others or without a triangle target.
 Replay read_replay(const std::filesystem::path& folder);
 
 /// Throws Error when the recording has more rows than its settings make frames.
@@ -41,7 +40,6 @@ struct ReplayComparison {
     std::string line;
 };
 
-ReplayComparison
-compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
+ReplayComparison compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
 
 } // namespace octant::ui::flight

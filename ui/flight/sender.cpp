@@ -1,4 +1,5 @@
 #include "ui/flight/sender.h"
+
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
@@ -35,8 +36,7 @@ namespace links = sim::links;
 
 const EarthFrame& frame_of(const Session& session) {
     return frame_or_at_zero(
-        session.simulation().is_live() ? session.simulation().source().frame()
-                                       : session.world().ground_frame.get());
+        session.simulation().is_live() ? session.simulation().source().frame() : session.world().ground_frame.get());
 }
 
 /// Microseconds as a clock that wraps around.
@@ -45,8 +45,8 @@ std::uint32_t ticks_at(double time_s) {
     return static_cast<std::uint32_t>(std::llround(time_s * per_second) & 0xffffffffLL);
 }
 
-/// An aircraft's motion as packets have it: geodetic by the session's place on the earth, or around
-/// 0 N, 0 E where its ground has none.
+/// An aircraft's motion as packets have it: geodetic by the session's place on the earth, or around 0 N, 0 E where its
+/// ground has none.
 links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     const glm::dvec3& at_m = state.position_m;
     const EarthFrame& frame = frame_of(session);
@@ -59,21 +59,18 @@ links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
         fix.above_ground_m = at_m.z - *ground_m;
     }
     fix.attitude = euler_from_body_to_world(state.body_to_world);
-    fix.velocity_ned_mps =
-        glm::dvec3(state.velocity_mps.y, state.velocity_mps.x, -state.velocity_mps.z);
+    fix.velocity_ned_mps = glm::dvec3(state.velocity_mps.y, state.velocity_mps.x, -state.velocity_mps.z);
     fix.ticks = ticks_at(state.time_s);
     fix = links::with_rotated_axes(fix, -frame.place_of(place).north_bearing_rad);
     fix.attitude.heading_rad = wrapped_to_two_pi(fix.attitude.heading_rad);
     return fix;
 }
 
-/// The same of an aircraft in the session's last picture; nothing for one that nobody flies or that
-/// receivers would not believe.
+/// The same of an aircraft in the session's last picture; nothing for one that nobody flies or that receivers would not
+/// believe.
 std::optional<links::Fix> flown_fix(const Session& session, std::size_t aircraft) {
     const Simulation& simulation = session.simulation();
-    if (simulation.is_live() && !simulation.source().is_flown(aircraft)) {
-        return std::nullopt;
-    }
+    if (simulation.is_live() && !simulation.source().is_flown(aircraft)) { return std::nullopt; }
     const links::Fix fix = fix_of(session, session.states()[aircraft]);
     return links::error_of_fix(fix) == links::PacketError::None ? std::optional(fix) : std::nullopt;
 }
@@ -87,11 +84,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t max_entities = 48; // of one packet that receivers take
-constexpr int max_consecutive_missed = 5;    ///< frames, then a channel is not waited for
+constexpr std::size_t max_entities = 48;  // of one packet that receivers take
+constexpr int max_consecutive_missed = 5; ///< frames, then a channel is not waited for
 
-links::CigiEntityControl
-entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
+links::CigiEntityControl entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
     links::CigiEntityControl entity;
     entity.entity = static_cast<std::uint16_t>(number);
     entity.state = flown_fix(session, number) ? 1 : 0;
@@ -101,13 +97,10 @@ entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
     return entity;
 }
 
-/// How an entity goes on from this picture on: by its fix in this one, and by its states in the one
-/// before and in this one.
+/// How an entity goes on from this picture on: by its fix in this one, and by its states in the one before and in this
+/// one.
 links::CigiRateControl rate_of(
-    std::size_t number,
-    const links::Fix& fix,
-    const sim::AircraftState& before,
-    const sim::AircraftState& now) {
+    std::size_t number, const links::Fix& fix, const sim::AircraftState& before, const sim::AircraftState& now) {
     links::CigiRateControl rate;
     rate.entity = static_cast<std::uint16_t>(number);
     rate.mps = fix.velocity_ned_mps.value_or(glm::dvec3(0.0));
@@ -123,8 +116,7 @@ links::CigiRateControl rate_of(
 /// The camera from the first aircraft, along and about its body axes.
 links::CigiViewControl cigi_view_control_of(const scene::Camera& camera, const sim::AircraftState& aircraft) {
     const glm::dquat world_to_body = glm::conjugate(aircraft.body_to_world);
-    const glm::dquat turned =
-        world_to_body * camera.view_to_world * glm::conjugate(scene::body_from_view());
+    const glm::dquat turned = world_to_body * camera.view_to_world * glm::conjugate(scene::body_from_view());
     links::CigiViewControl view;
     view.offset_m = world_to_body * (camera.eye_m - aircraft.position_m);
     view.angles = euler_from_body_to_world(glm::normalize(body_to_world_from_euler({}) * turned));
@@ -155,8 +147,7 @@ void CigiChannels::add(const std::string& target) {
     }
     const Channel channel{links::peer_from_text("--send", peer)};
     if (socket_ && own_port != own_port_) {
-        throw Error(fmt::format(
-            "--send: expected one own port for all channels, got '{}'", printable(target)));
+        throw Error(fmt::format("--send: expected one own port for all channels, got '{}'", printable(target)));
     }
     if (!socket_) {
         constexpr std::uint32_t loopback_net = 127;
@@ -168,8 +159,8 @@ void CigiChannels::add(const std::string& target) {
     channels_.push_back(channel);
 }
 
-/// The channel that answers from there. Messages do not say which channel sends them: an address
-/// without a channel is the way back of the first one on that machine that does not answer yet.
+/// The channel that answers from there. Messages do not say which channel sends them: an address without a channel is
+/// the way back of the first one on that machine that does not answer yet.
 CigiChannels::Channel* CigiChannels::channel_of_source(const links::PacketSource& source) {
     auto channel = std::ranges::find(channels_, source, &Channel::peer);
     if (channel == channels_.end()) {
@@ -201,44 +192,37 @@ void CigiChannels::receive() {
     }
 }
 
-bool CigiChannels::has_answered(const Channel& channel) const {
-    return channel.shown_host_frame == host_frame_;
-}
+bool CigiChannels::has_answered(const Channel& channel) const { return channel.shown_host_frame == host_frame_; }
 
 std::vector<std::string> CigiChannels::wait_for_first_frames(const std::function<void()>& meanwhile) {
     const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
     const auto all_answer = [this] {
         receive();
-        return std::ranges::all_of(
-            channels_, [](const Channel& channel) { return channel.answer_source.has_value(); });
+        return std::ranges::all_of(channels_, [](const Channel& channel) { return channel.answer_source.has_value(); });
     };
-    while (!channels_.empty() && !all_answer() && Clock::now() < end &&
-           !base::StopSignals::received()) {
+    while (!channels_.empty() && !all_answer() && Clock::now() < end && !base::StopSignals::received()) {
         meanwhile();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     std::vector<std::string> lines;
     for (const Channel& channel : channels_) {
         if (!channel.answer_source) {
-            lines.push_back(fmt::format(
-                "{}: no Start of Frame came to port {}; it is not waited for",
-                links::text_of(channel.peer),
-                own_port_));
+            lines.push_back(fmt::format("{}: no Start of Frame came to port {}; it is not waited for",
+                links::text_of(channel.peer), own_port_));
         }
     }
     return lines;
 }
 
-std::vector<std::byte>
-CigiChannels::message_for(const Session& session, std::uint32_t last_ig_frame) const {
+std::vector<std::byte> CigiChannels::message_for(const Session& session, std::uint32_t last_ig_frame) const {
     constexpr double second_in_ticks = 1e5;
     const auto states = session.states();
     links::CigiIgControl control;
     control.mode = links::CigiMode::Operate;
     control.timestamp_valid = true;
     control.host_frame = host_frame_;
-    control.timestamp = static_cast<std::uint32_t>(
-        std::llround(states.front().time_s * second_in_ticks) & 0xffffffffLL);
+    control.timestamp =
+        static_cast<std::uint32_t>(std::llround(states.front().time_s * second_in_ticks) & 0xffffffffLL);
     control.last_ig_frame = last_ig_frame;
     links::WireWriter message(links::ByteOrder::Big);
     links::add_ig_control(message, control);
@@ -248,16 +232,13 @@ CigiChannels::message_for(const Session& session, std::uint32_t last_ig_frame) c
         const bool was_there = previous_states_.size() == states.size();
         links::add_rate(message, rate_of(i, fix, was_there ? previous_states_[i] : states[i], states[i]));
     }
-    links::add_view_definition(
-        message, frustum_of(session.camera(), glm::dvec2(session.settings().view.size_px)));
+    links::add_view_definition(message, frustum_of(session.camera(), glm::dvec2(session.settings().view.size_px)));
     links::add_view_control(message, cigi_view_control_of(session.camera(), states.front()));
     return message.take();
 }
 
 void CigiChannels::send(const Session& session) {
-    if (channels_.empty()) {
-        return;
-    }
+    if (channels_.empty()) { return; }
     receive();
     ++host_frame_;
     for (Channel& channel : channels_) {
@@ -267,8 +248,7 @@ void CigiChannels::send(const Session& session) {
     previous_states_.assign(session.states().begin(), session.states().end());
 }
 
-/// To those that are not there, and to those behind relays, of which it is not known whose answers
-/// are whose.
+/// To those that are not there, and to those behind relays, of which it is not known whose answers are whose.
 void CigiChannels::resend() {
     for (Channel& channel : channels_) {
         const bool is_relayed = channel.answer_source && *channel.answer_source != channel.peer;
@@ -287,9 +267,7 @@ bool CigiChannels::all_have_answered(int max_missed) const {
 }
 
 int CigiChannels::wait_for_pictures() {
-    if (channels_.empty()) {
-        return -1;
-    }
+    if (channels_.empty()) { return -1; }
     constexpr double max_wait_s = 1.0;
     constexpr double max_wait_after_miss_s = 0.1;
     constexpr double min_again_s = 0.02;
@@ -329,11 +307,8 @@ std::vector<std::string> CigiChannels::lines() const {
     std::vector<std::string> lines;
     for (const Channel& channel : channels_) {
         if (channel.missed > 0 || channel.resent > 0) {
-            lines.push_back(fmt::format(
-                "{}: {} of {} frames not shown in time; {} messages sent again",
-                links::text_of(channel.answer_source.value_or(channel.peer)),
-                channel.missed,
-                host_frame_,
+            lines.push_back(fmt::format("{}: {} of {} frames not shown in time; {} messages sent again",
+                links::text_of(channel.answer_source.value_or(channel.peer)), channel.missed, host_frame_,
                 channel.resent));
         }
     }
@@ -347,8 +322,7 @@ namespace {
 /// Of "tacview:PORT" or "tacview:ADDRESS:PORT".
 links::PacketSource reader_address(const std::string& target) {
     const std::string rest = target.substr(target.find(':') + 1);
-    return links::peer_from_text(
-        "--send", rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
+    return links::peer_from_text("--send", rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
 }
 
 /// Text as a property's value: no commas and no ends of lines of its own.
@@ -363,17 +337,13 @@ std::string acmi_value(const std::string& text) {
 
 /// What Tacview is told of all aircraft before they move.
 std::string tacview_head(const Session& session) {
-    std::string head = fmt::format(
-        "FileType=text/acmi/tacview\nFileVersion=2.2\n0,ReferenceTime=2026-01-01T00:00:00Z\n"
-        "0,DataSource=Octant\n0,Title={}\n",
+    std::string head = fmt::format("FileType=text/acmi/tacview\nFileVersion=2.2\n0,ReferenceTime=2026-01-01T00:00:00Z\n"
+                                   "0,DataSource=Octant\n0,Title={}\n",
         acmi_value(session.world().flight.title));
     for (std::size_t i = 0; i < session.world().scene.aircraft.size(); ++i) {
         const std::string& shape = session.world().scene.model_of(i).polygons.name;
         const sim::AircraftKind* const kind = sim::find_aircraft_kind(shape);
-        head += fmt::format(
-            "{:x},Type={},Name={},Color=Blue\n",
-            i + 1,
-            kind == nullptr ? "Air" : kind->tacview_type,
+        head += fmt::format("{:x},Type={},Name={},Color=Blue\n", i + 1, kind == nullptr ? "Air" : kind->tacview_type,
             kind == nullptr ? acmi_value(shape) : kind->tacview_name);
     }
     return head;
@@ -394,13 +364,12 @@ Sender::Sender(const std::vector<std::string>& targets) {
             continue;
         }
         const auto packet_format = text.starts_with("fdm:")      ? std::optional(PacketFormat::Fdm)
-                          : text.starts_with("xplane:") ? std::optional(PacketFormat::XPlane)
-                          : text.starts_with("dis:")    ? std::optional(PacketFormat::Dis)
-                                                        : std::nullopt;
+                                   : text.starts_with("xplane:") ? std::optional(PacketFormat::XPlane)
+                                   : text.starts_with("dis:")    ? std::optional(PacketFormat::Dis)
+                                                                 : std::nullopt;
         if (!packet_format) {
-            throw Error(fmt::format(
-                "--send: expected fdm:HOST:PORT, xplane:HOST:PORT, dis:HOST:PORT, cigi:HOST:PORT "
-                "or tacview:PORT, got '{}'",
+            throw Error(fmt::format("--send: expected fdm:HOST:PORT, xplane:HOST:PORT, dis:HOST:PORT, cigi:HOST:PORT "
+                                    "or tacview:PORT, got '{}'",
                 printable(target)));
         }
         const std::string peer = target.substr(target.find(':') + 1);
@@ -416,9 +385,7 @@ void Sender::send_fdm(const Target& target, const links::Fix& fix) {
 }
 
 void Sender::send_xplane(const Target& target, const links::Fix& fix, double time_s) {
-    if (!origin_) {
-        origin_ = {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m};
-    }
+    if (!origin_) { origin_ = {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m}; }
     socket_.front().send(target.peer, links::encode_xplane(fix, *origin_, time_s));
 }
 
@@ -439,19 +406,13 @@ void Sender::send_dis(const Target& target, std::size_t number, links::Fix fix, 
 std::vector<std::string> Sender::wait_for_channels(const Session& session) {
     send_header(session);
     return channels_.wait_for_first_frames([this] {
-        for (links::TacviewServer& server : tacview_) {
-            server.send({});
-        }
+        for (links::TacviewServer& server : tacview_) { server.send({}); }
     });
 }
 
 void Sender::send_header(const Session& session) {
-    if (tacview_.empty() || std::exchange(header_is_sent_, true)) {
-        return;
-    }
-    for (links::TacviewServer& server : tacview_) {
-        server.set_head(tacview_head(session));
-    }
+    if (tacview_.empty() || std::exchange(header_is_sent_, true)) { return; }
+    for (links::TacviewServer& server : tacview_) { server.set_head(tacview_head(session)); }
 }
 
 void Sender::send_tacview(const Session& session) {
@@ -460,37 +421,23 @@ void Sender::send_tacview(const Session& session) {
     std::string text = fmt::format("#{:.3f}\n", states.front().time_s);
     for (std::size_t i = 0; i < states.size(); ++i) {
         const std::optional<links::Fix> fix = flown_fix(session, i);
-        if (!fix) {
-            continue;
-        }
-        text += fmt::format(
-            "{:x},T={:.7f}|{:.7f}|{:.2f}|{:.2f}|{:.2f}|{:.2f}\n",
-            i + 1,
-            fix->longitude_deg,
-            fix->latitude_deg,
-            fix->altitude_m,
-            deg_from_rad(fix->attitude.roll_rad),
-            deg_from_rad(fix->attitude.pitch_rad),
-            deg_from_rad(fix->attitude.heading_rad));
+        if (!fix) { continue; }
+        text += fmt::format("{:x},T={:.7f}|{:.7f}|{:.2f}|{:.2f}|{:.2f}|{:.2f}\n", i + 1, fix->longitude_deg,
+            fix->latitude_deg, fix->altitude_m, deg_from_rad(fix->attitude.roll_rad),
+            deg_from_rad(fix->attitude.pitch_rad), deg_from_rad(fix->attitude.heading_rad));
     }
-    for (links::TacviewServer& server : tacview_) {
-        server.send(text);
-    }
+    for (links::TacviewServer& server : tacview_) { server.send(text); }
 }
 
 void Sender::send(const Session& session) {
-    if (!tacview_.empty()) {
-        send_tacview(session);
-    }
+    if (!tacview_.empty()) { send_tacview(session); }
     channels_.send(session);
     for (const Target& target : targets_) {
         const auto states = session.states();
         const std::size_t count = target.packet_format == PacketFormat::Dis ? states.size() : 1;
         for (std::size_t i = 0; i < count; ++i) {
             const std::optional<links::Fix> fix = flown_fix(session, i);
-            if (!fix) {
-                continue;
-            }
+            if (!fix) { continue; }
             if (target.packet_format == PacketFormat::Fdm) {
                 send_fdm(target, *fix);
             } else if (target.packet_format == PacketFormat::XPlane) {

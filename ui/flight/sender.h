@@ -17,33 +17,30 @@
 
 namespace octant::ui::flight {
 
-/// Image generators that show what a session shows, as their CIGI 3.3 host: all aircraft as
-/// entities by their numbers (48 at most, as many as one packet takes) with their rates, their
-/// shapes as types (1 = the first aircraft's), and the camera as view 0 of entity 0 with its
-/// frustum.
+/// Image generators that show what a session shows, as their CIGI 3.3 host: all aircraft as entities by their numbers
+/// (48 at most, as many as one packet takes) with their rates, their shapes as types (1 = the first aircraft's), and
+/// the camera as view 0 of entity 0 with its frustum.
 class CigiChannels {
 public:
     /// Where Start of Frame comes in, unless a channel says otherwise.
     static constexpr std::uint16_t default_own_port = 8005;
 
-    /// Adds "cigi:HOST:PORT" or "cigi:HOST:PORT:OWN", OWN the port on which they answer. Throws
-    /// Error.
+    /// Adds "cigi:HOST:PORT" or "cigi:HOST:PORT:OWN", OWN the port on which they answer. Throws Error.
     void add(const std::string& target);
 
     bool empty() const { return channels_.empty(); }
 
-    /// Waits until each has sent a Start of Frame, for ten seconds at most, and does `meanwhile`
-    /// again and again. Returns a line for each that has not.
+    /// Waits until each has sent a Start of Frame, for ten seconds at most, and does `meanwhile` again and again.
+    /// Returns a line for each that has not.
     std::vector<std::string> wait_for_first_frames(const std::function<void()>& meanwhile);
 
     /// Sends the last picture to all. Does not wait.
     void send(const Session& session);
 
-    /// Waits until all that have ever answered show what was sent last, for a second at most, and
-    /// sends it again meanwhile, in case that it was lost. After a second without it a channel is
-    /// waited for a tenth of a second a frame, after five such frames no more until it answers.
-    /// Returns how many host frames the channel that is the furthest behind is behind, those among
-    /// them that are not waited for; -1 where none has ever answered.
+    /// Waits until all that have ever answered show what was sent last, for a second at most, and sends it again
+    /// meanwhile, in case that it was lost. After a second without it a channel is waited for a tenth of a second a
+    /// frame, after five such frames no more until it answers. Returns how many host frames the channel that is the
+    /// furthest behind is behind, those among them that are not waited for; -1 where none has ever answered.
     int wait_for_pictures();
 
     /// What happened to the frames of each channel, a line each; none where all were shown at once.
@@ -52,8 +49,8 @@ public:
 private:
     struct Channel {
         sim::links::PacketSource peer;
-        /// Where its answers come from: another port than `peer` where a relay lies between.
-        /// Nothing = it has never answered.
+        /// Where its answers come from: another port than `peer` where a relay lies between. Nothing = it has never
+        /// answered.
         std::optional<sim::links::PacketSource> answer_source = {};
         /// The host frame that it shows.
         std::uint32_t shown_host_frame = 0;
@@ -85,22 +82,20 @@ private:
     std::vector<sim::AircraftState> previous_states_;
 };
 
-/// Sends what pictures show to other programs: the first aircraft as FlightGear's native FDM
-/// (version 24) or X-Plane's DATA, all of them as DIS entity states, as Tacview's real-time
-/// telemetry, or with the camera to image generators of CIGI.
+/// Sends what pictures show to other programs: the first aircraft as FlightGear's native FDM (version 24) or X-Plane's
+/// DATA, all of them as DIS entity states, as Tacview's real-time telemetry, or with the camera to image generators of
+/// CIGI.
 class Sender {
 public:
-    /// Targets as "fdm:HOST:PORT", "xplane:HOST:PORT", "dis:HOST:PORT", as CigiChannels has them
-    /// or, for readers to come, "tacview:PORT" on 127.0.0.1 or "tacview:ADDRESS:PORT". Opens what
-    /// is needed. Throws Error.
+    /// Targets as "fdm:HOST:PORT", "xplane:HOST:PORT", "dis:HOST:PORT", as CigiChannels has them or, for readers to
+    /// come, "tacview:PORT" on 127.0.0.1 or "tacview:ADDRESS:PORT". Opens what is needed. Throws Error.
     explicit Sender(const std::vector<std::string>& targets);
 
-    /// Waits for the channels of CIGI as CigiChannels::wait_for_first_frames() does; readers of Tacview's
-    /// telemetry are answered meanwhile. To be called before the first picture is sent.
+    /// Waits for the channels of CIGI as CigiChannels::wait_for_first_frames() does; readers of Tacview's telemetry are
+    /// answered meanwhile. To be called before the first picture is sent.
     std::vector<std::string> wait_for_channels(const Session& session);
 
-    /// Sends the states of the session's last picture. Does not wait; what the network does not
-    /// take is lost.
+    /// Sends the states of the session's last picture. Does not wait; what the network does not take is lost.
     void send(const Session& session);
 
     /// As CigiChannels::wait_for_pictures().

@@ -1,4 +1,5 @@
 #include "ui/flight/session.h"
+
 #include "sim/base/error.h"
 #include "ui/base/off_cpu_timer.h"
 #include "ui/flight/make_renderer.h"
@@ -20,8 +21,8 @@ namespace octant::ui::flight {
 
 // Load management: the ground's triangle budget follows the frame time.
 //
-// Source: the load management of image generators (overload control by smoothed frame time with a
-// dead band); no paper is followed.
+// Source: the load management of image generators (overload control by smoothed frame time with a dead band); no paper
+// is followed.
 //
 // - The stress is smoothed by a first-order filter. Outside the dead band the budget glides to
 //   where the smoothed stress is in the band's middle, twice as fast as the filter but in small
@@ -34,9 +35,7 @@ namespace {
 
 using Trend = StressState::Trend;
 
-double middle_of_band(const StressSettings& settings) {
-    return 0.5 * (settings.min_stress + settings.max_stress);
-}
+double middle_of_band(const StressSettings& settings) { return 0.5 * (settings.min_stress + settings.max_stress); }
 
 double time_constant_frames(const StressSettings& settings) {
     return std::max(1000.0 * settings.filter_s / settings.target_frame_ms, settings.filter_frames);
@@ -49,29 +48,23 @@ double filtered(double before, const StressSettings& settings, double stress) {
 Trend next_trend(Trend trend, const StressSettings& settings, double stress, bool budget_used) {
     const double above_middle = stress - middle_of_band(settings);
     const bool goes_on = std::abs(above_middle) > settings.settled_stress;
-    if (stress > settings.max_stress ||
-        (trend == Trend::Falling && goes_on && above_middle > 0.0)) {
+    if (stress > settings.max_stress || (trend == Trend::Falling && goes_on && above_middle > 0.0)) {
         return Trend::Falling;
     }
-    const bool has_room = stress < settings.min_stress ||
-                          (trend == Trend::Rising && goes_on && above_middle < 0.0);
+    const bool has_room = stress < settings.min_stress || (trend == Trend::Rising && goes_on && above_middle < 0.0);
     return has_room && budget_used ? Trend::Rising : Trend::Held;
 }
 
 /// What the target is multiplied with.
 double change_of_target(const StressSettings& settings, double stress) {
     const double share_of_way = 1.0 - std::exp(-2.0 / time_constant_frames(settings));
-    return std::clamp(
-        1.0 + share_of_way * (middle_of_band(settings) / stress - 1.0),
-        1.0 - settings.max_fall,
+    return std::clamp(1.0 + share_of_way * (middle_of_band(settings) / stress - 1.0), 1.0 - settings.max_fall,
         1.0 + settings.max_rise);
 }
 
 } // namespace
 
-int StressState::triangles() const {
-    return static_cast<int>(std::lround(target));
-}
+int StressState::triangles() const { return static_cast<int>(std::lround(target)); }
 
 StressSettings stress_settings(const visuals::scene::Settings& settings, double rate_hz) {
     const int budget = visuals::scene::triangle_target(settings);
@@ -97,15 +90,14 @@ StressState with_target(const StressState& state, int triangles) {
     return other;
 }
 
-StressState
-next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost) {
-    assert(settings.target_frame_ms > 0.0 && settings.min_triangles >= 1 && settings.max_triangles >= settings.min_triangles);
+StressState next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost) {
+    assert(settings.target_frame_ms > 0.0 && settings.min_triangles >= 1 &&
+           settings.max_triangles >= settings.min_triangles);
     assert(settings.min_stress > 0.0 && settings.max_stress >= settings.min_stress);
     assert(settings.max_counted_stress > settings.max_stress && settings.filter_frames >= 1.0);
     assert(cost.frame_ms >= 0.0);
     const double share_used = cost.frame_ms / settings.target_frame_ms;
-    const double stress = filtered(
-        state.expected_stress, settings, std::min(share_used, settings.max_counted_stress));
+    const double stress = filtered(state.expected_stress, settings, std::min(share_used, settings.max_counted_stress));
     const bool used = cost.triangles >= settings.used_share * state.target;
     StressState next;
     next.stress = filtered(state.stress.value_or(share_used), settings, share_used);
@@ -145,40 +137,29 @@ std::optional<int> QualityController::smooth_target(int frame) const {
         const int replayed = replayed_targets_[number].smooth_target;
         return replayed < 0 ? std::nullopt : std::optional(replayed);
     }
-    if (!adapt_.shading) {
-        return std::nullopt;
-    }
+    if (!adapt_.shading) { return std::nullopt; }
     return shading_ ? shading_->smooth : 0;
 }
 
 double QualityController::add_frame(const FrameMeasurement& outcome) {
     add_shading_frame(outcome);
-    if (!adapt_.terrain) {
-        return outcome.frame_ms * rate_hz_ / 1000.0;
-    }
+    if (!adapt_.terrain) { return outcome.frame_ms * rate_hz_ / 1000.0; }
     if (!outcome.warm_up) {
-        stress_ =
-            next_state(stress_, stress_settings_, {outcome.frame_ms, outcome.terrain_triangles});
+        stress_ = next_state(stress_, stress_settings_, {outcome.frame_ms, outcome.terrain_triangles});
     }
     return stress_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 void QualityController::add_shading_frame(const FrameMeasurement& outcome) {
-    if (!adapt_.shading || outcome.warm_up || outcome.smoothable_polygons == 0) {
-        return;
-    }
+    if (!adapt_.shading || outcome.warm_up || outcome.smoothable_polygons == 0) { return; }
     if (!shading_) {
         shading_ = shading::initial_shading_state(outcome.smoothable_polygons);
         return;
     }
     shading::ShadingControllerSettings control;
     control.target_frame_ms = 1000.0 / rate_hz_;
-    shading_ = shading::update_shading(
-        *shading_,
-        control,
-        {outcome.frame_ms,
-         outcome.smoothable_polygons - outcome.smooth_polygons,
-         outcome.smooth_polygons},
+    shading_ = shading::update_shading(*shading_, control,
+        {outcome.frame_ms, outcome.smoothable_polygons - outcome.smooth_polygons, outcome.smooth_polygons},
         outcome.smoothable_polygons);
 }
 
@@ -193,9 +174,7 @@ void FrameRenderer::load_models(PictureContent content) {
         return;
     }
     std::vector<scene::ModelBuffers> buffers;
-    for (const auto& model : scene_.models) {
-        buffers.push_back(model->buffers);
-    }
+    for (const auto& model : scene_.models) { buffers.push_back(model->buffers); }
     renderer_.load_models(buffers);
 }
 
@@ -212,8 +191,7 @@ void FrameRenderer::end() {
 }
 
 planning::PlanRequest FrameRenderer::request(const FrameState& now, std::optional<int> smooth) const {
-    return {
-        .camera = now.camera,
+    return {.camera = now.camera,
         .states = now.states,
         .triangle_target = now.triangle_target,
         .smooth = {.polygons = smooth, .share = std::nullopt},
@@ -238,9 +216,7 @@ planning::PlanCounts FrameRenderer::plan(
 
 void FrameRenderer::advance_without_drawing(const FrameState& now, std::optional<int> smooth) {
     planner_->advance_without_drawing(request(now, smooth));
-    if (inset_) {
-        inset_->advance_without_drawing(now.inset_camera, now.states, now.articulated_parts);
-    }
+    if (inset_) { inset_->advance_without_drawing(now.inset_camera, now.states, now.articulated_parts); }
 }
 
 void FrameRenderer::mesh_async(const FrameState& next) {
@@ -248,16 +224,12 @@ void FrameRenderer::mesh_async(const FrameState& next) {
         return renderer_.begin_on_idle_thread(std::move(work));
     };
     planner_->begin_next_mesh(next.camera, next.triangle_target, on_idle_thread);
-    if (inset_) {
-        inset_->begin_next_mesh(next.inset_camera, on_idle_thread);
-    }
+    if (inset_) { inset_->begin_next_mesh(next.inset_camera, on_idle_thread); }
 }
 
 void FrameRenderer::draw_plans() {
     renderer_.draw(*plan_);
-    if (inset_plan_ != nullptr) {
-        renderer_.draw_inset(*inset_plan_, inset_->rectangle());
-    }
+    if (inset_plan_ != nullptr) { renderer_.draw_inset(*inset_plan_, inset_->rectangle()); }
 }
 
 void FrameRenderer::draw() {
@@ -271,20 +243,14 @@ void FrameRenderer::show() {
         renderer_.finish_and_read(picture_);
         return;
     }
-    if (reads_before_presenting_) {
-        renderer_.finish_and_copy(picture_);
-    }
+    if (reads_before_presenting_) { renderer_.finish_and_copy(picture_); }
     presenter_(renderer_);
 }
 
 void FrameRenderer::read(const FrameState& now, std::optional<int> smooth) {
-    if (picture_is_read_) {
-        return;
-    }
+    if (picture_is_read_) { return; }
     if (renderer_.is_drawn_to_window()) {
-        if (plan_ == nullptr) {
-            plan(now, smooth, nullptr);
-        }
+        if (plan_ == nullptr) { plan(now, smooth, nullptr); }
         renderer_.set_window_target(glm::ivec2(0));
         draw_plans();
     }
@@ -292,23 +258,16 @@ void FrameRenderer::read(const FrameState& now, std::optional<int> smooth) {
     picture_is_read_ = true;
 }
 
-void FrameRenderer::wait_for_first_view() {
-    planner_->wait();
-}
+void FrameRenderer::wait_for_first_view() { planner_->wait(); }
 
 void FrameRenderer::wait() {
     wait_for_first_view();
-    if (inset_) {
-        inset_->wait();
-    }
+    if (inset_) { inset_->wait(); }
 }
 
-void FrameRenderer::prepare_renderer(
-    const scene::ViewSettings& view, const scene::GroundTexture* texture) {
+void FrameRenderer::prepare_renderer(const scene::ViewSettings& view, const scene::GroundTexture* texture) {
     renderer_.resize(view.size_px, view.samples);
-    if (texture == nullptr) {
-        return;
-    }
+    if (texture == nullptr) { return; }
     try {
         renderer_.load_ground_texture(*texture);
     } catch (const Error&) {
@@ -317,17 +276,13 @@ void FrameRenderer::prepare_renderer(
     }
 }
 
-/// Gives the renderer its size back and draws the last picture once more. A driver that has no
-/// memory any more for what it held before ends it all.
+/// Gives the renderer its size back and draws the last picture once more. A driver that has no memory any more for what
+/// it held before ends it all.
 void FrameRenderer::restore_window_size() {
     try {
         renderer_.resize(settings_.view.size_px, settings_.view.samples);
-    } catch (const Error& fault) {
-        throw std::runtime_error(fault.what());
-    }
-    if (plan_ != nullptr) {
-        draw_plans();
-    }
+    } catch (const Error& fault) { throw std::runtime_error(fault.what()); }
+    if (plan_ != nullptr) { draw_plans(); }
 }
 
 void FrameRenderer::apply_settings(bool other_control, const scene::Camera& now) {
@@ -340,15 +295,11 @@ void FrameRenderer::update_ground(bool other_control, const scene::Camera& now) 
     std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
     const landscape::GroundMesher* const before = mesher.get();
     mesher = landscape::reuse_or_make_mesher(
-        std::move(mesher),
-        *scene_.ground,
-        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
+        std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
     const bool settles = other_control || mesher.get() != before;
     planner_.reset();
     planner_.emplace(scene_, settings_, std::move(mesher));
-    if (settles) {
-        planner_->reset_detail(now);
-    }
+    if (settles) { planner_->reset_detail(now); }
 }
 
 void FrameRenderer::update_inset() {
@@ -363,18 +314,12 @@ void FrameRenderer::update_inset() {
 
 void FrameRenderer::set_sun(const scene::Camera& now) {
     plan_ = nullptr;
-    if (!planner_->set_sun()) {
-        planner_->reset_detail(now);
-    }
-    if (inset_) {
-        inset_->set_sun(settings_);
-    }
+    if (!planner_->set_sun()) { planner_->reset_detail(now); }
+    if (inset_) { inset_->set_sun(settings_); }
 }
 
 void FrameRenderer::apply_look() {
-    if (inset_) {
-        inset_->apply_look(settings_);
-    }
+    if (inset_) { inset_->apply_look(settings_); }
 }
 
 namespace landscape = visuals::landscape;
@@ -383,35 +328,27 @@ namespace scene = visuals::scene;
 
 namespace {
 
-std::unique_ptr<scene::Renderer>
-given_or_make_renderer(std::unique_ptr<scene::Renderer> given, const settings::RunSettings& settings) {
+std::unique_ptr<scene::Renderer> given_or_make_renderer(
+    std::unique_ptr<scene::Renderer> given, const settings::RunSettings& settings) {
     return given ? std::move(given) : make_renderer(settings);
 }
 
 /// The world of the settings, loaded unless one is given that differs in nothing but its view.
 world::World loaded_or_load_world(
     std::optional<world::World> given, const settings::RunSettings& settings, world::RenderDevice by) {
-    if (!given) {
-        return world::load_world(settings, by);
-    }
+    if (!given) { return world::load_world(settings, by); }
     given->points = world::fixed_points(settings, *given);
     return std::move(*given);
 }
 
 } // namespace
 
-Session::Session(
-    const settings::RunSettings& settings,
-    PictureContent content,
-    std::unique_ptr<scene::Renderer> renderer,
-    std::optional<world::World> loaded)
-    : settings_(settings)
-    , renderer_(given_or_make_renderer(std::move(renderer), settings))
-    , world_(loaded_or_load_world(std::move(loaded), settings, render_device()))
-    , pictures_(*renderer_, world_.scene, settings_)
-    , times_(world::picture_times_of(settings_, world_.flight))
-    , ground_height_(
-          [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
+Session::Session(const settings::RunSettings& settings, PictureContent content,
+    std::unique_ptr<scene::Renderer> renderer, std::optional<world::World> loaded)
+    : settings_(settings), renderer_(given_or_make_renderer(std::move(renderer), settings)),
+      world_(loaded_or_load_world(std::move(loaded), settings, render_device())),
+      pictures_(*renderer_, world_.scene, settings_), times_(world::picture_times_of(settings_, world_.flight)),
+      ground_height_([this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     settings_ = world::with_sun_at_time(settings_, world_.ground_place);
     pictures_.load_models(content);
     if (content == PictureContent::World && world_.scene.ground_texture) {
@@ -429,9 +366,7 @@ world::RenderDevice Session::render_device() const {
 /// Frees the texels of the texture, which the renderer has.
 void Session::release_texture_memory() {
     std::shared_ptr<const scene::GroundTexture>& texture = world_.scene.ground_texture;
-    if (texture) {
-        texture = std::make_shared<const scene::GroundTexture>(landscape::without_texels(*texture));
-    }
+    if (texture) { texture = std::make_shared<const scene::GroundTexture>(landscape::without_texels(*texture)); }
 }
 
 void Session::start_flight() {
@@ -439,9 +374,7 @@ void Session::start_flight() {
     quality_controller_.begin(settings_, rate_hz());
     begin_at(times_.times_s.front());
     pictures_.begin(camera_of(settings_));
-    if (source_ != nullptr) {
-        simulation_->set_state_source(*source_);
-    }
+    if (source_ != nullptr) { simulation_->set_state_source(*source_); }
 }
 
 void Session::set_state_source(StateSource& source) {
@@ -461,16 +394,9 @@ void Session::replay(std::vector<QualityTargets> quality_targets) {
 
 scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
     scene::Subject subject = world_.scene.model_of(0).subject;
-    if (!simulation_->is_live()) {
-        subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
-    }
+    if (!simulation_->is_live()) { subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m); }
     return scene::camera_of(
-        settings.view,
-        simulation_->states().front(),
-        simulation_->rig(),
-        subject,
-        world_.points,
-        ground_height_);
+        settings.view, simulation_->states().front(), simulation_->rig(), subject, world_.points, ground_height_);
 }
 
 /// Chooses the cameras for the time that the simulation has reached.
@@ -478,15 +404,14 @@ void Session::set_cameras(FrameState& frame_state) const {
     frame_state.camera = camera_of(settings_);
     if (source_ != nullptr) {
         const glm::dvec2 size_px(settings_.view.size_px);
-        frame_state.camera =
-            source_->camera(simulation_->states(), frame_state.camera, size_px.x / size_px.y);
+        frame_state.camera = source_->camera(simulation_->states(), frame_state.camera, size_px.x / size_px.y);
     }
     if (const settings::RunSettings* inset = pictures_.inset_settings()) {
         const glm::dvec2 size_px(inset->view.size_px);
         frame_state.inset_camera = camera_of(*inset);
         if (source_ != nullptr) {
-            frame_state.inset_camera = source_->inset_camera(
-                simulation_->states(), frame_state.inset_camera, size_px.x / size_px.y);
+            frame_state.inset_camera =
+                source_->inset_camera(simulation_->states(), frame_state.inset_camera, size_px.x / size_px.y);
         }
     }
 }
@@ -507,11 +432,9 @@ void Session::simulate_to(double time_s, int frame, FrameState& frame_state) {
 report::FrameRecord Session::draw(int frame) {
     const auto number = static_cast<std::size_t>(frame);
     const bool last = number + 1 == times_.times_s.size();
-    const report::FrameRecord record = render_frame(
-        frame, times_.times_s[number], last ? std::optional<double>() : times_.times_s[number + 1]);
-    if (last) {
-        simulation_->advance_to(std::max(times_.last_step_s, record.sim_time_s));
-    }
+    const report::FrameRecord record =
+        render_frame(frame, times_.times_s[number], last ? std::optional<double>() : times_.times_s[number + 1]);
+    if (last) { simulation_->advance_to(std::max(times_.last_step_s, record.sim_time_s)); }
     return record;
 }
 
@@ -541,9 +464,7 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
 }
 
 report::FrameRecord Session::render_frame(int frame, double time_s, std::optional<double> next_s) {
-    if (frame == 0) {
-        since_first_frame_ = base::Stopwatch();
-    }
+    if (frame == 0) { since_first_frame_ = base::Stopwatch(); }
     report::FrameRecord record;
     record.frame = frame;
     record.warm_up = frame < settings_.time.warm_up;
@@ -610,17 +531,13 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
     record.error_px = counts.ground.error_px;
     record.triangle_change = record.frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
-    record.stress = quality_controller_.add_frame(
-        {record.frame_ms,
-         record.terrain_triangles,
-         counts.smoothable_polygons,
-         counts.smooth_polygons,
-         record.warm_up});
+    record.stress = quality_controller_.add_frame({record.frame_ms, record.terrain_triangles,
+        counts.smoothable_polygons, counts.smooth_polygons, record.warm_up});
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
     record.eye_m = current_.camera.eye_m;
     record.aircraft_m = current_.states.front().position_m;
-    record.aircraft_agl_m = record.aircraft_m.z -
-                            ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
+    record.aircraft_agl_m =
+        record.aircraft_m.z - ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
 }
 
 std::uint64_t Session::hash_picture() {

@@ -37,8 +37,8 @@
 
 namespace octant::ui::flight {
 
-/// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of
-/// image generators, is the share of its time that a frame uses: frame_ms / target_frame_ms.
+/// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of image generators,
+/// is the share of its time that a frame uses: frame_ms / target_frame_ms.
 struct StressSettings {
     /// A frame's time, above zero.
     double target_frame_ms = 1000.0 / 60.0;
@@ -49,8 +49,8 @@ struct StressSettings {
     /// The budget is left alone while the stress is between these.
     double min_stress = 0.75;
     double max_stress = 0.90;
-    /// A longer frame counts as no more than this, so that one slow frame cannot push the filtered
-    /// stress from the middle of the band over its edge; above `max_stress`.
+    /// A longer frame counts as no more than this, so that one slow frame cannot push the filtered stress from the
+    /// middle of the band over its edge; above `max_stress`.
     double max_counted_stress = 2.0;
     /// The time constant of the filter, in simulated time.
     double filter_s = 0.5;
@@ -61,8 +61,8 @@ struct StressSettings {
     /// The share of the target that it may lose from frame to frame.
     double max_fall = 0.02;
     double max_rise = 0.005;
-    /// The target rises only while at least this share of it is drawn: a budget that nobody uses
-    /// says nothing of what it would cost.
+    /// The target rises only while at least this share of it is drawn: a budget that nobody uses says nothing of what
+    /// it would cost.
     double used_share = 0.9;
 };
 
@@ -75,8 +75,8 @@ struct StressState {
     Trend trend = Trend::Held;
     /// Filtered, with the last frame measured; nothing before the first.
     std::optional<double> stress;
-    /// What the control goes by: filtered too, but with long frames counted less and carried over
-    /// to each new target. At rest the same as `stress`.
+    /// What the control goes by: filtered too, but with long frames counted less and carried over to each new target.
+    /// At rest the same as `stress`.
     double expected_stress = 0.0;
 
     /// The target as a whole number.
@@ -101,8 +101,7 @@ StressState initial_state(double triangles, const StressSettings& settings);
 StressState with_target(const StressState& state, int triangles);
 
 /// State after a frame. Settings are as their comments demand (asserted).
-StressState
-next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost);
+StressState next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost);
 
 /// What a frame took and drew, as far as the next ones' decisions go by it.
 struct FrameMeasurement {
@@ -116,28 +115,26 @@ struct FrameMeasurement {
     bool warm_up = false;
 };
 
-/// Decides for each frame how many triangles of ground it aims at and how many polygons are smooth:
-/// as the settings say, by what earlier frames took where the settings let that follow the clock,
-/// or as a recording has it. Reads no clock itself, so that same outcomes give same decisions.
+/// Decides for each frame how many triangles of ground it aims at and how many polygons are smooth: as the settings
+/// say, by what earlier frames took where the settings let that follow the clock, or as a recording has it. Reads no
+/// clock itself, so that same outcomes give same decisions.
 class QualityController {
 public:
-    /// Forgets all outcomes and decides by these settings from now on; what is replayed stays.
-    /// `rate_hz`: frames a second that there is time for.
+    /// Forgets all outcomes and decides by these settings from now on; what is replayed stays. `rate_hz`: frames a
+    /// second that there is time for.
     void begin(const visuals::scene::Settings& settings, double rate_hz);
 
     /// From now on each frame is decided as it stands here, by its number, whatever the clock says.
     void replay(std::vector<QualityTargets> quality_targets) { replayed_targets_ = std::move(quality_targets); }
 
-    /// Triangles of ground that a frame aims at; below the number of replayed ones, if any
-    /// (asserted).
+    /// Triangles of ground that a frame aims at; below the number of replayed ones, if any (asserted).
     int triangle_target(int frame);
 
     /// Smooth polygons of a frame; nothing: as the settings' share says. Likewise.
     std::optional<int> smooth_target(int frame) const;
 
-    /// Learns from a frame. Returns its stress, the share of its time that it used: of this frame
-    /// alone, or filtered over several where the triangle target follows it. Not a number before
-    /// the first frame that counts.
+    /// Learns from a frame. Returns its stress, the share of its time that it used: of this frame alone, or filtered
+    /// over several where the triangle target follows it. Not a number before the first frame that counts.
     double add_frame(const FrameMeasurement& outcome);
 
     /// What `--adapt shading` has found out; nothing before the first frame that counts.
@@ -178,26 +175,20 @@ enum class PictureContent {
     PolygonIds
 };
 
-/// Makes the pictures of a run: plans a moment for the view and for the inset, has the renderer
-/// draw both, and reads the picture or hands it to whoever shows it. Knows nothing of how the
-/// moments come about.
+/// Makes the pictures of a run: plans a moment for the view and for the inset, has the renderer draw both, and reads
+/// the picture or hands it to whoever shows it. Knows nothing of how the moments come about.
 class FrameRenderer {
 public:
-    /// All three must outlive it; begin() before the first picture. Scene and settings may become
-    /// others: the function below that fits must be called then.
-    FrameRenderer(
-        visuals::scene::Renderer& renderer,
-        const visuals::planning::Scene& scene,
+    /// All three must outlive it; begin() before the first picture. Scene and settings may become others: the function
+    /// below that fits must be called then.
+    FrameRenderer(visuals::scene::Renderer& renderer, const visuals::planning::Scene& scene,
         const settings::RunSettings& settings)
-        : renderer_(renderer)
-        , scene_(scene)
-        , settings_(settings) {}
+        : renderer_(renderer), scene_(scene), settings_(settings) {}
 
     /// Gives the renderer the models of the scene.
     void load_models(PictureContent content);
 
-    /// Makes planners, the view's ground detailed for the camera of the first picture. Loading
-    /// work.
+    /// Makes planners, the view's ground detailed for the camera of the first picture. Loading work.
     void begin(const visuals::scene::Camera& first);
 
     /// Lets go of all that looks at the scene; begin() again after that.
@@ -206,8 +197,7 @@ public:
     /// Lines that the next pictures show in their upper left corner.
     void set_overlay_lines(std::vector<std::string> overlay_lines) { overlay_lines_ = std::move(overlay_lines); }
 
-    /// Shows a finished picture; called with the renderer that holds it, in place of reading its
-    /// pixels.
+    /// Shows a finished picture; called with the renderer that holds it, in place of reading its pixels.
     using Presenter = std::function<void(visuals::scene::Renderer&)>;
 
     void set_presenter(Presenter presenter) { presenter_ = std::move(presenter); }
@@ -215,23 +205,19 @@ public:
     /// The next pictures may be drawn straight into a window of that size.
     void set_window_target(const glm::ivec2& window_px) { renderer_.set_window_target(window_px); }
 
-    /// Whether pictures are read before they are shown, as whoever records each of them wants. A
-    /// driver must not draw them straight into the window then.
+    /// Whether pictures are read before they are shown, as whoever records each of them wants. A driver must not draw
+    /// them straight into the window then.
     void set_reads_before_presenting(bool wanted) { reads_before_presenting_ = wanted; }
 
-    /// The settings of the second view, which has a camera and a size of its own; null = there is
-    /// none.
-    const settings::RunSettings* inset_settings() const {
-        return inset_ ? &inset_->settings() : nullptr;
-    }
+    /// The settings of the second view, which has a camera and a size of its own; null = there is none.
+    const settings::RunSettings* inset_settings() const { return inset_ ? &inset_->settings() : nullptr; }
 
-    /// Plans a moment, after the pictures before it. `smooth`: polygons that are smooth, nothing =
-    /// as the settings' share says. `on_refined`: PlanRequest::on_refined.
-    visuals::planning::PlanCounts
-    plan(const FrameState& now, std::optional<int> smooth, std::function<void()> on_refined);
+    /// Plans a moment, after the pictures before it. `smooth`: polygons that are smooth, nothing = as the settings'
+    /// share says. `on_refined`: PlanRequest::on_refined.
+    visuals::planning::PlanCounts plan(
+        const FrameState& now, std::optional<int> smooth, std::function<void()> on_refined);
 
-    /// Goes on as if a moment had been planned, for a picture that nobody sees
-    /// (Planner::advance_without_drawing).
+    /// Goes on as if a moment had been planned, for a picture that nobody sees (Planner::advance_without_drawing).
     void advance_without_drawing(const FrameState& now, std::optional<int> smooth);
 
     /// Begins to mesh the ground for the next moment, beside the drawing of this one.
@@ -243,8 +229,8 @@ public:
     /// Reads what was drawn, or hands it to the presenter.
     void show();
 
-    /// Reads the last picture, which was of that moment, where a presenter showed it; draws it once
-    /// more if it went straight into a window.
+    /// Reads the last picture, which was of that moment, where a presenter showed it; draws it once more if it went
+    /// straight into a window.
     void read(const FrameState& now, std::optional<int> smooth);
 
     /// The last picture that was read, top row first.
@@ -253,17 +239,16 @@ public:
     /// Returns when nothing is being meshed. Throws what that work threw.
     void wait();
 
-    /// Returns when the ground of the first view is not being meshed; that of the inset may be.
-    /// Throws what that work threw.
+    /// Returns when the ground of the first view is not being meshed; that of the inset may be. Throws what that work
+    /// threw.
     void wait_for_first_view();
 
-    /// Makes the renderer ready for pictures of that size over ground of that texture; null: of the
-    /// one that it has, if any. Throws Error and leaves it as it was.
-    void prepare_renderer(
-        const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);
+    /// Makes the renderer ready for pictures of that size over ground of that texture; null: of the one that it has, if
+    /// any. Throws Error and leaves it as it was.
+    void prepare_renderer(const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);
 
-    /// The settings and the scene's ground are others. The detail of the ground goes on where both
-    /// it and its control are the same; else it begins anew for this camera.
+    /// The settings and the scene's ground are others. The detail of the ground goes on where both it and its control
+    /// are the same; else it begins anew for this camera.
     void apply_settings(bool other_control, const visuals::scene::Camera& now);
 
     /// Only the sun of the settings, and the colours of the scene's ground, are others.
@@ -295,22 +280,18 @@ private:
     bool picture_is_read_ = false;
 };
 
-/// The conductor of a run: takes each frame from simulation through plan and picture to its record.
-/// The only place that reads the clock during a flight. What flies is the simulation's matter, how
-/// fine a picture may be the decider's, and the picture itself the picture maker's; a source flies
-/// in place of the path where motion comes from outside.
+/// The conductor of a run: takes each frame from simulation through plan and picture to its record. The only place that
+/// reads the clock during a flight. What flies is the simulation's matter, how fine a picture may be the decider's, and
+/// the picture itself the picture maker's; a source flies in place of the path where motion comes from outside.
 ///
-/// A flight without a window is frames() pictures by draw(frame). A window asks for pictures of its
-/// own times by draw_at(), and changes settings and simulation between them.
+/// A flight without a window is frames() pictures by draw(frame). A window asks for pictures of its own times by
+/// draw_at(), and changes settings and simulation between them.
 class Session {
 public:
-    /// Loads the world and draws once in every drawing state, with this renderer, which must be of
-    /// the settings' picture size, or with one that it makes as the settings say. Loads no world
-    /// where it is given one, which must be of these settings but for the view's. Throws Error.
-    /// Stays in its place: parts of it point at others.
-    explicit Session(
-        const settings::RunSettings& settings,
-        PictureContent content = PictureContent::World,
+    /// Loads the world and draws once in every drawing state, with this renderer, which must be of the settings'
+    /// picture size, or with one that it makes as the settings say. Loads no world where it is given one, which must be
+    /// of these settings but for the view's. Throws Error. Stays in its place: parts of it point at others.
+    explicit Session(const settings::RunSettings& settings, PictureContent content = PictureContent::World,
         std::unique_ptr<visuals::scene::Renderer> renderer = nullptr,
         std::optional<world::World> loaded = std::nullopt);
     ~Session() = default;
@@ -331,45 +312,42 @@ public:
     /// Frames a second of simulated time, for video and stress.
     double rate_hz() const { return times_.rate_hz; }
 
-    /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
-    /// whatever the clock says. Before the first draw().
+    /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided whatever the clock
+    /// says. Before the first draw().
     void replay(std::vector<QualityTargets> quality_targets);
 
-    /// The source flies all aircraft from now on, whatever is loaded anew. It must outlive the
-    /// session.
+    /// The source flies all aircraft from now on, whatever is loaded anew. It must outlive the session.
     void set_state_source(StateSource& source);
 
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
 
-    /// The same for a time not before those of earlier frames, and the time of the next picture
-    /// where it is known: that one's ground is meshed while this one is drawn. Its camera is then
-    /// chosen now, so that what apply() or the simulation change later shows in the picture after
-    /// it.
+    /// The same for a time not before those of earlier frames, and the time of the next picture where it is known: that
+    /// one's ground is meshed while this one is drawn. Its camera is then chosen now, so that what apply() or the
+    /// simulation change later shows in the picture after it.
     report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
 
     /// How pictures are shown and what is written into them; to be changed between frames.
     FrameRenderer& pictures() { return pictures_; }
 
-    /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
-    /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
-    /// it was; any other exception leaves a session that cannot go on.
+    /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts again where its
+    /// aircraft, path or ground are others. Throws Error and leaves everything as it was; any other exception leaves a
+    /// session that cannot go on.
     void apply(const settings::RunSettings& settings);
 
-    /// Puts the sun where the settings' time or angles say: the ground's other colours are made
-    /// beside the pictures to come. One at a time (asserted).
+    /// Puts the sun where the settings' time or angles say: the ground's other colours are made beside the pictures to
+    /// come. One at a time (asserted).
     void begin_set_sun(const settings::RunSettings& settings);
 
     bool is_setting_sun() const { return recoloured_ground_.valid(); }
 
-    /// Shows what begin_set_sun() made, if it is ready; returns whether it was. apply() gives up
-    /// what is not shown yet where it loads or plans anything anew. Throws what that work threw.
+    /// Shows what begin_set_sun() made, if it is ready; returns whether it was. apply() gives up what is not shown yet
+    /// where it loads or plans anything anew. Throws what that work threw.
     bool poll_set_sun();
 
-    /// Before the first draw(): draws only this part of the frames, as if those before it had been
-    /// drawn. What later pictures depend on is planned of them, and the last one whole. Returns the
-    /// part's frames; frames() then ends with it. Throws Error where there are fewer frames than
-    /// parts.
+    /// Before the first draw(): draws only this part of the frames, as if those before it had been drawn. What later
+    /// pictures depend on is planned of them, and the last one whole. Returns the part's frames; frames() then ends
+    /// with it. Throws Error where there are fewer frames than parts.
     settings::FrameRange begin_frame_range(const settings::FlightPart& part);
 
     /// To be changed between frames. Begin at another time by begin_at().
@@ -392,26 +370,23 @@ public:
     /// Triangles of ground that the last picture aimed at.
     int triangle_target() const { return current_.triangle_target; }
 
-    /// Reads the last picture where a presenter showed it; draws it once more if it went straight
-    /// into a window.
+    /// Reads the last picture where a presenter showed it; draws it once more if it went straight into a window.
     void read_picture() { pictures_.read(current_, smooth_target_); }
 
     /// Picture of the last frame that was read, top row first.
     const visuals::scene::Picture& picture() const { return pictures_.picture(); }
 
     /// What `--adapt shading` has found out.
-    const std::optional<visuals::shading::ShadingState>& shading() const {
-        return quality_controller_.shading();
-    }
+    const std::optional<visuals::shading::ShadingState>& shading() const { return quality_controller_.shading(); }
 
-    /// Over the aircraft states at every fixed step so far, to the end of the run once its last
-    /// frame is drawn, and over the hashes of every frame's pixels.
+    /// Over the aircraft states at every fixed step so far, to the end of the run once its last frame is drawn, and
+    /// over the hashes of every frame's pixels.
     std::uint64_t state_hash() const { return simulation_->state_hash(); }
 
     std::uint64_t picture_hash() const { return picture_hash_.value(); }
 
-    /// Adds the last picture to the picture hash and returns its own hash. Apart from draw(),
-    /// because it is not the frame's work.
+    /// Adds the last picture to the picture hash and returns its own hash. Apart from draw(), because it is not the
+    /// frame's work.
     std::uint64_t hash_picture();
 
 private:
@@ -451,8 +426,8 @@ private:
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
-    /// The ground in the colours of another sun, which is made beside pictures, and the air that it
-    /// belongs to. Comes last, as its work looks at the scene.
+    /// The ground in the colours of another sun, which is made beside pictures, and the air that it belongs to. Comes
+    /// last, as its work looks at the scene.
     visuals::scene::AirSettings recoloured_air_;
     std::future<world::SceneGround> recoloured_ground_;
 };

@@ -15,17 +15,15 @@
 #include <stdexcept>
 #include <utility>
 
-// What a session does when its settings change while a flight goes on. First comes all that may
-// fail: loading, the work of threads, the renderer's memory. What could not be taken back comes
-// after it.
+// What a session does when its settings change while a flight goes on. First comes all that may fail: loading, the work
+// of threads, the renderer's memory. What could not be taken back comes after it.
 
 namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 
 void Session::apply(const settings::RunSettings& wanted) {
-    const settings::RunSettings settings =
-        world::with_sun_updated(wanted, settings_, world_.ground_place);
+    const settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground_place);
     const settings::SettingsChange change = settings::change_between(settings_, settings);
     if (change > settings::SettingsChange::Look && recoloured_ground_.valid()) {
         recoloured_ground_.wait();
@@ -38,8 +36,7 @@ void Session::apply(const settings::RunSettings& wanted) {
         settings_ = settings;
         break;
     case settings::SettingsChange::Look:
-        if (settings.view.eye_m != settings_.view.eye_m ||
-            settings.view.look_m != settings_.view.look_m) {
+        if (settings.view.eye_m != settings_.view.eye_m || settings.view.look_m != settings_.view.look_m) {
             world_.points = world::fixed_points(settings, world_);
         }
         settings_ = settings;
@@ -66,8 +63,7 @@ void Session::apply_world_change(const settings::RunSettings& settings) {
 
     const double time_s = simulation_->time_s();
     const bool goes_on =
-        settings::change_between(settings_, settings) != settings::SettingsChange::Flight &&
-        !simulation_->by_hand();
+        settings::change_between(settings_, settings) != settings::SettingsChange::Flight && !simulation_->by_hand();
     pictures_.end();
     settings_ = world::with_sun_at_time(settings, world.ground_place);
     world_ = std::move(world);
@@ -75,13 +71,11 @@ void Session::apply_world_change(const settings::RunSettings& settings) {
     pictures_.load_models(PictureContent::World);
     release_texture_memory();
     start_flight();
-    if (goes_on) {
-        begin_at(std::min(time_s, world_.flight.trajectory.end_s()));
-    }
+    if (goes_on) { begin_at(std::min(time_s, world_.flight.trajectory.end_s())); }
 }
 
-/// The ground for pictures by other settings: the one that is there, one made of its heights or, if
-/// neither will do, one loaded. Without a texture where the one that is there stays.
+/// The ground for pictures by other settings: the one that is there, one made of its heights or, if neither will do,
+/// one loaded. Without a texture where the one that is there stays.
 world::SceneGround Session::ground_for(const settings::RunSettings& settings) const {
     const settings::RunSettings own = world::with_ground_defaults(settings, world_.ground_place);
     if (world_.scene.ground->matches_settings(own.ground, own.air)) {
@@ -89,11 +83,10 @@ world::SceneGround Session::ground_for(const settings::RunSettings& settings) co
         same.ground = world_.scene.ground;
         return same;
     }
-    std::optional<world::SceneGround> with_settings =
-        world::rebuilt_scene_ground(world_.scene, own, render_device());
+    std::optional<world::SceneGround> with_settings = world::rebuilt_scene_ground(world_.scene, own, render_device());
     return with_settings ? std::move(*with_settings)
-                  : world::load_scene_ground(
-                        settings, render_device(), world::fixed_runway_finder(world_.scene.ground->runway()));
+                         : world::load_scene_ground(
+                               settings, render_device(), world::fixed_runway_finder(world_.scene.ground->runway()));
 }
 
 void Session::apply_picture_change(const settings::RunSettings& settings) {
@@ -109,9 +102,7 @@ void Session::apply_picture_change(const settings::RunSettings& settings) {
     world_.points = points;
     set_ground(std::move(ground));
     pictures_.apply_settings(other_control, current_.camera);
-    if (next_is_simulated_) {
-        set_cameras(next_);
-    }
+    if (next_is_simulated_) { set_cameras(next_); }
     quality_controller_.begin(settings_, rate_hz());
 }
 
@@ -126,9 +117,7 @@ void Session::set_ground(world::SceneGround ground) {
 
 void Session::apply_sun_change(const settings::RunSettings& settings, world::SceneGround ground) {
     pictures_.wait();
-    if (ground.texture) {
-        renderer_->load_ground_texture(*ground.texture);
-    }
+    if (ground.texture) { renderer_->load_ground_texture(*ground.texture); }
     settings_ = settings;
     set_ground(std::move(ground));
     pictures_.set_sun(current_.camera);
@@ -136,21 +125,19 @@ void Session::apply_sun_change(const settings::RunSettings& settings, world::Sce
 
 void Session::begin_set_sun(const settings::RunSettings& wanted) {
     assert(!recoloured_ground_.valid());
-    settings::RunSettings settings =
-        world::with_sun_updated(wanted, settings_, world_.ground_place);
+    settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground_place);
     assert(settings::change_between(settings_, settings) <= settings::SettingsChange::Light);
     recoloured_air_ = settings.air;
     recoloured_ground_ = std::async(std::launch::async, [this, settings = std::move(settings)] {
         world::SceneGround ground = ground_for(settings);
-        if (settings.air.sky) {
-            ground.ground->backdrop();
-        }
+        if (settings.air.sky) { ground.ground->backdrop(); }
         return ground;
     });
 }
 
 bool Session::poll_set_sun() {
-    if (!recoloured_ground_.valid() || recoloured_ground_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    if (!recoloured_ground_.valid() ||
+        recoloured_ground_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
         return false;
     }
     settings::RunSettings settings = settings_;

@@ -26,8 +26,7 @@ void add_state(Hash& hash, const sim::AircraftState& state) {
 }
 
 sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState& b, double share) {
-    return {
-        .time_s = glm::mix(a.time_s, b.time_s, share),
+    return {.time_s = glm::mix(a.time_s, b.time_s, share),
         .position_m = glm::mix(a.position_m, b.position_m, share),
         .velocity_mps = glm::mix(a.velocity_mps, b.velocity_mps, share),
         .body_to_world = glm::slerp(a.body_to_world, b.body_to_world, share),
@@ -50,9 +49,7 @@ double highest_ground_ahead_m(const visuals::landscape::Ground& ground, const si
 } // namespace
 
 Simulation::Simulation(const world::World& world)
-    : world_(world)
-    , formation_(world::formation_of(world.scene, world.flight))
-    , states_(world.scene.aircraft.size()) {
+    : world_(world), formation_(world::formation_of(world.scene, world.flight)), states_(world.scene.aircraft.size()) {
     for (std::size_t i = 0; i < world.scene.aircraft.size(); ++i) {
         depth_below_origin_m_.push_back(planning::reach_below_m(world.scene.model_of(i)));
     }
@@ -71,18 +68,14 @@ void Simulation::begin_at(double time_s) {
     rig_ = scene::next_rig_state({}, states_.front());
 }
 
-long Simulation::step() const {
-    return next_step_ - 1;
-}
+long Simulation::step() const { return next_step_ - 1; }
 
 void Simulation::update_states(const sim::AircraftState& leader, double time_s) {
     world::formation_states(world_.flight, formation_, leader, time_s, states_);
 }
 
 void Simulation::add_to_hash() {
-    for (const sim::AircraftState& state : states_) {
-        add_state(hash_, state);
-    }
+    for (const sim::AircraftState& state : states_) { add_state(hash_, state); }
 }
 
 void Simulation::take_step() {
@@ -95,9 +88,7 @@ void Simulation::take_step() {
 void Simulation::take_step_by_hand() {
     if (levelling_) {
         controls_ = levelling_->controls(last_two_.back());
-        if (levelling_->is_done()) {
-            levelling_.reset();
-        }
+        if (levelling_->is_done()) { levelling_.reset(); }
     }
     pilot_->step(controls_);
     sim::AircraftState state = pilot_->state();
@@ -116,26 +107,17 @@ void Simulation::take_step_by_hand() {
 void Simulation::finish_step() {
     rig_ = scene::next_rig_state(rig_, states_.front());
     add_to_hash();
-    if (is_logging_) {
-        log_.push_back(states_.front());
-    }
+    if (is_logging_) { log_.push_back(states_.front()); }
     ++next_step_;
 }
 
-std::optional<Simulation::End>
-Simulation::flight_end_of(std::span<const sim::AircraftState> states) const {
+std::optional<Simulation::End> Simulation::flight_end_of(std::span<const sim::AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
-        if (world_.flight.other_trajectories.contains(i)) {
-            continue;
-        }
+        if (world_.flight.other_trajectories.contains(i)) { continue; }
         const glm::dvec3& at_m = states[i].position_m;
         const auto ground_m = world_.scene.ground->height_at(at_m.x, at_m.y);
-        if (!ground_m) {
-            return End::OffTheMap;
-        }
-        if (at_m.z - *ground_m < depth_below_origin_m_[i]) {
-            return End::OnTheGround;
-        }
+        if (!ground_m) { return End::OffTheMap; }
+        if (at_m.z - *ground_m < depth_below_origin_m_[i]) { return End::OnTheGround; }
     }
     return std::nullopt;
 }
@@ -143,9 +125,7 @@ Simulation::flight_end_of(std::span<const sim::AircraftState> states) const {
 void Simulation::advance_live(double time_s) {
     time_s_ = time_s;
     source_->states_at(time_s, states_);
-    for (; next_step_ <= sim::step_at(time_s); ++next_step_) {
-        rig_ = scene::next_rig_state(rig_, states_.front());
-    }
+    for (; next_step_ <= sim::step_at(time_s); ++next_step_) { rig_ = scene::next_rig_state(rig_, states_.front()); }
     add_to_hash();
 }
 
@@ -169,9 +149,7 @@ void Simulation::advance_to(double time_s) {
     }
     const double since_step_s = time_s - sim::time_of_step(step());
     update_states(
-        between(
-            last_two_.front(), last_two_.back(), std::clamp(since_step_s / sim::step_s, 0.0, 1.0)),
-        time_s);
+        between(last_two_.front(), last_two_.back(), std::clamp(since_step_s / sim::step_s, 0.0, 1.0)), time_s);
 }
 
 void Simulation::start_log() {
@@ -205,9 +183,7 @@ void Simulation::level_off() {
 void Simulation::start_level() {
     assert(by_hand());
     const sim::AircraftKind& kind = *kind_;
-    sim::AircraftState start = sim::trimmed_state(
-        kind,
-        last_two_.back().position_m,
+    sim::AircraftState start = sim::trimmed_state(kind, last_two_.back().position_m,
         euler_from_body_to_world(last_two_.back().body_to_world).heading_rad,
         std::max(glm::length(last_two_.back().velocity_mps), kind.min_handover_speed_mps));
     start.time_s = sim::time_of_step(step());
@@ -228,8 +204,7 @@ void Simulation::hand_to_pilot(const sim::AircraftKind& kind, const sim::Aircraf
 }
 
 sim::AircraftState Simulation::at_last_step() const {
-    return by_hand() ? last_two_.back()
-                     : world_.flight.trajectory.state_at(sim::time_of_step(step()));
+    return by_hand() ? last_two_.back() : world_.flight.trajectory.state_at(sim::time_of_step(step()));
 }
 
 void Simulation::set_controls(const sim::PilotControls& controls) {

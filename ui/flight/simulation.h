@@ -4,8 +4,8 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/hash.h"
-#include "sim/piloted_flight.h"
 #include "sim/levelling_autopilot.h"
+#include "sim/piloted_flight.h"
 #include "ui/flight/state_source.h"
 #include "ui/world/formation.h"
 #include "ui/world/world.h"
@@ -20,23 +20,22 @@
 
 namespace octant::ui::flight {
 
-/// The aircraft of a run in fixed simulation steps, along its path or, from a takeover on, by a
-/// pilot's hands. What it gives depends on the steps alone, not on the times it is asked for.
+/// The aircraft of a run in fixed simulation steps, along its path or, from a takeover on, by a pilot's hands. What it
+/// gives depends on the steps alone, not on the times it is asked for.
 class Simulation {
 public:
     /// Begins at the path's start. The world must outlive the simulation.
     explicit Simulation(const world::World& world);
 
-    /// Takes every step up to a time, not before the one it is at (asserted). Along a path states()
-    /// are those of the very time; by hand they lie between the last two steps and so one step
-    /// behind.
+    /// Takes every step up to a time, not before the one it is at (asserted). Along a path states() are those of the
+    /// very time; by hand they lie between the last two steps and so one step behind.
     void advance_to(double time_s);
 
     /// Begins anew at a time of the path, as if it started there. By hand no longer.
     void begin_at(double time_s);
 
-    /// From now on the source flies all aircraft: states and their hash are those of the very times
-    /// that are asked for. It must outlive the simulation.
+    /// From now on the source flies all aircraft: states and their hash are those of the very times that are asked for.
+    /// It must outlive the simulation.
     void set_state_source(StateSource& source) { source_ = &source; }
 
     bool is_live() const { return source_ != nullptr; }
@@ -53,12 +52,12 @@ public:
 
     const visuals::scene::RigState& rig() const { return rig_; }
 
-    /// Over the states of all aircraft at every step since the simulation began or since
-    /// start_log(), the step that was the last one then among them.
+    /// Over the states of all aircraft at every step since the simulation began or since start_log(), the step that was
+    /// the last one then among them.
     std::uint64_t state_hash() const { return hash_.value(); }
 
-    /// Begins the hash anew and keeps the first aircraft's states from the last step on. Not where
-    /// others fly it (asserted).
+    /// Begins the hash anew and keeps the first aircraft's states from the last step on. Not where others fly it
+    /// (asserted).
     void start_log();
 
     void stop_log() { is_logging_ = false; }
@@ -69,17 +68,16 @@ public:
     /// The last step at or before time_s().
     long step() const;
 
-    /// From the last step on the first aircraft is flown by hand as sim::make_piloted_flight has it, from
-    /// the state it is in.
+    /// From the last step on the first aircraft is flown by hand as sim::make_piloted_flight has it, from the state it
+    /// is in.
     void take_over(const sim::AircraftKind& kind);
 
-    /// By hand only (asserted): on from where it is, at once level and in trim, on the same course
-    /// and at the same speed, unless that is too slow to fly; after its end on the ground 200 m
-    /// above all ground of the next 15 s.
+    /// By hand only (asserted): on from where it is, at once level and in trim, on the same course and at the same
+    /// speed, unless that is too slow to fly; after its end on the ground 200 m above all ground of the next 15 s.
     void start_level();
 
-    /// By hand only (asserted): flies on by sim::Levelling until the aircraft is level or its
-    /// controls are set. After its end on the ground as start_level().
+    /// By hand only (asserted): flies on by sim::Levelling until the aircraft is level or its controls are set. After
+    /// its end on the ground as start_level().
     void level_off();
 
     bool is_levelling() const { return levelling_.has_value(); }

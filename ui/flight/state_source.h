@@ -10,8 +10,8 @@
 
 namespace octant::ui::flight {
 
-/// Who flies the aircraft in place of their path, and may say from where they are seen: what a
-/// simulation and a session know of a live flight.
+/// Who flies the aircraft in place of their path, and may say from where they are seen: what a simulation and a session
+/// know of a live flight.
 class StateSource {
 public:
     StateSource() = default;
@@ -21,26 +21,22 @@ public:
     StateSource(StateSource&&) = delete;
     StateSource& operator=(StateSource&&) = delete;
 
-    /// The states at a time, not before that of the last call. `states` hold those of the last
-    /// call, or where the aircraft stand at the beginning.
+    /// The states at a time, not before that of the last call. `states` hold those of the last call, or where the
+    /// aircraft stand at the beginning.
     virtual void states_at(double time_s, std::span<sim::AircraftState> states) = 0;
 
-    /// Whether somebody flies this aircraft as of the last states_at(): the first one stands and
-    /// waits until somebody does.
+    /// Whether somebody flies this aircraft as of the last states_at(): the first one stands and waits until somebody
+    /// does.
     virtual bool is_flown(std::size_t aircraft) const = 0;
 
-    /// Where the next picture of this width over height is to be taken from, for aircraft in these
-    /// states; `default_camera` is what the settings say.
-    virtual visuals::scene::Camera camera(
-        std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& default_camera,
-        double aspect) const = 0;
+    /// Where the next picture of this width over height is to be taken from, for aircraft in these states;
+    /// `default_camera` is what the settings say.
+    virtual visuals::scene::Camera camera(std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& default_camera, double aspect) const = 0;
 
     /// The same for the second view, where there is one.
-    virtual visuals::scene::Camera inset_camera(
-        std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& default_camera,
-        double aspect) const = 0;
+    virtual visuals::scene::Camera inset_camera(std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& default_camera, double aspect) const = 0;
 
     /// Parts that the source turns, as of the last states_at().
     virtual std::span<const visuals::planning::ArticulatedPart> turned_parts() const = 0;

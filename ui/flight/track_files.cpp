@@ -22,16 +22,14 @@ constexpr double flush_every_s = 1.0;
 
 sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
-    const auto end =
-        std::find_if(samples.begin() + 1, samples.end(), [&](const sim::AircraftState& sample) {
-            return sample.time_s > until_s + rounding_s;
-        });
+    const auto end = std::find_if(samples.begin() + 1, samples.end(),
+        [&](const sim::AircraftState& sample) { return sample.time_s > until_s + rounding_s; });
     samples.erase(end, samples.end());
     return sim::Trajectory(std::move(samples));
 }
 
-/// The part of a track file's text from `begin` on that was flown by a time: up to the first line
-/// that tells a later one. Such lines begin with digits in track.csv, with # in track.acmi.
+/// The part of a track file's text from `begin` on that was flown by a time: up to the first line that tells a later
+/// one. Such lines begin with digits in track.csv, with # in track.acmi.
 std::string_view rows_until(std::string_view text, std::size_t begin, double until_s) {
     std::size_t at = begin;
     while (at < text.size()) {
@@ -44,16 +42,13 @@ std::string_view rows_until(std::string_view text, std::size_t begin, double unt
         }
         const bool tells_time = text[at] == '#' || text.front() == 't';
         const auto time_s = tells_time ? finite_number(line) : std::nullopt;
-        if (time_s && *time_s > until_s + rounding_s) {
-            break;
-        }
+        if (time_s && *time_s > until_s + rounding_s) { break; }
         at = end;
     }
     return text.substr(begin, at - begin);
 }
 
-flightpaths::AcmiHeader
-acmi_header(const world::World& world, const sim::Trajectory& flight, const EarthFrame* frame) {
+flightpaths::AcmiHeader acmi_header(const world::World& world, const sim::Trajectory& flight, const EarthFrame* frame) {
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
     header.kind = world.leader_kind;
@@ -69,14 +64,10 @@ acmi_header(const world::World& world, const sim::Trajectory& flight, const Eart
 
 } // namespace
 
-void write_tracks(
-    const std::filesystem::path& folder,
-    const world::World& world,
-    const sim::Trajectory& flight,
+void write_tracks(const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight,
     const EarthFrame* frame) {
     write_file(folder / "track.csv", flightpaths::track_csv(flight));
-    write_file(
-        folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, frame)));
+    write_file(folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, frame)));
 }
 
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s) {
@@ -84,13 +75,10 @@ void write_tracks(const std::filesystem::path& folder, const world::World& world
 }
 
 StreamedTracks::StreamedTracks(const std::filesystem::path& folder, const world::World& world)
-    : tracks_{
-          Track{AppendedFile(folder / "track.csv"), flightpaths::track_csv(world.flight.trajectory)},
-          Track{
-              AppendedFile(folder / "track.acmi"),
+    : tracks_{Track{AppendedFile(folder / "track.csv"), flightpaths::track_csv(world.flight.trajectory)},
+          Track{AppendedFile(folder / "track.acmi"),
               flightpaths::track_acmi(
-                  world.flight.trajectory,
-                  acmi_header(world, world.flight.trajectory, world.ground_frame.get()))}} {}
+                  world.flight.trajectory, acmi_header(world, world.flight.trajectory, world.ground_frame.get()))}} {}
 
 void StreamedTracks::write_until(double time_s) {
     for (Track& track : tracks_) {
@@ -99,17 +87,14 @@ void StreamedTracks::write_until(double time_s) {
         track.written += flown.size();
     }
     if (!flushed_s_ || time_s - *flushed_s_ >= flush_every_s) {
-        for (Track& track : tracks_) {
-            track.file.flush();
-        }
+        for (Track& track : tracks_) { track.file.flush(); }
         flushed_s_ = time_s;
     }
 }
 
 StreamedLiveTracks::StreamedLiveTracks(const std::filesystem::path& folder, const world::World& world)
-    : csv_(folder / "track.csv")
-    , acmi_(folder / "track.acmi")
-    , header_(acmi_header(world, world.flight.trajectory, nullptr)) {
+    : csv_(folder / "track.csv"), acmi_(folder / "track.acmi"),
+      header_(acmi_header(world, world.flight.trajectory, nullptr)) {
     csv_.append(flightpaths::track_csv_names());
 }
 

@@ -36,39 +36,32 @@ std::uint32_t picture_of(const aiScene& scene, const aiMaterial& from, MeshBuild
         return BakedPictures::none;
     }
     const aiTexture* inside = scene.GetEmbeddedTexture(name.C_Str());
-    if (inside == nullptr) {
-        return mesh.pictures().picture(name.C_Str());
-    }
+    if (inside == nullptr) { return mesh.pictures().picture(name.C_Str()); }
     if (inside->mHeight != 0) { // plain pixels: no format that an image reader knows
         return BakedPictures::none;
     }
     return mesh.pictures().picture(
-        name.C_Str(),
-        std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
+        name.C_Str(), std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
 }
 
-/// The file of a picture beside the mesh; empty where it has none or the picture stands in the
-/// mesh's file.
-std::string picture_file_of(
-    const aiScene& scene, const aiMaterial& from, const std::filesystem::path& mesh_file) {
+/// The file of a picture beside the mesh; empty where it has none or the picture stands in the mesh's file.
+std::string picture_file_of(const aiScene& scene, const aiMaterial& from, const std::filesystem::path& mesh_file) {
     aiString name;
     if ((from.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&
-         from.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS) ||
+            from.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS) ||
         scene.GetEmbeddedTexture(name.C_Str()) != nullptr) {
         return {};
     }
     return (std::filesystem::absolute(mesh_file).parent_path() / name.C_Str()).string();
 }
 
-std::vector<MaterialSurface>
-surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder& mesh) {
+std::vector<MaterialSurface> surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder& mesh) {
     std::vector<MaterialSurface> surfaces;
     for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
         const aiMaterial& from = *scene.mMaterials[i];
         aiString name;
         from.Get(AI_MATKEY_NAME, name);
-        models::Material material{
-            .name = name.C_Str(), .picture = picture_file_of(scene, from, file)};
+        models::Material material{.name = name.C_Str(), .picture = picture_file_of(scene, from, file)};
         aiColor3D colour;
         if (from.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS) {
             const auto part = [](float value) {
@@ -82,39 +75,31 @@ surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder
             material.colour = glm::vec3(1.0F);
         }
         int two_sided = 0;
-        surface.two_sided =
-            from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
+        surface.two_sided = from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
         surface.material = mesh.add_material(std::move(material));
         surfaces.push_back(surface);
     }
     return surfaces;
 }
 
-glm::dvec3 vector_of(const aiVector3D& from) {
-    return {from.x, from.y, from.z};
-}
+glm::dvec3 vector_of(const aiVector3D& from) { return {from.x, from.y, from.z}; }
 
 void add_mesh(const aiMesh& from, const MaterialSurface& surface, MeshBuilder& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
     const auto first_normal = static_cast<std::uint32_t>(mesh.normal_count());
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
         const glm::dvec3 place_m = vector_of(from.mVertices[v]);
-        if (!(std::abs(place_m.x) + std::abs(place_m.y) + std::abs(place_m.z) <
-              models::meshfile::max_coordinate)) {
+        if (!(std::abs(place_m.x) + std::abs(place_m.y) + std::abs(place_m.z) < models::meshfile::max_coordinate)) {
             throw Error("expected finite places, got others");
         }
         mesh.add_vertex(place_m);
-        if (from.HasNormals()) {
-            mesh.add_normal(vector_of(from.mNormals[v]));
-        }
+        if (from.HasNormals()) { mesh.add_normal(vector_of(from.mNormals[v])); }
     }
     mesh.set_two_sided(surface.two_sided);
     std::vector<CornerIndices> corners;
     for (unsigned f = 0; f < from.mNumFaces; ++f) {
         const aiFace& face = from.mFaces[f];
-        if (face.mNumIndices < 3 || face.mNumIndices > models::meshfile::max_polygon_corners) {
-            continue;
-        }
+        if (face.mNumIndices < 3 || face.mNumIndices > models::meshfile::max_polygon_corners) { continue; }
         corners.clear();
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             const unsigned v = face.mIndices[k];
@@ -126,10 +111,7 @@ void add_mesh(const aiMesh& from, const MaterialSurface& surface, MeshBuilder& m
             }
             corners.push_back(corner);
         }
-        mesh.add_polygon(
-            corners,
-            surface.material,
-            from.HasTextureCoords(0) ? surface.picture : BakedPictures::none);
+        mesh.add_polygon(corners, surface.material, from.HasTextureCoords(0) ? surface.picture : BakedPictures::none);
     }
 }
 
@@ -138,24 +120,15 @@ void add_mesh(const aiMesh& from, const MaterialSurface& surface, MeshBuilder& m
 void read_by_assimp(const std::filesystem::path& file, MeshBuilder& mesh) {
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(
-        file.string(),
-        aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+        file.string(), aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure);
     if (scene == nullptr) {
-        if (std::string_view(importer.GetErrorString()) == std::bad_alloc().what()) {
-            throw std::bad_alloc();
-        }
-        throw_error_in(
-            file,
-            fmt::format(
-                "expected a mesh that Assimp can read, got '{}'", importer.GetErrorString()));
+        if (std::string_view(importer.GetErrorString()) == std::bad_alloc().what()) { throw std::bad_alloc(); }
+        throw_error_in(file, fmt::format("expected a mesh that Assimp can read, got '{}'", importer.GetErrorString()));
     }
     const std::vector<MaterialSurface> surfaces = surfaces_of(*scene, file, mesh);
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const aiMesh& from = *scene->mMeshes[i];
-        add_mesh(
-            from,
-            from.mMaterialIndex < surfaces.size() ? surfaces[from.mMaterialIndex] : MaterialSurface(),
-            mesh);
+        add_mesh(from, from.mMaterialIndex < surfaces.size() ? surfaces[from.mMaterialIndex] : MaterialSurface(), mesh);
     }
 }
 

@@ -1,6 +1,6 @@
-// octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as
-// OBJ, which holds all of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It runs beside
-// octant, so that a file which makes the library crash, hang or eat memory ends this program alone.
+// octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as OBJ, which holds all
+// of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It runs beside octant, so that a file which makes the
+// library crash, hang or eat memory ends this program alone.
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
@@ -42,9 +42,7 @@ void limit() {
     const rlimit cpu{max_cpu_s, max_cpu_s};
     const rlimit core{0, 0};
     const rlimit file{max_file_bytes, max_file_bytes};
-    if (limits_memory) {
-        setrlimit(RLIMIT_AS, &memory);
-    }
+    if (limits_memory) { setrlimit(RLIMIT_AS, &memory); }
     setrlimit(RLIMIT_CPU, &cpu);
     setrlimit(RLIMIT_CORE, &core);
     setrlimit(RLIMIT_FSIZE, &file);
@@ -52,10 +50,7 @@ void limit() {
     alarm(max_s);
 }
 
-void read(
-    const std::string& library,
-    const models::meshfile::ReadOptions& options,
-    const std::string& in,
+void read(const std::string& library, const models::meshfile::ReadOptions& options, const std::string& in,
     const std::string& out) {
     models::meshfile::MeshBuilder mesh(in, options);
     if (library == "assimp") {
@@ -70,25 +65,17 @@ void read(
 
 int main(int count, char** words) {
     if (count != 6) {
-        std::fputs(
-            "octant-read-mesh assimp|osg pictures|- backs|- IN OUT.obj: started by octant\n",
-            stderr);
+        std::fputs("octant-read-mesh assimp|osg pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
         return exit_invalid_input;
     }
     limit();
     try {
-        read(
-            words[1],
-            {.pictures = std::string_view(words[2]) == "pictures",
-             .backs = std::string_view(words[3]) == "backs"},
-            words[4],
-            words[5]);
+        read(words[1],
+            {.pictures = std::string_view(words[2]) == "pictures", .backs = std::string_view(words[3]) == "backs"},
+            words[4], words[5]);
         return 0;
     } catch (const std::bad_alloc&) {
-        std::fprintf(
-            stderr, "%s: expected a mesh that fits in 4 GiB, got a larger one\n", words[4]);
-    } catch (const std::exception& fault) {
-        std::fprintf(stderr, "%s\n", fault.what());
-    }
+        std::fprintf(stderr, "%s: expected a mesh that fits in 4 GiB, got a larger one\n", words[4]);
+    } catch (const std::exception& fault) { std::fprintf(stderr, "%s\n", fault.what()); }
     return exit_invalid_input;
 }

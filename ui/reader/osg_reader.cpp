@@ -33,17 +33,14 @@ struct Triangles {
     std::vector<std::array<unsigned, 3>> corners;
 
     void operator()(unsigned a, unsigned b, unsigned c) {
-        if (a != b && b != c && c != a) {
-            corners.push_back({a, b, c});
-        }
+        if (a != b && b != c && c != a) { corners.push_back({a, b, c}); }
     }
 };
 
 class MeshCollector : public osg::NodeVisitor {
 public:
     MeshCollector(MeshBuilder& mesh, osg::NodeVisitor::TraversalMode children)
-        : osg::NodeVisitor(children)
-        , mesh_(mesh) {}
+        : osg::NodeVisitor(children), mesh_(mesh) {}
 
     /// The level that is for the nearest eye.
     void apply(osg::LOD& levels) override {
@@ -54,24 +51,19 @@ public:
                                             : levels.getMaxRange(i) > levels.getMaxRange(nearest);
             nearest = nearer ? i : nearest;
         }
-        if (nearest < levels.getNumChildren()) {
-            levels.getChild(nearest)->accept(*this);
-        }
+        if (nearest < levels.getNumChildren()) { levels.getChild(nearest)->accept(*this); }
     }
 
     void apply(osg::Geometry& geometry) override {
         const auto* places = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
-        if (places == nullptr || places->empty()) {
-            return;
-        }
+        if (places == nullptr || places->empty()) { return; }
         osg::TriangleIndexFunctor<Triangles> triangles;
         geometry.accept(triangles);
         const osg::Matrix to_world = osg::computeLocalToWorld(getNodePath());
         const auto first = static_cast<std::uint32_t>(mesh_.vertex_count());
         for (const osg::Vec3& place : *places) {
             const osg::Vec3d at = osg::Vec3d(place) * to_world;
-            if (!(std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z()) <
-                  models::meshfile::max_coordinate)) {
+            if (!(std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z()) < models::meshfile::max_coordinate)) {
                 throw Error("expected finite places, got others");
             }
             mesh_.add_vertex({at.x(), at.y(), at.z()});
@@ -80,31 +72,22 @@ public:
     }
 
 private:
-    void
-    add(const osg::Geometry& geometry,
-        const std::vector<std::array<unsigned, 3>>& triangles,
-        std::uint32_t first,
+    void add(const osg::Geometry& geometry, const std::vector<std::array<unsigned, 3>>& triangles, std::uint32_t first,
         std::size_t count) {
         const std::uint32_t picture = picture_of(geometry);
         const auto* on_picture = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0));
-        const bool pictured =
-            picture != BakedPictures::none && on_picture != nullptr && on_picture->size() >= count;
+        const bool pictured = picture != BakedPictures::none && on_picture != nullptr && on_picture->size() >= count;
         for (const auto& triangle : triangles) {
             std::array<CornerIndices, 3> corners;
             for (std::size_t k = 0; k < 3; ++k) {
-                if (triangle.at(k) >= count) {
-                    return;
-                }
+                if (triangle.at(k) >= count) { return; }
                 corners.at(k).vertex = first + triangle.at(k);
                 if (pictured) {
                     const osg::Vec2& place = (*on_picture)[triangle.at(k)];
                     corners.at(k).texture = mesh_.add_texture_coordinates({place.x(), place.y()});
                 }
             }
-            mesh_.add_polygon(
-                corners,
-                material_of(geometry, triangle[0]),
-                pictured ? picture : BakedPictures::none);
+            mesh_.add_polygon(corners, material_of(geometry, triangle[0]), pictured ? picture : BakedPictures::none);
         }
     }
 
@@ -119,39 +102,31 @@ private:
         return found;
     }
 
-    /// Of pictures that lie on a surface; those that it mirrors, whose places follow from the view,
-    /// are none.
+    /// Of pictures that lie on a surface; those that it mirrors, whose places follow from the view, are none.
     std::uint32_t picture_of(const osg::Geometry& geometry) {
         const auto* mirrored = nearest_state(geometry, [](const osg::StateSet* state) {
-            return state == nullptr ? nullptr
-                                    : state->getTextureAttribute(0, osg::StateAttribute::TEXGEN);
+            return state == nullptr ? nullptr : state->getTextureAttribute(0, osg::StateAttribute::TEXGEN);
         });
-        if (mirrored != nullptr) {
-            return BakedPictures::none;
-        }
+        if (mirrored != nullptr) { return BakedPictures::none; }
         const osg::Image* image = nearest_state(geometry, [](const osg::StateSet* state) {
-            const auto* texture =
-                state == nullptr ? nullptr
-                                 : dynamic_cast<const osg::Texture2D*>(
-                                       state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+            const auto* texture = state == nullptr ? nullptr
+                                                   : dynamic_cast<const osg::Texture2D*>(
+                                                         state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
             return texture == nullptr ? nullptr : texture->getImage();
         });
-        return image == nullptr || image->getFileName().empty()
-                   ? BakedPictures::none
-                   : mesh_.pictures().picture(image->getFileName());
+        return image == nullptr || image->getFileName().empty() ? BakedPictures::none
+                                                                : mesh_.pictures().picture(image->getFileName());
     }
 
     /// The colour of a vertex, else that of the material, as a material of the mesh.
     std::uint32_t material_of(const osg::Geometry& geometry, unsigned vertex) {
         osg::Vec4 colour(0.7F, 0.7F, 0.7F, 1.0F);
         const osg::Material* material = nearest_state(geometry, [](const osg::StateSet* state) {
-            return state == nullptr ? nullptr
-                                    : dynamic_cast<const osg::Material*>(
-                                          state->getAttribute(osg::StateAttribute::MATERIAL));
+            return state == nullptr
+                       ? nullptr
+                       : dynamic_cast<const osg::Material*>(state->getAttribute(osg::StateAttribute::MATERIAL));
         });
-        if (material != nullptr) {
-            colour = material->getDiffuse(osg::Material::FRONT);
-        }
+        if (material != nullptr) { colour = material->getDiffuse(osg::Material::FRONT); }
         const auto* colours = dynamic_cast<const osg::Vec4Array*>(geometry.getColorArray());
         if (colours != nullptr && !colours->empty() &&
             (material == nullptr || material->getColorMode() != osg::Material::OFF)) {
@@ -165,9 +140,8 @@ private:
         const std::array<int, 3> key{part(colour.r()), part(colour.g()), part(colour.b())};
         const auto [at, is_new] = materials_.try_emplace(key, invalid_index);
         if (is_new) {
-            at->second = mesh_.add_material(
-                {.name = fmt::format("colour-{}", materials_.size()),
-                 .colour = glm::vec3(key[0], key[1], key[2]) / steps});
+            at->second = mesh_.add_material({.name = fmt::format("colour-{}", materials_.size()),
+                .colour = glm::vec3(key[0], key[1], key[2]) / steps});
         }
         return at->second;
     }
@@ -180,9 +154,7 @@ private:
 
 void read_by_osg(const std::filesystem::path& file, MeshBuilder& mesh) {
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file.string());
-    if (!node) {
-        throw_error_in(file, "expected a scene that OpenSceneGraph can read, got none");
-    }
+    if (!node) { throw_error_in(file, "expected a scene that OpenSceneGraph can read, got none"); }
     MeshCollector shown(mesh, osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
     node->accept(shown);
     if (mesh.is_empty()) { // of switches that are all off

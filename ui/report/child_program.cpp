@@ -21,9 +21,7 @@ namespace octant::ui::report {
 namespace {
 
 void close_if_open(int& descriptor) {
-    if (descriptor >= 0) {
-        ::close(std::exchange(descriptor, -1));
-    }
+    if (descriptor >= 0) { ::close(std::exchange(descriptor, -1)); }
 }
 
 /// From the beginning, without moving the place where the program writes.
@@ -31,8 +29,7 @@ std::string all_of(int descriptor) {
     std::string text;
     std::array<char, 65536> piece{};
     while (true) {
-        const ssize_t got =
-            ::pread(descriptor, piece.data(), piece.size(), static_cast<off_t>(text.size()));
+        const ssize_t got = ::pread(descriptor, piece.data(), piece.size(), static_cast<off_t>(text.size()));
         if (got > 0) {
             text.append(piece.data(), static_cast<std::size_t>(got));
         } else if (got == 0 || errno != EINTR) {
@@ -44,23 +41,18 @@ std::string all_of(int descriptor) {
 std::string last_line(const std::string& text) {
     std::string_view last;
     for (const std::string_view line : split_lines(text)) {
-        if (!split_words(line).empty()) {
-            last = line;
-        }
+        if (!split_words(line).empty()) { last = line; }
     }
     return std::string(last);
 }
 
 std::string exit_text(int status) {
-    if (WIFSIGNALED(status)) {
-        return fmt::format("ended by signal {}", WTERMSIG(status));
-    }
+    if (WIFSIGNALED(status)) { return fmt::format("ended by signal {}", WTERMSIG(status)); }
     return fmt::format("ended with exit code {}", WEXITSTATUS(status));
 }
 
 /// Spawns with standard input, output and error set. Returns errno's value, 0 = running.
-int spawn(
-    pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
+int spawn(pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (const std::string& word : words) {
@@ -69,15 +61,12 @@ int spawn(
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t actions{};
     posix_spawn_file_actions_init(&actions);
-    for (int i = 0; i < 3; ++i) {
-        posix_spawn_file_actions_adddup2(&actions, streams[static_cast<std::size_t>(i)], i);
-    }
+    for (int i = 0; i < 3; ++i) { posix_spawn_file_actions_adddup2(&actions, streams[static_cast<std::size_t>(i)], i); }
     posix_spawnattr_t attributes{};
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
-    const int code =
-        posix_spawnp(&process, arguments[0], &actions, &attributes, arguments.data(), environ);
+    const int code = posix_spawnp(&process, arguments[0], &actions, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return code;
@@ -96,18 +85,13 @@ std::optional<ChildProgram> ChildProgram::start(const std::vector<std::string>& 
     child.input_ = ends[0];
     child.output_ = ::memfd_create("output", MFD_CLOEXEC);
     child.error_pipe_ = ::memfd_create("complaints", MFD_CLOEXEC);
-    const int code =
-        child.output_ < 0 || child.error_pipe_ < 0
-            ? errno
-            : spawn(child.process_, words, {ends[1], child.output_, child.error_pipe_});
+    const int code = child.output_ < 0 || child.error_pipe_ < 0
+                         ? errno
+                         : spawn(child.process_, words, {ends[1], child.output_, child.error_pipe_});
     ::close(ends[1]);
-    if (code == 0) {
-        return child;
-    }
+    if (code == 0) { return child; }
     child.process_ = -1;
-    if (code == ENOENT || code == EACCES || code == ENOTDIR) {
-        return std::nullopt;
-    }
+    if (code == ENOENT || code == EACCES || code == ENOTDIR) { return std::nullopt; }
     throw Error(fmt::format("{} cannot be started: {}", words[0], std::strerror(code)));
 }
 
@@ -119,21 +103,14 @@ ChildProgram::~ChildProgram() {
 }
 
 ChildProgram::ChildProgram(ChildProgram&& other) noexcept
-    : process_(std::exchange(other.process_, -1))
-    , status_(other.status_)
-    , input_(std::exchange(other.input_, -1))
-    , output_(std::exchange(other.output_, -1))
-    , error_pipe_(std::exchange(other.error_pipe_, -1)) {}
+    : process_(std::exchange(other.process_, -1)), status_(other.status_), input_(std::exchange(other.input_, -1)),
+      output_(std::exchange(other.output_, -1)), error_pipe_(std::exchange(other.error_pipe_, -1)) {}
 
 bool ChildProgram::send(std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) {
-            continue;
-        }
-        if (sent < 0) {
-            return false;
-        }
+        if (sent < 0 && errno == EINTR) { continue; }
+        if (sent < 0) { return false; }
         bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
     return true;
@@ -142,34 +119,25 @@ bool ChildProgram::send(std::string_view bytes) {
 int ChildProgram::wait() {
     int status = status_.value_or(0);
     if (process_ > 0 && !status_) {
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-        }
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {}
     }
     process_ = -1;
     return status;
 }
 
-void ChildProgram::end_input() {
-    close_if_open(input_);
-}
+void ChildProgram::end_input() { close_if_open(input_); }
 
 bool ChildProgram::is_running() {
     int status = 0;
-    if (process_ > 0 && !status_ && ::waitpid(process_, &status, WNOHANG) == process_) {
-        status_ = status;
-    }
+    if (process_ > 0 && !status_ && ::waitpid(process_, &status, WNOHANG) == process_) { status_ = status; }
     return process_ > 0 && !status_;
 }
 
 void ChildProgram::signal(int number) {
-    if (is_running()) {
-        ::kill(process_, number);
-    }
+    if (is_running()) { ::kill(process_, number); }
 }
 
-std::string ChildProgram::output() const {
-    return all_of(output_);
-}
+std::string ChildProgram::output() const { return all_of(output_); }
 
 ProgramResult ChildProgram::finish() {
     assert(process_ > 0);
@@ -179,9 +147,7 @@ ProgramResult ChildProgram::finish() {
     ending.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ending.output = all_of(output_);
     ending.last_error_line = last_line(all_of(error_pipe_));
-    if (ending.last_error_line.empty() && !ending.succeeded) {
-        ending.last_error_line = exit_text(status);
-    }
+    if (ending.last_error_line.empty() && !ending.succeeded) { ending.last_error_line = exit_text(status); }
     return ending;
 }
 

@@ -10,18 +10,17 @@ namespace octant::ui::report {
 
 /// How a program ended.
 struct ProgramResult {
-    bool succeeded = false;     ///< exit code 0
-    std::string output;         ///< all of its standard output
+    bool succeeded = false;      ///< exit code 0
+    std::string output;          ///< all of its standard output
     std::string last_error_line; ///< last line of its standard error, or how it ended
 };
 
-/// A program run beside ours, fed through its standard input; no shell is involved. It stands in a
-/// process group of its own: Ctrl-C reaches only us, and when we are killed it sees the end of its
-/// input and finishes in peace.
+/// A program run beside ours, fed through its standard input; no shell is involved. It stands in a process group of its
+/// own: Ctrl-C reaches only us, and when we are killed it sees the end of its input and finishes in peace.
 class ChildProgram {
 public:
-    /// Starts `words[0]`, looked up on PATH, with the rest as arguments. Nothing when there is no
-    /// such program that we may run. Throws Error when the system cannot start it.
+    /// Starts `words[0]`, looked up on PATH, with the rest as arguments. Nothing when there is no such program that we
+    /// may run. Throws Error when the system cannot start it.
     static std::optional<ChildProgram> start(const std::vector<std::string>& words);
 
     /// Ends the input and waits.
@@ -31,8 +30,7 @@ public:
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;
 
-    /// Feeds the program, waiting for it where it is slower. False once it reads no more (it
-    /// ended); raises no SIGPIPE.
+    /// Feeds the program, waiting for it where it is slower. False once it reads no more (it ended); raises no SIGPIPE.
     bool send(std::string_view bytes);
 
     /// Nothing more is sent.

@@ -34,9 +34,7 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count)
     assert(max_count >= 1);
     std::vector<std::size_t> chosen;
     if (count <= max_count) {
-        for (std::size_t i = 0; i < count; ++i) {
-            chosen.push_back(i);
-        }
+        for (std::size_t i = 0; i < count; ++i) { chosen.push_back(i); }
         return chosen;
     }
     for (std::size_t i = 0; i < max_count; ++i) {
@@ -47,8 +45,7 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count)
 
 Picture downscaled(const PixelView& picture, int widest) {
     assert(picture.is_whole() && widest >= 1);
-    const int side =
-        std::min((picture.width_px + widest - 1) / widest, std::max(1, picture.height_px));
+    const int side = std::min((picture.width_px + widest - 1) / widest, std::max(1, picture.height_px));
     Picture small{picture.width_px / side, picture.height_px / side, 3, {}};
     small.bytes.reserve(small.view().row_bytes() * static_cast<std::size_t>(small.height_px));
     for (int y = 0; y < small.height_px; ++y) {
@@ -61,41 +58,29 @@ Picture downscaled(const PixelView& picture, int widest) {
     return small;
 }
 
-std::string
-picture_html(const std::filesystem::path& picture, int widest, const std::string& caption) {
+std::string picture_html(const std::filesystem::path& picture, int widest, const std::string& caption) {
     try {
         const Picture small = downscaled(read_png(picture).view(), widest);
-        return fmt::format(
-            "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
-            "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
-            escaped(caption),
-            small.width_px,
-            small.height_px,
-            base64(png_bytes(small.view(), PngEffort::Small)));
+        return fmt::format("<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
+                           "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
+            escaped(caption), small.width_px, small.height_px, base64(png_bytes(small.view(), PngEffort::Small)));
     } catch (const Error& error) {
-        return fmt::format(
-            "<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n",
-            escaped(error.what()));
+        return fmt::format("<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n", escaped(error.what()));
     }
 }
 
 std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) {
-    if (pictures.empty()) {
-        return {};
-    }
+    if (pictures.empty()) { return {}; }
     const auto chosen = evenly_spaced(pictures.size(), max_pictures);
     std::string html = "<div class=\"sheet\">\n";
     for (const std::size_t index : chosen) {
-        html +=
-            picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
+        html += picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
     }
     html += "</div>\n";
     if (chosen.size() < pictures.size()) {
-        html += fmt::format(
-            "<p class=\"note\">{} of {} pictures, evenly spaced; the others lie beside run.json "
-            "in the recording's folder.</p>\n",
-            chosen.size(),
-            pictures.size());
+        html += fmt::format("<p class=\"note\">{} of {} pictures, evenly spaced; the others lie beside run.json "
+                            "in the recording's folder.</p>\n",
+            chosen.size(), pictures.size());
     }
     return html;
 }

@@ -7,15 +7,9 @@
 namespace octant::ui::report {
 
 Curve::Bucket Curve::joined(const Bucket& a, const Bucket& b) {
-    if (!std::isfinite(a.lowest.y)) {
-        return b;
-    }
-    if (!std::isfinite(b.lowest.y)) {
-        return a;
-    }
-    return {
-        b.lowest.y < a.lowest.y ? b.lowest : a.lowest,
-        b.highest.y > a.highest.y ? b.highest : a.highest};
+    if (!std::isfinite(a.lowest.y)) { return b; }
+    if (!std::isfinite(b.lowest.y)) { return a; }
+    return {b.lowest.y < a.lowest.y ? b.lowest : a.lowest, b.highest.y > a.highest.y ? b.highest : a.highest};
 }
 
 void Curve::add(double x, double y) {
@@ -26,9 +20,7 @@ void Curve::add(double x, double y) {
         return;
     }
     if (buckets_.size() == max_pieces) {
-        for (std::size_t i = 0; 2 * i < max_pieces; ++i) {
-            buckets_[i] = joined(buckets_[2 * i], buckets_[2 * i + 1]);
-        }
+        for (std::size_t i = 0; 2 * i < max_pieces; ++i) { buckets_[i] = joined(buckets_[2 * i], buckets_[2 * i + 1]); }
         buckets_.resize(max_pieces / 2);
         points_per_bucket_ *= 2;
     }
@@ -48,14 +40,10 @@ PlotSeries Curve::series(std::size_t buckets) const {
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t end = (i + 1) * buckets_.size() / count;
         Bucket piece = buckets_[i * buckets_.size() / count];
-        for (std::size_t j = i * buckets_.size() / count + 1; j < end; ++j) {
-            piece = joined(piece, buckets_[j]);
-        }
+        for (std::size_t j = i * buckets_.size() / count + 1; j < end; ++j) { piece = joined(piece, buckets_[j]); }
         const bool rises = piece.lowest.x <= piece.highest.x;
         add_point(rises ? piece.lowest : piece.highest);
-        if (piece.lowest.x != piece.highest.x) {
-            add_point(rises ? piece.highest : piece.lowest);
-        }
+        if (piece.lowest.x != piece.highest.x) { add_point(rises ? piece.highest : piece.lowest); }
     }
     return series;
 }

@@ -7,8 +7,8 @@
 
 namespace octant::ui::report {
 
-/// A curve over a flight in the memory of a plot: where there are more points than it keeps pieces,
-/// neighbours share one, which keeps its least and its greatest value.
+/// A curve over a flight in the memory of a plot: where there are more points than it keeps pieces, neighbours share
+/// one, which keeps its least and its greatest value.
 class Curve {
 public:
     /// More pieces than a page's plot has pixels.

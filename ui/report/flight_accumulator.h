@@ -58,8 +58,8 @@ struct TargetRange {
     bool varies() const { return min_triangles < max_triangles; }
 };
 
-/// What a report shows of a flight's frames. They are added one by one in flight order and not
-/// kept, so that a flight of a million takes no more memory than one of ten thousand.
+/// What a report shows of a flight's frames. They are added one by one in flight order and not kept, so that a flight
+/// of a million takes no more memory than one of ten thousand.
 class FlightAccumulator {
 public:
     void add(const FrameRecord& record);

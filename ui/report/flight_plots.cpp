@@ -29,8 +29,7 @@ PlotSeries named(PlotSeries series, const char* name, const char* colour) {
 Plot frame_time_plot(const FlightAccumulator& flight, double ceiling_ms) {
     Plot plot{"Frame time", time_label, "ms", {}, {}, 0.0, ceiling_ms};
     plot.series = {
-        named(flight.warm_up_ms.series(), "warm-up", grey),
-        named(flight.frame_ms.series(), "frame time", blue)};
+        named(flight.warm_up_ms.series(), "warm-up", grey), named(flight.frame_ms.series(), "frame time", blue)};
     plot.levels = {{"16.67 ms", overrun_16_ms}};
     return plot;
 }
@@ -39,9 +38,7 @@ Plot frame_time_plot(const FlightAccumulator& flight, double ceiling_ms) {
 double round_up_to_125(double value) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0}) {
-        if (step * power >= value * (1.0 - 1e-9)) {
-            return step * power;
-        }
+        if (step * power >= value * (1.0 - 1e-9)) { return step * power; }
     }
     return 10.0 * power;
 }
@@ -49,16 +46,13 @@ double round_up_to_125(double value) {
 Plot histogram_plot(const FrameTimeHistogram& times) {
     Plot plot{"Histogram", "frame time, ms (last bar: all above)", "frames", {}, {}, 0.7, {}};
     const Statistics statistics = times.statistics();
-    if (statistics.max_ms <= 0.0) {
-        return plot;
-    }
+    if (statistics.max_ms <= 0.0) { return plot; }
     const double top_ms = std::min(statistics.max_ms, 1.6 * statistics.p99_ms);
     const double width_ms = round_up_to_125(std::max(top_ms, 1e-3) / 60.0);
     const auto last_bar = static_cast<std::size_t>(std::floor(top_ms / width_ms));
     std::vector<double> counts(last_bar + 1, 0.0);
     for (const auto& [frame_ms, frames] : times.counts()) {
-        const auto bar =
-            static_cast<std::size_t>(std::floor(std::clamp(frame_ms, 0.0, top_ms) / width_ms));
+        const auto bar = static_cast<std::size_t>(std::floor(std::clamp(frame_ms, 0.0, top_ms) / width_ms));
         counts[std::min(bar, last_bar)] += static_cast<double>(frames);
     }
     PlotSeries bars;
@@ -84,11 +78,8 @@ Plot stage_plot(const StageColumns& stages_of_flight, double ceiling_ms) {
         double Column::*duration_ms;
     };
 
-    constexpr std::array stages{
-        Stage{"sim", violet, &Column::sim_ms},
-        Stage{"plan", green, &Column::plan_ms},
-        Stage{"draw", blue, &Column::draw_ms},
-        Stage{"read", amber, &Column::read_ms}};
+    constexpr std::array stages{Stage{"sim", violet, &Column::sim_ms}, Stage{"plan", green, &Column::plan_ms},
+        Stage{"draw", blue, &Column::draw_ms}, Stage{"read", amber, &Column::read_ms}};
     const std::vector<Column>& columns = stages_of_flight.columns();
     Plot plot{"Stages, stacked", time_label, "ms", {}, {}, 0.0, ceiling_ms};
     if (stages_of_flight.is_thinned()) {
@@ -103,9 +94,7 @@ Plot stage_plot(const StageColumns& stages_of_flight, double ceiling_ms) {
             base[2 * i] += columns[i].*stage.duration_ms;
             base[2 * i + 1] = base[2 * i];
             const bool last = i + 1 == columns.size();
-            area.x.insert(
-                area.x.end(),
-                {columns[i].x_s, last ? stages_of_flight.end_s() : columns[i + 1].x_s});
+            area.x.insert(area.x.end(), {columns[i].x_s, last ? stages_of_flight.end_s() : columns[i + 1].x_s});
         }
         area.y = base;
         plot.series.push_back(std::move(area));
@@ -121,8 +110,7 @@ Plot triangle_plot(const Curve& triangles) {
 }
 
 Plot change_plot(const Curve& triangle_change) {
-    Plot plot{
-        "Change of terrain triangles from frame to frame", time_label, "triangles", {}, {}, {}, {}};
+    Plot plot{"Change of terrain triangles from frame to frame", time_label, "triangles", {}, {}, {}, {}};
     plot.series = {named(triangle_change.series(), "", violet)};
     return plot;
 }
@@ -150,12 +138,8 @@ double plot_ceiling_ms(const Statistics& statistics) {
 }
 
 std::vector<Plot> flight_plots(const FlightAccumulator& flight, double ceiling_ms) {
-    std::vector<Plot> plots = {
-        frame_time_plot(flight, ceiling_ms),
-        histogram_plot(flight.times()),
-        stage_plot(flight.stages, ceiling_ms),
-        triangle_plot(flight.triangles),
-        change_plot(flight.triangle_change)};
+    std::vector<Plot> plots = {frame_time_plot(flight, ceiling_ms), histogram_plot(flight.times()),
+        stage_plot(flight.stages, ceiling_ms), triangle_plot(flight.triangles), change_plot(flight.triangle_change)};
     if (flight.triangle_targets().varies()) {
         plots.push_back(target_plot(flight.triangle_target));
         plots.push_back(stress_plot(flight.stress));

@@ -30,9 +30,7 @@ std::string holder_in(int descriptor) {
 
 std::string own_name() {
     std::array<char, 256> host{};
-    if (::gethostname(host.data(), host.size() - 1) != 0) {
-        host.front() = '\0';
-    }
+    if (::gethostname(host.data(), host.size() - 1) != 0) { host.front() = '\0'; }
     return fmt::format("process {} on {}\n", ::getpid(), host.data());
 }
 
@@ -50,34 +48,25 @@ bool is_named(int descriptor, const fs::path& file) {
 int locked(const fs::path& file) {
     for (;;) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (descriptor < 0) {
-            throw_error_in(file, fmt::format("cannot be written: {}", std::strerror(errno)));
-        }
+        if (descriptor < 0) { throw_error_in(file, fmt::format("cannot be written: {}", std::strerror(errno))); }
         const bool busy = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (busy) {
             const std::string holder = holder_in(descriptor);
             ::close(descriptor);
-            throw_error_in(
-                file.parent_path(),
-                fmt::format(
-                    "expected a folder that nobody records into, got one that {} records into",
+            throw_error_in(file.parent_path(),
+                fmt::format("expected a folder that nobody records into, got one that {} records into",
                     holder.empty() ? "another program" : printable(holder)));
         }
-        if (is_named(descriptor, file)) {
-            return descriptor;
-        }
+        if (is_named(descriptor, file)) { return descriptor; }
         ::close(descriptor);
     }
 }
 
 } // namespace
 
-FolderLock::FolderLock(const fs::path& folder)
-    : file_(folder / lock_name)
-    , descriptor_(locked(file_)) {
+FolderLock::FolderLock(const fs::path& folder) : file_(folder / lock_name), descriptor_(locked(file_)) {
     const std::string name = own_name();
-    if (::ftruncate(descriptor_, 0) != 0 ||
-        ::pwrite(descriptor_, name.data(), name.size(), 0) != std::ssize(name)) {
+    if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, name.data(), name.size(), 0) != std::ssize(name)) {
         const std::string reason = std::strerror(errno);
         ::unlink(file_.c_str());
         ::close(descriptor_);
@@ -92,9 +81,7 @@ FolderLock::~FolderLock() {
 
 bool is_locked(const fs::path& folder) {
     const int descriptor = ::open((folder / lock_name).c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) {
-        return false;
-    }
+    if (descriptor < 0) { return false; }
     const bool busy = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     ::close(descriptor);
     return busy;

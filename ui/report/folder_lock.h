@@ -7,12 +7,12 @@ namespace octant::ui::report {
 /// Name of the file that whoever writes into a folder holds locked.
 inline constexpr const char* lock_name = "recording.lock";
 
-/// Keeps other programs from recording into a folder for as long as it lives. The system lets go
-/// of the lock when a program is killed; the file that may be left then locks nothing.
+/// Keeps other programs from recording into a folder for as long as it lives. The system lets go of the lock when a
+/// program is killed; the file that may be left then locks nothing.
 class FolderLock {
 public:
-    /// Throws Error at once where another program, or this one, is writing into the folder, and
-    /// where no file can be made there. File systems without locks keep nobody out.
+    /// Throws Error at once where another program, or this one, is writing into the folder, and where no file can be
+    /// made there. File systems without locks keep nobody out.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

@@ -37,11 +37,7 @@ struct CsvColumn {
 
 template <auto Member>
 constexpr CsvColumn column(std::string_view name, Kind kind = Kind::Whole, int decimals = 0) {
-    return {
-        name,
-        kind,
-        decimals,
-        [](const FrameRecord& record) { return static_cast<double>(record.*Member); },
+    return {name, kind, decimals, [](const FrameRecord& record) { return static_cast<double>(record.*Member); },
         [](FrameRecord& record, double value) {
             record.*Member = static_cast<std::remove_reference_t<decltype(record.*Member)>>(value);
         }};
@@ -49,16 +45,11 @@ constexpr CsvColumn column(std::string_view name, Kind kind = Kind::Whole, int d
 
 template <auto Member, int axis>
 constexpr CsvColumn axis_column(std::string_view name) {
-    return {
-        name,
-        Kind::MayBeEmpty,
-        3,
-        [](const FrameRecord& record) { return (record.*Member)[axis]; },
+    return {name, Kind::MayBeEmpty, 3, [](const FrameRecord& record) { return (record.*Member)[axis]; },
         [](FrameRecord& record, double value) { (record.*Member)[axis] = value; }};
 }
 
-constexpr CsvColumn
-hash_column(std::string_view name, std::optional<std::uint64_t> FrameRecord::*hash) {
+constexpr CsvColumn hash_column(std::string_view name, std::optional<std::uint64_t> FrameRecord::*hash) {
     return {name, Kind::Hash, 0, nullptr, nullptr, hash};
 }
 
@@ -160,13 +151,11 @@ std::optional<std::uint64_t> hash_from(std::string_view text) {
 std::optional<double> field_value(const CsvColumn& column, std::string_view text) {
     if (column.kind == Kind::Whole) {
         const auto whole = whole_number(text);
-        const bool fits = whole && *whole >= std::numeric_limits<int>::min() &&
-                          *whole <= std::numeric_limits<int>::max();
+        const bool fits =
+            whole && *whole >= std::numeric_limits<int>::min() && *whole <= std::numeric_limits<int>::max();
         return fits ? std::optional(static_cast<double>(*whole)) : std::nullopt;
     }
-    if (text.empty() && column.kind == Kind::MayBeEmpty) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
+    if (text.empty() && column.kind == Kind::MayBeEmpty) { return std::numeric_limits<double>::quiet_NaN(); }
     return finite_number(text);
 }
 
@@ -177,9 +166,7 @@ bool set_field(const CsvColumn& column, std::string_view text, FrameRecord& reco
         return text.empty() || record.*column.hash;
     }
     const auto value = field_value(column, text);
-    if (value) {
-        column.set(record, *value);
-    }
+    if (value) { column.set(record, *value); }
     return value.has_value();
 }
 
@@ -189,62 +176,41 @@ std::string_view is_required_by(Kind kind) {
 
 /// For each field of the header its column's number, one past the last for what is not ours.
 std::vector<std::size_t> read_header(
-    const std::filesystem::path& path,
-    std::string_view line,
-    std::span<const std::string_view> required_columns) {
+    const std::filesystem::path& path, std::string_view line, std::span<const std::string_view> required_columns) {
     std::vector<std::size_t> order;
     for (const std::string_view name : split_fields(line, ',')) {
-        const auto found =
-            std::find_if(frame_columns.begin(), frame_columns.end(), [&](const CsvColumn& each) {
-                return each.name == name;
-            });
+        const auto found = std::find_if(
+            frame_columns.begin(), frame_columns.end(), [&](const CsvColumn& each) { return each.name == name; });
         const auto column = static_cast<std::size_t>(found - frame_columns.begin());
-        if (found != frame_columns.end() &&
-            std::find(order.begin(), order.end(), column) != order.end()) {
+        if (found != frame_columns.end() && std::find(order.begin(), order.end(), column) != order.end()) {
             throw_error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
         }
         order.push_back(column);
     }
     for (std::size_t i = 0; i < frame_columns.size(); ++i) {
         const std::string_view name = frame_columns[i].name;
-        const bool is_needed = frame_columns[i].required ||
-                               std::find(required_columns.begin(), required_columns.end(), name) != required_columns.end();
+        const bool is_needed = frame_columns[i].required || std::find(required_columns.begin(), required_columns.end(),
+                                                                name) != required_columns.end();
         if (is_needed && std::find(order.begin(), order.end(), i) == order.end()) {
-            throw_error_at(
-                path,
-                1,
-                fmt::format("expected a column {}, got '{}'", name, printable(std::string(line))));
+            throw_error_at(path, 1, fmt::format("expected a column {}, got '{}'", name, printable(std::string(line))));
         }
     }
     return order;
 }
 
 FrameRecord read_line(
-    const std::filesystem::path& path,
-    int line_number,
-    std::string_view line,
-    const std::vector<std::size_t>& order) {
+    const std::filesystem::path& path, int line_number, std::string_view line, const std::vector<std::size_t>& order) {
     const auto fields = split_fields(line, ',');
     if (fields.size() != order.size()) {
-        throw_error_at(
-            path,
-            line_number,
-            fmt::format("expected {} fields, got {}", order.size(), fields.size()));
+        throw_error_at(path, line_number, fmt::format("expected {} fields, got {}", order.size(), fields.size()));
     }
     FrameRecord record;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (order[i] == frame_columns.size()) {
-            continue;
-        }
+        if (order[i] == frame_columns.size()) { continue; }
         const CsvColumn& column = frame_columns[order[i]];
         if (!set_field(column, fields[i], record)) {
-            throw_error_at(
-                path,
-                line_number,
-                fmt::format(
-                    "expected a {} in column {}, got '{}'",
-                    is_required_by(column.kind),
-                    column.name,
+            throw_error_at(path, line_number,
+                fmt::format("expected a {} in column {}, got '{}'", is_required_by(column.kind), column.name,
                     printable(std::string(fields[i]))));
         }
     }
@@ -253,9 +219,7 @@ FrameRecord read_line(
 
 } // namespace
 
-std::string frame_csv_header() {
-    return header_line() + "\n";
-}
+std::string frame_csv_header() { return header_line() + "\n"; }
 
 std::string frame_csv_line(const FrameRecord& record) {
     std::string line;
@@ -281,14 +245,11 @@ FrameRecord rounded_as_csv(const FrameRecord& record) {
 }
 
 FrameReader::FrameReader(fs::path path, std::span<const std::string_view> required_columns)
-    : path_(std::move(path))
-    , lines_(path_) {
+    : path_(std::move(path)), lines_(path_) {
     const auto header = lines_.next();
     is_truncated_ = header && lines_.is_truncated();
     ended_ = !header || (is_truncated_ && header_line().starts_with(*header));
-    if (!ended_) {
-        columns_ = read_header(path_, *header, required_columns);
-    }
+    if (!ended_) { columns_ = read_header(path_, *header, required_columns); }
 }
 
 std::optional<FrameRecord> FrameReader::next() {
@@ -301,9 +262,7 @@ std::optional<FrameRecord> FrameReader::next() {
     FrameRecord record = read_line(path_, lines_.number(), *line, columns_);
     if (last_frame_ && record.frame <= *last_frame_) {
         throw_error_at(
-            path_,
-            lines_.number(),
-            fmt::format("expected a frame after {}, got {}", *last_frame_, record.frame));
+            path_, lines_.number(), fmt::format("expected a frame after {}, got {}", *last_frame_, record.frame));
     }
     last_frame_ = record.frame;
     return record;
@@ -312,9 +271,7 @@ std::optional<FrameRecord> FrameReader::next() {
 FrameFile read_frame_csv(const fs::path& path, std::span<const std::string_view> required_columns) {
     FrameReader reader(path, required_columns);
     FrameFile file;
-    while (const auto record = reader.next()) {
-        file.records.push_back(*record);
-    }
+    while (const auto record = reader.next()) { file.records.push_back(*record); }
     file.is_truncated = reader.is_truncated();
     return file;
 }

@@ -31,14 +31,14 @@ struct FrameRecord {
     double record_ms = 0.0;    ///< writing pictures and video, outside frame_ms
     int terrain_triangles = 0;
     int terrain_fans = 0;
-    int detail_triangles = 0;    ///< of terrain_triangles: detail below the samples
+    int detail_triangles = 0;  ///< of terrain_triangles: detail below the samples
     int scenery_triangles = 0; ///< of terrain_triangles: what stands on it, roads and a runway
     int aircraft_polygons = 0; ///< in the lists drawn, before back-face culling
     int draw_cell = 0;         ///< cell of the first aircraft's draw order
     double resolution_c = 0.0; ///< C of the terrain in this frame
     int triangle_change = 0;   ///< terrain triangles minus those of the frame before
-    /// frame_ms over the frame's share of simulated time; filtered where the ground adapts, then
-    /// not finite while warming up.
+    /// frame_ms over the frame's share of simulated time; filtered where the ground adapts, then not finite while
+    /// warming up.
     double stress = 0.0;
     int overrun = 0;    ///< 1 when frame_ms is above 16.67
     int draw_calls = 0; ///< of the graphics library, or steps painted where there is none
@@ -50,14 +50,14 @@ struct FrameRecord {
     glm::dvec3 aircraft_m{0.0};  ///< first aircraft, world
     double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it
     int triangle_target = 0;     ///< terrain triangles that this frame was to have
-    /// How far any sample of the terrain in the picture may lie from its triangles, but for detail
-    /// that is made up near the eye; 0 where C decides.
+    /// How far any sample of the terrain in the picture may lie from its triangles, but for detail that is made up near
+    /// the eye; 0 where C decides.
     double error_px = 0.0;
-    /// By the clock only, else not finite: from the input that the frame shows, or from the moment
-    /// that it was due, to the picture finished.
+    /// By the clock only, else not finite: from the input that the frame shows, or from the moment that it was due, to
+    /// the picture finished.
     double latency_ms = std::numeric_limits<double>::quiet_NaN();
-    /// Polygons that are lit smoothly, of all polygons of the models shown and all triangles of
-    /// their refined meshes, whether they are painted or face away.
+    /// Polygons that are lit smoothly, of all polygons of the models shown and all triangles of their refined meshes,
+    /// whether they are painted or face away.
     int smooth_polygons = 0;
     int smooth_target = -1;   ///< smooth polygons that this frame was to have; negative: by a share
     int refine_splits = 0;    ///< of meshes that are refined in each frame

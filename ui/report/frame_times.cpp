@@ -9,16 +9,12 @@ namespace octant::ui::report {
 
 void FrameTimeHistogram::add(double frame_ms) {
     ++counts_[frame_ms];
-    if (frames_++ > 0) {
-        change_ms_ += std::abs(frame_ms - last_ms_);
-    }
+    if (frames_++ > 0) { change_ms_ += std::abs(frame_ms - last_ms_); }
     last_ms_ = frame_ms;
 }
 
 void FrameTimeHistogram::add(const FrameRecord& record) {
-    if (!record.warm_up) {
-        add(record.frame_ms);
-    }
+    if (!record.warm_up) { add(record.frame_ms); }
 }
 
 /// The time of that rank, counted from 1 upwards.
@@ -26,9 +22,7 @@ double FrameTimeHistogram::at_rank(std::uint64_t rank) const {
     std::uint64_t passed = 0;
     for (const auto& [frame_ms, count] : counts_) {
         passed += count;
-        if (passed >= rank) {
-            return frame_ms;
-        }
+        if (passed >= rank) { return frame_ms; }
     }
     return 0.0;
 }
@@ -48,22 +42,16 @@ double FrameTimeHistogram::low_fps(int permille) const {
 
 int FrameTimeHistogram::count_above(double limit_ms) const {
     std::uint64_t count = 0;
-    for (auto at = counts_.upper_bound(limit_ms); at != counts_.end(); ++at) {
-        count += at->second;
-    }
+    for (auto at = counts_.upper_bound(limit_ms); at != counts_.end(); ++at) { count += at->second; }
     return static_cast<int>(count);
 }
 
 Statistics FrameTimeHistogram::statistics() const {
     Statistics result;
-    if (frames_ == 0) {
-        return result;
-    }
+    if (frames_ == 0) { return result; }
     const auto n = static_cast<double>(frames_);
     double sum_ms = 0.0;
-    for (const auto& [frame_ms, count] : counts_) {
-        sum_ms += static_cast<double>(count) * frame_ms;
-    }
+    for (const auto& [frame_ms, count] : counts_) { sum_ms += static_cast<double>(count) * frame_ms; }
     result.frames = static_cast<int>(frames_);
     result.mean_ms = sum_ms / n;
     double squares = 0.0;
@@ -91,17 +79,13 @@ Statistics FrameTimeHistogram::statistics() const {
 
 Statistics statistics_of_times(std::span<const double> frame_ms) {
     FrameTimeHistogram times;
-    for (const double each_ms : frame_ms) {
-        times.add(each_ms);
-    }
+    for (const double each_ms : frame_ms) { times.add(each_ms); }
     return times.statistics();
 }
 
 Statistics statistics_of(std::span<const FrameRecord> records) {
     FrameTimeHistogram times;
-    for (const FrameRecord& record : records) {
-        times.add(record);
-    }
+    for (const FrameRecord& record : records) { times.add(record); }
     return times.statistics();
 }
 

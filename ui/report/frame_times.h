@@ -9,9 +9,9 @@
 
 namespace octant::ui::report {
 
-/// Frame times counted one by one, so that a flight's figures are known without its rows. Takes
-/// memory for each different time, not for each frame: times rounded as frames.csv has them are
-/// hardly more than ten thousand for a second of range.
+/// Frame times counted one by one, so that a flight's figures are known without its rows. Takes memory for each
+/// different time, not for each frame: times rounded as frames.csv has them are hardly more than ten thousand for a
+/// second of range.
 class FrameTimeHistogram {
 public:
     /// In flight order, in milliseconds.

@@ -1,4 +1,5 @@
 #include "ui/report/html_report.h"
+
 #include "sim/base/file_status.h"
 #include "ui/report/comparison.h"
 #include "ui/report/contact_sheet.h"
@@ -31,13 +32,9 @@ namespace octant::ui::report {
 
 namespace {
 
-std::string number(double value) {
-    return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("null");
-}
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("null"); }
 
-std::string number(const std::optional<double>& value) {
-    return value ? number(*value) : std::string("null");
-}
+std::string number(const std::optional<double>& value) { return value ? number(*value) : std::string("null"); }
 
 std::string list(std::span<const double> values) {
     std::string text = "[";
@@ -67,44 +64,24 @@ template <class Items, class Number>
 std::string pairs(const Items& items, Number number_of) {
     std::string text = "[";
     for (const auto& item : items) {
-        text += fmt::format(
-            "{}[{},{}]",
-            text.size() > 1 ? "," : "",
-            json_string(item.name),
-            number(number_of(item)));
+        text += fmt::format("{}[{},{}]", text.size() > 1 ? "," : "", json_string(item.name), number(number_of(item)));
     }
     return text + "]";
 }
 
 std::string series_json(const PlotSeries& series) {
     using Style = PlotSeries::Style;
-    const char* const style = series.style == Style::Area   ? "area"
-                              : series.style == Style::Bars ? "bars"
-                                                            : "line";
-    std::string json = fmt::format(
-        R"({{"n":{},"c":{},"s":"{}","x":{},"y":{})",
-        json_string(series.name),
-        json_string(series.colour),
-        style,
-        list(series.x),
-        list(series.y));
-    if (series.style == Style::Area) {
-        json += ",\"l\":" + list(series.y_low);
-    }
+    const char* const style = series.style == Style::Area ? "area" : series.style == Style::Bars ? "bars" : "line";
+    std::string json = fmt::format(R"({{"n":{},"c":{},"s":"{}","x":{},"y":{})", json_string(series.name),
+        json_string(series.colour), style, list(series.x), list(series.y));
+    if (series.style == Style::Area) { json += ",\"l\":" + list(series.y_low); }
     return json + "}";
 }
 
 std::string plot_json(const Plot& plot) {
-    std::string json = fmt::format(
-        R"({{"x":{},"y":{},"x0":{},"x1":{},"y0":{},"y1":{},"log":{},"bar":{},)",
-        json_string(plot.x_label),
-        json_string(plot.y_label),
-        number(plot.x_min),
-        number(plot.x_max),
-        number(plot.y_min),
-        number(plot.y_max),
-        plot.y_logarithmic,
-        number(plot.bar_width));
+    std::string json = fmt::format(R"({{"x":{},"y":{},"x0":{},"x1":{},"y0":{},"y1":{},"log":{},"bar":{},)",
+        json_string(plot.x_label), json_string(plot.y_label), number(plot.x_min), number(plot.x_max),
+        number(plot.y_min), number(plot.y_max), plot.y_logarithmic, number(plot.bar_width));
     json += "\"levels\":" + pairs(plot.levels, [](const PlotReferenceLine& level) { return level.y; });
     json += ",\"marks\":" + pairs(plot.marks, [](const PlotMark& mark) { return mark.x; });
     json += ",\"series\":[";
@@ -120,9 +97,7 @@ std::string key_html(const Plot& plot) {
     for (const PlotSeries& series : plot.series) {
         if (!series.name.empty() && !series.x.empty()) {
             html += fmt::format(
-                "<span><i style=\"background:{}\"></i>{}</span>",
-                escaped(series.colour),
-                escaped(series.name));
+                "<span><i style=\"background:{}\"></i>{}</span>", escaped(series.colour), escaped(series.name));
         }
     }
     return html.empty() ? html : "<div class=\"key\">" + html + "</div>";
@@ -133,35 +108,21 @@ std::string key_html(const Plot& plot) {
 std::string page_plot(const Plot& plot, PlotWidth place) {
     const bool small = place == PlotWidth::Small;
     const int height_px = place == PlotWidth::FullWidth ? 320 : (small ? 130 : 260);
-    return fmt::format(
-        "<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
-        "<script type=\"application/json\">{}</script></div>\n",
-        place == PlotWidth::FullWidth ? " wide" : (small ? " small" : ""),
-        height_px,
-        escaped(plot.title),
-        small ? std::string() : key_html(plot),
-        plot_json(plot));
+    return fmt::format("<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
+                       "<script type=\"application/json\">{}</script></div>\n",
+        place == PlotWidth::FullWidth ? " wide" : (small ? " small" : ""), height_px, escaped(plot.title),
+        small ? std::string() : key_html(plot), plot_json(plot));
 }
 
 namespace {
 
 /// Of curves in one plot, as HTML has them.
 constexpr std::array run_colours{
-    "#3b82f6",
-    "#f59e0b",
-    "#10b981",
-    "#ef4444",
-    "#8b5cf6",
-    "#14b8a6",
-    "#ec4899",
-    "#84cc16",
-    "#6366f1",
-    "#a16207"};
+    "#3b82f6", "#f59e0b", "#10b981", "#ef4444", "#8b5cf6", "#14b8a6", "#ec4899", "#84cc16", "#6366f1", "#a16207"};
 
-/// Names of settings in which some of these recordings differ, in their order. `among`: at least
-/// one number of a recording.
-std::vector<std::string>
-differing_settings(Recordings recordings, const std::vector<std::size_t>& among);
+/// Names of settings in which some of these recordings differ, in their order. `among`: at least one number of a
+/// recording.
+std::vector<std::string> differing_settings(Recordings recordings, const std::vector<std::size_t>& among);
 
 /// What tells a recording from the others: its folder's name, or its whole path where names repeat.
 std::string label_of(Recordings recordings, const LoadedRecording& recording) {
@@ -172,33 +133,26 @@ std::string label_of(Recordings recordings, const LoadedRecording& recording) {
 
 /// The value of a name; empty where there is none.
 std::string value_of(const NamedValues& rows, std::string_view name) {
-    const auto found =
-        std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
+    const auto found = std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
     return found == rows.end() ? std::string() : found->second;
 }
 
-std::vector<std::string>
-differing_settings(Recordings recordings, const std::vector<std::size_t>& among) {
+std::vector<std::string> differing_settings(Recordings recordings, const std::vector<std::size_t>& among) {
     std::vector<std::string> names;
     const NamedValues& first = recordings[among.front()].run.settings;
     for (const auto& row : first) {
         const auto& name = row.first;
         const auto& value = row.second;
-        const bool differs = std::ranges::any_of(among, [&](std::size_t i) {
-            return value_of(recordings[i].run.settings, name) != value;
-        });
-        if (differs) {
-            names.push_back(name);
-        }
+        const bool differs = std::ranges::any_of(
+            among, [&](std::size_t i) { return value_of(recordings[i].run.settings, name) != value; });
+        if (differs) { names.push_back(name); }
     }
     return names;
 }
 
 /// A file's name without its folder, as table cells have room for; any other text as it is.
 std::string short_value(const std::string& value) {
-    if (value == unset_value) {
-        return "not set";
-    }
+    if (value == unset_value) { return "not set"; }
     const bool is_path = value.find('/') != std::string::npos;
     return is_path ? std::filesystem::path(value).filename().string() : value;
 }
@@ -216,9 +170,7 @@ const Statistic& statistic_named(std::string_view key) {
 /// Where the axis of frame times ends, of all these recordings, milliseconds.
 double shared_ceiling_ms(Recordings recordings, const std::vector<std::size_t>& runs) {
     double ceiling_ms = 0.0;
-    for (const std::size_t i : runs) {
-        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics));
-    }
+    for (const std::size_t i : runs) { ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics)); }
     return ceiling_ms;
 }
 
@@ -229,45 +181,33 @@ std::string variant_label(const LoadedRecording& recording, const std::vector<st
     std::string label;
     for (const std::string& name : names) {
         label += fmt::format(
-            "{}{} {}",
-            label.empty() ? "" : ", ",
-            name,
-            short_value(value_of(recording.run.settings, name)));
+            "{}{} {}", label.empty() ? "" : ", ", name, short_value(value_of(recording.run.settings, name)));
     }
     return label.empty() ? "all the same" : label;
 }
 
-std::vector<double>
-values_of(Recordings recordings, const Indices& runs, double (*value)(const Statistics&)) {
+std::vector<double> values_of(Recordings recordings, const Indices& runs, double (*value)(const Statistics&)) {
     std::vector<double> values;
     for (const std::size_t i : runs) {
-        if (recordings[i].statistics.frames > 0) {
-            values.push_back(value(recordings[i].statistics));
-        }
+        if (recordings[i].statistics.frames > 0) { values.push_back(value(recordings[i].statistics)); }
     }
     return values;
 }
 
 /// Whether other programs had a part in the runs' frame times, or other flights on shared cores.
 bool is_noisy(Recordings recordings, const Indices& runs) {
-    return std::ranges::any_of(
-        runs, [&](std::size_t i) { return !recordings[i].run.noise.empty(); });
+    return std::ranges::any_of(runs, [&](std::size_t i) { return !recordings[i].run.noise.empty(); });
 }
 
-/// How a variant is set against the first one: where both were quiet, a sure change is better or
-/// worse; where one was noisy, it may be the machine's.
+/// How a variant is set against the first one: where both were quiet, a sure change is better or worse; where one was
+/// noisy, it may be the machine's.
 enum class Reference { Itself, Quiet, Noisy };
 
 /// Median of a variant's runs, and how it compares with the first variant's.
-std::string
-compared_cells(const std::vector<double>& before, const std::vector<double>& now, Reference reference) {
-    if (now.empty() || before.empty()) {
-        return "<td class=\"number\">none</td><td></td>";
-    }
+std::string compared_cells(const std::vector<double>& before, const std::vector<double>& now, Reference reference) {
+    if (now.empty() || before.empty()) { return "<td class=\"number\">none</td><td></td>"; }
     std::string html = number_cell(median_of(now), 3);
-    if (reference == Reference::Itself) {
-        return html + "<td class=\"soft\">compared with this one</td>";
-    }
+    if (reference == Reference::Itself) { return html + "<td class=\"soft\">compared with this one</td>"; }
     const RelativeChange change = relative_change(before, now);
     const bool is_decided = change.is_significant() && reference == Reference::Quiet;
     const char* const mark = !is_decided ? "" : (change.share < 0.0 ? "better" : "worse");
@@ -280,32 +220,23 @@ compared_cells(const std::vector<double>& before, const std::vector<double>& now
 
 std::string comparison_table(Recordings recordings, const std::vector<Indices>& variants) {
     Indices all;
-    for (const Indices& variant : variants) {
-        all.insert(all.end(), variant.begin(), variant.end());
-    }
+    for (const Indices& variant : variants) { all.insert(all.end(), variant.begin(), variant.end()); }
     const std::vector<std::string> names = differing_settings(recordings, all);
-    std::string html =
-        "<div class=\"scroll\"><table>\n<thead><tr><th>variant</th><th class=\"number\">runs</th>"
-        "<th class=\"number\">P50, ms</th><th>change</th><th class=\"number\">P99, ms</th>"
-        "<th>change</th></tr></thead>\n<tbody>\n";
+    std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th>variant</th><th class=\"number\">runs</th>"
+                       "<th class=\"number\">P50, ms</th><th>change</th><th class=\"number\">P99, ms</th>"
+                       "<th>change</th></tr></thead>\n<tbody>\n";
     bool noisy = false;
     for (const Indices& variant : variants) {
         const bool is_first = &variant == &variants.front();
-        const bool is_loud =
-            is_noisy(recordings, variants.front()) || is_noisy(recordings, variant);
-        const Reference reference =
-            is_first ? Reference::Itself : (is_loud ? Reference::Noisy : Reference::Quiet);
+        const bool is_loud = is_noisy(recordings, variants.front()) || is_noisy(recordings, variant);
+        const Reference reference = is_first ? Reference::Itself : (is_loud ? Reference::Noisy : Reference::Quiet);
         noisy = noisy || reference == Reference::Noisy;
-        html += fmt::format(
-            "<tr><td>{}</td><td class=\"number\">{}</td>",
-            escaped(variant_label(recordings[variant.front()], names)),
-            variant.size());
+        html += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td>",
+            escaped(variant_label(recordings[variant.front()], names)), variant.size());
         for (const char* key : {"p50_ms", "p99_ms"}) {
             const auto value = statistic_named(key).value;
             html += compared_cells(
-                values_of(recordings, variants.front(), value),
-                values_of(recordings, variant, value),
-                reference);
+                values_of(recordings, variants.front(), value), values_of(recordings, variant, value), reference);
         }
         html += "</tr>\n";
     }
@@ -323,10 +254,9 @@ std::string title_of_group(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }
 
-/// The frame times of a flight's runs over its simulated time, in one plot: as many of each variant
-/// as there is room for.
-std::string
-overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
+/// The frame times of a flight's runs over its simulated time, in one plot: as many of each variant as there is room
+/// for.
+std::string overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
     constexpr std::size_t max_curves = 12;
     Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
     const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / variants.size());
@@ -345,35 +275,25 @@ overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, doubl
     plot.levels = {{"16.67 ms", overrun_16_ms}};
     plot.marks = recordings[variants.front().front()].run.legs;
     const std::string html = page_plot(plot, PlotWidth::FullWidth);
-    if (plot.series.size() == runs) {
-        return html;
-    }
+    if (plot.series.size() == runs) { return html; }
     return html + fmt::format("<p class=\"note\">{} of {} runs.</p>\n", plot.series.size(), runs);
 }
 
-/// Recordings of the same flight on the same kind of machine beside each other, as HTML: a table of
-/// their variants where settings differ, and their frame times in one plot. Says so where no two
-/// belong together.
+/// Recordings of the same flight on the same kind of machine beside each other, as HTML: a table of their variants
+/// where settings differ, and their frame times in one plot. Says so where no two belong together.
 std::string compared_flights_html(Recordings recordings) {
     constexpr std::size_t max_groups = 24;
     std::string html;
     std::size_t shown = 0;
     std::size_t compared = 0;
     for (const Indices& group : comparable_groups(recordings)) {
-        if (group.size() < 2) {
-            continue;
-        }
+        if (group.size() < 2) { continue; }
         ++compared;
-        if (shown == max_groups) {
-            continue;
-        }
+        if (shown == max_groups) { continue; }
         ++shown;
         const std::vector<Indices> variants = variants_of(recordings, group);
-        html += "<div class=\"card\">\n<h3>" + escaped(title_of_group(recordings[group.front()])) +
-                "</h3>\n";
-        if (variants.size() > 1) {
-            html += comparison_table(recordings, variants);
-        }
+        html += "<div class=\"card\">\n<h3>" + escaped(title_of_group(recordings[group.front()])) + "</h3>\n";
+        if (variants.size() > 1) { html += comparison_table(recordings, variants); }
         html += overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)) + "</div>\n";
     }
     if (html.empty()) {
@@ -382,9 +302,7 @@ std::string compared_flights_html(Recordings recordings) {
     }
     if (shown < compared) {
         html += fmt::format(
-            "<p class=\"note\">The first {} of {} flights that were flown more than once.</p>\n",
-            shown,
-            compared);
+            "<p class=\"note\">The first {} of {} flights that were flown more than once.</p>\n", shown, compared);
     }
     return "<h2>The same flight, compared</h2>\n" + html;
 }
@@ -393,23 +311,18 @@ namespace fs = std::filesystem;
 
 std::vector<std::size_t> all_of(Recordings recordings) {
     std::vector<std::size_t> all(recordings.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        all[i] = i;
-    }
+    for (std::size_t i = 0; i < all.size(); ++i) { all[i] = i; }
     return all;
 }
 
-std::string
-link_of(Recordings recordings, const LoadedRecording& recording, const fs::path& page_folder) {
+std::string link_of(Recordings recordings, const LoadedRecording& recording, const fs::path& page_folder) {
     const std::string label = escaped(label_of(recordings, recording));
     std::error_code ignored;
     const fs::path page = recording.folder / "report.html";
     const bool is_unpacked = recording.display_name != recording.folder.string(); // and goes with us
-    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) {
-        return label;
-    }
-    const fs::path way = fs::absolute(page).lexically_normal().lexically_relative(
-        fs::absolute(page_folder).lexically_normal());
+    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) { return label; }
+    const fs::path way =
+        fs::absolute(page).lexically_normal().lexically_relative(fs::absolute(page_folder).lexically_normal());
     return fmt::format("<a href=\"{}\">{}</a>", url_text(way.generic_string()), label);
 }
 
@@ -428,12 +341,8 @@ std::string noise_text_of(const LoadedRecording& recording) {
 
 /// Keys of figures and what they are called where there is little room.
 constexpr std::array<std::pair<const char*, const char*>, 6> shown_statistics{
-    {{"frames", "frames"},
-     {"p50_ms", "P50, ms"},
-     {"p99_ms", "P99, ms"},
-     {"max_ms", "longest, ms"},
-     {"low_1pct_fps", "1 % low, 1/s"},
-     {"overruns_16ms", "above 16.67 ms"}}};
+    {{"frames", "frames"}, {"p50_ms", "P50, ms"}, {"p99_ms", "P99, ms"}, {"max_ms", "longest, ms"},
+        {"low_1pct_fps", "1 % low, 1/s"}, {"overruns_16ms", "above 16.67 ms"}}};
 
 /// How sweeps flew them, where sweeps did: " 24 flown by a sweep one at a time."
 std::string batch_context_text(Recordings recordings) {
@@ -456,12 +365,8 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
     names.resize(names.size() - left_out);
     std::string html = "<div class=\"scroll\"><table class=\"sortable runs\">\n<thead><tr>"
                        "<th>flight</th>";
-    for (const std::string& name : names) {
-        html += "<th>" + escaped(name) + "</th>";
-    }
-    for (const auto& [key, name] : shown_statistics) {
-        html += fmt::format("<th class=\"number\">{}</th>", name);
-    }
+    for (const std::string& name : names) { html += "<th>" + escaped(name) + "</th>"; }
+    for (const auto& [key, name] : shown_statistics) { html += fmt::format("<th class=\"number\">{}</th>", name); }
     html += "<th>states</th><th>pictures</th><th>condition</th></tr></thead>\n<tbody>\n";
     for (const LoadedRecording& recording : recordings) {
         html += "<tr><td>" + link_of(recordings, recording, page_folder) + "</td>";
@@ -473,19 +378,15 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
             html += number_cell(statistic.value(recording.statistics), std::min(statistic.decimals, 2));
         }
         const std::string condition = noise_text_of(recording);
-        html += fmt::format(
-            "<td><code>{}</code></td><td><code>{}</code></td><td class=\"{}\">{}</td></tr>\n",
-            escaped(recording.run.state_hash.substr(0, 8)),
-            escaped(recording.run.picture_hash.substr(0, 8)),
-            condition.empty() ? "" : "worse",
-            condition.empty() ? "good" : condition);
+        html += fmt::format("<td><code>{}</code></td><td><code>{}</code></td><td class=\"{}\">{}</td></tr>\n",
+            escaped(recording.run.state_hash.substr(0, 8)), escaped(recording.run.picture_hash.substr(0, 8)),
+            condition.empty() ? "" : "worse", condition.empty() ? "good" : condition);
     }
     html += "</tbody></table></div>\n<p class=\"note\">A click on a column's head sorts by it. "
             "States and pictures are the first eight digits of their hashes." +
             batch_context_text(recordings);
     if (left_out > 0) {
-        html +=
-            fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
+        html += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
     }
     return "<div class=\"card\">\n" + html + "</p></div>\n";
 }
@@ -501,8 +402,7 @@ std::string plot_per_recording(Recordings recordings) {
     }
     std::string html = "<div class=\"small-plots\">\n";
     for (const LoadedRecording& recording : recordings) {
-        Plot plot{
-            label_of(recordings, recording), "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
+        Plot plot{label_of(recordings, recording), "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
         plot.x_min = begin_s;
         plot.x_max = end_s;
         PlotSeries curve = recording.flight.frame_ms.series(pieces);
@@ -521,117 +421,85 @@ std::string pictures(Recordings recordings) {
     constexpr int widest_px = 320;
     std::vector<const LoadedRecording*> flights;
     for (const LoadedRecording& recording : recordings) {
-        if (!recording.pictures.empty()) {
-            flights.push_back(&recording);
-        }
+        if (!recording.pictures.empty()) { flights.push_back(&recording); }
     }
-    if (flights.empty()) {
-        return {};
-    }
+    if (flights.empty()) { return {}; }
     std::string html = "<div class=\"sheet\">\n";
     for (const std::size_t index : evenly_spaced(flights.size(), max_flights)) {
         const LoadedRecording& flight = *flights[index];
         const fs::path& middle = flight.pictures[flight.pictures.size() / 2];
-        html += picture_html(
-            middle, widest_px, label_of(recordings, flight) + ", " + middle.filename().string());
+        html += picture_html(middle, widest_px, label_of(recordings, flight) + ", " + middle.filename().string());
     }
     html += "</div>\n";
     if (flights.size() > max_flights) {
-        html +=
-            fmt::format("<p class=\"note\">{} of {} flights.</p>\n", max_flights, flights.size());
+        html += fmt::format("<p class=\"note\">{} of {} flights.</p>\n", max_flights, flights.size());
     }
-    return "<h2>A picture from the middle of each flight</h2>\n<div class=\"card\">" + html +
-           "</div>\n";
+    return "<h2>A picture from the middle of each flight</h2>\n<div class=\"card\">" + html + "</div>\n";
 }
 
 /// Settings, program and machine where all recordings have the same.
 std::string common_rows(Recordings recordings) {
     const auto table = [&](const char* title, auto rows_of) {
-        std::string html = fmt::format(
-            "<div class=\"card\">\n<h3>{}</h3>\n<div class=\"scroll\"><table>\n<tbody>\n", title);
+        std::string html =
+            fmt::format("<div class=\"card\">\n<h3>{}</h3>\n<div class=\"scroll\"><table>\n<tbody>\n", title);
         for (const auto& row : rows_of(recordings.front())) {
             const auto& name = row.first;
             const auto& value = row.second;
-            const bool same = std::ranges::all_of(recordings, [&](const LoadedRecording& each) {
-                return value_of(rows_of(each), name) == value;
-            });
+            const bool same = std::ranges::all_of(
+                recordings, [&](const LoadedRecording& each) { return value_of(rows_of(each), name) == value; });
             if (same && value != unset_value && !value.empty()) {
-                html += fmt::format(
-                    "<tr><td>{}</td><td><code>{}</code></td></tr>\n",
-                    escaped(name),
-                    escaped(value));
+                html += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(name), escaped(value));
             }
         }
         return html + "</tbody></table></div></div>\n";
     };
-    return "<h2>What all have in common</h2>\n" +
-           table("Settings", [](const LoadedRecording& each) { return each.run.settings; }) +
-           table(
-               "Program and machine", [](const LoadedRecording& each) { return each.run.machine; });
+    return "<h2>What all have in common</h2>\n" + table("Settings", [](const LoadedRecording& each) {
+        return each.run.settings;
+    }) + table("Program and machine", [](const LoadedRecording& each) { return each.run.machine; });
 }
 
-/// What a page says of several recordings together: a table with one row each, comparisons among
-/// those of the same flight, their curves in common plots, a small plot each with common axes,
-/// pictures, and the settings that all share. A recording whose own page lies in its folder is
-/// linked from `page_folder`.
+/// What a page says of several recordings together: a table with one row each, comparisons among those of the same
+/// flight, their curves in common plots, a small plot each with common axes, pictures, and the settings that all share.
+/// A recording whose own page lies in its folder is linked from `page_folder`.
 std::string several_recordings_html(Recordings recordings, const fs::path& page_folder) {
-    return runs_table(recordings, page_folder) + compared_flights_html(recordings) +
-           plot_per_recording(recordings) + pictures(recordings) + common_rows(recordings);
+    return runs_table(recordings, page_folder) + compared_flights_html(recordings) + plot_per_recording(recordings) +
+           pictures(recordings) + common_rows(recordings);
 }
 
 std::string title_of(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }
 
-std::string heading(const std::string& text) {
-    return "<h2>" + escaped(text) + "</h2>\n";
-}
+std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
 
-std::string card(const std::string& inside) {
-    return "<div class=\"card\">\n" + inside + "</div>\n";
-}
+std::string card(const std::string& inside) { return "<div class=\"card\">\n" + inside + "</div>\n"; }
 
 std::string tile(const char* name, const std::string& value, const std::string& unit) {
     return fmt::format(
-        "<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>\n",
-        escaped(name),
-        escaped(value),
-        escaped(unit));
+        "<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>\n", escaped(name), escaped(value), escaped(unit));
 }
 
 std::string badges(const LoadedRecording& recording) {
     const auto badge = [](const char* text, bool bad) {
         return fmt::format("<span class=\"badge{}\">{}</span>\n", bad ? " bad" : "", text);
     };
-    std::string html =
-        badge(recording.ended_early ? "ended early" : "ended", recording.ended_early);
-    if (!recording.disagreement.empty()) {
-        html += badge("rows and summary disagree", true);
-    }
-    if (!recording.run.stopped.empty()) {
-        html += badge("stopped", true);
-    }
+    std::string html = badge(recording.ended_early ? "ended early" : "ended", recording.ended_early);
+    if (!recording.disagreement.empty()) { html += badge("rows and summary disagree", true); }
+    if (!recording.run.stopped.empty()) { html += badge("stopped", true); }
     const bool noisy = !recording.run.noise.empty();
     html += badge(noisy ? "noisy" : "quiet machine", noisy);
-    if (recording.statistics.frames == 0) {
-        html += badge("no frames", true);
-    }
+    if (recording.statistics.frames == 0) { html += badge("no frames", true); }
     std::string notes;
-    for (const std::string& reason : recording.run.noise) {
-        notes += reason + " ";
-    }
+    for (const std::string& reason : recording.run.noise) { notes += reason + " "; }
     if (recording.ended_early) {
         notes += "The flight was cut short: the figures are those of the frames recorded until "
                  "then, and there are no hashes.";
     }
     if (!recording.disagreement.empty()) {
-        notes +=
-            "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
-            recording.disagreement + ". ";
+        notes += "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
+                 recording.disagreement + ". ";
     }
-    if (!recording.run.stopped.empty()) {
-        notes += "Ended by " + recording.run.stopped + ". ";
-    }
+    if (!recording.run.stopped.empty()) { notes += "Ended by " + recording.run.stopped + ". "; }
     return notes.empty() ? html : html + "<p class=\"note\">" + escaped(notes) + "</p>\n";
 }
 
@@ -639,11 +507,8 @@ std::string overview(const LoadedRecording& recording) {
     const Statistics& figures_ms = recording.statistics;
     const double fps = figures_ms.mean_ms > 0.0 ? 1000.0 / figures_ms.mean_ms : 0.0;
     const MachineInfo& machine = recording.run.machine_info;
-    std::string html = fmt::format(
-        "<p class=\"lead\">{}<br>{}, {} cores</p>\n",
-        escaped(title_of(recording) + ", " + machine.start_time_utc),
-        escaped(machine.cpu),
-        machine.cores);
+    std::string html = fmt::format("<p class=\"lead\">{}<br>{}, {} cores</p>\n",
+        escaped(title_of(recording) + ", " + machine.start_time_utc), escaped(machine.cpu), machine.cores);
     html += badges(recording);
     html += "<dl class=\"tiles\">\n";
     html += tile("Frames", fmt::format("{}", figures_ms.frames), "counted");
@@ -655,9 +520,7 @@ std::string overview(const LoadedRecording& recording) {
     html += tile("1 % low", fmt::format("{:.1f}", figures_ms.low_1pct_fps), "frames/s");
     html += tile("Above 16.67 ms", fmt::format("{}", figures_ms.overruns_16ms), "frames");
     if (const TargetRange targets = recording.flight.triangle_targets(); targets.varies()) {
-        html += tile(
-            "Triangle target",
-            fmt::format("{:.0f}", targets.mean),
+        html += tile("Triangle target", fmt::format("{:.0f}", targets.mean),
             fmt::format("mean of {} to {}", targets.min_triangles, targets.max_triangles));
     }
     return html + "</dl>\n";
@@ -667,29 +530,22 @@ std::string statistics_table(const LoadedRecording& recording) {
     std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th>Figure</th>"
                        "<th class=\"number\">Value</th><th>Definition</th></tr></thead>\n<tbody>\n";
     for (const Statistic& statistic : all_statistics()) {
-        html += fmt::format(
-            "<tr><td>{}</td><td class=\"number\">{}</td><td "
-            "class=\"definition\">{}</td></tr>\n",
-            escaped(statistic.name),
-            statistic_text(statistic, recording.statistics),
-            escaped(statistic.definition));
+        html += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td "
+                            "class=\"definition\">{}</td></tr>\n",
+            escaped(statistic.name), statistic_text(statistic, recording.statistics), escaped(statistic.definition));
     }
-    return card(
-        html +
-        "</tbody></table></div>\n<p class=\"note\">frame_ms runs from the start of the frame's "
-        "simulation step to its pixels complete and read; writing pictures and video is outside "
-        "it. n is the number of frames counted. Stress (frames.csv) is the share of a frame's "
-        "time, the simulated time from it to the next, that frame_ms is; where the ground adapts "
-        "it is that share through a first-order filter.</p>\n");
+    return card(html + "</tbody></table></div>\n<p class=\"note\">frame_ms runs from the start of the frame's "
+                       "simulation step to its pixels complete and read; writing pictures and video is outside "
+                       "it. n is the number of frames counted. Stress (frames.csv) is the share of a frame's "
+                       "time, the simulated time from it to the next, that frame_ms is; where the ground adapts "
+                       "it is that share through a first-order filter.</p>\n");
 }
 
 std::string rows_table(const char* first, const NamedValues& rows) {
-    std::string html = fmt::format(
-        "<div class=\"scroll\"><table>\n<thead><tr><th>{}</th><th></th></tr></thead>\n<tbody>\n",
-        first);
+    std::string html =
+        fmt::format("<div class=\"scroll\"><table>\n<thead><tr><th>{}</th><th></th></tr></thead>\n<tbody>\n", first);
     for (const auto& [name, value] : rows) {
-        html += fmt::format(
-            "<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(name), escaped(value));
+        html += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(name), escaped(value));
     }
     return card(html + "</tbody></table></div>\n");
 }
@@ -697,16 +553,13 @@ std::string rows_table(const char* first, const NamedValues& rows) {
 /// Those that are set; what is not set follows from the others.
 NamedValues set_settings_rows(const NamedValues& settings) {
     NamedValues rows;
-    std::ranges::copy_if(settings, std::back_inserter(rows), [](const auto& row) {
-        return row.second != unset_value && !row.second.empty();
-    });
+    std::ranges::copy_if(settings, std::back_inserter(rows),
+        [](const auto& row) { return row.second != unset_value && !row.second.empty(); });
     return rows;
 }
 
 NamedValues result_rows(const LoadedRecording& recording) {
-    NamedValues rows{
-        {"state hash", recording.run.state_hash},
-        {"picture hash", recording.run.picture_hash},
+    NamedValues rows{{"state hash", recording.run.state_hash}, {"picture hash", recording.run.picture_hash},
         {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
     rows.insert(rows.end(), recording.run.facts.begin(), recording.run.facts.end());
     const NamedValues clock = recording.flight.clock.rows();
@@ -721,9 +574,7 @@ std::string plots_html(const LoadedRecording& recording) {
     std::string html = "<div class=\"plots\">\n";
     bool first = true;
     for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
-        if (plot.x_label.starts_with("simulated time")) {
-            plot.marks = recording.run.legs;
-        }
+        if (plot.x_label.starts_with("simulated time")) { plot.marks = recording.run.legs; }
         html += card(page_plot(plot, first ? PlotWidth::FullWidth : PlotWidth::HalfWidth));
         first = false;
     }
@@ -738,13 +589,9 @@ std::string plots_html(const LoadedRecording& recording) {
 std::string overrun_summary(const LoadedRecording& recording) {
     const auto& counts = recording.flight.slow.above_16_ms();
     std::string text = fmt::format(
-        "{} of {} frames took longer than 16.67 ms.",
-        recording.statistics.overruns_16ms,
-        recording.statistics.frames);
+        "{} of {} frames took longer than 16.67 ms.", recording.statistics.overruns_16ms, recording.statistics.frames);
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (counts[i] > 0) {
-            text += fmt::format(" In {} of them {} took most.", counts[i], stage_names[i]);
-        }
+        if (counts[i] > 0) { text += fmt::format(" In {} of them {} took most.", counts[i], stage_names[i]); }
     }
     return text;
 }
@@ -752,37 +599,22 @@ std::string overrun_summary(const LoadedRecording& recording) {
 /// The slowest frames with their reasons.
 HtmlTable slowest_table(std::span<const SlowFrame> slowest, bool has_counters) {
     HtmlTable table;
-    table.header = {
-        "frame",
-        "at, s",
-        "ms",
-        "took most",
-        "ms",
-        "grew most over its median",
-        "triangles",
-        "change"};
+    table.header = {"frame", "at, s", "ms", "took most", "ms", "grew most over its median", "triangles", "change"};
     if (has_counters) {
         table.header.insert(table.header.end(), {"page faults", "switches", "stolen, ms"});
         table.note = "Switches: how often another program was given the processor. Stolen: by the "
                      "host for other machines, in the kernel's steps of 10 ms, of all processors.";
     }
     for (const SlowFrame& frame : slowest) {
-        std::vector<std::string> row = {
-            fmt::format("{}", frame.record.frame),
-            fmt::format("{:.2f}", frame.record.sim_time_s),
-            fmt::format("{:.2f}", frame.record.frame_ms),
-            std::string(stage_names[frame.longest_stage]),
-            fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
+        std::vector<std::string> row = {fmt::format("{}", frame.record.frame),
+            fmt::format("{:.2f}", frame.record.sim_time_s), fmt::format("{:.2f}", frame.record.frame_ms),
+            std::string(stage_names[frame.longest_stage]), fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
             fmt::format("{} by {:.2f} ms", stage_names[frame.slowed_stage], frame.slowdown_ms),
-            fmt::format("{}", frame.record.terrain_triangles),
-            fmt::format("{:+}", frame.record.triangle_change)};
+            fmt::format("{}", frame.record.terrain_triangles), fmt::format("{:+}", frame.record.triangle_change)};
         if (has_counters) {
             const FrameCounters& counters = frame.record.counters;
-            row.insert(
-                row.end(),
-                {fmt::format("{}", counters.page_faults),
-                 fmt::format("{}", counters.switches),
-                 fmt::format("{:.0f}", counters.stolen_ms)});
+            row.insert(row.end(), {fmt::format("{}", counters.page_faults), fmt::format("{}", counters.switches),
+                                      fmt::format("{:.0f}", counters.stolen_ms)});
         }
         table.rows.push_back(std::move(row));
     }
@@ -790,25 +622,19 @@ HtmlTable slowest_table(std::span<const SlowFrame> slowest, bool has_counters) {
 }
 
 /// The kept picture nearest to a frame.
-const std::filesystem::path&
-nearest_picture(std::span<const std::filesystem::path> pictures, int frame) {
+const std::filesystem::path& nearest_picture(std::span<const std::filesystem::path> pictures, int frame) {
     return *std::ranges::min_element(pictures, {}, [&](const std::filesystem::path& picture) {
         return std::abs(picture_frame(picture.filename().string()).value_or(0) - frame);
     });
 }
 
-/// The picture of a slow frame: its own, else the kept one nearest to it; empty where there is
-/// none.
+/// The picture of a slow frame: its own, else the kept one nearest to it; empty where there is none.
 std::string slow_picture_html(const LoadedRecording& recording, const FrameRecord& frame) {
     constexpr int widest_px = 320;
     const std::string caption = fmt::format("frame {}, {:.2f} ms", frame.frame, frame.frame_ms);
     const auto own = recording.folder / slow_picture_name(frame.frame);
-    if (is_file(own)) {
-        return picture_html(own, widest_px, caption);
-    }
-    if (recording.pictures.empty()) {
-        return {};
-    }
+    if (is_file(own)) { return picture_html(own, widest_px, caption); }
+    if (recording.pictures.empty()) { return {}; }
     const std::filesystem::path& picture = nearest_picture(recording.pictures, frame.frame);
     const std::string name = picture.filename().string();
     return picture_html(picture, widest_px, caption + ": nearest picture, " + name);
@@ -820,10 +646,9 @@ std::string slowest_html(const LoadedRecording& recording) {
     for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, slowest.size()); ++i) {
         sheet += slow_picture_html(recording, slowest[i].record);
     }
-    return card(
-        "<p>" + overrun_summary(recording) + "</p>\n" +
-        html_of(slowest_table(slowest, recording.has_counters)) +
-        (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
+    return card("<p>" + overrun_summary(recording) + "</p>\n" +
+                html_of(slowest_table(slowest, recording.has_counters)) +
+                (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
 }
 
 std::string one_html(const LoadedRecording& recording) {
@@ -839,24 +664,18 @@ std::string one_html(const LoadedRecording& recording) {
 }
 
 std::string page_title(Recordings recordings) {
-    if (recordings.size() == 1) {
-        return title_of(recordings.front());
-    }
+    if (recordings.size() == 1) { return title_of(recordings.front()); }
     return fmt::format("{} flights compared", recordings.size());
 }
 
 } // namespace
 
 std::string html_report(
-    Recordings recordings,
-    std::span<const HtmlTable> first_tables,
-    const std::filesystem::path& page_folder) {
+    Recordings recordings, std::span<const HtmlTable> first_tables, const std::filesystem::path& page_folder) {
     std::string html = page_head(page_title(recordings), recordings.size() > 1 ? "several" : "one");
-    html += "<header><p class=\"lead\">Octant flight report</p><h1>" +
-            escaped(page_title(recordings)) + "</h1></header>\n";
-    for (const HtmlTable& table : first_tables) {
-        html += card(html_of(table));
-    }
+    html +=
+        "<header><p class=\"lead\">Octant flight report</p><h1>" + escaped(page_title(recordings)) + "</h1></header>\n";
+    for (const HtmlTable& table : first_tables) { html += card(html_of(table)); }
     if (recordings.size() == 1) {
         html += one_html(recordings.front());
     } else if (!recordings.empty()) {

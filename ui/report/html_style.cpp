@@ -113,19 +113,14 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
 
 } // namespace
 
-std::string_view page_style() {
-    return style_sheet;
-}
+std::string_view page_style() { return style_sheet; }
 
 std::string page_head(std::string_view title, std::string_view layout) {
-    return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>{} - Octant</title>\n<style>{}</style>\n</head>\n<body>\n"
-        "<main class=\"{}\">\n",
-        escaped(title),
-        page_style(),
-        layout);
+    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                       "<title>{} - Octant</title>\n<style>{}</style>\n</head>\n<body>\n"
+                       "<main class=\"{}\">\n",
+        escaped(title), page_style(), layout);
 }
 
 } // namespace octant::ui::report

@@ -34,14 +34,10 @@ void append_escaped(std::string& out, char c) {
         break;
     }
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\t') {
-        out += c;
-    }
+    if ((byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\t') { out += c; }
 }
 
-bool is_number(const std::string& text) {
-    return finite_number(text).has_value();
-}
+bool is_number(const std::string& text) { return finite_number(text).has_value(); }
 
 std::string row_html(const std::vector<std::string>& cells, std::size_t columns) {
     std::string html = "<tr>";
@@ -74,24 +70,20 @@ std::string url_text(std::string_view path) {
     std::string text;
     for (const char letter : path) {
         const bool stays = (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
-                           (letter >= 'A' && letter <= 'Z') ||
-                           plain.find(letter) != std::string_view::npos;
-        text += stays ? std::string(1, letter)
-                      : fmt::format("%{:02X}", static_cast<unsigned char>(letter));
+                           (letter >= 'A' && letter <= 'Z') || plain.find(letter) != std::string_view::npos;
+        text += stays ? std::string(1, letter) : fmt::format("%{:02X}", static_cast<unsigned char>(letter));
     }
     return text;
 }
 
 std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;
     out.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t at = 0; at < bytes.size(); at += 3) {
         std::uint32_t three = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto byte =
-                at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0U;
+            const auto byte = at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0U;
             three = three << 8U | byte;
         }
         for (std::size_t i = 0; i < 4; ++i) {
@@ -104,32 +96,23 @@ std::string base64(std::string_view bytes) {
 
 std::string html_of(const HtmlTable& table) {
     std::size_t columns = table.header.size();
-    for (const auto& row : table.rows) {
-        columns = std::max(columns, row.size());
-    }
+    for (const auto& row : table.rows) { columns = std::max(columns, row.size()); }
     std::string html;
-    if (!table.title.empty()) {
-        html += "<h3>" + escaped(table.title) + "</h3>\n";
-    }
+    if (!table.title.empty()) { html += "<h3>" + escaped(table.title) + "</h3>\n"; }
     html += "<div class=\"scroll\"><table>\n";
     if (!table.header.empty()) {
         html += "<thead><tr>";
         for (std::size_t i = 0; i < columns; ++i) {
-            const bool number =
-                !table.rows.empty() && i < table.rows[0].size() && is_number(table.rows[0][i]);
+            const bool number = !table.rows.empty() && i < table.rows[0].size() && is_number(table.rows[0][i]);
             html += number ? "<th class=\"number\">" : "<th>";
             html += escaped(i < table.header.size() ? table.header[i] : "") + "</th>";
         }
         html += "</tr></thead>\n";
     }
     html += "<tbody>\n";
-    for (const auto& row : table.rows) {
-        html += row_html(row, columns);
-    }
+    for (const auto& row : table.rows) { html += row_html(row, columns); }
     html += "</tbody></table></div>\n";
-    if (!table.note.empty()) {
-        html += "<p class=\"note\">" + escaped(table.note) + "</p>\n";
-    }
+    if (!table.note.empty()) { html += "<p class=\"note\">" + escaped(table.note) + "</p>\n"; }
     return html;
 }
 

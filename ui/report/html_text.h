@@ -14,8 +14,8 @@ struct HtmlTable {
     std::string note;                           ///< below the table; empty = none
 };
 
-/// Text as HTML shows it, fit for attributes too: & < > " ' replaced, control characters but line
-/// ends and tabs dropped, bytes that are no UTF-8 replaced by U+FFFD.
+/// Text as HTML shows it, fit for attributes too: & < > " ' replaced, control characters but line ends and tabs
+/// dropped, bytes that are no UTF-8 replaced by U+FFFD.
 std::string escaped(std::string_view text);
 
 /// A relative way to a file as a link has it: what is no letter, digit or one of -._~/ as %20.

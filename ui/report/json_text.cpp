@@ -22,18 +22,14 @@ nlohmann::ordered_json parsed_json(const std::filesystem::path& path, const std:
     using Json = nlohmann::ordered_json;
     const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
         if (depth > deepest_nesting) {
-            throw_error_in(
-                path,
-                fmt::format("expected at most {} levels of nesting, got more", deepest_nesting));
+            throw_error_in(path, fmt::format("expected at most {} levels of nesting, got more", deepest_nesting));
         }
         return true;
     };
     try {
         return Json::parse(text, shallow);
     } catch (const Json::parse_error& fault) {
-        throw_error_at(
-            path,
-            line_of_byte(text, fault.byte == 0 ? 0 : fault.byte - 1),
+        throw_error_at(path, line_of_byte(text, fault.byte == 0 ? 0 : fault.byte - 1),
             "expected JSON, got something else or a part of it");
     } catch (const Json::exception&) {
         throw_error_in(path, "expected JSON with numbers that fit into 64 bits, got others");

@@ -23,38 +23,28 @@ FrameCounters total_counters() {
     return {use.ru_minflt + use.ru_majflt, use.ru_nivcsw, 0.0};
 }
 
-double tick_ms() {
-    return 1000.0 / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
+double tick_ms() { return 1000.0 / static_cast<double>(sysconf(_SC_CLK_TCK)); }
 
 /// A frame's counters from its line; nothing where the line is not whole.
 std::optional<std::pair<long, FrameCounters>> counters_from(std::string_view line) {
     const auto fields = split_fields(line, ',');
-    if (fields.size() != 4) {
-        return std::nullopt;
-    }
+    if (fields.size() != 4) { return std::nullopt; }
     const auto frame = whole_number(fields[0]);
     const auto faults = whole_number(fields[1]);
     const auto switches = whole_number(fields[2]);
     const auto stolen_ms = finite_number(fields[3]);
-    if (!frame || !faults || !switches || !stolen_ms) {
-        return std::nullopt;
-    }
+    if (!frame || !faults || !switches || !stolen_ms) { return std::nullopt; }
     return std::pair(*frame, FrameCounters{*faults, *switches, *stolen_ms});
 }
 
 } // namespace
 
 KernelCounters::KernelCounters()
-    : stat_(::open("/proc/stat", O_RDONLY | O_CLOEXEC))
-    , stolen_ticks_(stolen_ticks())
-    , reported_stolen_ticks_(stolen_ticks_)
-    , reported_counts_(total_counters()) {}
+    : stat_(::open("/proc/stat", O_RDONLY | O_CLOEXEC)), stolen_ticks_(stolen_ticks()),
+      reported_stolen_ticks_(stolen_ticks_), reported_counts_(total_counters()) {}
 
 KernelCounters::~KernelCounters() {
-    if (stat_ >= 0) {
-        ::close(stat_);
-    }
+    if (stat_ >= 0) { ::close(stat_); }
 }
 
 /// Of all processors together; 0 where the kernel does not say. The first line is
@@ -71,14 +61,11 @@ std::uint64_t KernelCounters::stolen_ticks() {
     return ticks && *ticks > 0 ? static_cast<std::uint64_t>(*ticks) : 0;
 }
 
-void KernelCounters::begin() {
-    reported_counts_ = total_counters();
-}
+void KernelCounters::begin() { reported_counts_ = total_counters(); }
 
 FrameCounters KernelCounters::lap() {
     const FrameCounters now = total_counters();
-    FrameCounters since{
-        now.page_faults - reported_counts_.page_faults, now.switches - reported_counts_.switches, 0.0};
+    FrameCounters since{now.page_faults - reported_counts_.page_faults, now.switches - reported_counts_.switches, 0.0};
     if (since_stolen_.ms() >= tick_ms()) {
         stolen_ticks_ = std::max(stolen_ticks_, stolen_ticks());
         since.stolen_ms = tick_ms() * static_cast<double>(stolen_ticks_ - reported_stolen_ticks_);
@@ -87,47 +74,32 @@ FrameCounters KernelCounters::lap() {
     return since;
 }
 
-std::string counters_header() {
-    return "frame,page_faults,switches,stolen_ms\n";
-}
+std::string counters_header() { return "frame,page_faults,switches,stolen_ms\n"; }
 
 std::string counters_line(const FrameRecord& record) {
     const FrameCounters& counters = record.counters;
-    return fmt::format(
-        "{},{},{},{:.0f}\n",
-        record.frame,
-        counters.page_faults,
-        counters.switches,
-        counters.stolen_ms);
+    return fmt::format("{},{},{},{:.0f}\n", record.frame, counters.page_faults, counters.switches, counters.stolen_ms);
 }
 
 CounterReader::CounterReader(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) {
-        return;
-    }
+    if (!std::filesystem::is_regular_file(file, ignored)) { return; }
     lines_.emplace(file);
     const auto header = lines_->next();
-    if (!header || counters_header() != std::string(*header) + "\n") {
-        lines_.reset();
-    }
+    if (!header || counters_header() != std::string(*header) + "\n") { lines_.reset(); }
 }
 
 std::optional<std::pair<long, FrameCounters>> CounterReader::next() {
     while (const auto line = lines_ ? lines_->next() : std::nullopt) {
         const auto counters = lines_->is_truncated() ? std::nullopt : counters_from(*line);
-        if (counters) {
-            return counters;
-        }
+        if (counters) { return counters; }
     }
     return std::nullopt;
 }
 
 FrameCounters CounterReader::of(int frame) {
     while (const auto counters = next()) {
-        if (counters->first >= frame) {
-            return counters->first == frame ? counters->second : FrameCounters();
-        }
+        if (counters->first >= frame) { return counters->first == frame ? counters->second : FrameCounters(); }
     }
     return {};
 }
@@ -135,11 +107,9 @@ FrameCounters CounterReader::of(int frame) {
 bool read_counters(const std::filesystem::path& file, std::span<SlowFrame> frames) {
     CounterReader reader(file);
     while (const auto counters = reader.next()) {
-        const auto frame = std::ranges::find_if(
-            frames, [&](const SlowFrame& each) { return each.record.frame == counters->first; });
-        if (frame != frames.end()) {
-            frame->record.counters = counters->second;
-        }
+        const auto frame =
+            std::ranges::find_if(frames, [&](const SlowFrame& each) { return each.record.frame == counters->first; });
+        if (frame != frames.end()) { frame->record.counters = counters->second; }
     }
     return reader.is_there();
 }

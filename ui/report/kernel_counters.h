@@ -17,8 +17,8 @@ namespace octant::ui::report {
 /// Name of the file in a recording that has what the kernel counted in each frame.
 inline constexpr const char* counters_name = "counters.csv";
 
-/// Reads what the kernel counts of this program, and what hosts take from the machine. The latter
-/// at most once in a tick of the kernel's clock, as it changes no more often.
+/// Reads what the kernel counts of this program, and what hosts take from the machine. The latter at most once in a
+/// tick of the kernel's clock, as it changes no more often.
 class KernelCounters {
 public:
     KernelCounters();
@@ -66,8 +66,8 @@ private:
     std::optional<LineReader> lines_;
 };
 
-/// Fills in the counters of these frames from a counters.csv; false where there is none or it is
-/// none of ours, as in recordings of earlier programs.
+/// Fills in the counters of these frames from a counters.csv; false where there is none or it is none of ours, as in
+/// recordings of earlier programs.
 bool read_counters(const std::filesystem::path& file, std::span<SlowFrame> frames);
 
 } // namespace octant::ui::report

@@ -30,14 +30,12 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     std::sort(found.begin(), found.end());
     std::vector<fs::path> pictures;
     pictures.reserve(found.size());
-    for (auto& [frame, path] : found) {
-        pictures.push_back(std::move(path));
-    }
+    for (auto& [frame, path] : found) { pictures.push_back(std::move(path)); }
     return pictures;
 }
 
-/// Adds the rows to a flight. Says which is the first that does not follow the one before it, as
-/// where a line was lost; else gives an empty text.
+/// Adds the rows to a flight. Says which is the first that does not follow the one before it, as where a line was lost;
+/// else gives an empty text.
 std::string read_rows(const fs::path& file, FlightAccumulator& flight) {
     FrameReader rows(file);
     std::string gap;
@@ -46,8 +44,7 @@ std::string read_rows(const fs::path& file, FlightAccumulator& flight) {
     while (const auto row = rows.next()) {
         ++line;
         if (gap.empty() && next && row->frame != *next) {
-            gap = fmt::format(
-                "line {} of frames.csv: expected frame {}, got {}", line, *next, row->frame);
+            gap = fmt::format("line {} of frames.csv: expected frame {}, got {}", line, *next, row->frame);
         }
         next = std::int64_t{row->frame} + 1;
         flight.add(*row);
@@ -59,18 +56,13 @@ std::string read_rows(const fs::path& file, FlightAccumulator& flight) {
 std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
     std::string text;
     for (const Statistic& statistic : all_statistics()) {
-        const auto told = std::ranges::find_if(
-            run.summary, [&](const auto& row) { return row.first == statistic.key; });
+        const auto told =
+            std::ranges::find_if(run.summary, [&](const auto& row) { return row.first == statistic.key; });
         const auto value = told == run.summary.end() ? std::nullopt : finite_number(told->second);
         const double by_rows = statistic.value(statistics);
         if (value && std::abs(*value - by_rows) > 1e-6 * std::max(1.0, std::abs(by_rows))) {
-            text += fmt::format(
-                "{}{}: {} in run.json, {:.{}f} by the rows",
-                text.empty() ? "" : "; ",
-                statistic.key,
-                told->second,
-                by_rows,
-                statistic.decimals);
+            text += fmt::format("{}{}: {} in run.json, {:.{}f} by the rows", text.empty() ? "" : "; ", statistic.key,
+                told->second, by_rows, statistic.decimals);
         }
     }
     return text;
@@ -81,8 +73,7 @@ std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
 std::optional<long> picture_frame(std::string_view name) {
     constexpr std::string_view before = "picture-";
     constexpr std::string_view after = ".png";
-    if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
-        !name.ends_with(after)) {
+    if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after)) {
         return std::nullopt;
     }
     name.remove_prefix(before.size());
@@ -99,8 +90,7 @@ LoadedRecording load_recording(const fs::path& folder) {
     recording.folder = folder;
     recording.display_name = base::with_path_aliases(folder.string());
     const fs::path whole = fs::absolute(folder).lexically_normal();
-    recording.name =
-        (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
+    recording.name = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     recording.run = read_run_file(folder / "run.json");
     std::string gap;
     if (fs::exists(folder / "frames.csv", ignored) || recording.run.ended) {

@@ -17,19 +17,18 @@ namespace octant::ui::report {
 /// A recording read back. The figures come from frames.csv, whether the flight ended or not.
 struct LoadedRecording {
     std::filesystem::path folder;
-    std::string name;   ///< the folder's own name
+    std::string name;         ///< the folder's own name
     std::string display_name; ///< what messages call it: the folder, or the file that it was packed in
     RunFile run;
     FlightAccumulator flight;
     Statistics statistics;
-    /// The slowest frames, the slowest first, with what the kernel counted where the recording has
-    /// that.
+    /// The slowest frames, the slowest first, with what the kernel counted where the recording has that.
     std::vector<SlowFrame> slowest;
     bool has_counters = false;
     bool ended_early = false; ///< killed: no summary in run.json
-    /// What the summary in run.json says otherwise than the rows do, and the first row that does
-    /// not follow the one before: "frames: 230 in run.json, 120 by the rows; line 7 of frames.csv:
-    /// expected frame 5, got 6"; empty where all agree or where there is no summary.
+    /// What the summary in run.json says otherwise than the rows do, and the first row that does not follow the one
+    /// before: "frames: 230 in run.json, 120 by the rows; line 7 of frames.csv: expected frame 5, got 6"; empty where
+    /// all agree or where there is no summary.
     std::string disagreement;
     std::vector<std::filesystem::path> pictures; ///< in frame order
 };
@@ -39,8 +38,8 @@ using Recordings = std::span<const LoadedRecording>;
 /// The frame of "picture-00042.png", nothing for other names.
 std::optional<long> picture_frame(std::string_view name);
 
-/// Reads a recording, a killed one too: then a torn last line of frames.csv is left out. Throws
-/// Error for what is no recording or is damaged.
+/// Reads a recording, a killed one too: then a torn last line of frames.csv is left out. Throws Error for what is no
+/// recording or is damaged.
 LoadedRecording load_recording(const std::filesystem::path& folder);
 
 } // namespace octant::ui::report

@@ -1,7 +1,7 @@
 #include "ui/report/machine_info.h"
 
-#include "sim/base/text_file.h"
 #include "sim/base/parallel_for.h"
+#include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,13 +26,9 @@ std::string text_of(const std::filesystem::path& path) {
 /// What follows `key` and its separator on the first line that starts with it.
 std::string value_of(std::string_view text, std::string_view key, char separator) {
     for (const std::string_view line : split_lines(text)) {
-        if (!line.starts_with(key)) {
-            continue;
-        }
+        if (!line.starts_with(key)) { continue; }
         const std::size_t at = line.find(separator);
-        if (at == std::string_view::npos) {
-            continue;
-        }
+        if (at == std::string_view::npos) { continue; }
         std::string_view value = line.substr(at + 1);
         value.remove_prefix(std::min(value.find_first_not_of(" \t\""), value.size()));
         return std::string(value.substr(0, value.find_last_not_of(" \t\"") + 1));
@@ -40,9 +36,7 @@ std::string value_of(std::string_view text, std::string_view key, char separator
     return {};
 }
 
-std::string or_unknown(const std::string& text) {
-    return text.empty() ? "unknown" : text;
-}
+std::string or_unknown(const std::string& text) { return text.empty() ? "unknown" : text; }
 
 std::uint64_t count_from(std::string_view text) {
     const auto value = whole_number(text);
@@ -83,20 +77,15 @@ CpuTimes read_cpu_times(const std::filesystem::path& root) {
     const auto lines = split_lines(text);
     const auto words = lines.empty() ? std::vector<std::string_view>{} : split_words(lines.front());
     CpuTimes times;
-    if (words.size() < 9 || words.front() != "cpu") {
-        return times;
-    }
-    for (std::size_t i = 1; i <= 8; ++i) {
-        times.total += count_from(words[i]);
-    }
+    if (words.size() < 9 || words.front() != "cpu") { return times; }
+    for (std::size_t i = 1; i <= 8; ++i) { times.total += count_from(words[i]); }
     times.idle = count_from(words[4]) + count_from(words[5]);
     times.steal = count_from(words[8]);
     times.own = own_ticks();
     return times;
 }
 
-MachineInfo
-read_machine_info(std::chrono::system_clock::time_point start, const std::filesystem::path& root) {
+MachineInfo read_machine_info(std::chrono::system_clock::time_point start, const std::filesystem::path& root) {
     MachineInfo info;
     info.cpu = or_unknown(value_of(text_of(root / "proc/cpuinfo"), "model name", ':'));
     info.cores = core_count();
@@ -119,12 +108,9 @@ read_machine_info(std::chrono::system_clock::time_point start, const std::filesy
 }
 
 std::optional<CpuUse> cpu_use_between(const CpuTimes& start, const CpuTimes& end) {
-    if (end.total <= start.total || end.idle < start.idle || end.steal < start.steal) {
-        return std::nullopt;
-    }
-    const auto share_of = [total = static_cast<double>(end.total - start.total)](double ticks) {
-        return std::clamp(ticks / total, 0.0, 1.0);
-    };
+    if (end.total <= start.total || end.idle < start.idle || end.steal < start.steal) { return std::nullopt; }
+    const auto share_of = [total = static_cast<double>(end.total - start.total)](
+                              double ticks) { return std::clamp(ticks / total, 0.0, 1.0); };
     const auto stolen = static_cast<double>(end.steal - start.steal);
     const auto idle = static_cast<double>(end.idle - start.idle);
     const auto own = static_cast<double>(end.own) - static_cast<double>(start.own);
@@ -132,25 +118,20 @@ std::optional<CpuUse> cpu_use_between(const CpuTimes& start, const CpuTimes& end
     return CpuUse{share_of(stolen), share_of(all - idle - stolen - own)};
 }
 
-std::vector<std::string>
-noise_reasons(double load_average_1min, int cores, const std::optional<CpuUse>& during) {
+std::vector<std::string> noise_reasons(double load_average_1min, int cores, const std::optional<CpuUse>& during) {
     std::vector<std::string> reasons;
     if (!during) {
         if (load_average_1min > noisy_load_per_core * cores) {
             reasons.push_back(fmt::format(
-                "The load average was {:.2f} on {} cores when the flight began.",
-                load_average_1min,
-                cores));
+                "The load average was {:.2f} on {} cores when the flight began.", load_average_1min, cores));
         }
         return reasons;
     }
     if (during->stolen > noisy_steal_share) {
-        reasons.push_back(
-            fmt::format("{:.1f} % of the processor time was stolen.", 100.0 * during->stolen));
+        reasons.push_back(fmt::format("{:.1f} % of the processor time was stolen.", 100.0 * during->stolen));
     }
     if (during->others > noisy_others_share) {
-        reasons.push_back(fmt::format(
-            "Other programs used {:.1f} % of the processor time.", 100.0 * during->others));
+        reasons.push_back(fmt::format("Other programs used {:.1f} % of the processor time.", 100.0 * during->others));
     }
     return reasons;
 }
@@ -159,14 +140,9 @@ std::string utc_text(std::chrono::system_clock::time_point time) {
     const auto day = std::chrono::floor<std::chrono::days>(time);
     const std::chrono::year_month_day date(day);
     const std::chrono::hh_mm_ss clock(std::chrono::floor<std::chrono::seconds>(time - day));
-    return fmt::format(
-        "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z",
-        static_cast<int>(date.year()),
-        static_cast<unsigned>(date.month()),
-        static_cast<unsigned>(date.day()),
-        clock.hours().count(),
-        clock.minutes().count(),
-        clock.seconds().count());
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()),
+        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), clock.hours().count(),
+        clock.minutes().count(), clock.seconds().count());
 }
 
 } // namespace octant::ui::report

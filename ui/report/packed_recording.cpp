@@ -38,8 +38,7 @@ constexpr std::array terrain_settings{"terrain", "drape"};
 std::map<std::string, fs::path> own_files(const fs::path& folder) {
     std::map<std::string, fs::path> files;
     std::error_code code;
-    for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end;
-         at.increment(code)) {
+    for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
         const fs::path name = at->path().lexically_relative(folder);
         const std::string first = name.begin()->string();
         if (!is_recording_name(first) || first == lock_name || is_unfinished(first)) {
@@ -48,20 +47,16 @@ std::map<std::string, fs::path> own_files(const fs::path& folder) {
             files.emplace(name.string(), at->path());
         }
     }
-    if (code) {
-        throw_error_in(folder, fmt::format("cannot be read: {}", code.message()));
-    }
+    if (code) { throw_error_in(folder, fmt::format("cannot be read: {}", code.message())); }
     return files;
 }
 
-/// The files that belong to one by their name: its own, and those beside it that differ by their
-/// ending (x.bil, x.hdr, x.prj).
+/// The files that belong to one by their name: its own, and those beside it that differ by their ending (x.bil, x.hdr,
+/// x.prj).
 std::vector<fs::path> with_companions(const fs::path& file) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(file.parent_path())) {
-        if (entry.is_regular_file() && entry.path().stem() == file.stem()) {
-            files.push_back(entry.path());
-        }
+        if (entry.is_regular_file() && entry.path().stem() == file.stem()) { files.push_back(entry.path()); }
     }
     std::ranges::sort(files);
     return files;
@@ -70,30 +65,21 @@ std::vector<fs::path> with_companions(const fs::path& file) {
 /// Brings what the settings name outside the folder inside, or notes it.
 class ExternalFiles {
 public:
-    ExternalFiles(fs::path folder, bool with_terrain)
-        : folder_(std::move(folder))
-        , with_terrain_(with_terrain) {}
+    ExternalFiles(fs::path folder, bool with_terrain) : folder_(std::move(folder)), with_terrain_(with_terrain) {}
 
     void add_file_of_setting(Json& settings, const char* key, std::map<std::string, fs::path>& files) {
-        if (!settings.contains(key) || !settings[key].is_string()) {
-            return;
-        }
+        if (!settings.contains(key) || !settings[key].is_string()) { return; }
         const fs::path file = folder_ / base::file_name_from_json(settings[key].get<std::string>());
         std::error_code ignored;
         const std::string within = file.lexically_normal().lexically_relative(folder_).string();
-        if (!fs::is_regular_file(file, ignored) || files.contains(within)) {
-            return;
-        }
+        if (!fs::is_regular_file(file, ignored) || files.contains(within)) { return; }
         if (!with_terrain_) {
             notes.push_back(fmt::format(
-                "{} does not lie in the recording; --with-terrain packs it too",
-                file.lexically_normal().string()));
+                "{} does not lie in the recording; --with-terrain packs it too", file.lexically_normal().string()));
             return;
         }
         const fs::path inside = fs::path("inputs") / key;
-        for (const fs::path& each : with_companions(file)) {
-            files.emplace((inside / each.filename()).string(), each);
-        }
+        for (const fs::path& each : with_companions(file)) { files.emplace((inside / each.filename()).string(), each); }
         settings[key] = base::json_from_file_name((inside / file.filename()).string());
     }
 
@@ -140,16 +126,12 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
     bool has_run = false;
     for (const ZipEntry& entry : entries) {
         const fs::path name(entry.name);
-        const bool stays_inside = name.is_relative() && !name.empty() &&
-                                  std::ranges::none_of(name, [](const fs::path& part) {
-                                      return part == ".." || part == ".";
-                                  });
+        const bool stays_inside =
+            name.is_relative() && !name.empty() &&
+            std::ranges::none_of(name, [](const fs::path& part) { return part == ".." || part == "."; });
         if (!stays_inside || !is_recording_name(name.begin()->string())) {
             throw_error_in(
-                zip,
-                fmt::format(
-                    "expected only the files of a recording, got one with '{}'",
-                    printable(entry.name)));
+                zip, fmt::format("expected only the files of a recording, got one with '{}'", printable(entry.name)));
         }
         bytes += entry.bytes;
         has_run = has_run || entry.name == run_name;
@@ -157,9 +139,7 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
     if (bytes > max_bytes) {
         throw_error_in(zip, fmt::format("expected at most {} bytes unpacked, got {}", max_bytes, bytes));
     }
-    if (!has_run) {
-        throw_error_in(zip, "expected a packed recording, got one without run.json");
-    }
+    if (!has_run) { throw_error_in(zip, "expected a packed recording, got one without run.json"); }
 }
 
 /// A packed file by its name and time of writing.
@@ -175,8 +155,7 @@ fs::path unpacked(const fs::path& zip, const fs::path& into) {
     const std::vector<ZipEntry> entries = zip_entries(zip);
     check_entries(zip, entries);
     const fs::path stem = zip.stem(); // reports call it by its name
-    const fs::path folder =
-        into / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
+    const fs::path folder = into / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
     base::set_path_alias(folder, zip.string());
     for (const ZipEntry& entry : entries) {
         make_folder((folder / entry.name).parent_path());
@@ -201,16 +180,12 @@ PackResult pack_recording(const fs::path& folder, const fs::path& zip, bool with
     Json run = parsed_json(folder / run_name, read_text_file(folder / run_name));
     ExternalFiles outsiders(whole.has_filename() ? whole : whole.parent_path(), with_terrain);
     if (run.contains("settings") && run["settings"].is_object()) {
-        for (const char* key : terrain_settings) {
-            outsiders.add_file_of_setting(run["settings"], key, files);
-        }
+        for (const char* key : terrain_settings) { outsiders.add_file_of_setting(run["settings"], key, files); }
     }
     ZipWriter writer(zip);
     writer.add(run_name, run.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     files.erase(run_name);
-    for (const auto& [name, file] : files) {
-        writer.add_file(name, file);
-    }
+    for (const auto& [name, file] : files) { writer.add_file(name, file); }
     writer.finish();
     return {static_cast<int>(files.size()) + 1, std::move(outsiders.notes)};
 }
@@ -218,30 +193,20 @@ PackResult pack_recording(const fs::path& folder, const fs::path& zip, bool with
 fs::path recording_folder(const fs::path& folder_or_zip) {
     auto& opened = unpacked_ones();
     std::error_code ignored;
-    if (!fs::is_regular_file(folder_or_zip, ignored)) {
-        return folder_or_zip;
-    }
-    const Known zip(
-        fs::absolute(folder_or_zip).lexically_normal(),
-        fs::last_write_time(folder_or_zip, ignored));
-    if (const auto known = opened.find(zip); known != opened.end()) {
-        return known->second.second;
-    }
+    if (!fs::is_regular_file(folder_or_zip, ignored)) { return folder_or_zip; }
+    const Known zip(fs::absolute(folder_or_zip).lexically_normal(), fs::last_write_time(folder_or_zip, ignored));
+    if (const auto known = opened.find(zip); known != opened.end()) { return known->second.second; }
     auto place = std::make_unique<TemporaryFolder>();
     const fs::path folder = unpacked(folder_or_zip, place->path());
     opened.emplace(zip, std::pair(std::move(place), folder));
     return folder;
 }
 
-void remove_unpacked() {
-    unpacked_ones().clear();
-}
+void remove_unpacked() { unpacked_ones().clear(); }
 
 fs::path run_file_of(const fs::path& path) {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) {
-        return path / run_name;
-    }
+    if (fs::is_directory(path, ignored)) { return path / run_name; }
     return extension_of(path) == ".zip" ? recording_folder(path) / run_name : path;
 }
 

@@ -12,17 +12,14 @@ struct PackResult {
     std::vector<std::string> notes; ///< files that its run reads and that do not lie in it
 };
 
-/// Writes a recording's folder as one zip file, whole or not at all. Terrain and what lies on it
-/// come with it, and with the files of their name beside them, if `with_terrain`; else they are
-/// known by their hashes and the way to them. Throws Error for what is no recording and for one
-/// that is being written.
-PackResult pack_recording(
-    const std::filesystem::path& folder, const std::filesystem::path& zip, bool with_terrain);
+/// Writes a recording's folder as one zip file, whole or not at all. Terrain and what lies on it come with it, and with
+/// the files of their name beside them, if `with_terrain`; else they are known by their hashes and the way to them.
+/// Throws Error for what is no recording and for one that is being written.
+PackResult pack_recording(const std::filesystem::path& folder, const std::filesystem::path& zip, bool with_terrain);
 
-/// The folder of a recording that is a folder or was packed. A packed one is unpacked into a folder
-/// of its own, which lives until the program ends; messages call that by the packed file's name
-/// (ui/base/path_alias.h). Throws Error for a file that is no packed
-/// recording or has anything else in it.
+/// The folder of a recording that is a folder or was packed. A packed one is unpacked into a folder of its own, which
+/// lives until the program ends; messages call that by the packed file's name (ui/base/path_alias.h). Throws Error for
+/// a file that is no packed recording or has anything else in it.
 std::filesystem::path recording_folder(const std::filesystem::path& folder_or_zip);
 
 /// Removes what recording_folder() unpacked, before the program is ended by a signal.

@@ -4,9 +4,9 @@ namespace octant::ui::report {
 
 namespace {
 
-// A plot's numbers stand as JSON in its element: {x, y: labels, x0, x1, y0, y1: ends of the axes or
-// null, log, levels: [[name, y]], marks: [[name, x]], bar: width, series: [{n: name, c: colour,
-// s: "line"|"area"|"bars", x: [], y: [], l: []}]}. Text is 12 px whatever the width.
+// A plot's numbers stand as JSON in its element: {x, y: labels, x0, x1, y0, y1: ends of the axes or null, log, levels:
+// [[name, y]], marks: [[name, x]], bar: width, series: [{n: name, c: colour, s: "line"|"area"|"bars", x: [], y: [], l:
+// []}]}. Text is 12 px whatever the width.
 constexpr std::string_view drawing = R"js(
 "use strict";
 const NS = "http://www.w3.org/2000/svg";
@@ -203,8 +203,6 @@ addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(d
 
 } // namespace
 
-std::string_view page_script() {
-    return drawing;
-}
+std::string_view page_script() { return drawing; }
 
 } // namespace octant::ui::report

@@ -5,8 +5,8 @@
 
 namespace octant::ui::report {
 
-/// An 8-bit picture that somebody else owns: rows without gaps, `channels` bytes a pixel (3 = RGB,
-/// 4 = RGBA). GL reads its bottom row first, files begin with the top row.
+/// An 8-bit picture that somebody else owns: rows without gaps, `channels` bytes a pixel (3 = RGB, 4 = RGBA). GL reads
+/// its bottom row first, files begin with the top row.
 struct PixelView {
     int width_px = 0;
     int height_px = 0;
@@ -14,9 +14,7 @@ struct PixelView {
     std::span<const std::byte> bytes;
     bool bottom_row_first = false;
 
-    std::size_t row_bytes() const {
-        return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(channels);
-    }
+    std::size_t row_bytes() const { return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(channels); }
 
     /// True when the sizes are positive, `channels` is 3 or 4 and `bytes` holds exactly the rows.
     bool is_whole() const {

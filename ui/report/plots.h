@@ -60,13 +60,12 @@ std::string gnuplot_script(const Plot& plot);
 /// The same for a PNG picture of plots one below the other, each under its title.
 std::string gnuplot_png_script(std::span<const Plot> panels);
 
-/// The plot as an SVG document, drawn by gnuplot found on PATH; nothing when it is not installed or
-/// the plot has no points. Throws Error with gnuplot's last line when it fails.
+/// The plot as an SVG document, drawn by gnuplot found on PATH; nothing when it is not installed or the plot has no
+/// points. Throws Error with gnuplot's last line when it fails.
 std::optional<std::string> plot_svg(const Plot& plot);
 
-/// Plots one below the other, each under its title and with at least one point, as the bytes of a
-/// PNG file; nothing when gnuplot is not installed. Throws Error with gnuplot's last line when it
-/// fails.
+/// Plots one below the other, each under its title and with at least one point, as the bytes of a PNG file; nothing
+/// when gnuplot is not installed. Throws Error with gnuplot's last line when it fails.
 std::optional<std::string> plots_png(std::span<const Plot> panels);
 
 } // namespace octant::ui::report

@@ -36,15 +36,10 @@ void append_bytes(png_structp png, png_bytep data, png_size_t size) {
     // An exception must not cross libpng's C frames.
     bool kept = false;
     try {
-        static_cast<Encoder*>(png_get_io_ptr(png))
-            ->out.append(reinterpret_cast<const char*>(data), size);
+        static_cast<Encoder*>(png_get_io_ptr(png))->out.append(reinterpret_cast<const char*>(data), size);
         kept = true;
-    } catch (const std::exception&) {
-        kept = false;
-    }
-    if (!kept) {
-        png_error(png, "out of memory");
-    }
+    } catch (const std::exception&) { kept = false; }
+    if (!kept) { png_error(png, "out of memory"); }
 }
 
 void flush_nothing(png_structp /*png*/) {}
@@ -74,27 +69,17 @@ void set_effort(png_structp png, PngEffort effort) {
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
 }
 
-/// The only function that a longjmp comes back to: nothing in it or below it up to libpng has a
-/// destructor. False when libpng complained.
+/// The only function that a longjmp comes back to: nothing in it or below it up to libpng has a destructor. False when
+/// libpng complained.
 bool encode(png_structp png, png_infop info, const PixelView& picture, PngEffort effort) {
     if (setjmp(png_jmpbuf(png)) != 0) { // NOLINT(cert-err52-cpp): libpng's only way out
         return false;
     }
-    png_set_IHDR(
-        png,
-        info,
-        static_cast<png_uint_32>(picture.width_px),
-        static_cast<png_uint_32>(picture.height_px),
-        8,
-        PNG_COLOR_TYPE_RGB,
-        PNG_INTERLACE_NONE,
-        PNG_COMPRESSION_TYPE_DEFAULT,
-        PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width_px), static_cast<png_uint_32>(picture.height_px), 8,
+        PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_effort(png, effort);
     png_write_info(png, info);
-    if (picture.channels == 4) {
-        png_set_filler(png, 0, PNG_FILLER_AFTER);
-    }
+    if (picture.channels == 4) { png_set_filler(png, 0, PNG_FILLER_AFTER); }
     for (int y = 0; y < picture.height_px; ++y) {
         png_write_row(png, reinterpret_cast<png_const_bytep>(picture.row(y).data()));
     }
@@ -108,26 +93,18 @@ std::string png_bytes(const PixelView& picture, PngEffort effort) {
     assert(picture.is_whole());
     Encoder encoder;
     WriteHandles handles;
-    handles.png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, keep_error, ignore_warning);
+    handles.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, keep_error, ignore_warning);
     handles.info = handles.png != nullptr ? png_create_info_struct(handles.png) : nullptr;
-    if (handles.info == nullptr) {
-        throw Error("libpng cannot be started");
-    }
+    if (handles.info == nullptr) { throw Error("libpng cannot be started"); }
     png_set_write_fn(handles.png, &encoder, append_bytes, flush_nothing);
     if (!encode(handles.png, handles.info, picture, effort)) {
-        throw Error(fmt::format(
-            "a picture of {} x {} pixels cannot be made a PNG: {}",
-            picture.width_px,
-            picture.height_px,
-            encoder.error_line.data()));
+        throw Error(fmt::format("a picture of {} x {} pixels cannot be made a PNG: {}", picture.width_px,
+            picture.height_px, encoder.error_line.data()));
     }
     return std::move(encoder.out);
 }
 
-void write_png(const std::filesystem::path& path, const PixelView& picture) {
-    write_file(path, png_bytes(picture));
-}
+void write_png(const std::filesystem::path& path, const PixelView& picture) { write_file(path, png_bytes(picture)); }
 
 Picture picture_from_png(const std::filesystem::path& path, std::string_view bytes) {
     constexpr std::size_t max_pixels = 100'000'000;
@@ -139,24 +116,18 @@ Picture picture_from_png(const std::filesystem::path& path, std::string_view byt
     }
     if (std::size_t{image.width} * image.height > max_pixels) {
         throw_error_in(
-            path,
-            fmt::format(
-                "expected at most {} pixels, got {} x {}", max_pixels, image.width, image.height));
+            path, fmt::format("expected at most {} pixels, got {} x {}", max_pixels, image.width, image.height));
     }
     const bool alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
     image.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-    Picture picture{
-        static_cast<int>(image.width), static_cast<int>(image.height), alpha ? 4 : 3, {}};
-    picture.bytes.resize(
-        std::size_t{image.width} * image.height * static_cast<std::size_t>(picture.channels));
+    Picture picture{static_cast<int>(image.width), static_cast<int>(image.height), alpha ? 4 : 3, {}};
+    picture.bytes.resize(std::size_t{image.width} * image.height * static_cast<std::size_t>(picture.channels));
     if (png_image_finish_read(&image, nullptr, picture.bytes.data(), 0, nullptr) == 0) {
         throw_error_in(path, fmt::format("expected a whole PNG picture: {}", image.message));
     }
     return picture;
 }
 
-Picture read_png(const std::filesystem::path& path) {
-    return picture_from_png(path, read_file(path));
-}
+Picture read_png(const std::filesystem::path& path) { return picture_from_png(path, read_file(path)); }
 
 } // namespace octant::ui::report

@@ -24,15 +24,15 @@ enum class PngEffort {
     Small ///< a picture in a page: level 5
 };
 
-/// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same
-/// bytes. Throws Error when libpng cannot (more than a million pixels a side).
+/// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same bytes. Throws Error
+/// when libpng cannot (more than a million pixels a side).
 std::string png_bytes(const PixelView& picture, PngEffort effort = PngEffort::Fast);
 
 /// png_bytes as a file, whole or not at all. Throws Error.
 void write_png(const std::filesystem::path& path, const PixelView& picture);
 
-/// Reads a PNG of any kind as 8-bit RGB, or RGBA when it has transparency. `path` is only named in
-/// errors. Throws Error for what is no PNG, is damaged or holds more than 100 million pixels.
+/// Reads a PNG of any kind as 8-bit RGB, or RGBA when it has transparency. `path` is only named in errors. Throws Error
+/// for what is no PNG, is damaged or holds more than 100 million pixels.
 Picture picture_from_png(const std::filesystem::path& path, std::string_view bytes);
 
 /// picture_from_png of a file.

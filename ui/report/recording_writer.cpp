@@ -1,4 +1,5 @@
 #include "ui/report/recording_writer.h"
+
 #include "sim/base/error.h"
 #include "sim/base/format_once.h"
 #include "ui/report/frame_csv.h"
@@ -22,17 +23,16 @@ namespace octant::ui::report {
 
 namespace {
 
-/// A MangoHud log (its plain CSV, without the "v1" lines) of the frames after the warm-up, so that
-/// MangoHud's tools and ours count the same frames: its head, then a line a frame, nothing for one
-/// of the warm-up. `elapsed` (ns) is the end of the frame; what MangoHud measures and we do not is
-/// 0.
+/// A MangoHud log (its plain CSV, without the "v1" lines) of the frames after the warm-up, so that MangoHud's tools and
+/// ours count the same frames: its head, then a line a frame, nothing for one of the warm-up. `elapsed` (ns) is the end
+/// of the frame; what MangoHud measures and we do not is 0.
 std::string mangohud_head(const MachineInfo& machine, const std::string& renderer);
 std::string mangohud_line(const FrameRecord& record);
 
 /// A trace for Perfetto and chrome://tracing, a list of events that both also read where its end is
-/// missing (Trace Event Format, "JSON Array Format"), times in microseconds: each frame an "X"
-/// event with its stages sim, plan, draw, read inside it, one after the other; counters for
-/// triangles and resolution; an instant event at each overrun.
+/// missing (Trace Event Format, "JSON Array Format"), times in microseconds: each frame an "X" event with its stages
+/// sim, plan, draw, read inside it, one after the other; counters for triangles and resolution; an instant event at
+/// each overrun.
 std::string trace_head();
 std::string trace_events(const FrameRecord& record);
 std::string trace_end();
@@ -40,9 +40,7 @@ std::string trace_end();
 /// A field of a CSV file whose readers know no quotes.
 std::string plain_field(std::string text) {
     std::replace_if(
-        text.begin(),
-        text.end(),
-        [](char c) { return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20; },
+        text.begin(), text.end(), [](char c) { return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20; },
         ' ');
     return text;
 }
@@ -62,35 +60,22 @@ constexpr std::array stages{
 using Out = std::back_insert_iterator<std::string>;
 
 void append_duration(Out out, const char* name, double start_us, double duration_us) {
-    fmt::format_to(
-        out,
-        ",\n{{\"name\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":1,\"tid\":1",
-        name,
-        start_us,
-        duration_us);
+    fmt::format_to(out, ",\n{{\"name\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":1,\"tid\":1", name,
+        start_us, duration_us);
 }
 
 void append_counter(Out out, const char* name, double at_us, double value) {
     if (std::isfinite(value)) {
-        fmt::format_to(
-            out,
-            ",\n{{\"name\":\"{}\",\"ph\":\"C\",\"ts\":{:.3f},\"pid\":1,\"args\":{{\"value\":{}}}}}",
-            name,
-            at_us,
-            value);
+        fmt::format_to(out, ",\n{{\"name\":\"{}\",\"ph\":\"C\",\"ts\":{:.3f},\"pid\":1,\"args\":{{\"value\":{}}}}}",
+            name, at_us, value);
     }
 }
 
 void append_frame(Out out, const FrameRecord& record) {
     const double start_us = 1e6 * record.wall_s;
     append_duration(out, "frame", start_us, 1e3 * record.frame_ms);
-    fmt::format_to(
-        out,
-        ",\"args\":{{\"frame\":{},\"sim_time_s\":{},\"warm_up\":{},\"draw_cell\":{}}}}}",
-        record.frame,
-        record.sim_time_s,
-        record.warm_up,
-        record.draw_cell);
+    fmt::format_to(out, ",\"args\":{{\"frame\":{},\"sim_time_s\":{},\"warm_up\":{},\"draw_cell\":{}}}}}", record.frame,
+        record.sim_time_s, record.warm_up, record.draw_cell);
     double stage_us = start_us;
     for (const Stage& stage : stages) {
         const double duration_us = 1e3 * (record.*stage.duration_ms);
@@ -101,8 +86,7 @@ void append_frame(Out out, const FrameRecord& record) {
     append_counter(out, "terrain triangles", start_us, record.terrain_triangles);
     append_counter(out, "resolution C", start_us, record.resolution_c);
     if (record.overrun != 0) {
-        fmt::format_to(
-            out,
+        fmt::format_to(out,
             ",\n{{\"name\":\"overrun\",\"ph\":\"i\",\"s\":\"t\",\"ts\":{:.3f},\"pid\":1,\"tid\":1}"
             "}",
             start_us + 1e3 * record.frame_ms);
@@ -110,26 +94,17 @@ void append_frame(Out out, const FrameRecord& record) {
 }
 
 std::string mangohud_head(const MachineInfo& machine, const std::string& renderer) {
-    return fmt::format(
-        "os,cpu,gpu,ram,kernel,driver,cpuscheduler\n{},{},{},{},{},,\n"
-        "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,"
-        "gpu_mem_clock,gpu_vram_used,gpu_power,ram_used,swap_used,process_rss,cpu_mhz,elapsed\n",
-        plain_field(machine.os),
-        plain_field(machine.cpu),
-        plain_field(renderer),
-        machine.memory_kb,
+    return fmt::format("os,cpu,gpu,ram,kernel,driver,cpuscheduler\n{},{},{},{},{},,\n"
+                       "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,"
+                       "gpu_mem_clock,gpu_vram_used,gpu_power,ram_used,swap_used,process_rss,cpu_mhz,elapsed\n",
+        plain_field(machine.os), plain_field(machine.cpu), plain_field(renderer), machine.memory_kb,
         plain_field(machine.kernel));
 }
 
 std::string mangohud_line(const FrameRecord& record) {
-    if (record.warm_up) {
-        return {};
-    }
+    if (record.warm_up) { return {}; }
     const double fps = record.frame_ms > 0.0 ? 1000.0 / record.frame_ms : 0.0;
-    return fmt::format(
-        "{:.3f},{:.4f},0,0,0,0,0,0,0,0,0,0,0,0,0,{:.0f}\n",
-        fps,
-        record.frame_ms,
+    return fmt::format("{:.3f},{:.4f},0,0,0,0,0,0,0,0,0,0,0,0,0,{:.0f}\n", fps, record.frame_ms,
         1e9 * record.wall_s + 1e6 * record.frame_ms);
 }
 
@@ -147,9 +122,7 @@ std::string trace_events(const FrameRecord& record) {
     return text;
 }
 
-std::string trace_end() {
-    return "\n]\n";
-}
+std::string trace_end() { return "\n]\n"; }
 
 namespace fs = std::filesystem;
 
@@ -160,9 +133,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
     for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
         entries.push_back(at->path());
     }
-    if (code) {
-        throw_error_in(folder, fmt::format("cannot be read: {}", code.message()));
-    }
+    if (code) { throw_error_in(folder, fmt::format("cannot be read: {}", code.message())); }
     std::sort(entries.begin(), entries.end());
     return entries;
 }
@@ -180,27 +151,20 @@ void prepare(const fs::path& folder) {
         return name != lock_name && !is_unfinished(entry);
     });
     if (foreign != entries.end() && !is_run_file(folder / "run.json")) {
-        throw_error_in(
-            folder,
-            fmt::format(
-                "expected an empty folder or a recording to replace, got one with '{}'",
-                printable(foreign->filename().string())));
+        throw_error_in(folder, fmt::format("expected an empty folder or a recording to replace, got one with '{}'",
+                                   printable(foreign->filename().string())));
     }
     for (const fs::path& entry : entries) {
         const std::string name = entry.filename().string();
         std::error_code code;
-        if (name == lock_name || !is_recording_name(name)) {
-            continue;
-        }
+        if (name == lock_name || !is_recording_name(name)) { continue; }
         fs::remove_all(entry, code);
-        if (code) {
-            throw_error_in(entry, fmt::format("cannot be removed: {}", code.message()));
-        }
+        if (code) { throw_error_in(entry, fmt::format("cannot be removed: {}", code.message())); }
     }
 }
 
-/// run.json before frames.csv: where there are frames there is a run.json that says whose. The
-/// copies of what the run reads are written and forgotten.
+/// run.json before frames.csv: where there are frames there is a run.json that says whose. The copies of what the run
+/// reads are written and forgotten.
 fs::path begin_recording(const fs::path& folder, RunInfo& info) {
     prepare(folder);
     for (const auto& [name, bytes] : std::exchange(info.files, {})) {
@@ -218,14 +182,10 @@ fs::path begin_recording(const fs::path& folder, RunInfo& info) {
 } // namespace
 
 RecordingWriter::RecordingWriter(fs::path folder, RunInfo info, int flush_every_frames)
-    : folder_(create_folder(std::move(folder)))
-    , lock_(folder_)
-    , info_(std::move(info))
-    , flush_every_frames_(flush_every_frames)
-    , frames_file_(begin_recording(folder_, info_))
-    , mangohud_file_(folder_ / "mangohud.csv")
-    , trace_file_(folder_ / "trace.json")
-    , counters_file_(folder_ / counters_name) {
+    : folder_(create_folder(std::move(folder))), lock_(folder_), info_(std::move(info)),
+      flush_every_frames_(flush_every_frames), frames_file_(begin_recording(folder_, info_)),
+      mangohud_file_(folder_ / "mangohud.csv"), trace_file_(folder_ / "trace.json"),
+      counters_file_(folder_ / counters_name) {
     assert(flush_every_frames >= 1);
     frames_file_.append(frame_csv_header());
     mangohud_file_.append(mangohud_head(info_.machine, info_.device));
@@ -268,9 +228,7 @@ void RecordingWriter::add(const FrameRecord& record) {
     }
 }
 
-fs::path RecordingWriter::picture_path(int frame) const {
-    return folder_ / fmt::format("picture-{:05}.png", frame);
-}
+fs::path RecordingWriter::picture_path(int frame) const { return folder_ / fmt::format("picture-{:05}.png", frame); }
 
 void RecordingWriter::add_picture(int frame, const PixelView& picture) const {
     write_png(picture_path(frame), picture);

@@ -14,18 +14,16 @@
 
 namespace octant::ui::report {
 
-/// A recording being written: run.json at once; frames.csv, mangohud.csv, trace.json
-/// and counters.csv as the flight goes, so that it takes no more memory the longer it is; the
-/// summary at the end. A kill loses the frames of at most half a second; load_recording works on
-/// what is left. Nobody else can record into the folder meanwhile. Reads no clock: time comes with
-/// the records.
+/// A recording being written: run.json at once; frames.csv, mangohud.csv, trace.json and counters.csv as the flight
+/// goes, so that it takes no more memory the longer it is; the summary at the end. A kill loses the frames of at most
+/// half a second; load_recording works on what is left. Nobody else can record into the folder meanwhile. Reads no
+/// clock: time comes with the records.
 class RecordingWriter {
 public:
-    /// Makes `folder` and its parents. In a folder that is a recording already its files are
-    /// removed and all others left alone. Throws Error for a folder with anything else in it, for
-    /// one that is being recorded into, and when nothing can be written there. Rows are handed to
-    /// the system at the latest every `flush_every_frames` (>= 1) frames or half a second of
-    /// wall_s.
+    /// Makes `folder` and its parents. In a folder that is a recording already its files are removed and all others
+    /// left alone. Throws Error for a folder with anything else in it, for one that is being recorded into, and when
+    /// nothing can be written there. Rows are handed to the system at the latest every `flush_every_frames` (>= 1)
+    /// frames or half a second of wall_s.
     RecordingWriter(std::filesystem::path folder, RunInfo info, int flush_every_frames = 60);
 
     /// Appends one frame. Throws Error (disk full); nothing more may be added then.
@@ -37,12 +35,12 @@ public:
     /// Writes that picture, whole or not at all. May be called from another thread. Throws Error.
     void add_picture(int frame, const PixelView& picture) const;
 
-    /// Writes run.json anew with other settings: for a flight that is not known before its end. A
-    /// JSON object as text. Throws Error.
+    /// Writes run.json anew with other settings: for a flight that is not known before its end. A JSON object as text.
+    /// Throws Error.
     void set_settings(std::string settings_json);
 
-    /// Writes the summary into run.json, then ends the other files; gives the summary's figures.
-    /// Once only. Throws Error.
+    /// Writes the summary into run.json, then ends the other files; gives the summary's figures. Once only. Throws
+    /// Error.
     Statistics finish(const RunSummary& end);
 
     const std::filesystem::path& folder() const { return folder_; }

@@ -20,24 +20,14 @@ constexpr const char* format_name = "octant recording";
 constexpr int format_version = 1;
 
 /// Text that may hold bytes which are no UTF-8 (file names): JSON cannot carry them as they are.
-std::string json_text(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json machine_json(const RunInfo& info) {
     const MachineInfo& machine = info.machine;
     const auto ticks_per_s = static_cast<double>(sysconf(_SC_CLK_TCK));
-    return {
-        {"host", machine.host},
-        {"cpu", machine.cpu},
-        {"cores", machine.cores},
-        {"memory_kb", machine.memory_kb},
-        {"os", machine.os},
-        {"kernel", machine.kernel},
-        {"gl_renderer", info.device},
-        {"compiler", machine.compiler},
-        {"LP_NUM_THREADS", machine.lp_num_threads},
-        {"start_time_utc", machine.start_time_utc},
+    return {{"host", machine.host}, {"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_kb", machine.memory_kb},
+        {"os", machine.os}, {"kernel", machine.kernel}, {"gl_renderer", info.device}, {"compiler", machine.compiler},
+        {"LP_NUM_THREADS", machine.lp_num_threads}, {"start_time_utc", machine.start_time_utc},
         {"load_average_1min", machine.load_average_1min},
         {"steal_time_s", static_cast<double>(machine.cpu_times.steal) / ticks_per_s}};
 }
@@ -46,33 +36,20 @@ Json start_json(const RunInfo& info) {
     const Json settings = Json::parse(info.settings_json, nullptr, false);
     assert(settings.is_object());
     Json facts = Json::object();
-    for (const auto& [name, value] : info.facts) {
-        facts[name] = value;
-    }
-    Json json{
-        {"format", format_name},
-        {"format_version", format_version},
-        {"title", info.title},
+    for (const auto& [name, value] : info.facts) { facts[name] = value; }
+    Json json{{"format", format_name}, {"format_version", format_version}, {"title", info.title},
         {"program",
-         {{"name", "octant"},
-          {"version", info.version},
-          {"commit", info.commit},
-          {"hash", info.program_hash}}},
-        {"settings", settings},
-        {"machine", machine_json(info)}};
+            {{"name", "octant"}, {"version", info.version}, {"commit", info.commit}, {"hash", info.program_hash}}},
+        {"settings", settings}, {"machine", machine_json(info)}};
     const glm::dvec3& offset_m = info.path_offset_m;
     json["path_offset_m"] = {offset_m.x, offset_m.y, offset_m.z};
     json["rate_hz"] = info.rate_hz;
     json["legs"] = Json::array();
-    for (const PlotMark& leg : info.legs) {
-        json["legs"].push_back({{"time_s", leg.x}, {"label", leg.name}});
-    }
+    for (const PlotMark& leg : info.legs) { json["legs"].push_back({{"time_s", leg.x}, {"label", leg.name}}); }
     json["facts"] = facts;
     json["notes"] = info.notes;
     json["inputs"] = Json::object();
-    for (const auto& [file, hash] : info.inputs) {
-        json["inputs"][base::json_from_file_name(file)] = hash;
-    }
+    for (const auto& [file, hash] : info.inputs) { json["inputs"][base::json_from_file_name(file)] = hash; }
     return json;
 }
 
@@ -93,9 +70,7 @@ Json summary_json(const Statistics& statistics, const RunSummary& end) {
     }
     summary["state_hash"] = fmt::format("{:016x}", end.state_hash);
     summary["picture_hash"] = nullptr;
-    if (end.picture_hash) {
-        summary["picture_hash"] = fmt::format("{:016x}", *end.picture_hash);
-    }
+    if (end.picture_hash) { summary["picture_hash"] = fmt::format("{:016x}", *end.picture_hash); }
     return summary;
 }
 
@@ -114,9 +89,7 @@ Json noise_json(const MachineInfo& machine, const RunSummary& end) {
 
 /// A JSON value as a report shows it.
 std::string display_text(const Json& value) {
-    if (value.is_string()) {
-        return value.get<std::string>();
-    }
+    if (value.is_string()) { return value.get<std::string>(); }
     if (value.is_array()) {
         std::string text;
         for (const Json& each : value) {
@@ -172,31 +145,21 @@ MachineInfo machine_from(const Json& json) {
 
 std::vector<std::string> noise_from(const Json& json, const MachineInfo& machine) {
     const Json reasons = member(member(json, "noise"), "reasons");
-    if (!reasons.is_array()) {
-        return noise_reasons(machine.load_average_1min, machine.cores, std::nullopt);
-    }
+    if (!reasons.is_array()) { return noise_reasons(machine.load_average_1min, machine.cores, std::nullopt); }
     std::vector<std::string> texts;
-    for (const Json& reason : reasons) {
-        texts.push_back(display_text(reason));
-    }
+    for (const Json& reason : reasons) { texts.push_back(display_text(reason)); }
     return texts;
 }
 
 } // namespace
 
-std::string run_json(const RunInfo& info) {
-    return json_text(start_json(info));
-}
+std::string run_json(const RunInfo& info) { return json_text(start_json(info)); }
 
 std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics) {
     Json json = start_json(info);
-    for (const std::string& note : end.notes) {
-        json["notes"].push_back(note);
-    }
+    for (const std::string& note : end.notes) { json["notes"].push_back(note); }
     json["summary"] = summary_json(statistics, end);
-    if (!end.stopped.empty()) {
-        json["stopped"] = end.stopped;
-    }
+    if (!end.stopped.empty()) { json["stopped"] = end.stopped; }
     json["noise"] = noise_json(info.machine, end);
     return json_text(json);
 }
@@ -212,9 +175,7 @@ RunFile read_run_file(const std::filesystem::path& path) {
     append_rows(run.machine, member(json, "program"), "program.");
     append_rows(run.machine, member(json, "machine"), "");
     append_rows(run.facts, member(json, "facts"), "");
-    for (const Json& note : member(json, "notes")) {
-        run.facts.emplace_back("note", display_text(note));
-    }
+    for (const Json& note : member(json, "notes")) { run.facts.emplace_back("note", display_text(note)); }
     for (const Json& leg : member(json, "legs")) {
         run.legs.push_back({text_in(leg, "label"), number_in(leg, "time_s", 1e7)});
     }
@@ -235,9 +196,7 @@ bool is_run_file(const std::filesystem::path& path) {
     try {
         read_run_file(path);
         return true;
-    } catch (const Error&) {
-        return false;
-    }
+    } catch (const Error&) { return false; }
 }
 
 } // namespace octant::ui::report

@@ -38,26 +38,24 @@ struct RunInfo {
     double rate_hz = 0.0;          ///< pictures a simulated second
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
-    NamedValues facts;                     ///< anything else the report should show
+    NamedValues facts;              ///< anything else the report should show
     std::vector<std::string> notes; ///< what a person was told: voids filled, legs clipped, ...
     std::vector<PlotMark> legs;     ///< of the path, by the simulated time when they begin
-    NamedValues inputs;                    ///< files that were read and hashes of what was in them
-    NamedValues files; ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json
+    NamedValues inputs;             ///< files that were read and hashes of what was in them
+    NamedValues files;              ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json
 };
 
 /// What is known after the end.
 struct RunSummary {
     std::uint64_t state_hash = 0;
     std::optional<std::uint64_t> picture_hash; ///< nothing where pictures follow the clock
-    CpuTimes cpu_times; ///< read after the last frame (and after the video is whole)
-    std::vector<std::string> notes = {}; ///< more of them than there were at the start
-    /// What ended the flight before its last frame: "SIGINT after 120 of 240 frames"; empty =
-    /// nothing did.
+    CpuTimes cpu_times;                        ///< read after the last frame (and after the video is whole)
+    std::vector<std::string> notes = {};       ///< more of them than there were at the start
+    /// What ended the flight before its last frame: "SIGINT after 120 of 240 frames"; empty = nothing did.
     std::string stopped = {};
 };
 
-/// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON
-/// object.
+/// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON object.
 std::string run_json(const RunInfo& info);
 std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics);
 
@@ -71,7 +69,7 @@ struct RunFile {
     std::string device;         ///< as RunInfo::device
     std::string path_offset;    ///< "0, 0, 120 m"
     std::vector<PlotMark> legs; ///< as RunInfo::legs
-    NamedValues summary;               ///< figures by their keys, empty unless ended
+    NamedValues summary;        ///< figures by their keys, empty unless ended
     bool ended = false;         ///< there is a summary
     std::string stopped;        ///< RunSummary::stopped
     std::string state_hash;     ///< 16 hex digits, empty unless ended
@@ -79,8 +77,8 @@ struct RunFile {
     std::vector<std::string> noise; ///< see noise_reasons
 };
 
-/// Reads run.json. Missing entries stay empty, so that older recordings can be shown. Throws Error
-/// when it is not JSON or not from a recording.
+/// Reads run.json. Missing entries stay empty, so that older recordings can be shown. Throws Error when it is not JSON
+/// or not from a recording.
 RunFile read_run_file(const std::filesystem::path& path);
 
 /// True when the file is a run.json of ours.

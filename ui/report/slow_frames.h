@@ -12,16 +12,15 @@
 namespace octant::ui::report {
 
 /// The stages of a frame; `other` is what frame_ms holds beside the four that are timed.
-inline constexpr std::array<std::string_view, 5> stage_names{
-    "sim", "plan", "draw", "read", "other"};
+inline constexpr std::array<std::string_view, 5> stage_names{"sim", "plan", "draw", "read", "other"};
 
 /// A slow frame and why.
 struct SlowFrame {
     FrameRecord record;
     std::array<double, 5> stage_ms{}; ///< as stage_names
     std::size_t longest_stage = 0;    ///< took most of the frame
-    std::size_t slowed_stage = 0;      ///< took most above its own median of the flight
-    double slowdown_ms = 0.0;           ///< by that much
+    std::size_t slowed_stage = 0;     ///< took most above its own median of the flight
+    double slowdown_ms = 0.0;         ///< by that much
 };
 
 /// The slowest frames of a flight, those of its warm-up left out, in constant memory.

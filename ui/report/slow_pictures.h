@@ -13,8 +13,8 @@ namespace octant::ui::report {
 /// The name of a slow frame's picture in a recording: slow-00042.png.
 std::string slow_picture_name(int frame);
 
-/// Small pictures of the slowest frames of a flight, those of its warm-up left out, while it is
-/// flown; in constant memory.
+/// Small pictures of the slowest frames of a flight, those of its warm-up left out, while it is flown; in constant
+/// memory.
 class SlowPictures {
 public:
     /// As many as a report shows.
@@ -23,8 +23,7 @@ public:
     /// One more: the first frame of a flight's part is often slow, and is not the whole flight's.
     static constexpr std::size_t max_kept = max_shown + 1;
 
-    /// Takes the picture where the frame is one of the slowest so far. `picture.is_whole()` must
-    /// hold.
+    /// Takes the picture where the frame is one of the slowest so far. `picture.is_whole()` must hold.
     void add(const FrameRecord& record, const PixelView& picture);
 
     /// Writes each of them into the folder by its name. Throws Error (disk full).

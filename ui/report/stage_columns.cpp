@@ -7,13 +7,7 @@ namespace {
 using Column = StageColumns::Column;
 
 Column column_of(const FrameRecord& record) {
-    return {
-        record.sim_time_s,
-        record.frame_ms,
-        record.sim_ms,
-        record.plan_ms,
-        record.draw_ms,
-        record.read_ms};
+    return {record.sim_time_s, record.frame_ms, record.sim_ms, record.plan_ms, record.draw_ms, record.read_ms};
 }
 
 /// The longer of two neighbours, from where the first one begins.

@@ -7,8 +7,8 @@
 
 namespace octant::ui::report {
 
-/// The stages of a flight's frames in the memory of a plot: where there are more frames than
-/// columns, neighbours share one, which shows the longest of them.
+/// The stages of a flight's frames in the memory of a plot: where there are more frames than columns, neighbours share
+/// one, which shows the longest of them.
 class StageColumns {
 public:
     static constexpr std::size_t max_columns = 400; ///< each wide enough to be seen

@@ -6,8 +6,8 @@
 
 namespace octant::ui::report {
 
-/// Frame-time figures of a flight, without its warm-up frames. Each is defined in words by
-/// all_statistics(). No frames: all zero (statistic_text() tells). One frame: sd and jitter are zero.
+/// Frame-time figures of a flight, without its warm-up frames. Each is defined in words by all_statistics(). No frames:
+/// all zero (statistic_text() tells). One frame: sd and jitter are zero.
 struct Statistics {
     int frames = 0;
     double mean_ms = 0.0;
@@ -49,8 +49,8 @@ std::span<const Statistic> all_statistics();
 /// A figure as people read it, with its decimals; "-" for a time or rate of no frames.
 std::string statistic_text(const Statistic& statistic, const Statistics& statistics);
 
-/// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards.
-/// `permille` in [1, 1000]; 0 when there are no values.
+/// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards. `permille` in [1, 1000]; 0
+/// when there are no values.
 double nearest_rank(std::span<const double> sorted, int permille);
 
 } // namespace octant::ui::report

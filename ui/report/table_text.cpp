@@ -14,8 +14,7 @@ std::string csv_of(const report::HtmlTable& table) {
     const auto add = [&](const std::vector<std::string>& cells) {
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const bool quoted = cells[i].find(',') != std::string::npos;
-            text += fmt::format(
-                "{}{}{}{}", i == 0 ? "" : ",", quoted ? "\"" : "", cells[i], quoted ? "\"" : "");
+            text += fmt::format("{}{}{}{}", i == 0 ? "" : ",", quoted ? "\"" : "", cells[i], quoted ? "\"" : "");
         }
         text += "\n";
     };
@@ -28,9 +27,7 @@ std::string markdown_of(const report::HtmlTable& table) {
     std::string text = fmt::format("# {}\n\n", table.title);
     const auto add = [&](const std::vector<std::string>& cells) {
         text += "|";
-        for (const std::string& cell : cells) {
-            text += fmt::format(" {} |", cell);
-        }
+        for (const std::string& cell : cells) { text += fmt::format(" {} |", cell); }
         text += "\n";
     };
     add(table.header);
@@ -47,8 +44,7 @@ std::string json_of(std::span<const report::HtmlTable> tables) {
             auto row = nlohmann::ordered_json::object();
             for (std::size_t i = 0; i < cells.size() && i < table.header.size(); ++i) {
                 const auto number = finite_number(cells[i]);
-                row[table.header[i]] =
-                    number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(cells[i]);
+                row[table.header[i]] = number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(cells[i]);
             }
             rows.push_back(row);
         }

@@ -21,12 +21,12 @@ struct VideoFormat {
 /// Before long work: throws Error where a VideoPipe would.
 void check_video(const std::filesystem::path& file);
 
-/// Frames piped raw to ffmpeg (H.264, crf 20, yuv420p, fragments of about a second): the file plays
-/// even when the program is killed in mid-flight.
+/// Frames piped raw to ffmpeg (H.264, crf 20, yuv420p, fragments of about a second): the file plays even when the
+/// program is killed in mid-flight.
 class VideoPipe {
 public:
-    /// Starts ffmpeg, which replaces the file. Throws Error when the file cannot be written there,
-    /// or when there is no ffmpeg on PATH or the system cannot start it.
+    /// Starts ffmpeg, which replaces the file. Throws Error when the file cannot be written there, or when there is no
+    /// ffmpeg on PATH or the system cannot start it.
     VideoPipe(const std::filesystem::path& file, const VideoFormat& format);
 
     /// True while frames are taken: false after ffmpeg failed.
@@ -35,9 +35,8 @@ public:
     /// Hands on one frame, `picture` of the video's format; does nothing when not running().
     void add(const PixelView& picture);
 
-    /// Waits until the file is whole. Returns nothing where it was made, else one line that ends in
-    /// ffmpeg's last one; what it left is then cut after the last whole fragment, or removed where
-    /// there is none. Once only.
+    /// Waits until the file is whole. Returns nothing where it was made, else one line that ends in ffmpeg's last one;
+    /// what it left is then cut after the last whole fragment, or removed where there is none. Once only.
     std::optional<std::string> finish();
 
 private:

@@ -71,8 +71,7 @@ struct FreeList {
 
 /// A zip file as the library's file functions name it.
 std::string vsizip_path(const fs::path& zip, const std::string& name = {}) {
-    return fmt::format(
-        "/vsizip/{{{}}}{}{}", fs::absolute(zip).string(), name.empty() ? "" : "/", name);
+    return fmt::format("/vsizip/{{{}}}{}{}", fs::absolute(zip).string(), name.empty() ? "" : "/", name);
 }
 
 [[noreturn]] void is_no_zip(const fs::path& zip) {
@@ -82,14 +81,11 @@ std::string vsizip_path(const fs::path& zip, const std::string& name = {}) {
 } // namespace
 
 ZipWriter::ZipWriter(fs::path file)
-    : file_(std::move(file))
-    , part_(fmt::format("{}.{}.part", file_.string(), ::getpid())) {
+    : file_(std::move(file)), part_(fmt::format("{}.{}.part", file_.string(), ::getpid())) {
     check_can_write(file_);
     const SilencedGdal quiet;
     zip_ = CPLCreateZip(part_.c_str(), nullptr);
-    if (zip_ == nullptr) {
-        throw_error_in(file_, "cannot be written");
-    }
+    if (zip_ == nullptr) { throw_error_in(file_, "cannot be written"); }
 }
 
 ZipWriter::~ZipWriter() {
@@ -103,9 +99,7 @@ ZipWriter::~ZipWriter() {
 
 void ZipWriter::begin_entry(const std::string& name) {
     const SilencedGdal quiet;
-    if (CPLCreateFileInZip(zip_, name.c_str(), nullptr) != CE_None) {
-        throw_error_in(file_, "cannot be written");
-    }
+    if (CPLCreateFileInZip(zip_, name.c_str(), nullptr) != CE_None) { throw_error_in(file_, "cannot be written"); }
 }
 
 void ZipWriter::write(std::string_view bytes) {
@@ -120,9 +114,7 @@ void ZipWriter::write(std::string_view bytes) {
 
 void ZipWriter::end_entry() {
     const SilencedGdal quiet;
-    if (CPLCloseFileInZip(zip_) != CE_None) {
-        throw_error_in(file_, "cannot be written: is the disk full?");
-    }
+    if (CPLCloseFileInZip(zip_) != CE_None) { throw_error_in(file_, "cannot be written: is the disk full?"); }
 }
 
 void ZipWriter::add(const std::string& name, std::string_view bytes) {
@@ -133,9 +125,7 @@ void ZipWriter::add(const std::string& name, std::string_view bytes) {
 
 void ZipWriter::add_file(const std::string& name, const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw_error_in(file, "expected a file that can be read, got none");
-    }
+    if (!in) { throw_error_in(file, "expected a file that can be read, got none"); }
     begin_entry(name);
     std::string piece(piece_bytes, '\0');
     while (in) {
@@ -152,26 +142,18 @@ void ZipWriter::finish() {
     }
     std::error_code code;
     fs::rename(part_, file_, code);
-    if (code) {
-        throw_error_in(file_, fmt::format("cannot be written: {}", code.message()));
-    }
+    if (code) { throw_error_in(file_, fmt::format("cannot be written: {}", code.message())); }
 }
 
 std::vector<ZipEntry> zip_entries(const fs::path& zip) {
     const SilencedGdal quiet;
     const std::unique_ptr<char*, FreeList> names(VSIReadDirRecursive(vsizip_path(zip).c_str()));
-    if (!names) {
-        is_no_zip(zip);
-    }
+    if (!names) { is_no_zip(zip); }
     std::vector<ZipEntry> entries;
     for (char** name = names.get(); *name != nullptr; ++name) {
-        if (std::string_view(*name).ends_with('/')) {
-            continue;
-        }
+        if (std::string_view(*name).ends_with('/')) { continue; }
         VSIStatBufL status{};
-        if (VSIStatL(vsizip_path(zip, *name).c_str(), &status) != 0) {
-            is_no_zip(zip);
-        }
+        if (VSIStatL(vsizip_path(zip, *name).c_str(), &status) != 0) { is_no_zip(zip); }
         entries.push_back({*name, static_cast<std::uint64_t>(status.st_size)});
     }
     std::ranges::sort(entries, {}, &ZipEntry::name);
@@ -185,22 +167,18 @@ template <class Take>
 void read_entry(const fs::path& zip, const std::string& name, Take&& take) {
     const SilencedGdal quiet;
     const std::unique_ptr<VSILFILE, CloseFile> in(VSIFOpenL(vsizip_path(zip, name).c_str(), "rb"));
-    if (!in) {
-        is_no_zip(zip);
-    }
+    if (!in) { is_no_zip(zip); }
     std::string piece(piece_bytes, '\0');
     std::uint64_t taken = 0;
     for (;;) {
         const std::size_t read = VSIFReadL(piece.data(), 1, piece.size(), in.get());
         take(std::string_view(piece).substr(0, read));
         taken += read;
-        if (read < piece.size()) {
-            break;
-        }
+        if (read < piece.size()) { break; }
     }
     VSIStatBufL status{};
-    const bool whole = VSIStatL(vsizip_path(zip, name).c_str(), &status) == 0 &&
-                       static_cast<std::uint64_t>(status.st_size) == taken;
+    const bool whole =
+        VSIStatL(vsizip_path(zip, name).c_str(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) == taken;
     if (!whole || CPLGetLastErrorType() >= CE_Failure) {
         throw_error_in(zip, fmt::format("expected '{}' whole, got damaged bytes", printable(name)));
     }
@@ -221,9 +199,7 @@ std::string zip_text(const fs::path& zip, const std::string& name, std::size_t l
     read_entry(zip, name, [&](std::string_view piece) {
         text += piece;
         if (text.size() > largest_bytes) {
-            throw_error_in(
-                zip,
-                fmt::format("expected at most {} bytes in '{}'", largest_bytes, printable(name)));
+            throw_error_in(zip, fmt::format("expected at most {} bytes in '{}'", largest_bytes, printable(name)));
         }
     });
     return text;

@@ -49,13 +49,10 @@ struct ZipEntry {
 /// The files in a zip file, in the order of their names. Throws Error where it is none.
 std::vector<ZipEntry> zip_entries(const std::filesystem::path& zip);
 
-/// Writes a file of a zip file to `out`, whose folder is there. Throws Error, for a checksum that
-/// does not fit too.
-void extract(
-    const std::filesystem::path& zip, const std::string& name, const std::filesystem::path& out);
+/// Writes a file of a zip file to `out`, whose folder is there. Throws Error, for a checksum that does not fit too.
+void extract(const std::filesystem::path& zip, const std::string& name, const std::filesystem::path& out);
 
 /// What a file of a zip file holds. Throws Error, as extract() and for one that is larger.
-std::string
-zip_text(const std::filesystem::path& zip, const std::string& name, std::size_t largest_bytes);
+std::string zip_text(const std::filesystem::path& zip, const std::string& name, std::size_t largest_bytes);
 
 } // namespace octant::ui::report

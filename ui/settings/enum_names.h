@@ -18,13 +18,13 @@ struct EnumName {
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration's values: an array of Named, specialised for each enumeration. The
-/// order of its rows does not matter. A value without a name, or with two, does not compile.
+/// The names of an enumeration's values: an array of Named, specialised for each enumeration. The order of its rows
+/// does not matter. A value without a name, or with two, does not compile.
 template <class Enum>
 inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
 
-/// Whether the enumeration declares an enumerator of this value. C++20 cannot ask that, but GCC and
-/// Clang say it where they print a template's argument: as "Enum::Name", else as "(Enum)7".
+/// Whether the enumeration declares an enumerator of this value. C++20 cannot ask that, but GCC and Clang say it where
+/// they print a template's argument: as "Enum::Name", else as "(Enum)7".
 template <auto value>
 consteval bool is_enumerator() {
     std::string_view text = __PRETTY_FUNCTION__;
@@ -40,9 +40,7 @@ consteval bool names_each_value_once() {
     std::array<int, count + 1> rows{};
     for (const EnumName<Enum>& row : enum_names<Enum>) {
         const auto value = static_cast<std::size_t>(row.value);
-        if (value >= count || rows[value] > 0) {
-            return false;
-        }
+        if (value >= count || rows[value] > 0) { return false; }
         rows[value] = 1;
     }
     return !is_enumerator<static_cast<Enum>(count)>();
@@ -53,9 +51,7 @@ template <class Enum>
 inline constexpr auto names_by_value = [] {
     static_assert(names_each_value_once<Enum>(), "enum_names must name each enumerator once");
     std::array<std::string_view, enum_names<Enum>.size()> names;
-    for (const EnumName<Enum>& row : enum_names<Enum>) {
-        names[static_cast<std::size_t>(row.value)] = row.name;
-    }
+    for (const EnumName<Enum>& row : enum_names<Enum>) { names[static_cast<std::size_t>(row.value)] = row.name; }
     return names;
 }();
 
@@ -69,8 +65,6 @@ constexpr std::span<const std::string_view> names_of() {
 template <class Enum>
 requires std::is_enum_v<Enum>
 
-constexpr std::string_view name_of(Enum value) {
-    return names_by_value<Enum>.at(static_cast<std::size_t>(value));
-}
+constexpr std::string_view name_of(Enum value) { return names_by_value<Enum>.at(static_cast<std::size_t>(value)); }
 
 } // namespace octant::ui::settings

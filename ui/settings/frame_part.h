@@ -20,8 +20,8 @@ struct FrameRange {
     int end = 0;
 };
 
-/// The frames of a part: its share, and the one before it, which the part before has too. Throws
-/// Error where there are fewer frames than parts.
+/// The frames of a part: its share, and the one before it, which the part before has too. Throws Error where there are
+/// fewer frames than parts.
 FrameRange frames_of(const FlightPart& part, int frames);
 
 } // namespace octant::ui::settings

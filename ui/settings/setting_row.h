@@ -15,17 +15,13 @@ enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
 
 /// The headlines of the groups.
 template <>
-inline constexpr std::array enum_names<SettingGroup>{
-    EnumName{SettingGroup::Path, "Path, aircraft and ground"},
-    EnumName{SettingGroup::View, "View and picture"},
-    EnumName{SettingGroup::Time, "Frames"},
+inline constexpr std::array enum_names<SettingGroup>{EnumName{SettingGroup::Path, "Path, aircraft and ground"},
+    EnumName{SettingGroup::View, "View and picture"}, EnumName{SettingGroup::Time, "Frames"},
     EnumName{SettingGroup::Surface, "Hidden surfaces, aircraft detail"},
-    EnumName{SettingGroup::Shading, "Shading of aircraft"},
-    EnumName{SettingGroup::Ground, "Terrain mesh"},
+    EnumName{SettingGroup::Shading, "Shading of aircraft"}, EnumName{SettingGroup::Ground, "Terrain mesh"},
     EnumName{SettingGroup::Air, "Sky, haze, sun and colours"}};
 
-/// What must be made anew when settings change during a flight. Each value includes those before
-/// it.
+/// What must be made anew when settings change during a flight. Each value includes those before it.
 enum class SettingsChange {
     None,
     /// What a recording and a run without a window go by: the pictures stay as they are.
@@ -58,8 +54,7 @@ struct SettingBehaviour {
 /// Everything about a setting but where its value stands.
 struct SettingInfo : FieldInfo, SettingBehaviour {};
 
-/// The row of one setting. `members` lead from RunSettings to the value: a pointer to the part,
-/// then one to its member.
+/// The row of one setting. `members` lead from RunSettings to the value: a pointer to the part, then one to its member.
 template <auto... members>
 struct Setting : SettingInfo {
     /// Returns the value in `settings`, which is constant where they are.

@@ -37,13 +37,12 @@ struct PathSettings {
     models::heights::VoidValues terrain_voids;
     /// The band of terrain files that holds heights, by number or name; chosen if not set.
     std::optional<std::string> terrain_band;
-    /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the
-    /// centre of the map.
+    /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the centre of the map.
     std::optional<std::string> place;
     /// How far the path is turned clockwise; without it, to the heading of least relief.
     std::optional<double> heading_deg;
-    /// Without it, paths are lifted clear of the ground, and tracks that know their place fly at
-    /// the heights that they give.
+    /// Without it, paths are lifted clear of the ground, and tracks that know their place fly at the heights that they
+    /// give.
     std::optional<sim::HeightMode> height_mode;
     bool lenient = false;
 
@@ -79,10 +78,10 @@ struct DrawingSettings {
     bool operator==(const DrawingSettings&) const = default;
 };
 
-/// Everything that decides what a run shows: what a picture shows (the parts of scene::Settings),
-/// the flight, its frames and who draws them. A run is repeated by repeating its RunSettings. Each
-/// field has a row (ui/settings/README.md) from which its option, its file entry and its widget are
-/// made. What only says where results go is not here.
+/// Everything that decides what a run shows: what a picture shows (the parts of scene::Settings), the flight, its
+/// frames and who draws them. A run is repeated by repeating its RunSettings. Each field has a row
+/// (ui/settings/README.md) from which its option, its file entry and its widget are made. What only says where results
+/// go is not here.
 struct RunSettings : visuals::scene::Settings {
     PathSettings path;
     TimeSettings time;
@@ -91,8 +90,8 @@ struct RunSettings : visuals::scene::Settings {
     bool operator==(const RunSettings&) const = default;
 };
 
-/// Settings of what is measured: the ground as it is given, without the detail and the scenery that
-/// are made up near the eye.
+/// Settings of what is measured: the ground as it is given, without the detail and the scenery that are made up near
+/// the eye.
 inline RunSettings measurement_settings() {
     RunSettings settings;
     settings.ground.near_detail = false;

@@ -9,9 +9,7 @@ namespace octant::ui::settings {
 SettingsChange change_between(const RunSettings& before, const RunSettings& after) {
     SettingsChange change = SettingsChange::None;
     visit_rows([&](const auto& row) {
-        if (row.of(before) != row.of(after)) {
-            change = std::max(change, row.change);
-        }
+        if (row.of(before) != row.of(after)) { change = std::max(change, row.change); }
     });
     return change;
 }

@@ -24,53 +24,41 @@ void check_listed_numbers(const RunSettings& settings) {
         if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, std::optional<int>>) {
             try {
                 const std::optional<int> number(value);
-                if (number) {
-                    check_listed(info, *number);
-                }
-            } catch (const Error& fault) {
-                throw Error(fmt::format("--{}", fault.what()));
-            }
+                if (number) { check_listed(info, *number); }
+            } catch (const Error& fault) { throw Error(fmt::format("--{}", fault.what())); }
         }
     });
 }
 
 void check_time(const scene::AirSettings& air) {
     if (air.time && !sim::solar_time_from_text(*air.time)) {
-        throw Error(fmt::format(
-            "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '{}'",
-            printable(*air.time)));
+        throw Error(
+            fmt::format("--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '{}'", printable(*air.time)));
     }
 }
 
 void check_part(const RunSettings& settings) {
-    if (!settings.time.part) {
-        return;
-    }
+    if (!settings.time.part) { return; }
     if (!part_from_text(*settings.time.part)) {
-        throw Error(fmt::format(
-            "--part: expected K/N, the Kth of N parts, got '{}'", printable(*settings.time.part)));
+        throw Error(fmt::format("--part: expected K/N, the Kth of N parts, got '{}'", printable(*settings.time.part)));
     }
     if (settings.adapt.terrain || settings.adapt.shading) {
         throw Error("--part: expected --adapt none beside it, as what follows the clock depends on "
                     "frames that another part draws, got another");
     }
-    if (settings.path.name == live_path) {
-        throw Error("--part: expected a path or a track, got what others fly");
-    }
+    if (settings.path.name == live_path) { throw Error("--part: expected a path or a track, got what others fly"); }
 }
 
 void check_shading(const scene::ShadingSettings& shading, const scene::Adaptation& adapt) {
-    const bool by_share = adapt.shading || shading.device_ratio || shading.smooth_share < 1.0 ||
-                          shading.rule == scene::HybridRule::Paper;
+    const bool by_share =
+        adapt.shading || shading.device_ratio || shading.smooth_share < 1.0 || shading.rule == scene::HybridRule::Paper;
     if (by_share && shading.kind != scene::AircraftShading::Hybrid) {
         throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
                     "--device-ratio or --shading-rule paper, got another one");
     }
     if (shading.far_m <= shading.near_m) {
         throw Error(fmt::format(
-            "--shading-far: expected more than --shading-near ({}), got {}",
-            shading.near_m,
-            shading.far_m));
+            "--shading-far: expected more than --shading-near ({}), got {}", shading.near_m, shading.far_m));
     }
 }
 
@@ -79,8 +67,7 @@ void check_terrain_adaptation(const scene::GroundSettings& ground, const std::st
         throw Error("--adapt terrain: expected --detail exact beside it, got another control");
     }
     if (has_no_detail_levels(terrain)) {
-        throw Error(
-            fmt::format("--adapt terrain: expected ground with levels of detail, got {}", terrain));
+        throw Error(fmt::format("--adapt terrain: expected ground with levels of detail, got {}", terrain));
     }
 }
 
@@ -94,9 +81,8 @@ void check_ground(const scene::GroundSettings& ground, const std::string& terrai
                     "--propagation, got one that only --mesh midpoint or printed has");
     }
     if (!by_error && is_imported_ground(terrain)) {
-        throw Error(fmt::format(
-            "{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
-            "roughness",
+        throw Error(fmt::format("{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
+                                "roughness",
             printable(terrain)));
     }
     if (!by_error && ground.error_px) {
@@ -108,10 +94,8 @@ void check_ground_texture(const scene::AirSettings& air, const std::string& terr
     const bool draped = air.drape.has_value();
     const bool textured = draped || air.ground_shading == scene::GroundShading::Texture;
     if (textured && has_no_detail_levels(terrain)) {
-        throw Error(fmt::format(
-            "{}: expected ground with heights (hills, canyon or a file), got --terrain {}",
-            draped ? "--drape" : "--ground-shading texture",
-            printable(terrain)));
+        throw Error(fmt::format("{}: expected ground with heights (hills, canyon or a file), got --terrain {}",
+            draped ? "--drape" : "--ground-shading texture", printable(terrain)));
     }
     if (draped && air.ground_shading == scene::GroundShading::Vertex) {
         throw Error("--drape: expected --ground-shading texture or auto beside it, got vertex");
@@ -122,9 +106,8 @@ void check_ground_texture(const scene::AirSettings& air, const std::string& terr
 void check_transparency(const RunSettings& settings) {
     const auto refuse_depth = [&](const char* option, bool is_on) {
         if (is_on && settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
-            throw Error(fmt::format(
-                "{}: expected --hidden-surface octant or back-face beside it, got depth-buffer",
-                option));
+            throw Error(
+                fmt::format("{}: expected --hidden-surface octant or back-face beside it, got depth-buffer", option));
         }
     };
     refuse_depth("--clouds", settings.air.clouds > 0.0);
@@ -142,15 +125,11 @@ void check_eye_point(const scene::ViewSettings& view) {
     if (free && (!view.eye_m || !view.look_m)) {
         throw Error("--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
     }
-    if (free && *view.eye_m == *view.look_m) {
-        throw Error("--look: expected another point than --eye, got the same");
-    }
+    if (free && *view.eye_m == *view.look_m) { throw Error("--look: expected another point than --eye, got the same"); }
     if (!free && view.kind != scene::View::Tower && view.eye_m) {
         throw Error("--eye: expected --view tower or free beside it, got another view");
     }
-    if (!free && view.look_m) {
-        throw Error("--look: expected --view free beside it, got another view");
-    }
+    if (!free && view.look_m) { throw Error("--look: expected --view free beside it, got another view"); }
 }
 
 void check_settings(const RunSettings& settings) {
@@ -162,9 +141,7 @@ void check_settings(const RunSettings& settings) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }
     check_part(settings);
-    if (settings.adapt.terrain) {
-        check_terrain_adaptation(settings.ground, settings.path.terrain);
-    }
+    if (settings.adapt.terrain) { check_terrain_adaptation(settings.ground, settings.path.terrain); }
     check_shading(settings.shading, settings.adapt);
     check_ground(settings.ground, settings.path.terrain);
     check_ground_texture(settings.air, settings.path.terrain);

@@ -5,8 +5,8 @@
 #include "ui/base/json_file_name.h"
 #include "ui/report/json_text.h"
 #include "ui/report/packed_recording.h"
-#include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_by_name.h"
+#include "ui/settings/settings_fields.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,27 +25,17 @@ ordered_json json_of(const Value& value) {
     return text_of(value);
 }
 
-ordered_json json_of(bool value) {
-    return value;
-}
+ordered_json json_of(bool value) { return value; }
 
-ordered_json json_of(int value) {
-    return value;
-}
+ordered_json json_of(int value) { return value; }
 
-ordered_json json_of(double value) {
-    return value;
-}
+ordered_json json_of(double value) { return value; }
 
-ordered_json json_of(const std::string& value) {
-    return base::json_from_file_name(value);
-}
+ordered_json json_of(const std::string& value) { return base::json_from_file_name(value); }
 
 ordered_json json_of(const std::vector<std::string>& value) {
     ordered_json names = ordered_json::array();
-    for (const std::string& name : value) {
-        names.push_back(base::json_from_file_name(name));
-    }
+    for (const std::string& name : value) { names.push_back(base::json_from_file_name(name)); }
     return names;
 }
 
@@ -74,8 +64,7 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::optional<V
 }
 
 /// Older files have a number or null.
-void read_field(
-    const FieldInfo& info, const ordered_json& json, models::heights::VoidValues& voids) {
+void read_field(const FieldInfo& info, const ordered_json& json, models::heights::VoidValues& voids) {
     if (json.is_null()) {
         voids = {};
     } else {
@@ -88,14 +77,9 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std
                        std::all_of(json.begin(), json.end(), [](const ordered_json& item) {
                            return item.is_string() && !item.get<std::string>().empty();
                        });
-    if (!names) {
-        throw Error(
-            fmt::format("{}: expected a list of names, got {}", info.name, printable(json.dump())));
-    }
+    if (!names) { throw Error(fmt::format("{}: expected a list of names, got {}", info.name, printable(json.dump()))); }
     value.clear();
-    for (const ordered_json& name : json) {
-        value.push_back(base::file_name_from_json(name.get<std::string>()));
-    }
+    for (const ordered_json& name : json) { value.push_back(base::file_name_from_json(name.get<std::string>())); }
 }
 
 int line_of_key(const std::string& text, std::string_view key) {
@@ -107,9 +91,8 @@ int line_of_key(const std::string& text, std::string_view key) {
 
 ordered_json settings_json(const RunSettings& settings) {
     ordered_json json = ordered_json::object();
-    visit_settings(settings, [&](const SettingInfo& info, const auto& value) {
-        json[std::string(info.name)] = json_of(value);
-    });
+    visit_settings(
+        settings, [&](const SettingInfo& info, const auto& value) { json[std::string(info.name)] = json_of(value); });
     return json;
 }
 
@@ -119,38 +102,27 @@ RunSettings read_settings(const std::filesystem::path& given) {
     const std::string text = read_text_file(path, largest_bytes);
     ordered_json json = report::parsed_json(path, text);
     const bool recorded = json.is_object() && json.contains("settings");
-    if (recorded) {
-        json = ordered_json(json["settings"]);
-    }
+    if (recorded) { json = ordered_json(json["settings"]); }
     if (!json.is_object()) {
-        throw_error_at(
-            path, 1, fmt::format("expected a JSON object of settings, got {}", json.type_name()));
+        throw_error_at(path, 1, fmt::format("expected a JSON object of settings, got {}", json.type_name()));
     }
     RunSettings settings;
     std::set<std::string, std::less<>> known;
     visit_settings(settings, [&](const SettingInfo& info, auto& value) {
         known.insert(std::string(info.name));
         const auto found = json.find(std::string(info.name));
-        if (found == json.end()) {
-            return;
-        }
+        if (found == json.end()) { return; }
         try {
             read_field(info, *found, value);
-        } catch (const Error& fault) {
-            throw_error_at(path, line_of_key(text, info.name), fault.what());
-        }
+        } catch (const Error& fault) { throw_error_at(path, line_of_key(text, info.name), fault.what()); }
     });
     for (const auto& [key, value] : json.items()) {
         if (!known.contains(key)) {
             throw_error_at(
-                path,
-                line_of_key(text, key),
-                fmt::format("expected the name of a setting, got '{}'", printable(key)));
+                path, line_of_key(text, key), fmt::format("expected the name of a setting, got '{}'", printable(key)));
         }
     }
-    if (recorded) {
-        resolve_paths_from(path.parent_path(), settings);
-    }
+    if (recorded) { resolve_paths_from(path.parent_path(), settings); }
     return settings;
 }
 

@@ -10,10 +10,10 @@ namespace octant::ui::settings {
 /// Returns all settings as a JSON object in the order of help. Settings that are not set are null.
 nlohmann::ordered_json settings_json(const RunSettings& settings);
 
-/// Reads settings from a settings file or from a recording: its run.json ("settings" there), its
-/// folder or its packed file. Files that lie in the recording, or where it says that they lie from
-/// it, are then named from here. Settings that are not there keep their defaults. Throws Error with
-/// file and line for an unknown key, a wrong type or a value out of range.
+/// Reads settings from a settings file or from a recording: its run.json ("settings" there), its folder or its packed
+/// file. Files that lie in the recording, or where it says that they lie from it, are then named from here. Settings
+/// that are not there keep their defaults. Throws Error with file and line for an unknown key, a wrong type or a value
+/// out of range.
 RunSettings read_settings(const std::filesystem::path& given);
 
 } // namespace octant::ui::settings

@@ -1,4 +1,5 @@
 #include "ui/settings/settings_text.h"
+
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -22,8 +23,7 @@ constexpr std::string_view no_voids = "none";
 constexpr std::string_view common_voids = "common";
 
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& expected, std::string_view got) {
-    throw Error(
-        fmt::format("{}: expected {}, got '{}'", info.name, expected, printable(std::string(got))));
+    throw Error(fmt::format("{}: expected {}, got '{}'", info.name, expected, printable(std::string(got))));
 }
 
 std::string range_of(const FieldInfo& info, std::string_view kind) {
@@ -32,23 +32,17 @@ std::string range_of(const FieldInfo& info, std::string_view kind) {
 
 std::string adaptation_names() {
     std::vector<std::string_view> names;
-    for (const AdaptationName& each : adaptations) {
-        names.push_back(each.name);
-    }
+    for (const AdaptationName& each : adaptations) { names.push_back(each.name); }
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// Reads exactly `numbers.size()` finite numbers between separators; false for any other text.
 bool read_numbers(std::string_view text, char separator, std::span<double> numbers) {
     const auto fields = split_fields(text, separator);
-    if (fields.size() != numbers.size()) {
-        return false;
-    }
+    if (fields.size() != numbers.size()) { return false; }
     for (std::size_t i = 0; i < fields.size(); ++i) {
         const auto number = finite_number(fields[i]);
-        if (!number) {
-            return false;
-        }
+        if (!number) { return false; }
         numbers[i] = *number;
     }
     return true;
@@ -56,31 +50,18 @@ bool read_numbers(std::string_view text, char separator, std::span<double> numbe
 
 } // namespace
 
-std::string text_of(const std::string& value) {
-    return value;
-}
+std::string text_of(const std::string& value) { return value; }
 
-std::string text_of(double value) {
-    return fmt::format("{}", value);
-}
+std::string text_of(double value) { return fmt::format("{}", value); }
 
-std::string text_of(int value) {
-    return fmt::format("{}", value);
-}
+std::string text_of(int value) { return fmt::format("{}", value); }
 
-std::string text_of(const glm::ivec2& value) {
-    return fmt::format("{}x{}", value.x, value.y);
-}
+std::string text_of(const glm::ivec2& value) { return fmt::format("{}x{}", value.x, value.y); }
 
-std::string text_of(const glm::dvec3& value) {
-    return fmt::format("{},{},{}", value.x, value.y, value.z);
-}
+std::string text_of(const glm::dvec3& value) { return fmt::format("{},{},{}", value.x, value.y, value.z); }
 
 std::string text_of(const glm::vec3& colour) {
-    return fmt::format(
-        "{:02x}{:02x}{:02x}",
-        std::lround(colour.x * 255.0F),
-        std::lround(colour.y * 255.0F),
+    return fmt::format("{:02x}{:02x}{:02x}", std::lround(colour.x * 255.0F), std::lround(colour.y * 255.0F),
         std::lround(colour.z * 255.0F));
 }
 
@@ -97,19 +78,13 @@ std::string text_of(const Adaptation& adapt) {
 
 std::string text_of(const models::heights::VoidValues& voids) {
     std::vector<std::string> words;
-    if (voids.only) {
-        words.emplace_back(no_voids);
-    }
-    for (const double value : voids.values) {
-        words.push_back(text_of(value));
-    }
+    if (voids.only) { words.emplace_back(no_voids); }
+    for (const double value : voids.values) { words.push_back(text_of(value)); }
     return words.empty() ? std::string(common_voids) : fmt::format("{}", fmt::join(words, ","));
 }
 
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value) {
-    if (text.empty()) {
-        refuse(info, "a name or a file", text);
-    }
+    if (text.empty()) { refuse(info, "a name or a file", text); }
     value = text;
 }
 
@@ -123,8 +98,7 @@ void read_setting(const FieldInfo& info, std::string_view text, double& value) {
 
 void read_setting(const FieldInfo& info, std::string_view text, int& value) {
     const auto number = whole_number(text);
-    if (!number || static_cast<double>(*number) < info.min_value ||
-        static_cast<double>(*number) > info.max_value) {
+    if (!number || static_cast<double>(*number) < info.min_value || static_cast<double>(*number) > info.max_value) {
         refuse(info, range_of(info, "a whole number"), text);
     }
     check_listed(info, static_cast<int>(*number));
@@ -132,9 +106,7 @@ void read_setting(const FieldInfo& info, std::string_view text, int& value) {
 }
 
 void read_setting(const FieldInfo& info, std::string_view text, bool& value) {
-    if (text != "true" && text != "false") {
-        refuse(info, "true or false", text);
-    }
+    if (text != "true" && text != "false") { refuse(info, "true or false", text); }
     value = text == "true";
 }
 
@@ -151,9 +123,7 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& valu
 
 void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value) {
     std::array<double, 3> numbers{};
-    if (!read_numbers(text, ',', numbers)) {
-        refuse(info, "X,Y,Z", text);
-    }
+    if (!read_numbers(text, ',', numbers)) { refuse(info, "X,Y,Z", text); }
     for (const double number : numbers) {
         if (number < info.min_value || number > info.max_value) {
             refuse(info, fmt::format("X,Y,Z, each {} to {}", info.min_value, info.max_value), text);
@@ -168,9 +138,7 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colou
     if (text.size() != 6 || code != std::errc() || end != text.data() + text.size()) {
         refuse(info, "six hexadecimal digits RRGGBB", text);
     }
-    const auto part = [packed](unsigned shift) {
-        return static_cast<float>((packed >> shift) & 0xffU) / 255.0F;
-    };
+    const auto part = [packed](unsigned shift) { return static_cast<float>((packed >> shift) & 0xffU) / 255.0F; };
     colour = {part(16U), part(8U), part(0U)};
 }
 
@@ -207,20 +175,13 @@ void check_listed(const FieldInfo& info, int value) {
     if (!info.allowed_values.empty() && std::ranges::find(info.allowed_values, value) == info.allowed_values.end()) {
         const auto all = info.allowed_values;
         throw Error(fmt::format(
-            "{}: expected {} or {}, got {}",
-            info.name,
-            fmt::join(all.first(all.size() - 1), ", "),
-            all.back(),
-            value));
+            "{}: expected {} or {}, got {}", info.name, fmt::join(all.first(all.size() - 1), ", "), all.back(), value));
     }
 }
 
-std::size_t read_choice(
-    const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names) {
+std::size_t read_choice(const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i] == text) {
-            return i;
-        }
+        if (names[i] == text) { return i; }
     }
     refuse(info, fmt::format("one of {}", fmt::join(names, ", ")), text);
 }

@@ -21,30 +21,21 @@ namespace octant::ui::settings {
 // Names of the values of every enumeration that settings use, as people write them.
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::View>{
-    EnumName{visuals::scene::View::Chase, "chase"},
-    EnumName{visuals::scene::View::Cockpit, "cockpit"},
-    EnumName{visuals::scene::View::Tower, "tower"},
-    EnumName{visuals::scene::View::Orbit, "orbit"},
-    EnumName{visuals::scene::View::Free, "free"}};
+inline constexpr std::array enum_names<visuals::scene::View>{EnumName{visuals::scene::View::Chase, "chase"},
+    EnumName{visuals::scene::View::Cockpit, "cockpit"}, EnumName{visuals::scene::View::Tower, "tower"},
+    EnumName{visuals::scene::View::Orbit, "orbit"}, EnumName{visuals::scene::View::Free, "free"}};
 
 template <>
-inline constexpr std::array enum_names<sim::HeightMode>{
-    EnumName{sim::HeightMode::Clear, "clear"},
-    EnumName{sim::HeightMode::Follow, "follow"},
-    EnumName{sim::HeightMode::Datum, "datum"}};
+inline constexpr std::array enum_names<sim::HeightMode>{EnumName{sim::HeightMode::Clear, "clear"},
+    EnumName{sim::HeightMode::Follow, "follow"}, EnumName{sim::HeightMode::Datum, "datum"}};
 
 template <>
 inline constexpr std::array enum_names<RendererKind>{
-    EnumName{RendererKind::Auto, "auto"},
-    EnumName{RendererKind::Raster, "raster"},
-    EnumName{RendererKind::Gl, "gl"}};
+    EnumName{RendererKind::Auto, "auto"}, EnumName{RendererKind::Raster, "raster"}, EnumName{RendererKind::Gl, "gl"}};
 
 template <>
-inline constexpr std::array enum_names<ContextKind>{
-    EnumName{ContextKind::OsMesa, "osmesa"},
-    EnumName{ContextKind::Egl, "egl"},
-    EnumName{ContextKind::Window, "window"}};
+inline constexpr std::array enum_names<ContextKind>{EnumName{ContextKind::OsMesa, "osmesa"},
+    EnumName{ContextKind::Egl, "egl"}, EnumName{ContextKind::Window, "window"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::GroundMetric>{
@@ -59,38 +50,31 @@ inline constexpr std::array enum_names<visuals::scene::Propagation>{
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::GroundFans>{
-    EnumName{visuals::scene::GroundFans::Partial, "partial"},
-    EnumName{visuals::scene::GroundFans::Full, "full"}};
+    EnumName{visuals::scene::GroundFans::Partial, "partial"}, EnumName{visuals::scene::GroundFans::Full, "full"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::DetailControl>{
-    EnumName{visuals::scene::DetailControl::Exact, "exact"},
-    EnumName{visuals::scene::DetailControl::Damped, "damped"},
+    EnumName{visuals::scene::DetailControl::Exact, "exact"}, EnumName{visuals::scene::DetailControl::Damped, "damped"},
     EnumName{visuals::scene::DetailControl::Previous, "previous"},
     EnumName{visuals::scene::DetailControl::Printed, "literal"},
     EnumName{visuals::scene::DetailControl::Fixed, "fixed"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::MeshDisplay>{
-    EnumName{visuals::scene::MeshDisplay::None, "none"},
-    EnumName{visuals::scene::MeshDisplay::Edges, "edges"},
-    EnumName{visuals::scene::MeshDisplay::Levels, "levels"}};
+inline constexpr std::array enum_names<visuals::scene::MeshDisplay>{EnumName{visuals::scene::MeshDisplay::None, "none"},
+    EnumName{visuals::scene::MeshDisplay::Edges, "edges"}, EnumName{visuals::scene::MeshDisplay::Levels, "levels"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::ModelDisplay>{
-    EnumName{visuals::scene::ModelDisplay::None, "none"},
-    EnumName{visuals::scene::ModelDisplay::Shading, "shading"},
+    EnumName{visuals::scene::ModelDisplay::None, "none"}, EnumName{visuals::scene::ModelDisplay::Shading, "shading"},
     EnumName{visuals::scene::ModelDisplay::Levels, "levels"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::Palette>{
-    EnumName{visuals::scene::Palette::Temperate, "temperate"},
-    EnumName{visuals::scene::Palette::Arid, "arid"}};
+    EnumName{visuals::scene::Palette::Temperate, "temperate"}, EnumName{visuals::scene::Palette::Arid, "arid"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::GroundShading>{
-    EnumName{visuals::scene::GroundShading::Auto, "auto"},
-    EnumName{visuals::scene::GroundShading::Vertex, "vertex"},
+    EnumName{visuals::scene::GroundShading::Auto, "auto"}, EnumName{visuals::scene::GroundShading::Vertex, "vertex"},
     EnumName{visuals::scene::GroundShading::Texture, "texture"}};
 
 template <>
@@ -102,8 +86,7 @@ inline constexpr std::array enum_names<visuals::scene::AircraftShading>{
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::HybridRule>{
-    EnumName{visuals::scene::HybridRule::Error, "error"},
-    EnumName{visuals::scene::HybridRule::Paper, "paper"}};
+    EnumName{visuals::scene::HybridRule::Error, "error"}, EnumName{visuals::scene::HybridRule::Paper, "paper"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::HiddenSurface>{
@@ -114,17 +97,14 @@ inline constexpr std::array enum_names<visuals::scene::HiddenSurface>{
 template <>
 inline constexpr std::array enum_names<visuals::draworder::OrderMethod>{
     EnumName{visuals::draworder::OrderMethod::Paper, "paper"},
-    EnumName{visuals::draworder::OrderMethod::Cells, "cells"},
-    EnumName{visuals::draworder::OrderMethod::Tree, "tree"},
+    EnumName{visuals::draworder::OrderMethod::Cells, "cells"}, EnumName{visuals::draworder::OrderMethod::Tree, "tree"},
     EnumName{visuals::draworder::OrderMethod::Bsp, "bsp"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::draworder::OrderSource>{
     EnumName{visuals::draworder::OrderSource::Paper, "paper"},
-    EnumName{visuals::draworder::OrderSource::Cells, "cells"},
-    EnumName{visuals::draworder::OrderSource::Tree, "tree"},
-    EnumName{visuals::draworder::OrderSource::Parts, "parts"},
-    EnumName{visuals::draworder::OrderSource::Bsp, "bsp"},
+    EnumName{visuals::draworder::OrderSource::Cells, "cells"}, EnumName{visuals::draworder::OrderSource::Tree, "tree"},
+    EnumName{visuals::draworder::OrderSource::Parts, "parts"}, EnumName{visuals::draworder::OrderSource::Bsp, "bsp"},
     EnumName{visuals::draworder::OrderSource::TreeAndSplitPolygons, "tree-and-parts"}};
 
 /// One thing that can follow the frame time, with the name that people write for it.
@@ -133,8 +113,7 @@ struct AdaptationName {
     std::string_view name;
 };
 
-inline constexpr std::array adaptations{
-    AdaptationName{&visuals::scene::Adaptation::terrain, "terrain"},
+inline constexpr std::array adaptations{AdaptationName{&visuals::scene::Adaptation::terrain, "terrain"},
     AdaptationName{&visuals::scene::Adaptation::shading, "shading"}};
 
 /// What a person may write for a setting or for another option that is read in the same way.
@@ -143,8 +122,8 @@ struct FieldInfo {
     std::string_view name;
     /// What help shows for the value: its unit ("METRES") or how it is written ("WIDTHxHEIGHT").
     std::string_view form;
-    /// One line for help, with the unit where the form does not say it. Words in brackets at its
-    /// end say what holds while the setting is not set.
+    /// One line for help, with the unit where the form does not say it. Words in brackets at its end say what holds
+    /// while the setting is not set.
     std::string_view meaning;
     /// The least and the greatest number that are taken.
     double min_value = 0.0;
@@ -153,8 +132,8 @@ struct FieldInfo {
     std::span<const int> allowed_values{};
 };
 
-/// Returns a setting as text that read_setting takes. Reading it back gives exactly the value, for
-/// colours the nearest with 8 bits a part.
+/// Returns a setting as text that read_setting takes. Reading it back gives exactly the value, for colours the nearest
+/// with 8 bits a part.
 std::string text_of(const std::string& value);
 std::string text_of(double value);
 std::string text_of(int value);
@@ -164,8 +143,7 @@ std::string text_of(const glm::vec3& colour);
 std::string text_of(const visuals::scene::Adaptation& adapt);
 std::string text_of(const models::heights::VoidValues& voids);
 
-/// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and then leaves the value
-/// as it was.
+/// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and then leaves the value as it was.
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value);
 void read_setting(const FieldInfo& info, std::string_view text, double& value);
 void read_setting(const FieldInfo& info, std::string_view text, int& value);
@@ -180,14 +158,11 @@ void read_setting(const FieldInfo& info, std::string_view text, models::heights:
 void check_listed(const FieldInfo& info, int value);
 
 /// Returns the index of `text` among `names`. Throws Error "NAME: expected one of ..., got ...".
-std::size_t read_choice(
-    const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names);
+std::size_t read_choice(const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names);
 
 template <class Enum>
 
-requires std::is_enum_v<Enum> std::string text_of(Enum value) {
-    return std::string(name_of(value));
-}
+requires std::is_enum_v<Enum> std::string text_of(Enum value) { return std::string(name_of(value)); }
 
 template <class Enum>
 requires std::is_enum_v<Enum>

@@ -15,8 +15,6 @@ bool is_imported_ground(const std::string& name_or_file) {
     return !is_built_in_ground(name_or_file) && visuals::groundfile::is_ground_file(name_or_file);
 }
 
-bool has_no_detail_levels(const std::string& terrain) {
-    return terrain == "background60" || terrain == "none";
-}
+bool has_no_detail_levels(const std::string& terrain) { return terrain == "background60" || terrain == "none"; }
 
 } // namespace octant::ui::settings

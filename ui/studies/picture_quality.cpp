@@ -1,6 +1,6 @@
-// Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image Quality Assessment: From Error
-// Visibility to Structural Similarity", IEEE Trans. Image Processing 13 (4), 2004, equation (13).
-// Deviations: even windows of 7 x 7 instead of a bell of 11 x 11, and only what is covered counts.
+// Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image Quality Assessment: From Error Visibility to Structural
+// Similarity", IEEE Trans. Image Processing 13 (4), 2004, equation (13). Deviations: even windows of 7 x 7 instead of a
+// bell of 11 x 11, and only what is covered counts.
 #include "ui/studies/picture_quality.h"
 
 #include <algorithm>
@@ -21,29 +21,21 @@ constexpr int reach_px = 3;
 using Sums = std::array<double, 6>;
 
 void add(Sums& sums, const Sums& more, double sign = 1.0) {
-    for (std::size_t k = 0; k < sums.size(); ++k) {
-        sums[k] += sign * more[k];
-    }
+    for (std::size_t k = 0; k < sums.size(); ++k) { sums[k] += sign * more[k]; }
 }
 
-Sums sums_of_pixel(double x, double y) {
-    return {1.0, x, y, x * x, y * y, x * y};
-}
+Sums sums_of_pixel(double x, double y) { return {1.0, x, y, x * x, y * y, x * y}; }
 
 /// Sums over all pixels above and left of each corner of the pixels.
 std::vector<Sums> running_sums(
-    const LightPicture& picture,
-    const LightPicture& reference,
-    std::span<const std::uint8_t> covered) {
+    const LightPicture& picture, const LightPicture& reference, std::span<const std::uint8_t> covered) {
     const auto size = static_cast<std::size_t>(picture.size_px);
     std::vector<Sums> sums((size + 1) * (size + 1), Sums{});
     for (std::size_t row = 0; row < size; ++row) {
         Sums of_row{};
         for (std::size_t column = 0; column < size; ++column) {
             const std::size_t at = row * size + column;
-            if (covered[at] != 0) {
-                add(of_row, sums_of_pixel(picture.light[at], reference.light[at]));
-            }
+            if (covered[at] != 0) { add(of_row, sums_of_pixel(picture.light[at], reference.light[at])); }
             Sums& below = sums[(row + 1) * (size + 1) + column + 1];
             below = sums[row * (size + 1) + column + 1];
             add(below, of_row);
@@ -67,9 +59,7 @@ double similarity(const Sums& sums) {
 } // namespace
 
 double mean_square_error(
-    const LightPicture& picture,
-    const LightPicture& reference,
-    std::span<const std::uint8_t> covered) {
+    const LightPicture& picture, const LightPicture& reference, std::span<const std::uint8_t> covered) {
     assert(picture.size_px == reference.size_px);
     double sum = 0.0;
     double count = 0.0;
@@ -89,26 +79,21 @@ double psnr_db(double mean_square) {
 }
 
 double structural_similarity(
-    const LightPicture& picture,
-    const LightPicture& reference,
-    std::span<const std::uint8_t> covered) {
+    const LightPicture& picture, const LightPicture& reference, std::span<const std::uint8_t> covered) {
     assert(picture.size_px == reference.size_px);
     const int size = picture.size_px;
     const std::vector<Sums> sums = running_sums(picture, reference, covered);
     const auto sums_at = [&](int row, int column) -> const Sums& {
-        return sums
-            [static_cast<std::size_t>(row) * (static_cast<std::size_t>(size) + 1) +
-             static_cast<std::size_t>(column)];
+        return sums[static_cast<std::size_t>(row) * (static_cast<std::size_t>(size) + 1) +
+                    static_cast<std::size_t>(column)];
     };
     double total = 0.0;
     double count = 0.0;
     for (int row = 0; row < size; ++row) {
         for (int column = 0; column < size; ++column) {
-            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(size) +
-                            static_cast<std::size_t>(column);
-            if (covered[at] == 0) {
-                continue;
-            }
+            const auto at =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(column);
+            if (covered[at] == 0) { continue; }
             const int top = std::max(row - reach_px, 0);
             const int left = std::max(column - reach_px, 0);
             const int bottom = std::min(row + reach_px + 1, size);

@@ -12,37 +12,25 @@ namespace octant::ui::studies {
 namespace shading = visuals::shading;
 
 ShadingPictures::ShadingPictures(
-    const shading::ShadedPolygons& polygons,
-    const shading::ShadingLight& light,
-    const glm::dvec3& eye_m,
-    int size_px)
-    : polygons_(&polygons)
-    , light_(light)
-    , eye_m_(eye_m)
-    , size_px_(size_px) {
+    const shading::ShadedPolygons& polygons, const shading::ShadingLight& light, const glm::dvec3& eye_m, int size_px)
+    : polygons_(&polygons), light_(light), eye_m_(eye_m), size_px_(size_px) {
     const auto pixels = static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px);
     seen_.resize(pixels);
     nearness_.assign(pixels, 0.0);
     for (const shading::ShadingPoint& point : polygons.points) {
-        smooth_light_.push_back(
-            shading::intensity(point.place_m, point.normal, point.colour_sum, light, eye_m_));
+        smooth_light_.push_back(shading::intensity(point.place_m, point.normal, point.colour_sum, light, eye_m_));
     }
     const std::vector<ProjectedPoint> screen = project();
     for (std::uint32_t i = 0; i < polygons.size(); ++i) {
         const shading::ShadedPolygon& shape = polygons.polygons[i];
-        flat_light_.push_back(
-            shading::intensity(shape.centre_m, shape.normal, shape.colour_sum, light, eye_m_));
-        if (glm::dot(shape.normal, eye_m_ - shape.centre_m) <= 0.0F) {
-            continue;
-        }
+        flat_light_.push_back(shading::intensity(shape.centre_m, shape.normal, shape.colour_sum, light, eye_m_));
+        if (glm::dot(shape.normal, eye_m_ - shape.centre_m) <= 0.0F) { continue; }
         const std::uint32_t* const points = &polygons.corner_points[shape.first_corner];
         for (std::uint32_t k = 1; k + 1 < shape.corner_count; ++k) {
             draw_triangle(i, {points[0], points[k], points[k + 1]}, screen);
         }
     }
-    for (const VisiblePoint& seen : seen_) {
-        covered_.push_back(seen.polygon == none ? 0 : 1);
-    }
+    for (const VisiblePoint& seen : seen_) { covered_.push_back(seen.polygon == none ? 0 : 1); }
 }
 
 std::vector<ShadingPictures::ProjectedPoint> ShadingPictures::project() const {
@@ -59,10 +47,7 @@ std::vector<ShadingPictures::ProjectedPoint> ShadingPictures::project() const {
     for (const shading::ShadingPoint& point : polygons_->points) {
         const glm::dvec3 from_eye_m = glm::dvec3(point.place_m) - eye_m;
         const double depth_m = glm::dot(from_eye_m, ahead);
-        screen.push_back(
-            {glm::dot(from_eye_m, right) / depth_m,
-             glm::dot(from_eye_m, below) / depth_m,
-             1.0 / depth_m});
+        screen.push_back({glm::dot(from_eye_m, right) / depth_m, glm::dot(from_eye_m, below) / depth_m, 1.0 / depth_m});
         widest = std::max({widest, std::abs(screen.back().x_px), std::abs(screen.back().y_px)});
     }
     const double half_px = 0.5 * size_px_;
@@ -75,20 +60,15 @@ std::vector<ShadingPictures::ProjectedPoint> ShadingPictures::project() const {
 }
 
 void ShadingPictures::draw_triangle(
-    std::uint32_t polygon,
-    const std::array<std::uint32_t, 3>& points,
-    std::span<const ProjectedPoint> screen) {
+    std::uint32_t polygon, const std::array<std::uint32_t, 3>& points, std::span<const ProjectedPoint> screen) {
     const ProjectedPoint& a = screen[points[0]];
     const ProjectedPoint& b = screen[points[1]];
     const ProjectedPoint& c = screen[points[2]];
     const auto doubled = [](const ProjectedPoint& one, const ProjectedPoint& two, double x_px, double y_px) {
-        return (two.x_px - one.x_px) * (y_px - one.y_px) -
-               (two.y_px - one.y_px) * (x_px - one.x_px);
+        return (two.x_px - one.x_px) * (y_px - one.y_px) - (two.y_px - one.y_px) * (x_px - one.x_px);
     };
     const double whole = doubled(a, b, c.x_px, c.y_px);
-    if (whole == 0.0) {
-        return;
-    }
+    if (whole == 0.0) { return; }
     const auto pixel = [&](double place_px) {
         return static_cast<int>(std::clamp(std::ceil(place_px - 0.5), 0.0, double(size_px_)));
     };
@@ -99,20 +79,15 @@ void ShadingPictures::draw_triangle(
             const double of_a = doubled(b, c, column + 0.5, row + 0.5) / whole;
             const double of_b = doubled(c, a, column + 0.5, row + 0.5) / whole;
             const double of_c = 1.0 - of_a - of_b;
-            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(size_px_) +
-                            static_cast<std::size_t>(column);
-            if (row >= size_px_ || column >= size_px_ || of_a < 0.0 || of_b < 0.0 || of_c < 0.0) {
-                continue;
-            }
+            const auto at =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(size_px_) + static_cast<std::size_t>(column);
+            if (row >= size_px_ || column >= size_px_ || of_a < 0.0 || of_b < 0.0 || of_c < 0.0) { continue; }
             const double nearness = of_a * a.nearness + of_b * b.nearness + of_c * c.nearness;
             if (nearness > nearness_[at]) {
                 nearness_[at] = nearness;
-                seen_[at] = {
-                    polygon,
-                    points,
-                    {static_cast<float>(of_a * a.nearness / nearness),
-                     static_cast<float>(of_b * b.nearness / nearness),
-                     static_cast<float>(of_c * c.nearness / nearness)}};
+                seen_[at] = {polygon, points,
+                    {static_cast<float>(of_a * a.nearness / nearness), static_cast<float>(of_b * b.nearness / nearness),
+                        static_cast<float>(of_c * c.nearness / nearness)}};
             }
         }
     }
@@ -123,9 +98,7 @@ LightPicture ShadingPictures::hybrid(std::span<const std::uint8_t> smooth) const
     LightPicture picture{size_px_, std::vector<float>(seen_.size())};
     for (std::size_t i = 0; i < seen_.size(); ++i) {
         const VisiblePoint& seen = seen_[i];
-        if (seen.polygon == none) {
-            continue;
-        }
+        if (seen.polygon == none) { continue; }
         picture.light[i] = flat_light_[seen.polygon];
         if (smooth[seen.polygon] != 0) {
             picture.light[i] = seen.weights[0] * smooth_light_[seen.points[0]] +
@@ -140,9 +113,7 @@ LightPicture ShadingPictures::per_pixel() const {
     LightPicture picture{size_px_, std::vector<float>(seen_.size())};
     for (std::size_t i = 0; i < seen_.size(); ++i) {
         const VisiblePoint& seen = seen_[i];
-        if (seen.polygon == none) {
-            continue;
-        }
+        if (seen.polygon == none) { continue; }
         glm::vec3 place_m(0.0F);
         glm::vec3 normal(0.0F);
         float colour_sum = 0.0F;
@@ -152,8 +123,7 @@ LightPicture ShadingPictures::per_pixel() const {
             normal += seen.weights[k] * point.normal;
             colour_sum += seen.weights[k] * point.colour_sum;
         }
-        picture.light[i] =
-            shading::intensity(place_m, glm::normalize(normal), colour_sum, light_, eye_m_);
+        picture.light[i] = shading::intensity(place_m, glm::normalize(normal), colour_sum, light_, eye_m_);
     }
     return picture;
 }

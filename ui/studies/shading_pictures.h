@@ -13,27 +13,24 @@
 
 namespace octant::ui::studies {
 
-/// Light as it reaches the eye, red + green + blue in display values, not cut off: a square
-/// picture, top row first. What no polygon covers is 0.
+/// Light as it reaches the eye, red + green + blue in display values, not cut off: a square picture, top row first.
+/// What no polygon covers is 0.
 struct LightPicture {
     int size_px = 0;
     std::vector<float> light;
 };
 
-/// Draws a model again and again from one place: what is seen in each pixel is found once, exactly
-/// at the pixel's centre and without GL; shading is then looked up.
+/// Draws a model again and again from one place: what is seen in each pixel is found once, exactly at the pixel's
+/// centre and without GL; shading is then looked up.
 class ShadingPictures {
 public:
-    /// An eye outside the model, not straight above or below, that looks at its middle, so that it
-    /// fills the picture. `polygons` stay where they are as long as this.
-    ShadingPictures(
-        const visuals::shading::ShadedPolygons& polygons,
-        const visuals::shading::ShadingLight& light,
-        const glm::dvec3& eye_m,
-        int size_px);
+    /// An eye outside the model, not straight above or below, that looks at its middle, so that it fills the picture.
+    /// `polygons` stay where they are as long as this.
+    ShadingPictures(const visuals::shading::ShadedPolygons& polygons, const visuals::shading::ShadingLight& light,
+        const glm::dvec3& eye_m, int size_px);
 
-    /// Polygons marked in `smooth` with the light of their corners between them (Gouraud), the
-    /// others with that at their middle.
+    /// Polygons marked in `smooth` with the light of their corners between them (Gouraud), the others with that at
+    /// their middle.
     LightPicture hybrid(std::span<const std::uint8_t> smooth) const;
 
     /// Normals between corners, light in each pixel (Phong).
@@ -58,10 +55,8 @@ private:
     };
 
     std::vector<ProjectedPoint> project() const;
-    void
-    draw_triangle(std::uint32_t polygon,
-        const std::array<std::uint32_t, 3>& points,
-        std::span<const ProjectedPoint> screen);
+    void draw_triangle(
+        std::uint32_t polygon, const std::array<std::uint32_t, 3>& points, std::span<const ProjectedPoint> screen);
 
     const visuals::shading::ShadedPolygons* polygons_;
     visuals::shading::ShadingLight light_;

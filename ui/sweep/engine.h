@@ -11,15 +11,15 @@ namespace octant::ui::sweep {
 
 /// How the flights of a sweep are given out.
 struct EngineOptions {
-    std::string program;      ///< the octant program, as the machines that fly call it
-    bool share_cores = false; ///< several at once on a machine, whatever that does to frame times
-    int jobs = 0;             ///< at once: on a machine, of an array; 0 = as many as fit
-    int tasks = 0;            ///< of a job array; 0 = one a run, at most 1000
-    bool videos = false;      ///< of each flight, as SweepFolder::video has it
-    int minutes = 60;         ///< that a task of a job array may take
+    std::string program;                     ///< the octant program, as the machines that fly call it
+    bool share_cores = false;                ///< several at once on a machine, whatever that does to frame times
+    int jobs = 0;                            ///< at once: on a machine, of an array; 0 = as many as fit
+    int tasks = 0;                           ///< of a job array; 0 = one a run, at most 1000
+    bool videos = false;                     ///< of each flight, as SweepFolder::video has it
+    int minutes = 60;                        ///< that a task of a job array may take
     std::vector<std::string> sbatch_options; ///< further ones, "--partition=long"
     std::filesystem::path hosts;             ///< GNU parallel's file of machines
-    std::string machine_sharing; ///< how the runs share machines, for reports; engines fill it in
+    std::string machine_sharing;             ///< how the runs share machines, for reports; engines fill it in
     bool quiet = false;
 };
 
@@ -33,8 +33,8 @@ public:
     Engine(Engine&&) = delete;
     Engine& operator=(Engine&&) = delete;
 
-    /// Has each of these runs flown once, or tried, and waits for all. What came of them lies in
-    /// the folder. Indices into the sweep's runs. Throws Error when the engine itself fails.
+    /// Has each of these runs flown once, or tried, and waits for all. What came of them lies in the folder. Indices
+    /// into the sweep's runs. Throws Error when the engine itself fails.
     virtual void fly(std::span<const std::size_t> runs) = 0;
 
     /// How the runs shared machines, for the report: "one at a time".
@@ -42,18 +42,14 @@ public:
 };
 
 /// Child processes on this machine, one at a time unless cores may be shared.
-std::unique_ptr<Engine>
-local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
+std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// A job array of Slurm, submitted by a script that lies in the folder. Throws Error where there is
-/// no sbatch.
-std::unique_ptr<Engine>
-slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
+/// A job array of Slurm, submitted by a script that lies in the folder. Throws Error where there is no sbatch.
+std::unique_ptr<Engine> slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// GNU parallel over ssh, by a script that lies in the folder, which all machines must see under
-/// its name. Throws Error where there is no GNU parallel.
-std::unique_ptr<Engine>
-parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
+/// GNU parallel over ssh, by a script that lies in the folder, which all machines must see under its name. Throws Error
+/// where there is no GNU parallel.
+std::unique_ptr<Engine> parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// Text as one word of a shell.
 std::string shell_quoted(const std::string& text);

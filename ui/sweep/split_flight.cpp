@@ -9,9 +9,9 @@
 #include "ui/report/frame_csv.h"
 #include "ui/report/json_text.h"
 #include "ui/report/kernel_counters.h"
-#include "ui/report/slow_frames.h"
 #include "ui/report/png_file.h"
 #include "ui/report/recording_writer.h"
+#include "ui/report/slow_frames.h"
 #include "ui/report/slow_pictures.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings_check.h"
@@ -55,32 +55,19 @@ PartFile part_in(const fs::path& folder) {
 void check_same_flight(const PartFile& first, const PartFile& other) {
     for (const char* key : {"program", "inputs"}) {
         if (first.run.value(key, Json()) != other.run.value(key, Json())) {
-            throw_error_in(
-                other.folder / "run.json",
-                fmt::format(
-                    "expected the same {} on {} as on {}, got another",
-                    key,
-                    other.host,
-                    first.host));
+            throw_error_in(other.folder / "run.json",
+                fmt::format("expected the same {} on {} as on {}, got another", key, other.host, first.host));
         }
     }
 }
 
 void check_seam(
-    const PartFile& before,
-    const std::optional<FrameRecord>& last,
-    const PartFile& now,
-    const FrameRecord& first) {
+    const PartFile& before, const std::optional<FrameRecord>& last, const PartFile& now, const FrameRecord& first) {
     const bool same = last && last->frame == first.frame && last->state_hash == first.state_hash &&
                       last->picture_hash == first.picture_hash;
     if (!same) {
-        throw_error_in(
-            now.folder / "frames.csv",
-            fmt::format(
-                "expected frame {} on {} as on {}, got other {}",
-                first.frame,
-                now.host,
-                before.host,
+        throw_error_in(now.folder / "frames.csv",
+            fmt::format("expected frame {} on {} as on {}, got other {}", first.frame, now.host, before.host,
                 last && last->state_hash != first.state_hash ? "states" : "pictures"));
     }
 }
@@ -88,40 +75,29 @@ void check_seam(
 /// The pictures of a whole flight, in order, as a video.
 class PartVideo {
 public:
-    explicit PartVideo(const std::optional<fs::path>& file)
-        : file_(file) {}
+    explicit PartVideo(const std::optional<fs::path>& file) : file_(file) {}
 
     void add(const fs::path& picture_file, double frames_per_s) {
-        if (!file_) {
-            return;
-        }
+        if (!file_) { return; }
         const report::Picture picture = with_alpha(report::read_png(picture_file));
         if (!pipe_) {
-            pipe_.emplace(
-                *file_,
-                report::VideoFormat{picture.width_px, picture.height_px, 4, false, frames_per_s});
+            pipe_.emplace(*file_, report::VideoFormat{picture.width_px, picture.height_px, 4, false, frames_per_s});
         }
         pipe_->add(picture.view());
     }
 
     void finish() {
-        if (const auto fault = pipe_ ? pipe_->finish() : std::nullopt) {
-            throw_error_in(*file_, *fault);
-        }
+        if (const auto fault = pipe_ ? pipe_->finish() : std::nullopt) { throw_error_in(*file_, *fault); }
     }
 
 private:
     /// As renderers give pictures, so that ffmpeg makes the same of them.
     static report::Picture with_alpha(report::Picture picture) {
-        if (picture.channels == 4) {
-            return picture;
-        }
+        if (picture.channels == 4) { return picture; }
         report::Picture with{picture.width_px, picture.height_px, 4, {}};
         with.bytes.reserve(picture.bytes.size() / 3 * 4);
         for (std::size_t at = 0; at < picture.bytes.size(); at += 3) {
-            with.bytes.insert(
-                with.bytes.end(),
-                picture.bytes.begin() + static_cast<std::ptrdiff_t>(at),
+            with.bytes.insert(with.bytes.end(), picture.bytes.begin() + static_cast<std::ptrdiff_t>(at),
                 picture.bytes.begin() + static_cast<std::ptrdiff_t>(at + 3));
             with.bytes.push_back(std::byte{255});
         }
@@ -135,19 +111,16 @@ private:
 void copy_into(const fs::path& from, const fs::path& to) {
     std::error_code code;
     fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
-    if (code) {
-        throw_error_in(to, fmt::format("cannot be written: {}", code.message()));
-    }
+    if (code) { throw_error_in(to, fmt::format("cannot be written: {}", code.message())); }
 }
 
 /// The recording of a whole flight while it is put together.
 class PartMerger {
 public:
     PartMerger(const SweepRun& whole, const fs::path& folder, const PartFile& first)
-        : rate_hz_(first.run.value("rate_hz", 0.0))
-        , picture_every_(whole.settings.time.pictures.value_or(
-              std::max(1, static_cast<int>(std::lround(rate_hz_)))))
-        , recording_(folder, info_of(first)) {}
+        : rate_hz_(first.run.value("rate_hz", 0.0)),
+          picture_every_(whole.settings.time.pictures.value_or(std::max(1, static_cast<int>(std::lround(rate_hz_))))),
+          recording_(folder, info_of(first)) {}
 
     /// The part's rows, and its pictures that the whole flight keeps.
     void add(const PartFile& part, PartVideo& video) {
@@ -189,25 +162,21 @@ private:
         last_ = row;
         const fs::path picture = recording_.picture_path(row.frame);
         const fs::path from = part.folder / picture.filename();
-        if (picture_every_ > 0 && row.frame % picture_every_ == 0) {
-            copy_into(from, picture);
-        }
+        if (picture_every_ > 0 && row.frame % picture_every_ == 0) { copy_into(from, picture); }
         slow_.add(row);
         video.add(from, rate_hz_);
     }
 
-    /// Those of the whole flight's slowest frames: each is among the slowest of its part, even
-    /// where the frame before the part is, too.
+    /// Those of the whole flight's slowest frames: each is among the slowest of its part, even where the frame before
+    /// the part is, too.
     void copy_slow_pictures() const {
         std::vector<report::SlowFrame> slowest = slow_.slowest();
         slowest.resize(std::min(slowest.size(), report::SlowPictures::max_shown));
         for (const report::SlowFrame& frame : slowest) {
             const std::string name = report::slow_picture_name(frame.record.frame);
-            const auto part = std::ranges::find_if(
-                folders_, [&](const fs::path& folder) { return is_file(folder / name); });
-            if (picture_every_ > 0 && part != folders_.end()) {
-                copy_into(*part / name, recording_.folder() / name);
-            }
+            const auto part =
+                std::ranges::find_if(folders_, [&](const fs::path& folder) { return is_file(folder / name); });
+            if (picture_every_ > 0 && part != folders_.end()) { copy_into(*part / name, recording_.folder() / name); }
         }
     }
 
@@ -226,17 +195,15 @@ void write_run(const SweepRun& whole, const fs::path& folder, const std::vector<
     const fs::path file = folder / "run.json";
     Json run = parts.front().run;
     const Json merged = report::parsed_json(file, read_text_file(file));
-    run["settings"] = settings::settings_json(
-        world::settings_in_recording(world::with_absolute_paths(whole.settings), folder));
+    run["settings"] =
+        settings::settings_json(world::settings_in_recording(world::with_absolute_paths(whole.settings), folder));
     run["summary"] = merged["summary"];
     std::string hosts;
     Json reasons = Json::array();
     for (const PartFile& part : parts) {
         hosts += (hosts.empty() ? "" : ", ") + part.host;
         for (const Json& reason : part.run["noise"]["reasons"]) {
-            if (std::ranges::find(reasons, reason) == reasons.end()) {
-                reasons.push_back(reason);
-            }
+            if (std::ranges::find(reasons, reason) == reasons.end()) { reasons.push_back(reason); }
         }
     }
     run["facts"]["flown in parts"] = fmt::format("{}, on {}", parts.size(), hosts);
@@ -254,14 +221,11 @@ Sweep split_sweep(const Sweep& sweep, int count, bool for_videos) {
             SweepRun part = run;
             part.name = fmt::format("{}.{}of{}", run.name, number, count);
             part.settings.time.part = fmt::format("{}/{}", number, count);
-            if (for_videos) {
-                part.settings.time.pictures = 1;
-            }
+            if (for_videos) { part.settings.time.pictures = 1; }
             try {
                 settings::check_settings(part.settings);
             } catch (const Error& fault) {
-                throw Error(
-                    fmt::format("--split: {} cannot be divided: {}", run.name, fault.what()));
+                throw Error(fmt::format("--split: {} cannot be divided: {}", run.name, fault.what()));
             }
             parts.runs.push_back(std::move(part));
         }
@@ -269,10 +233,7 @@ Sweep split_sweep(const Sweep& sweep, int count, bool for_videos) {
     return parts;
 }
 
-void merge_parts(
-    const SweepRun& whole,
-    const fs::path& folder,
-    const std::vector<fs::path>& part_folders,
+void merge_parts(const SweepRun& whole, const fs::path& folder, const std::vector<fs::path>& part_folders,
     const std::optional<fs::path>& video_file) {
     std::vector<PartFile> parts;
     for (const fs::path& each : part_folders) {
@@ -282,15 +243,11 @@ void merge_parts(
     {
         PartMerger merger(whole, folder, parts.front());
         PartVideo video(video_file);
-        for (const PartFile& part : parts) {
-            merger.add(part, video);
-        }
+        for (const PartFile& part : parts) { merger.add(part, video); }
         video.finish();
         merger.finish(parts.back());
     }
-    for (const char* track : {"track.csv", "track.acmi"}) {
-        copy_into(parts.back().folder / track, folder / track);
-    }
+    for (const char* track : {"track.csv", "track.acmi"}) { copy_into(parts.back().folder / track, folder / track); }
     std::error_code ignored;
     if (fs::is_directory(parts.front().folder / "inputs", ignored)) {
         copy_into(parts.front().folder / "inputs", folder / "inputs");

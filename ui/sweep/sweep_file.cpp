@@ -38,8 +38,7 @@ struct Axis {
 class SweepReader {
 public:
     explicit SweepReader(const fs::path& file)
-        : file_(file)
-        , root_(flightpaths::parse_toml(file, read_text_file(file))) {}
+        : file_(file), root_(flightpaths::parse_toml(file, read_text_file(file))) {}
 
     Sweep sweep() const;
 
@@ -55,8 +54,7 @@ private:
     Axis axis_of(std::string_view name, const toml::node& node) const;
     Axis named_groups(std::string_view name, const toml::table& table) const;
     std::vector<Axis> axes() const;
-    void set(settings::RunSettings& settings, const std::string& name, const Words& words, int line)
-        const;
+    void set(settings::RunSettings& settings, const std::string& name, const Words& words, int line) const;
     settings::RunSettings shared_settings() const;
     int repeats() const;
     std::string name() const;
@@ -75,30 +73,18 @@ const toml::table* SweepReader::table_in(const toml::table& table, std::string_v
 
 /// A value as a person would type it for the setting.
 std::string SweepReader::word_of(const toml::node& node) const {
-    if (const auto text = node.value_exact<std::string>()) {
-        return *text;
-    }
-    if (const auto whole = node.value_exact<std::int64_t>()) {
-        return fmt::format("{}", *whole);
-    }
-    if (const auto number = node.value_exact<double>()) {
-        return fmt::format("{}", *number);
-    }
-    if (const auto truth = node.value_exact<bool>()) {
-        return *truth ? "true" : "false";
-    }
+    if (const auto text = node.value_exact<std::string>()) { return *text; }
+    if (const auto whole = node.value_exact<std::int64_t>()) { return fmt::format("{}", *whole); }
+    if (const auto number = node.value_exact<double>()) { return fmt::format("{}", *number); }
+    if (const auto truth = node.value_exact<bool>()) { return *truth ? "true" : "false"; }
     refuse(node, "expected a text, a number or a truth value, got something else");
 }
 
 Words SweepReader::words_of(const toml::node& node) const {
     const toml::array* const list = node.as_array();
-    if (list == nullptr) {
-        return {word_of(node)};
-    }
+    if (list == nullptr) { return {word_of(node)}; }
     Words words;
-    for (const toml::node& each : *list) {
-        words.push_back(word_of(each));
-    }
+    for (const toml::node& each : *list) { words.push_back(word_of(each)); }
     return words;
 }
 
@@ -107,21 +93,15 @@ std::vector<Words> SweepReader::range_of(const toml::table& table) const {
     const auto number = [&](const char* key) {
         const auto value = table[key].value<double>();
         if (!value || !std::isfinite(*value)) {
-            refuse(
-                table, fmt::format("expected a range {{from, to, step}}, got one without {}", key));
+            refuse(table, fmt::format("expected a range {{from, to, step}}, got one without {}", key));
         }
         return *value;
     };
     const double from = number("from");
     const double to = number("to");
     const double step = number("step");
-    if (table.size() != 3 || step <= 0.0 || to < from ||
-        (to - from) / step > static_cast<double>(max_runs)) {
-        refuse(
-            table,
-            fmt::format(
-                "expected from <= to, a step above 0 and at most {} values, got others",
-                max_runs));
+    if (table.size() != 3 || step <= 0.0 || to < from || (to - from) / step > static_cast<double>(max_runs)) {
+        refuse(table, fmt::format("expected from <= to, a step above 0 and at most {} values, got others", max_runs));
     }
     constexpr double rounding = 1e-9; // of a step, so that 0.1 to 0.3 by 0.1 has three values
     const bool whole = std::floor(from) == from && std::floor(step) == step;
@@ -145,8 +125,8 @@ std::string label_of(const Words& words) {
     std::ranges::replace_if(
         label,
         [](char c) {
-            const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
-                               (c >= 'A' && c <= 'Z') || c == '.' || c == '+' || c == '_';
+            const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' ||
+                               c == '+' || c == '_';
             return !plain;
         },
         '-');
@@ -160,12 +140,8 @@ Axis SweepReader::named_groups(std::string_view name, const toml::table& table) 
     for (const auto& [label, group] : table) {
         const toml::table* const settings = group.as_table();
         if (settings == nullptr) {
-            refuse(
-                group,
-                fmt::format(
-                    "expected a table [vary.{}.{}] of settings, got something else",
-                    name,
-                    std::string(label.str())));
+            refuse(group, fmt::format("expected a table [vary.{}.{}] of settings, got something else", name,
+                              std::string(label.str())));
         }
         AxisValue choice{label_of({std::string(label.str())}), {}};
         for (const auto& [key, value] : *settings) {
@@ -179,27 +155,19 @@ Axis SweepReader::named_groups(std::string_view name, const toml::table& table) 
 Axis SweepReader::axis_of(std::string_view name, const toml::node& node) const {
     std::vector<Words> values;
     if (const toml::array* const list = node.as_array()) {
-        for (const toml::node& each : *list) {
-            values.push_back(words_of(each));
-        }
+        for (const toml::node& each : *list) { values.push_back(words_of(each)); }
     } else if (const toml::table* const table = node.as_table()) {
-        if (!table->contains("from")) {
-            return named_groups(name, *table);
-        }
+        if (!table->contains("from")) { return named_groups(name, *table); }
         values = range_of(*table);
     } else {
-        refuse(
-            node, fmt::format("{}: expected a list, a range or named groups, got one value", name));
+        refuse(node, fmt::format("{}: expected a list, a range or named groups, got one value", name));
     }
     Axis axis{std::string(name), flightpaths::line_of(node), {}};
-    for (Words& words : values) {
-        axis.choices.push_back({label_of(words), {{std::string(name), std::move(words)}}});
-    }
+    for (Words& words : values) { axis.choices.push_back({label_of(words), {{std::string(name), std::move(words)}}}); }
     return axis;
 }
 
-/// Throws Error for an aircraft or a path that is neither built in nor a file, as seen from the
-/// sweep's folder.
+/// Throws Error for an aircraft or a path that is neither built in nor a file, as seen from the sweep's folder.
 void check_names(const fs::path& sweep_file, settings::RunSettings settings) {
     settings::resolve_paths_from(fs::absolute(sweep_file).parent_path(), settings);
     for (const std::string& name : settings.path.aircraft) {
@@ -224,16 +192,13 @@ std::vector<Axis> SweepReader::axes() const {
     return axes;
 }
 
-void SweepReader::set(
-    settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
+void SweepReader::set(settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
     try {
         settings::set_by_name(settings, name, words);
         if (name == "aircraft" || name == "path") { // looked at here, where the line is known
             check_names(file_, settings);
         }
-    } catch (const Error& fault) {
-        throw_error_at(file_, line, fault.what());
-    }
+    } catch (const Error& fault) { throw_error_at(file_, line, fault.what()); }
 }
 
 settings::RunSettings SweepReader::shared_settings() const {
@@ -248,9 +213,7 @@ settings::RunSettings SweepReader::shared_settings() const {
 
 int SweepReader::repeats() const {
     const toml::node* const node = root_.get("repeats");
-    if (node == nullptr) {
-        return 1;
-    }
+    if (node == nullptr) { return 1; }
     const auto repeats = node->value_exact<std::int64_t>();
     if (!repeats || *repeats < 1 || *repeats > 1000) {
         refuse(*node, "repeats: expected a whole number from 1 to 1000, got another");
@@ -260,13 +223,9 @@ int SweepReader::repeats() const {
 
 std::string SweepReader::name() const {
     const toml::node* const node = root_.get("name");
-    if (node == nullptr) {
-        return file_.stem().string();
-    }
+    if (node == nullptr) { return file_.stem().string(); }
     const auto name = node->value_exact<std::string>();
-    if (!name || name->empty()) {
-        refuse(*node, "name: expected a text of one letter or more, got another value");
-    }
+    if (!name || name->empty()) { refuse(*node, "name: expected a text of one letter or more, got another value"); }
     return *name;
 }
 
@@ -274,11 +233,8 @@ Sweep SweepReader::sweep() const {
     constexpr std::array<std::string_view, 4> keys{"name", "repeats", "settings", "vary"};
     for (const auto& [key, node] : root_) {
         if (std::ranges::find(keys, key.str()) == keys.end()) {
-            refuse(
-                node,
-                fmt::format(
-                    "expected name, repeats, [settings] or [vary], got '{}'",
-                    printable(std::string(key.str()))));
+            refuse(node, fmt::format("expected name, repeats, [settings] or [vary], got '{}'",
+                             printable(std::string(key.str()))));
         }
     }
     Sweep sweep;
@@ -288,8 +244,7 @@ Sweep SweepReader::sweep() const {
     for (const Axis& axis : varied) {
         count *= axis.choices.size();
         if (count > max_runs) {
-            throw_error_at(
-                file_, axis.line, fmt::format("expected at most {} flights, got more", max_runs));
+            throw_error_at(file_, axis.line, fmt::format("expected at most {} flights, got more", max_runs));
         }
     }
     std::set<std::string> names;
@@ -307,16 +262,12 @@ Sweep SweepReader::sweep() const {
         for (std::size_t a = 0; a < varied.size(); ++a) {
             run.varied.emplace_back(varied[a].name, chosen[a]->label);
             run.name += (run.name.empty() ? "" : "-") + chosen[a]->label;
-            for (const auto& [name, words] : chosen[a]->settings) {
-                set(run.settings, name, words, varied[a].line);
-            }
+            for (const auto& [name, words] : chosen[a]->settings) { set(run.settings, name, words, varied[a].line); }
         }
         constexpr std::size_t longest_name = 200; // of a folder's 255 letters
         run.name.resize(std::min(run.name.size(), longest_name));
         run.name = run.name.empty() ? sweep.name : run.name;
-        if (repeats() > 1) {
-            run.name += fmt::format("-r{}", run.repeat);
-        }
+        if (repeats() > 1) { run.name += fmt::format("-r{}", run.repeat); }
         while (!names.insert(run.name).second) {
             run.name += "x"; // two files of one name from different folders
         }
@@ -328,8 +279,6 @@ Sweep SweepReader::sweep() const {
 
 } // namespace
 
-Sweep read_sweep(const fs::path& file) {
-    return SweepReader(file).sweep();
-}
+Sweep read_sweep(const fs::path& file) { return SweepReader(file).sweep(); }
 
 } // namespace octant::ui::sweep

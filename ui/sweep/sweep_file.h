@@ -38,8 +38,8 @@ inline constexpr std::size_t max_runs = 100000;
 ///   order-method = "paper"
 ///   [vary.method.tree]
 ///   order-method = "tree"
-/// Files are looked for from the sweep's folder first. Throws Error "file:line: expected ..., got
-/// ..." for anything else, and for settings that a flight would refuse by themselves.
+/// Files are looked for from the sweep's folder first. Throws Error "file:line: expected ..., got ..." for anything
+/// else, and for settings that a flight would refuse by themselves.
 Sweep read_sweep(const std::filesystem::path& file);
 
 } // namespace octant::ui::sweep

@@ -24,27 +24,20 @@ namespace fs = std::filesystem;
 /// The last line that a run's log has something in.
 std::string last_log_line(const fs::path& log) {
     std::error_code ignored;
-    if (!fs::is_regular_file(log, ignored)) {
-        return {};
-    }
+    if (!fs::is_regular_file(log, ignored)) { return {}; }
     std::string last;
     const std::string text = read_file(log);
     for (const std::string_view line : split_lines(text)) {
-        if (!split_words(line).empty()) {
-            last = line;
-        }
+        if (!split_words(line).empty()) { last = line; }
     }
     return last;
 }
 
-bool follows_clock(const settings::RunSettings& settings) {
-    return settings.adapt.terrain || settings.adapt.shading;
-}
+bool follows_clock(const settings::RunSettings& settings) { return settings.adapt.terrain || settings.adapt.shading; }
 
 /// What decides what a run shows, as text.
 std::string key_of(const SweepRun& run) {
-    return settings::settings_json(run.settings)
-        .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return settings::settings_json(run.settings).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 /// Whether a file holds the settings of a run.
@@ -52,13 +45,11 @@ bool is_job(const fs::path& file) {
     try {
         settings::read_settings(file);
         return true;
-    } catch (const Error&) {
-        return false;
-    }
+    } catch (const Error&) { return false; }
 }
 
-/// Whether a folder is empty, or that of a sweep: its jobs.txt names settings of runs that lie in
-/// it. What was killed before it had one has nothing but jobs/ and other empty folders.
+/// Whether a folder is empty, or that of a sweep: its jobs.txt names settings of runs that lie in it. What was killed
+/// before it had one has nothing but jobs/ and other empty folders.
 bool belongs_to_sweep(const fs::path& folder) {
     std::error_code code;
     const fs::path list = folder / "jobs.txt";
@@ -67,18 +58,15 @@ bool belongs_to_sweep(const fs::path& folder) {
             const std::string name = entry.path().filename().string();
             const bool has_jobs = name == "jobs" && entry.is_directory() &&
                                   std::ranges::all_of(fs::directory_iterator(entry, code), is_job);
-            return has_jobs || ((name == "runs" || name == "logs") && entry.is_directory() &&
-                                fs::is_empty(entry.path(), code));
+            return has_jobs ||
+                   ((name == "runs" || name == "logs") && entry.is_directory() && fs::is_empty(entry.path(), code));
         });
     }
     const std::string text = read_file(list);
     const auto names = split_lines(text);
-    const auto job = [&](std::string_view name) {
-        return folder / "jobs" / (std::string(name) + ".json");
-    };
+    const auto job = [&](std::string_view name) { return folder / "jobs" / (std::string(name) + ".json"); };
     return !names.empty() && is_job(job(names.front())) &&
-           std::ranges::all_of(
-               names, [&](std::string_view name) { return fs::is_regular_file(job(name), code); });
+           std::ranges::all_of(names, [&](std::string_view name) { return fs::is_regular_file(job(name), code); });
 }
 
 } // namespace
@@ -88,15 +76,11 @@ void SweepFolder::prepare(const Sweep& sweep) const {
     if (fs::exists(folder_, code) && !belongs_to_sweep(folder_)) {
         throw_error_in(folder_, "expected an empty folder or that of a sweep, got another");
     }
-    for (const char* part : {"jobs", "runs", "logs"}) {
-        make_folder(folder_ / part);
-    }
+    for (const char* part : {"jobs", "runs", "logs"}) { make_folder(folder_ / part); }
     std::string names;
     for (const SweepRun& run : sweep.runs) {
         names += run.name + "\n";
-        write_file(
-            job(run.name),
-            settings::settings_json(world::with_absolute_paths(run.settings)).dump(2) + "\n");
+        write_file(job(run.name), settings::settings_json(world::with_absolute_paths(run.settings)).dump(2) + "\n");
     }
     write_file(folder_ / "jobs.txt", names);
 }
@@ -107,10 +91,7 @@ RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_vi
     const fs::path recording = folder.recording(run.name);
     try {
         result.done = flight::is_already_recorded(
-            {recording,
-             with_video ? std::optional(folder.video(run.name)) : std::nullopt,
-             std::nullopt,
-             {}},
+            {recording, with_video ? std::optional(folder.video(run.name)) : std::nullopt, std::nullopt, {}},
             world::with_absolute_paths(run.settings));
     } catch (const Error& fault) { // a file of the run is missing: its log says so too
         result.fault = fault.what();
@@ -118,10 +99,8 @@ RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_vi
     }
     if (!result.done) {
         const fs::path file = recording / "run.json";
-        const std::string stopped =
-            report::is_run_file(file) ? report::read_run_file(file).stopped : std::string();
-        const std::string words =
-            stopped.empty() ? last_log_line(folder.log(run.name)) : "ended by " + stopped;
+        const std::string stopped = report::is_run_file(file) ? report::read_run_file(file).stopped : std::string();
+        const std::string words = stopped.empty() ? last_log_line(folder.log(run.name)) : "ended by " + stopped;
         result.fault = words.empty() ? "was not flown to its end" : words;
         return result;
     }
@@ -129,9 +108,7 @@ RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_vi
     result.host = file.machine_info.host;
     result.state_hash = file.state_hash;
     result.picture_hash = file.picture_hash;
-    for (const std::string& reason : file.noise) {
-        result.noise += (result.noise.empty() ? "" : " ") + reason;
-    }
+    for (const std::string& reason : file.noise) { result.noise += (result.noise.empty() ? "" : " ") + reason; }
     return result;
 }
 
@@ -140,63 +117,41 @@ std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const Run
     std::map<std::string, const RunResult*> firsts;
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
         const RunResult& now = results[i];
-        if (!now.done || follows_clock(sweep.runs[i].settings)) {
-            continue;
-        }
+        if (!now.done || follows_clock(sweep.runs[i].settings)) { continue; }
         const auto [first, is_first] = firsts.emplace(key_of(sweep.runs[i]), &now);
         const RunResult& before = *first->second;
         const bool states = before.state_hash != now.state_hash;
         if (!is_first && (states || before.picture_hash != now.picture_hash)) {
-            lines.push_back(fmt::format(
-                "{} of {} on {} and {} on {} differ: expected {}, got {}",
-                states ? "states" : "pictures",
-                before.name,
-                before.host,
-                now.name,
-                now.host,
-                states ? before.state_hash : before.picture_hash,
-                states ? now.state_hash : now.picture_hash));
+            lines.push_back(fmt::format("{} of {} on {} and {} on {} differ: expected {}, got {}",
+                states ? "states" : "pictures", before.name, before.host, now.name, now.host,
+                states ? before.state_hash : before.picture_hash, states ? now.state_hash : now.picture_hash));
         }
     }
     return lines;
 }
 
-std::string
-sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results) {
+std::string sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results) {
     report::HtmlTable table;
     table.header = {"run"};
     if (!sweep.runs.empty()) {
-        for (const auto& [name, value] : sweep.runs.front().varied) {
-            table.header.push_back(name);
-        }
+        for (const auto& [name, value] : sweep.runs.front().varied) { table.header.push_back(name); }
     }
-    table.header.insert(
-        table.header.end(), {"repeat", "done", "host", "state_hash", "picture_hash", "noise"});
-    for (const report::Statistic& statistic : report::all_statistics()) {
-        table.header.emplace_back(statistic.key);
-    }
+    table.header.insert(table.header.end(), {"repeat", "done", "host", "state_hash", "picture_hash", "noise"});
+    for (const report::Statistic& statistic : report::all_statistics()) { table.header.emplace_back(statistic.key); }
     table.header.emplace_back("fault");
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
         const SweepRun& run = sweep.runs[i];
         const RunResult& result = results[i];
         std::vector<std::string> row = {run.name};
-        for (const auto& [name, value] : run.varied) {
-            row.push_back(value);
-        }
-        row.insert(
-            row.end(),
-            {fmt::format("{}", run.repeat),
-             result.done ? "1" : "0",
-             result.host,
-             result.state_hash,
-             result.picture_hash,
-             result.noise});
-        const report::NamedValues summary =
-            result.done ? report::read_run_file(folder.recording(run.name) / "run.json").summary
-                        : report::NamedValues();
+        for (const auto& [name, value] : run.varied) { row.push_back(value); }
+        row.insert(row.end(), {fmt::format("{}", run.repeat), result.done ? "1" : "0", result.host, result.state_hash,
+                                  result.picture_hash, result.noise});
+        const report::NamedValues summary = result.done
+                                                ? report::read_run_file(folder.recording(run.name) / "run.json").summary
+                                                : report::NamedValues();
         for (const report::Statistic& statistic : report::all_statistics()) {
-            const auto found = std::ranges::find_if(
-                summary, [&](const auto& each) { return each.first == statistic.key; });
+            const auto found =
+                std::ranges::find_if(summary, [&](const auto& each) { return each.first == statistic.key; });
             row.push_back(found == summary.end() ? "" : found->second);
         }
         row.push_back(result.fault);

@@ -20,27 +20,19 @@ namespace octant::ui::sweep {
 ///   report.html         all runs
 class SweepFolder {
 public:
-    explicit SweepFolder(std::filesystem::path folder)
-        : folder_(std::move(folder)) {}
+    explicit SweepFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     const std::filesystem::path& path() const { return folder_; }
 
-    std::filesystem::path job(const std::string& run) const {
-        return folder_ / "jobs" / (run + ".json");
-    }
+    std::filesystem::path job(const std::string& run) const { return folder_ / "jobs" / (run + ".json"); }
 
     std::filesystem::path recording(const std::string& run) const { return folder_ / "runs" / run; }
 
-    std::filesystem::path log(const std::string& run) const {
-        return folder_ / "logs" / (run + ".log");
-    }
+    std::filesystem::path log(const std::string& run) const { return folder_ / "logs" / (run + ".log"); }
 
-    std::filesystem::path video(const std::string& run) const {
-        return folder_ / "videos" / (run + ".mp4");
-    }
+    std::filesystem::path video(const std::string& run) const { return folder_ / "videos" / (run + ".mp4"); }
 
-    /// Makes the folder and writes jobs.txt and jobs/. Throws Error, for a folder with other things
-    /// in it too.
+    /// Makes the folder and writes jobs.txt and jobs/. Throws Error, for a folder with other things in it too.
     void prepare(const Sweep& sweep) const;
 
 private:
@@ -58,17 +50,15 @@ struct RunResult {
     std::string noise; ///< why its timings are not to be trusted; empty = quiet
 };
 
-/// Looks at a run's recording: it is done when it has its summary, was not stopped, and was flown
-/// with these settings and input files by this very program file, and has its video where there is
-/// to be one.
+/// Looks at a run's recording: it is done when it has its summary, was not stopped, and was flown with these settings
+/// and input files by this very program file, and has its video where there is to be one.
 RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_video = false);
 
-/// Runs that differ in nothing but their repeats and do not show the same though no clock decides
-/// what they show: one line each, which names both runs and their machines.
+/// Runs that differ in nothing but their repeats and do not show the same though no clock decides what they show: one
+/// line each, which names both runs and their machines.
 std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const RunResult> results);
 
 /// The results and figures as comma-separated text, one line a run.
-std::string
-sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results);
+std::string sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results);
 
 } // namespace octant::ui::sweep

@@ -1,4 +1,5 @@
 #include "ui/terrain/error_tables.h"
+
 #include "ui/base/progress.h"
 #include "ui/settings/settings_text.h"
 #include "ui/terrain/mesh_maker.h"
@@ -25,14 +26,10 @@ struct MeasuredMesh {
 
 namespace terrain = visuals::terrain;
 
-/// The coarsest mesh found by bisection whose 99.9th percentile of the error is at most
-/// `target_px`; the finest there is where none is.
-MeasuredMesh coarsest_mesh_within(
-    MeshMaker& maker,
-    terrain::ProjectedErrorMeter& meter,
-    const terrain::MeshView& view,
-    const terrain::PerspectiveView& picture,
-    double target_px) {
+/// The coarsest mesh found by bisection whose 99.9th percentile of the error is at most `target_px`; the finest there
+/// is where none is.
+MeasuredMesh coarsest_mesh_within(MeshMaker& maker, terrain::ProjectedErrorMeter& meter, const terrain::MeshView& view,
+    const terrain::PerspectiveView& picture, double target_px) {
     const auto measured = [&](double coarseness) {
         const terrain::GroundMesh mesh = maker.mesh(view, coarseness);
         MeasuredMesh found;
@@ -46,9 +43,7 @@ MeasuredMesh coarsest_mesh_within(
     double fine = std::log(range.finest);
     double coarse = std::log(range.coarsest);
     MeasuredMesh best = measured(range.coarsest);
-    if (best.error.p999_px <= target_px) {
-        return best;
-    }
+    if (best.error.p999_px <= target_px) { return best; }
     best.coarseness = 0.0;
     constexpr double close_enough = 0.002; // of the error, and of the coarseness
     while (coarse - fine > close_enough) {
@@ -60,9 +55,7 @@ MeasuredMesh coarsest_mesh_within(
         }
         fine = middle;
         best = tried;
-        if (tried.error.p999_px >= (1.0 - close_enough) * target_px) {
-            break;
-        }
+        if (tried.error.p999_px >= (1.0 - close_enough) * target_px) { break; }
     }
     return best.coarseness > 0.0 ? best : measured(range.finest);
 }
@@ -75,8 +68,8 @@ namespace terrain = visuals::terrain;
 namespace {
 
 /// Meshes of all cameras, by one maker.
-std::vector<MeasuredMesh>
-measured_meshes(const LoadedGround& ground, const ErrorMeasurement& run, const std::string& what) {
+std::vector<MeasuredMesh> measured_meshes(
+    const LoadedGround& ground, const ErrorMeasurement& run, const std::string& what) {
     const auto maker = make_mesh_maker(ground, run.mesh);
     terrain::ProjectedErrorMeter meter(maker->ground());
     base::Progress progress(what, static_cast<int>(run.cameras.size()), run.quiet, "views");
@@ -102,9 +95,7 @@ measured_meshes(const LoadedGround& ground, const ErrorMeasurement& run, const s
 
 double mean_triangles_in_view(const std::vector<MeasuredMesh>& meshes) {
     double sum = 0.0;
-    for (const MeasuredMesh& mesh : meshes) {
-        sum += mesh.triangles_in_view;
-    }
+    for (const MeasuredMesh& mesh : meshes) { sum += mesh.triangles_in_view; }
     return sum / static_cast<double>(meshes.size());
 }
 
@@ -112,26 +103,17 @@ constexpr std::size_t value_count = 10;
 
 /// Columns of a table of errors, as numbers.
 std::array<double, value_count> values_of(const MeasuredMesh& mesh, bool by_error) {
-    return {
-        static_cast<double>(mesh.triangles),
-        static_cast<double>(mesh.triangles_in_view),
-        by_error ? mesh.coarseness : 1.0 / mesh.coarseness,
-        mesh.error.maximum_px,
-        mesh.error.p999_px,
-        mesh.error.p99_px,
-        mesh.error.rms_px,
-        mesh.error.mean_px,
-        static_cast<double>(mesh.error.samples),
+    return {static_cast<double>(mesh.triangles), static_cast<double>(mesh.triangles_in_view),
+        by_error ? mesh.coarseness : 1.0 / mesh.coarseness, mesh.error.maximum_px, mesh.error.p999_px,
+        mesh.error.p99_px, mesh.error.rms_px, mesh.error.mean_px, static_cast<double>(mesh.error.samples),
         static_cast<double>(mesh.error.uncovered)};
 }
 
-std::vector<std::string>
-row_of(const std::string& name, const std::array<double, value_count>& values) {
+std::vector<std::string> row_of(const std::string& name, const std::array<double, value_count>& values) {
     std::vector<std::string> row = {name};
     for (std::size_t k = 0; k < value_count; ++k) {
         const bool counted = k < 2 || k > 7;
-        row.push_back(
-            counted ? fmt::format("{:.0f}", values[k]) : fmt::format("{:.4g}", values[k]));
+        row.push_back(counted ? fmt::format("{:.0f}", values[k]) : fmt::format("{:.4g}", values[k]));
     }
     return row;
 }
@@ -142,8 +124,7 @@ struct BestRoughness {
     double triangles = 0.0;
 };
 
-BestRoughness
-best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, scene::GroundFans fans) {
+BestRoughness best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, scene::GroundFans fans) {
     constexpr std::array<double, 5> weights = {10.0, 20.0, 40.0, 80.0, 160.0};
     BestRoughness best;
     for (const double weight : weights) {
@@ -152,11 +133,9 @@ best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, scene:
         other.mesh.mesh = scene::GroundMetric::Midpoint;
         other.mesh.fans = fans;
         other.mesh.roughness_c = weight;
-        const double triangles = mean_triangles_in_view(measured_meshes(
-            ground, other, fmt::format("{} fans, c = {}", settings::text_of(fans), weight)));
-        if (best.triangles == 0.0 || triangles < best.triangles) {
-            best = {weight, triangles};
-        }
+        const double triangles = mean_triangles_in_view(
+            measured_meshes(ground, other, fmt::format("{} fans, c = {}", settings::text_of(fans), weight)));
+        if (best.triangles == 0.0 || triangles < best.triangles) { best = {weight, triangles}; }
     }
     return best;
 }
@@ -165,33 +144,18 @@ best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, scene:
 
 report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement& run) {
     const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
-    const std::vector<MeasuredMesh> meshes =
-        measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
+    const std::vector<MeasuredMesh> meshes = measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
     report::HtmlTable table;
     table.title = fmt::format("Projected error of {} meshes", settings::text_of(run.mesh.mesh));
-    table.header = {
-        "view",
-        "triangles",
-        "in view",
-        by_error ? "error px" : "C",
-        "maximum px",
-        "99.9 % px",
-        "99 % px",
-        "rms px",
-        "mean px",
-        "samples",
-        "uncovered"};
+    table.header = {"view", "triangles", "in view", by_error ? "error px" : "C", "maximum px", "99.9 % px", "99 % px",
+        "rms px", "mean px", "samples", "uncovered"};
     std::array<double, value_count> mean{};
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const auto values = values_of(meshes[k], by_error);
-        for (std::size_t i = 0; i < value_count; ++i) {
-            mean[i] += values[i] / static_cast<double>(meshes.size());
-        }
+        for (std::size_t i = 0; i < value_count; ++i) { mean[i] += values[i] / static_cast<double>(meshes.size()); }
         table.rows.push_back(row_of(fmt::format("{}", k + 1), values));
     }
-    if (meshes.size() > 1) {
-        table.rows.push_back(row_of("mean", mean));
-    }
+    if (meshes.size() > 1) { table.rows.push_back(row_of("mean", mean)); }
     table.note = "Every sample of the field inside the frustum (near 10 m) counts once: distance "
                  "on the screen to the mesh's surface at the same place. In view: triangles not "
                  "wholly outside the frustum, back faces included.";
@@ -199,16 +163,14 @@ report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement
 }
 
 report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run) {
-    const double own =
-        mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
+    const double own = mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
     const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
     const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
     report::HtmlTable table;
     table.title = fmt::format("Triangles in view at {:.4g} px", *run.target_error_px);
     table.header = {"mesh", "triangles", "c", "ratio"};
     const auto row = [&](const std::string& name, double triangles, const std::string& c) {
-        table.rows.push_back(
-            {name, fmt::format("{:.0f}", triangles), c, fmt::format("{:.3f}", own / triangles)});
+        table.rows.push_back({name, fmt::format("{:.0f}", triangles), c, fmt::format("{:.3f}", own / triangles)});
     };
     row(settings::text_of(run.mesh.mesh), own, "");
     row("Roettger, full fans", full.triangles, fmt::format("{}", full.roughness_c));

@@ -19,12 +19,11 @@ struct ErrorMeasurement {
     bool quiet = false;
 };
 
-/// A row a camera, and the mean where there are several: triangles and error. Throws Error as
-/// mesh_from_options.
+/// A row a camera, and the mean where there are several: triangles and error. Throws Error as mesh_from_options.
 report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
-/// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with
-/// full and with partial fans, its c the best for it of some. `run.target_error_px` is there.
+/// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with full and with partial
+/// fans, its c the best for it of some. `run.target_error_px` is there.
 report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 } // namespace octant::ui::terrain

@@ -20,13 +20,11 @@ struct EyePoint {
     double pitch_deg = 0.0;   ///< upward
 };
 
-/// Rows of a table with the columns map,x_m,y_m,agl_m,heading_deg,pitch_deg whose first field is
-/// `map`. Lines that begin with # and the header line are passed over. Throws Error when a row is
-/// wrong or none is of that map.
+/// Rows of a table with the columns map,x_m,y_m,agl_m,heading_deg,pitch_deg whose first field is `map`. Lines that
+/// begin with # and the header line are passed over. Throws Error when a row is wrong or none is of that map.
 std::vector<EyePoint> read_eye_points(const std::filesystem::path& file, const std::string& map);
 
 /// The camera of a point over a ground. Throws Error when there is no ground below it.
-visuals::scene::Camera
-camera_at(const EyePoint& point, const visuals::terrain::GroundSamples& ground, double fov_deg);
+visuals::scene::Camera camera_at(const EyePoint& point, const visuals::terrain::GroundSamples& ground, double fov_deg);
 
 } // namespace octant::ui::terrain

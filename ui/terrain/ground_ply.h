@@ -8,8 +8,8 @@
 
 namespace octant::ui::terrain {
 
-/// A mesh as a PLY file: world coordinates in double precision, triangles counter-clockwise from
-/// above. `eye_m`: what the mesh is relative to.
+/// A mesh as a PLY file: world coordinates in double precision, triangles counter-clockwise from above. `eye_m`: what
+/// the mesh is relative to.
 std::string ply_of(const visuals::terrain::GroundMesh& mesh, const glm::dvec3& eye_m, bool ascii);
 
 } // namespace octant::ui::terrain

@@ -16,19 +16,13 @@ namespace {
 /// The lens for which the paper's C is meant.
 constexpr double reference_fov_rad = rad_from_deg(45.0);
 
-double aspect_of(const glm::ivec2& size_px) {
-    return static_cast<double>(size_px.x) / size_px.y;
-}
+double aspect_of(const glm::ivec2& size_px) { return static_cast<double>(size_px.x) / size_px.y; }
 
 } // namespace
 
 scene::Camera camera_of(const GroundViewOptions& options) {
-    if (!options.eye_m || !options.look_m) {
-        throw Error("expected --eye X,Y,Z and --look X,Y,Z, got not both");
-    }
-    if (*options.eye_m == *options.look_m) {
-        throw Error("--look: expected another point than --eye, got the same");
-    }
+    if (!options.eye_m || !options.look_m) { throw Error("expected --eye X,Y,Z and --look X,Y,Z, got not both"); }
+    if (*options.eye_m == *options.look_m) { throw Error("--look: expected another point than --eye, got the same"); }
     scene::Camera camera = scene::camera_looking_at(*options.eye_m, *options.look_m);
     camera.vertical_fov_rad = rad_from_deg(options.fov_deg);
     return camera;
@@ -38,8 +32,7 @@ terrain::MeshView mesh_view(const scene::Camera& camera, const GroundViewOptions
     terrain::MeshView view;
     view.eye_m = camera.eye_m;
     view.frustum_normals = scene::frustum_normals(camera, aspect_of(options.size_px));
-    view.magnification =
-        std::max(1.0, std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0));
+    view.magnification = std::max(1.0, std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0));
     view.focal_px = scene::focal_px(camera, options.size_px.y);
     view.ahead = scene::view_direction(camera);
     view.corner_cos = scene::corner_cos(camera, aspect_of(options.size_px));

@@ -41,11 +41,9 @@ struct GroundMeshOptions {
 visuals::scene::Camera camera_of(const GroundViewOptions& options);
 
 /// What a mesher is told of a camera.
-visuals::terrain::MeshView
-mesh_view(const visuals::scene::Camera& camera, const GroundViewOptions& options);
+visuals::terrain::MeshView mesh_view(const visuals::scene::Camera& camera, const GroundViewOptions& options);
 
 /// What measures are told of it; near plane at 10 m.
-visuals::terrain::PerspectiveView
-picture_view(const visuals::scene::Camera& camera, const glm::ivec2& size_px);
+visuals::terrain::PerspectiveView picture_view(const visuals::scene::Camera& camera, const glm::ivec2& size_px);
 
 } // namespace octant::ui::terrain

@@ -44,34 +44,26 @@ constexpr std::array<glm::vec3, 6> tints = {{
 glm::vec3 tint_of(double share) {
     const double at = std::clamp(share, 0.0, 1.0) * (tints.size() - 1.0);
     const std::size_t low = std::min(static_cast<std::size_t>(at), tints.size() - 2);
-    return glm::mix(
-        tints.at(low), tints.at(low + 1), static_cast<float>(at) - static_cast<float>(low));
+    return glm::mix(tints.at(low), tints.at(low + 1), static_cast<float>(at) - static_cast<float>(low));
 }
 
 class Canvas {
 public:
-    Canvas(int width_px, int height_px)
-        : picture_{width_px, height_px, 3, {}} {
-        picture_.bytes.resize(
-            static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3);
+    Canvas(int width_px, int height_px) : picture_{width_px, height_px, 3, {}} {
+        picture_.bytes.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3);
         for (int y = 0; y < height_px; ++y) {
-            for (int x = 0; x < width_px; ++x) {
-                put(x, y, background_colour);
-            }
+            for (int x = 0; x < width_px; ++x) { put(x, y, background_colour); }
         }
     }
 
     /// Nothing outside the picture.
     void put(int x, int y, const glm::vec3& colour) {
-        if (x < 0 || y < 0 || x >= picture_.width_px || y >= picture_.height_px) {
-            return;
-        }
-        const std::size_t at =
-            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width_px) +
-                 static_cast<std::size_t>(x));
+        if (x < 0 || y < 0 || x >= picture_.width_px || y >= picture_.height_px) { return; }
+        const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width_px) +
+                                       static_cast<std::size_t>(x));
         for (int channel = 0; channel < 3; ++channel) {
-            picture_.bytes[at + static_cast<std::size_t>(channel)] = static_cast<std::byte>(
-                std::lround(255.0F * glm::clamp(colour[channel], 0.0F, 1.0F)));
+            picture_.bytes[at + static_cast<std::size_t>(channel)] =
+                static_cast<std::byte>(std::lround(255.0F * glm::clamp(colour[channel], 0.0F, 1.0F)));
         }
     }
 
@@ -92,9 +84,7 @@ public:
             const double angle = i * 2.0 * 3.141592653589793 / corners;
             return middle + radius_px * glm::dvec2(std::cos(angle), std::sin(angle));
         };
-        for (int i = 0; i < corners; ++i) {
-            line(corner(i), corner(i + 1), colour);
-        }
+        for (int i = 0; i < corners; ++i) { line(corner(i), corner(i + 1), colour); }
     }
 
     /// Digits, capitals and a few signs from the lower left corner on.
@@ -103,8 +93,7 @@ public:
         for (const char letter : words) {
             glm::dvec2 before = at;
             for (const auto& point : visuals::overlay::glyph_strokes(letter)) {
-                const glm::dvec2 next =
-                    at + static_cast<double>(letter_px) * glm::dvec2(point.x, -point.y);
+                const glm::dvec2 next = at + static_cast<double>(letter_px) * glm::dvec2(point.x, -point.y);
                 line(point.begins_stroke ? next : before, next, colour);
                 before = next;
             }
@@ -128,13 +117,11 @@ struct MapFrameInPicture {
     /// Bilinear, at a pixel's middle.
     double height_m(double x_px, double y_px) const {
         const double column = std::clamp(x_px / px_per_sample - 0.5, 0.0, ground.columns() - 1.001);
-        const double row =
-            std::clamp((height_px - y_px) / px_per_sample - 0.5, 0.0, ground.rows() - 1.001);
+        const double row = std::clamp((height_px - y_px) / px_per_sample - 0.5, 0.0, ground.rows() - 1.001);
         const int x = static_cast<int>(column);
         const int y = static_cast<int>(row);
         const double south = glm::mix(ground.height_m(x, y), ground.height_m(x + 1, y), column - x);
-        const double north =
-            glm::mix(ground.height_m(x, y + 1), ground.height_m(x + 1, y + 1), column - x);
+        const double north = glm::mix(ground.height_m(x, y + 1), ground.height_m(x + 1, y + 1), column - x);
         return glm::mix(south, north, row - y);
     }
 
@@ -146,9 +133,7 @@ struct MapFrameInPicture {
 
 MapFrameInPicture map_frame_of(const visuals::terrain::GroundSamples& ground) {
     const double scale = longest_side_px / std::max(ground.columns(), ground.rows());
-    const auto pixels = [scale](int samples) {
-        return std::max(1, static_cast<int>(std::lround(scale * samples)));
-    };
+    const auto pixels = [scale](int samples) { return std::max(1, static_cast<int>(std::lround(scale * samples))); };
     return {ground, scale, pixels(ground.columns()), pixels(ground.rows())};
 }
 
@@ -156,9 +141,7 @@ MapFrameInPicture map_frame_of(const visuals::terrain::GroundSamples& ground) {
 glm::dvec2 colour_range_m(const MapFrameInPicture& sheet) {
     std::vector<double> heights_m;
     for (int y = 0; y < sheet.height_px; y += 2) {
-        for (int x = 0; x < sheet.width_px; x += 2) {
-            heights_m.push_back(sheet.height_m(x + 0.5, y + 0.5));
-        }
+        for (int x = 0; x < sheet.width_px; x += 2) { heights_m.push_back(sheet.height_m(x + 0.5, y + 0.5)); }
     }
     std::ranges::sort(heights_m);
     const std::size_t cut = heights_m.size() / 200;
@@ -177,10 +160,9 @@ void draw_relief(const MapFrameInPicture& sheet, const glm::dvec2& range_m, Canv
         for (int x = 0; x < sheet.width_px; ++x) {
             const glm::dvec2 at(x + 0.5, y + 0.5);
             const double across_m = 2.0 * step_px * pixel_m / exaggeration;
-            const glm::dvec3 normal = glm::normalize(glm::dvec3(
-                sheet.height_m(at.x - step_px, at.y) - sheet.height_m(at.x + step_px, at.y),
-                sheet.height_m(at.x, at.y + step_px) - sheet.height_m(at.x, at.y - step_px),
-                across_m));
+            const glm::dvec3 normal =
+                glm::normalize(glm::dvec3(sheet.height_m(at.x - step_px, at.y) - sheet.height_m(at.x + step_px, at.y),
+                    sheet.height_m(at.x, at.y + step_px) - sheet.height_m(at.x, at.y - step_px), across_m));
             const double light = 0.35 + 0.95 * std::max(0.0, glm::dot(normal, to_sun));
             const double share = (sheet.height_m(at.x, at.y) - range_m.x) / relief_m;
             canvas.put(margin_px + x, margin_px + y, tint_of(share) * static_cast<float>(light));
@@ -193,9 +175,7 @@ void draw_legend(const MapFrameInPicture& sheet, const glm::dvec2& range_m, Canv
     constexpr int ticks = 4;
     for (int y = 0; y < sheet.height_px; ++y) {
         const glm::vec3 tint = tint_of(1.0 - (y + 0.5) / sheet.height_px);
-        for (int x = 0; x < bar_px; ++x) {
-            canvas.put(left_px + x, margin_px + y, tint);
-        }
+        for (int x = 0; x < bar_px; ++x) { canvas.put(left_px + x, margin_px + y, tint); }
     }
     constexpr double half_letter_px = 0.5 * letter_px * visuals::overlay::glyph_height;
     for (int i = 0; i <= ticks; ++i) {
@@ -203,18 +183,15 @@ void draw_legend(const MapFrameInPicture& sheet, const glm::dvec2& range_m, Canv
         const double y_px = margin_px + (1.0 - share) * (sheet.height_px - 1);
         const double right_px = left_px + bar_px;
         canvas.line({right_px, y_px}, {right_px + 4.0, y_px}, text_colour);
-        const double inside_px = std::clamp(
-            y_px, margin_px + half_letter_px, margin_px + sheet.height_px - half_letter_px);
-        canvas.text(
-            {right_px + 9.0, inside_px + half_letter_px},
-            fmt::format(
-                "{}{}", std::lround(glm::mix(range_m.x, range_m.y, share)), i == ticks ? " M" : ""),
+        const double inside_px =
+            std::clamp(y_px, margin_px + half_letter_px, margin_px + sheet.height_px - half_letter_px);
+        canvas.text({right_px + 9.0, inside_px + half_letter_px},
+            fmt::format("{}{}", std::lround(glm::mix(range_m.x, range_m.y, share)), i == ticks ? " M" : ""),
             text_colour);
     }
 }
 
-void draw_marks(
-    const MapFrameInPicture& sheet, std::span<const models::heights::MapNote> notes, Canvas& canvas) {
+void draw_marks(const MapFrameInPicture& sheet, std::span<const models::heights::MapNote> notes, Canvas& canvas) {
     constexpr double radius_px = 12.0;
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const std::vector<glm::dvec2>& places_m = notes[i].places_m;
@@ -230,8 +207,7 @@ void draw_marks(
             const glm::dvec2 at = sheet.pixel_of(places_m[places_m.size() / 2]);
             const std::string number = fmt::format("{}", i + 1);
             const double width_px = letter_px * visuals::overlay::text_width(number.size());
-            const double x_px = std::clamp(
-                at.x + radius_px + 5.0, 0.0, margin_px + sheet.width_px - width_px - 2.0);
+            const double x_px = std::clamp(at.x + radius_px + 5.0, 0.0, margin_px + sheet.width_px - width_px - 2.0);
             canvas.text({x_px, std::max(at.y - 4.0, 2.0 * margin_px)}, number, red);
         }
     }
@@ -240,8 +216,7 @@ void draw_marks(
 } // namespace
 
 report::Picture map_picture(
-    const visuals::terrain::GroundSamples& ground,
-    std::span<const models::heights::MapNote> notes) {
+    const visuals::terrain::GroundSamples& ground, std::span<const models::heights::MapNote> notes) {
     const MapFrameInPicture sheet = map_frame_of(ground);
     const glm::dvec2 range_m = colour_range_m(sheet);
     Canvas canvas(3 * margin_px + sheet.width_px + legend_px, 2 * margin_px + sheet.height_px);

@@ -2,8 +2,8 @@
 
 #include "sim/base/error.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/quadtree_mesher.h"
 #include "visuals/terrain/quadtree.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,27 +17,21 @@ namespace terrain = visuals::terrain;
 namespace {
 
 std::vector<std::uint32_t> no_colours(int columns, int rows) {
-    return std::vector<std::uint32_t>(
-        static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0xffffffffU);
+    return std::vector<std::uint32_t>(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0xffffffffU);
 }
 
 /// The paper's quadtree; coarseness is 1 / C.
 class QuadtreeMaker final : public MeshMaker {
 public:
     QuadtreeMaker(const models::heights::HeightField& field, const GroundMeshOptions& options)
-        : tree_(
-              field,
-              {.roughness = options.mesh == scene::GroundMetric::Printed
-                                ? terrain::Roughness::Printed
-                                : terrain::Roughness::Midpoint})
-        , colours_(no_colours(field.columns(), field.rows()))
-        , mesher_(tree_, colours_) {
+        : tree_(field, {.roughness = options.mesh == scene::GroundMetric::Printed ? terrain::Roughness::Printed
+                                                                                  : terrain::Roughness::Midpoint}),
+          colours_(no_colours(field.columns(), field.rows())), mesher_(tree_, colours_) {
         constexpr double midpoint_weight = 20.0;
         constexpr double printed_weight = 5.0;
         detail_.roughness_weight = options.roughness_c.value_or(
             options.mesh == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans = options.fans == scene::GroundFans::Full ? terrain::FanKind::Full
-                                                               : terrain::FanKind::Partial;
+        detail_.fans = options.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
     }
 
     terrain::GroundSamples ground() const override { return terrain::GroundSamples(tree_.field()); }
@@ -69,10 +63,8 @@ private:
 class ErrorMaker final : public MeshMaker {
 public:
     ErrorMaker(const LoadedGround& ground, const GroundMeshOptions& options)
-        : tiles_(ground.tiles())
-        , mesher_(tiles_)
-        , finest_px_(options.error_px.value_or(0.0))
-        , geomorphs_(options.geomorphs) {}
+        : tiles_(ground.tiles()), mesher_(tiles_), finest_px_(options.error_px.value_or(0.0)),
+          geomorphs_(options.geomorphs) {}
 
     terrain::GroundSamples ground() const override { return terrain::GroundSamples(tiles_); }
 
@@ -99,32 +91,22 @@ private:
 
 } // namespace
 
-std::unique_ptr<MeshMaker>
-make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
-    if (options.mesh == scene::GroundMetric::ScreenError) {
-        return std::make_unique<ErrorMaker>(ground, options);
-    }
+std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
+    if (options.mesh == scene::GroundMetric::ScreenError) { return std::make_unique<ErrorMaker>(ground, options); }
     if (ground.field() == nullptr) {
         throw Error("--mesh: expected screen-error for an imported ground, got another kind");
     }
     return std::make_unique<QuadtreeMaker>(*ground.field(), options);
 }
 
-terrain::GroundMesh
-mesh_from_options(MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
+terrain::GroundMesh mesh_from_options(
+    MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
     const bool by_error = options.mesh == scene::GroundMetric::ScreenError;
-    if (options.triangles) {
-        return maker.mesh_within(view, *options.triangles);
-    }
-    if (by_error && options.error_px) {
-        return maker.mesh(view, *options.error_px);
-    }
-    if (!by_error && options.resolution_c) {
-        return maker.mesh(view, 1.0 / *options.resolution_c);
-    }
-    throw Error(
-        by_error ? "expected --triangles N or --error-px E, got neither"
-                 : "expected --triangles N or --resolution-c C for this mesh, got neither");
+    if (options.triangles) { return maker.mesh_within(view, *options.triangles); }
+    if (by_error && options.error_px) { return maker.mesh(view, *options.error_px); }
+    if (!by_error && options.resolution_c) { return maker.mesh(view, 1.0 / *options.resolution_c); }
+    throw Error(by_error ? "expected --triangles N or --error-px E, got neither"
+                         : "expected --triangles N or --resolution-c C for this mesh, got neither");
 }
 
 } // namespace octant::ui::terrain

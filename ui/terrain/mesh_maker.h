@@ -29,24 +29,21 @@ public:
 
     virtual Range range() const = 0;
 
-    virtual visuals::terrain::GroundMesh
-    mesh(const visuals::terrain::MeshView& view, double coarseness) = 0;
+    virtual visuals::terrain::GroundMesh mesh(const visuals::terrain::MeshView& view, double coarseness) = 0;
 
     /// The mesh with as many triangles as steps allow, never more where that is possible.
-    virtual visuals::terrain::GroundMesh
-    mesh_within(const visuals::terrain::MeshView& view, int triangles) = 0;
+    virtual visuals::terrain::GroundMesh mesh_within(const visuals::terrain::MeshView& view, int triangles) = 0;
 
 protected:
     MeshMaker() = default;
 };
 
-/// The ground must outlive the maker and stay where it is. Throws Error for a kind of mesh that
-/// imported grounds have not.
-std::unique_ptr<MeshMaker>
-make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options);
+/// The ground must outlive the maker and stay where it is. Throws Error for a kind of mesh that imported grounds have
+/// not.
+std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options);
 
-/// The mesh that --error-px, --triangles or --resolution-c ask for. Throws Error when none of them
-/// is there, or one that does not go with the kind of mesh.
+/// The mesh that --error-px, --triangles or --resolution-c ask for. Throws Error when none of them is there, or one
+/// that does not go with the kind of mesh.
 visuals::terrain::GroundMesh mesh_from_options(
     MeshMaker& maker, const visuals::terrain::MeshView& view, const GroundMeshOptions& options);
 

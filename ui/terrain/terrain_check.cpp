@@ -1,4 +1,5 @@
 #include "ui/terrain/terrain_check.h"
+
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
 #include "ui/terrain/ground_view.h"
@@ -36,9 +37,7 @@ public:
     }
 
     /// A number between two positive ones whose logarithm is spread evenly.
-    double scaled_between(double low, double high) {
-        return std::exp(between(std::log(low), std::log(high)));
-    }
+    double scaled_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
 
     bool is_one_in(std::uint64_t times) { return next() % times == 0; }
 
@@ -56,32 +55,27 @@ private:
 
 } // namespace
 
-RandomView random_view(
-    const terrain::GroundSamples& ground, bool by_error, std::uint64_t seed, std::uint64_t number) {
+RandomView random_view(const terrain::GroundSamples& ground, bool by_error, std::uint64_t seed, std::uint64_t number) {
     RandomNumbers numbers(seed, number);
     const glm::dvec2 half_m = ground.half_extent_m();
     const double reach = numbers.between(0.0, 1.0) < 0.3 ? 1.4 : 1.0;
     const double x_m = reach * numbers.between(-half_m.x, half_m.x);
     const double y_m = reach * numbers.between(-half_m.y, half_m.y);
     const double below_m =
-        terrain::ground_height_m(
-            ground, std::clamp(x_m, -half_m.x, half_m.x), std::clamp(y_m, -half_m.y, half_m.y))
+        terrain::ground_height_m(ground, std::clamp(x_m, -half_m.x, half_m.x), std::clamp(y_m, -half_m.y, half_m.y))
             .value_or(0.0);
     const glm::dvec3 eye_m(x_m, y_m, below_m + numbers.scaled_between(2.0, 20000.0));
     const double heading_rad = numbers.between(0.0, 2.0 * std::numbers::pi);
     const double pitch_rad = rad_from_deg(numbers.between(-90.0, 30.0));
     const glm::dvec3 ahead(
-        std::sin(heading_rad) * std::cos(pitch_rad),
-        std::cos(heading_rad) * std::cos(pitch_rad),
-        std::sin(pitch_rad));
+        std::sin(heading_rad) * std::cos(pitch_rad), std::cos(heading_rad) * std::cos(pitch_rad), std::sin(pitch_rad));
     RandomView view;
     view.camera = visuals::scene::camera_looking_at(eye_m, eye_m + ahead);
     view.camera.vertical_fov_rad = rad_from_deg(numbers.scaled_between(5.0, 100.0));
     if (numbers.is_one_in(2)) {
         view.triangles = static_cast<int>(numbers.scaled_between(100.0, 60000.0));
     } else {
-        view.coarseness =
-            by_error ? numbers.scaled_between(0.25, 32.0) : 1.0 / numbers.scaled_between(2.0, 64.0);
+        view.coarseness = by_error ? numbers.scaled_between(0.25, 32.0) : 1.0 / numbers.scaled_between(2.0, 64.0);
     }
     return view;
 }
@@ -93,17 +87,14 @@ namespace {
 
 constexpr std::uint32_t ground_colour = 0xff808080U;
 
-/// Places along a ray at which it is compared with the mesh, nearest first, each this much farther
-/// than the last.
+/// Places along a ray at which it is compared with the mesh, nearest first, each this much farther than the last.
 constexpr double step_factor = 1.02;
 constexpr double beyond_mesh_factor = 1.2; ///< of the mesh's reach: below its lowest vertex for certain
 
 } // namespace
 
 CrackFinder::CrackFinder(const glm::ivec2& size_px, const glm::dvec2& half_extent_m)
-    : size_px_(size_px)
-    , half_extent_m_(half_extent_m)
-    , renderer_(visuals::gl::make_osmesa_renderer(size_px, 1)) {
+    : size_px_(size_px), half_extent_m_(half_extent_m), renderer_(visuals::gl::make_osmesa_renderer(size_px, 1)) {
     renderer_->load_models({});
     renderer_->warm_up();
 }
@@ -132,27 +123,23 @@ void CrackFinder::draw(const visuals::terrain::GroundMesh& mesh, const scene::Ca
 }
 
 bool CrackFinder::is_key(int x, int y) const {
-    const auto pixel = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px_.x) +
-                            static_cast<std::size_t>(x));
+    const auto pixel =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px_.x) + static_cast<std::size_t>(x));
     return picture_.rgba[pixel + 1] == 0;
 }
 
-/// Whether a ray is above the mesh at one place and below it at a later one, by more than half a
-/// pixel each. Where there is no mesh, its lowest and highest vertex stand for it: none is needed
-/// where the frustum does not reach down to the ground, and holes have none.
+/// Whether a ray is above the mesh at one place and below it at a later one, by more than half a pixel each. Where
+/// there is no mesh, its lowest and highest vertex stand for it: none is needed where the frustum does not reach down
+/// to the ground, and holes have none.
 bool CrackFinder::goes_below(const glm::dvec3& ray) const {
     bool was_above = false;
     for (double distance_m = 1.0; distance_m < beyond_mesh_factor * reach_m_; distance_m *= step_factor) {
         const glm::dvec3 at_m = view_.eye_m + ray * distance_m;
         const auto height_m = surface_.height_at(at_m.x, at_m.y);
-        if (std::abs(at_m.x) > half_extent_m_.x || std::abs(at_m.y) > half_extent_m_.y) {
-            continue;
-        }
+        if (std::abs(at_m.x) > half_extent_m_.x || std::abs(at_m.y) > half_extent_m_.y) { continue; }
         const double half_pixel_m = 0.5 * distance_m / view_.focal_px;
         was_above = was_above || at_m.z > height_m.value_or(highest_m_) + half_pixel_m;
-        if (was_above && at_m.z < height_m.value_or(lowest_m_) - half_pixel_m) {
-            return true;
-        }
+        if (was_above && at_m.z < height_m.value_or(lowest_m_) - half_pixel_m) { return true; }
     }
     return false;
 }
@@ -171,17 +158,15 @@ int CrackFinder::cracks(const visuals::terrain::GroundMesh& mesh, const scene::C
                 tested = false;
                 continue;
             }
-            if (!below_ground || tested) {
-                continue;
-            }
+            if (!below_ground || tested) { continue; }
             tested = true;
             if (!taken) {
                 surface_.set_mesh(mesh, camera.eye_m);
                 taken = true;
             }
-            const glm::dvec3 ray = glm::normalize(
-                view_.ahead + view_.right * ((x + 0.5 - view_.half_width_px) / view_.focal_px) +
-                view_.up * ((view_.half_height_px - y - 0.5) / view_.focal_px));
+            const glm::dvec3 ray =
+                glm::normalize(view_.ahead + view_.right * ((x + 0.5 - view_.half_width_px) / view_.focal_px) +
+                               view_.up * ((view_.half_height_px - y - 0.5) / view_.focal_px));
             cracks += goes_below(ray) ? 1 : 0;
         }
     }
@@ -206,9 +191,7 @@ void add(terrain::Conformity& sum, const terrain::Conformity& found) {
 
 TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check) {
     const std::unique_ptr<CrackFinder> pictures =
-        check.draw_every > 0
-            ? std::make_unique<CrackFinder>(size_px, maker.ground().half_extent_m())
-            : nullptr;
+        check.draw_every > 0 ? std::make_unique<CrackFinder>(size_px, maker.ground().half_extent_m()) : nullptr;
     terrain::ConformityCheck edges(maker.ground());
     GroundViewOptions seen;
     seen.size_px = size_px;
@@ -217,14 +200,10 @@ TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check) {
     base::Progress progress("views", check.views, check.quiet, "views");
     for (int number = 0; number < check.views; number += check.every) {
         const RandomView random = random_view(
-            maker.ground(),
-            check.by_error,
-            static_cast<std::uint64_t>(check.seed),
-            static_cast<std::uint64_t>(number));
+            maker.ground(), check.by_error, static_cast<std::uint64_t>(check.seed), static_cast<std::uint64_t>(number));
         const terrain::MeshView view = mesh_view(random.camera, seen);
-        const terrain::GroundMesh mesh = random.triangles
-                                             ? maker.mesh_within(view, *random.triangles)
-                                             : maker.mesh(view, random.coarseness);
+        const terrain::GroundMesh mesh =
+            random.triangles ? maker.mesh_within(view, *random.triangles) : maker.mesh(view, random.coarseness);
         const terrain::Conformity found = edges.check(mesh, view);
         add(check_result.edges, found);
         int key_pixels = 0;
@@ -237,9 +216,7 @@ TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check) {
         check_result.key_pixels += key_pixels;
         if (!found.is_conforming() || key_pixels > 0) {
             ++check_result.cracked_views;
-            base::print_note(
-                check.quiet,
-                fmt::format("view {}: {}, {} key pixels", number, found.text(), key_pixels));
+            base::print_note(check.quiet, fmt::format("view {}: {}, {} key pixels", number, found.text(), key_pixels));
         }
         progress.show(number + 1, fmt::format("{} with faults", check_result.cracked_views));
     }

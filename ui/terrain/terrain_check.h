@@ -27,21 +27,16 @@ struct RandomView {
     double coarseness = 0.0;      ///< as MeshMaker::mesh takes it
 };
 
-/// View `number` of a seed: over the map or, three in ten, beside it, 2 m to 20 km above the
-/// ground, in any direction between straight down and 30 degrees up, fields of view of 5 to 100
-/// degrees; meshes of 100 to 60,000 triangles, of C from 2 to 64 or of errors from 0.25 to 32
-/// pixels. Depends on nothing else.
+/// View `number` of a seed: over the map or, three in ten, beside it, 2 m to 20 km above the ground, in any direction
+/// between straight down and 30 degrees up, fields of view of 5 to 100 degrees; meshes of 100 to 60,000 triangles, of C
+/// from 2 to 64 or of errors from 0.25 to 32 pixels. Depends on nothing else.
 RandomView random_view(
-    const visuals::terrain::GroundSamples& ground,
-    bool by_error,
-    std::uint64_t seed,
-    std::uint64_t number);
+    const visuals::terrain::GroundSamples& ground, bool by_error, std::uint64_t seed, std::uint64_t number);
 
 /// Draws meshes over a colour that nothing else has and looks for it inside the ground.
 class CrackFinder {
 public:
-    /// For meshes of a ground that reaches `half_extent_m` from its centre. Throws Error when there
-    /// is no renderer.
+    /// For meshes of a ground that reaches `half_extent_m` from its centre. Throws Error when there is no renderer.
     CrackFinder(const glm::ivec2& size_px, const glm::dvec2& half_extent_m);
     ~CrackFinder() = default;
     CrackFinder(const CrackFinder&) = delete;
@@ -49,8 +44,8 @@ public:
     CrackFinder(CrackFinder&&) = delete;
     CrackFinder& operator=(CrackFinder&&) = delete;
 
-    /// Pixels through which the key colour is seen though their ray comes from above the mesh and
-    /// goes on below it: cracks and holes.
+    /// Pixels through which the key colour is seen though their ray comes from above the mesh and goes on below it:
+    /// cracks and holes.
     int cracks(const visuals::terrain::GroundMesh& mesh, const visuals::scene::Camera& camera);
 
 private:
@@ -91,8 +86,8 @@ struct TerrainCheckResult {
     long key_pixels = 0;
 };
 
-/// Meshes random views and checks each by edge matching and some by drawing them over a key
-/// colour. Tells of views with faults on stderr unless quiet. Throws Error when nothing can draw.
+/// Meshes random views and checks each by edge matching and some by drawing them over a key colour. Tells of views with
+/// faults on stderr unless quiet. Throws Error when nothing can draw.
 TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check);
 
 } // namespace octant::ui::terrain

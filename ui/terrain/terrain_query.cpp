@@ -22,13 +22,11 @@ JsonValue point_results(const std::optional<glm::dvec3>& place) {
 
 std::optional<double> above_m(const QueryPointResult& answer) {
     return answer.query_point.z_m && answer.ground_m ? std::optional(*answer.query_point.z_m - *answer.ground_m)
-                                               : std::nullopt;
+                                                     : std::nullopt;
 }
 
 /// A number as a CSV cell; an empty cell where there is none.
-std::string cell(const std::optional<double>& number) {
-    return number ? fmt::format("{:.10g}", *number) : "";
-}
+std::string cell(const std::optional<double>& number) { return number ? fmt::format("{:.10g}", *number) : ""; }
 
 std::string cells(const std::optional<glm::dvec3>& place) {
     return place ? fmt::format("{:.10g},{:.10g},{:.10g}", place->x, place->y, place->z) : ",,";
@@ -36,26 +34,16 @@ std::string cells(const std::optional<glm::dvec3>& place) {
 
 std::string csv_text(const QueryResults& answers) {
     std::string text;
-    if (!answers.points.empty()) {
-        text += "x_m,y_m,z_m,ground_m,above_ground_m\n";
-    }
+    if (!answers.points.empty()) { text += "x_m,y_m,z_m,ground_m,above_ground_m\n"; }
     for (const QueryPointResult& answer : answers.points) {
-        text += fmt::format(
-            "{:.10g},{:.10g},{},{},{}\n",
-            answer.query_point.x_m,
-            answer.query_point.y_m,
-            cell(answer.query_point.z_m),
-            cell(answer.ground_m),
-            cell(above_m(answer)));
+        text += fmt::format("{:.10g},{:.10g},{},{},{}\n", answer.query_point.x_m, answer.query_point.y_m,
+            cell(answer.query_point.z_m), cell(answer.ground_m), cell(above_m(answer)));
     }
     if (answers.sight) {
         const LineOfSightAnswer& sight = *answers.sight;
-        text += fmt::format(
-            "visible,clearance_m,lowest_x_m,lowest_y_m,lowest_z_m,hidden_x_m,hidden_y_m,"
-            "hidden_z_m\n{},{},{},{}\n",
-            sight.visible ? "yes" : "no",
-            cell(sight.clearance_m),
-            cells(sight.min_clearance_at_m),
+        text += fmt::format("visible,clearance_m,lowest_x_m,lowest_y_m,lowest_z_m,hidden_x_m,hidden_y_m,"
+                            "hidden_z_m\n{},{},{},{}\n",
+            sight.visible ? "yes" : "no", cell(sight.clearance_m), cells(sight.min_clearance_at_m),
             cells(sight.blocked_at_m));
     }
     return text;
@@ -65,15 +53,11 @@ std::string csv_text(const QueryResults& answers) {
 
 std::optional<QueryPoint> point_from_text(std::string_view text) {
     const auto fields = split_fields(text, ',');
-    if (fields.size() != 2 && fields.size() != 3) {
-        return std::nullopt;
-    }
+    if (fields.size() != 2 && fields.size() != 3) { return std::nullopt; }
     const auto x_m = finite_number(fields[0]);
     const auto y_m = finite_number(fields[1]);
     const auto z_m = fields.size() == 3 ? finite_number(fields[2]) : std::nullopt;
-    if (!x_m || !y_m || (fields.size() == 3 && !z_m)) {
-        return std::nullopt;
-    }
+    if (!x_m || !y_m || (fields.size() == 3 && !z_m)) { return std::nullopt; }
     return QueryPoint{*x_m, *y_m, z_m};
 }
 
@@ -84,28 +68,21 @@ std::vector<QueryPoint> read_points(const std::filesystem::path& file) {
     bool names_may_come = true;
     for (const std::string_view line : split_lines(text)) {
         ++line_number;
-        if (line.empty() || line.front() == '#') {
-            continue;
-        }
+        if (line.empty() || line.front() == '#') { continue; }
         const auto point = point_from_text(line);
         const bool names = names_may_come && line.starts_with('x');
         names_may_come = false;
         if (!point && !names) {
-            throw_error_at(
-                file,
-                line_number,
-                fmt::format(
-                    "expected x,y or x,y,z in metres, got '{}'", printable(std::string(line))));
+            throw_error_at(file, line_number,
+                fmt::format("expected x,y or x,y,z in metres, got '{}'", printable(std::string(line))));
         }
-        if (point) {
-            points.push_back(*point);
-        }
+        if (point) { points.push_back(*point); }
     }
     return points;
 }
 
-std::vector<QueryPointResult>
-ground_heights_at(const terrain::GroundSamples& ground, std::span<const QueryPoint> points) {
+std::vector<QueryPointResult> ground_heights_at(
+    const terrain::GroundSamples& ground, std::span<const QueryPoint> points) {
     std::vector<QueryPointResult> answers;
     for (const QueryPoint& point : points) {
         answers.push_back({point, terrain::ground_height_m(ground, point.x_m, point.y_m)});
@@ -113,33 +90,24 @@ ground_heights_at(const terrain::GroundSamples& ground, std::span<const QueryPoi
     return answers;
 }
 
-std::vector<QueryPointResult>
-drawn_heights_at(const DrawnMesh& drawn, std::span<const QueryPoint> points) {
+std::vector<QueryPointResult> drawn_heights_at(const DrawnMesh& drawn, std::span<const QueryPoint> points) {
     std::vector<QueryPointResult> answers;
     for (const QueryPoint& point : points) {
         auto height_m = drawn.surface.height_at(point.x_m, point.y_m);
-        if (height_m) {
-            *height_m += drawn.drop_m({point.x_m, point.y_m});
-        }
+        if (height_m) { *height_m += drawn.drop_m({point.x_m, point.y_m}); }
         answers.push_back({point, height_m});
     }
     return answers;
 }
 
 LineOfSightAnswer line_of_sight_answer(
-    const terrain::GroundSamples& ground,
-    const glm::dvec3& from_m,
-    const glm::dvec3& to_m,
-    double radius_m) {
+    const terrain::GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m) {
     const terrain::LineOfSight line = terrain::line_of_sight(ground, from_m, to_m, radius_m);
-    if (!std::isfinite(line.clearance_m)) {
-        return {};
-    }
+    if (!std::isfinite(line.clearance_m)) { return {}; }
     return {line.visible, line.blocked_at_m, line.clearance_m, line.min_clearance_at_m};
 }
 
-LineOfSightAnswer
-drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m) {
+LineOfSightAnswer drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m) {
     const auto sunk = [&](const glm::dvec3& at_m) {
         return glm::dvec3(at_m.x, at_m.y, at_m.z - drawn.drop_m(glm::dvec2(at_m)));
     };
@@ -156,24 +124,16 @@ drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm:
 }
 
 std::string query_text(const QueryResults& answers, bool json) {
-    if (!json) {
-        return csv_text(answers);
-    }
+    if (!json) { return csv_text(answers); }
     JsonValue whole;
     whole["points"] = JsonValue::list({});
     for (const QueryPointResult& answer : answers.points) {
-        whole["points"].push_back(
-            {{"x_m", answer.query_point.x_m},
-             {"y_m", answer.query_point.y_m},
-             {"z_m", answer.query_point.z_m},
-             {"ground_m", answer.ground_m},
-             {"above_ground_m", above_m(answer)}});
+        whole["points"].push_back({{"x_m", answer.query_point.x_m}, {"y_m", answer.query_point.y_m},
+            {"z_m", answer.query_point.z_m}, {"ground_m", answer.ground_m}, {"above_ground_m", above_m(answer)}});
     }
     if (answers.sight) {
         const LineOfSightAnswer& sight = *answers.sight;
-        whole["sight"] = {
-            {"visible", sight.visible},
-            {"clearance_m", sight.clearance_m},
+        whole["sight"] = {{"visible", sight.visible}, {"clearance_m", sight.clearance_m},
             {"lowest_at_m", point_results(sight.min_clearance_at_m)},
             {"hidden_at_m", point_results(sight.blocked_at_m)}};
     }

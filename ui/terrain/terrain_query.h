@@ -27,8 +27,8 @@ struct QueryPoint {
 /// "X,Y" or "X,Y,Z"; nothing for anything else.
 std::optional<QueryPoint> point_from_text(std::string_view text);
 
-/// One point a line; lines that begin with # are passed over, so is a first line of names. Throws
-/// Error with the line of a wrong one.
+/// One point a line; lines that begin with # are passed over, so is a first line of names. Throws Error with the line
+/// of a wrong one.
 std::vector<QueryPoint> read_points(const std::filesystem::path& file);
 
 struct QueryPointResult {
@@ -38,8 +38,8 @@ struct QueryPointResult {
 
 struct LineOfSightAnswer {
     bool visible = true;
-    std::optional<glm::dvec3> blocked_at_m; ///< the first ground that hides
-    std::optional<double> clearance_m;     ///< least height of the line above the ground
+    std::optional<glm::dvec3> blocked_at_m;       ///< the first ground that hides
+    std::optional<double> clearance_m;            ///< least height of the line above the ground
     std::optional<glm::dvec3> min_clearance_at_m; ///< the ground there
 };
 
@@ -48,8 +48,8 @@ struct QueryResults {
     std::optional<LineOfSightAnswer> sight;
 };
 
-std::vector<QueryPointResult>
-ground_heights_at(const visuals::terrain::GroundSamples& ground, std::span<const QueryPoint> points);
+std::vector<QueryPointResult> ground_heights_at(
+    const visuals::terrain::GroundSamples& ground, std::span<const QueryPoint> points);
 
 /// Ground as it is drawn for an eye point.
 struct DrawnMesh {
@@ -65,19 +65,14 @@ struct DrawnMesh {
 };
 
 /// Where the asked points lie over the ground as its mesh is drawn; heights are above datum.
-std::vector<QueryPointResult>
-drawn_heights_at(const DrawnMesh& drawn, std::span<const QueryPoint> points);
+std::vector<QueryPointResult> drawn_heights_at(const DrawnMesh& drawn, std::span<const QueryPoint> points);
 
 /// `radius_m`: of the earth, 0 = flat.
 LineOfSightAnswer line_of_sight_answer(
-    const visuals::terrain::GroundSamples& ground,
-    const glm::dvec3& from_m,
-    const glm::dvec3& to_m,
-    double radius_m);
+    const visuals::terrain::GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m);
 
 /// Straight between the ends where they are drawn.
-LineOfSightAnswer
-drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m);
+LineOfSightAnswer drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m);
 
 /// CSV, or one JSON object with "points" and "sight".
 std::string query_text(const QueryResults& answers, bool json);

@@ -23,23 +23,17 @@ constexpr double steepest_deg = 89.0;
 constexpr double move_mps = 60.0;
 constexpr double fast_factor = 8.0;
 
-double wrapped_deg(double deg) {
-    return std::remainder(deg, 360.0);
-}
+double wrapped_deg(double deg) { return std::remainder(deg, 360.0); }
 
-bool is_orbiting(View view) {
-    return view == View::Chase || view == View::Orbit;
-}
+bool is_orbiting(View view) { return view == View::Chase || view == View::Orbit; }
 
 /// Returns the direction in which the free camera looks, turned by azimuth and elevation.
 glm::dvec3 ahead_of(const RunSettings& settings) {
     const glm::dvec3 straight = glm::normalize(*settings.view.look_m - *settings.view.eye_m);
-    const double heading =
-        std::atan2(straight.x, straight.y) + rad_from_deg(settings.view.azimuth_deg);
-    const double up = std::clamp(
-        std::asin(std::clamp(straight.z, -1.0, 1.0)) + rad_from_deg(settings.view.elevation_deg),
-        -rad_from_deg(steepest_deg),
-        rad_from_deg(steepest_deg));
+    const double heading = std::atan2(straight.x, straight.y) + rad_from_deg(settings.view.azimuth_deg);
+    const double up =
+        std::clamp(std::asin(std::clamp(straight.z, -1.0, 1.0)) + rad_from_deg(settings.view.elevation_deg),
+            -rad_from_deg(steepest_deg), rad_from_deg(steepest_deg));
     return {std::cos(up) * std::sin(heading), std::cos(up) * std::cos(heading), std::sin(up)};
 }
 
@@ -47,16 +41,13 @@ glm::dvec3 ahead_of(const RunSettings& settings) {
 
 RunSettings dragged(const RunSettings& settings, const glm::vec2& share_of_height) {
     RunSettings changed = settings;
-    const double slower =
-        is_orbiting(settings.view.kind) ? 1.0 : 1.0 / std::max(settings.view.zoom, 1.0);
+    const double slower = is_orbiting(settings.view.kind) ? 1.0 : 1.0 / std::max(settings.view.zoom, 1.0);
     const double sense = is_orbiting(settings.view.kind) ? 1.0 : -1.0;
-    changed.view.azimuth_deg = wrapped_deg(
-        settings.view.azimuth_deg +
-        sense * slower * drag_deg * static_cast<double>(share_of_height.x));
-    changed.view.elevation_deg = std::clamp(
-        settings.view.elevation_deg + slower * drag_deg * static_cast<double>(share_of_height.y),
-        -steepest_deg,
-        steepest_deg);
+    changed.view.azimuth_deg =
+        wrapped_deg(settings.view.azimuth_deg + sense * slower * drag_deg * static_cast<double>(share_of_height.x));
+    changed.view.elevation_deg =
+        std::clamp(settings.view.elevation_deg + slower * drag_deg * static_cast<double>(share_of_height.y),
+            -steepest_deg, steepest_deg);
     return changed;
 }
 
@@ -64,8 +55,7 @@ RunSettings zoomed(const RunSettings& settings, double clicks) {
     constexpr double least = 0.1;
     constexpr double most = 50.0;
     RunSettings changed = settings;
-    changed.view.zoom =
-        std::clamp(settings.view.zoom * std::pow(zoom_a_click, clicks), least, most);
+    changed.view.zoom = std::clamp(settings.view.zoom * std::pow(zoom_a_click, clicks), least, most);
     return changed;
 }
 
@@ -83,28 +73,22 @@ RunSettings with_view(const RunSettings& settings, View view, const scene::Camer
     changed.view.kind = view;
     changed.view.eye_m.reset();
     changed.view.look_m.reset();
-    if (view != View::Free && changed.view.inset == View::Free) {
-        changed.view.inset.reset();
-    }
+    if (view != View::Free && changed.view.inset == View::Free) { changed.view.inset.reset(); }
     if (view == View::Free) {
         changed.view.eye_m = camera.eye_m;
-        changed.view.look_m =
-            camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
+        changed.view.look_m = camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
     }
     return changed;
 }
 
 RunSettings moved(const RunSettings& settings, const FreeMove& move, double wall_s) {
     const bool stands = move.right == 0 && move.up == 0 && move.ahead == 0;
-    if (settings.view.kind != View::Free || stands) {
-        return settings;
-    }
+    if (settings.view.kind != View::Free || stands) { return settings; }
     const glm::dvec3 ahead = ahead_of(settings);
     const glm::dvec3 right = glm::normalize(glm::dvec3(ahead.y, -ahead.x, 0.0));
-    const glm::dvec3 way_m =
-        wall_s * move_mps * (move.fast ? fast_factor : 1.0) *
-        (static_cast<double>(move.ahead) * ahead + static_cast<double>(move.right) * right +
-         static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
+    const glm::dvec3 way_m = wall_s * move_mps * (move.fast ? fast_factor : 1.0) *
+                             (static_cast<double>(move.ahead) * ahead + static_cast<double>(move.right) * right +
+                                 static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
     RunSettings changed = settings;
     *changed.view.eye_m += way_m;
     *changed.view.look_m += way_m;

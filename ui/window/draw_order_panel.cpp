@@ -31,18 +31,13 @@ void show_last_frame(const report::FrameRecord& last, const visuals::draworder::
 }
 
 void show_pixel_check(ViewState& state) {
-    if (ImGui::Button("Count wrong pixels")) {
-        state.requests.count_wrong_pixels = true;
-    }
+    if (ImGui::Button("Count wrong pixels")) { state.requests.count_wrong_pixels = true; }
     show_tooltip_on_hover("draws this picture once more with a depth buffer and compares them");
-    if (!state.wrong_pixels) {
-        return;
-    }
+    if (!state.wrong_pixels) { return; }
     const WrongPixels& found = *state.wrong_pixels;
     const bool clean = found.wrong == 0;
     ImGui::SameLine();
-    ImGui::TextColored(
-        clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour, "%ld wrong", found.wrong);
+    ImGui::TextColored(clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour, "%ld wrong", found.wrong);
     ImGui::Text("%ld of %ld pixels differ", found.differing, found.pixels);
     show_tooltip_on_hover("with those along edges, where two right pictures may differ");
 }
@@ -51,16 +46,11 @@ void show_pixel_check(ViewState& state) {
 
 void draw_order_panel(ViewState& state, const flight::Session& session) {
     const Panel panel("Draw order", state.columns, state.open.draw_order);
-    if (!panel.is_seen()) {
-        return;
-    }
-    ImGui::TextWrapped(
-        "A cell is a part of the space around an aircraft: from every eye in it, the same order of "
-        "polygons, painted one over the other, hides what is hidden.");
+    if (!panel.is_seen()) { return; }
+    ImGui::TextWrapped("A cell is a part of the space around an aircraft: from every eye in it, the same order of "
+                       "polygons, painted one over the other, hides what is hidden.");
     const auto& scene = session.world().scene;
-    if (!state.history.empty()) {
-        show_last_frame(state.history.last(), scene.model_of(0).order);
-    }
+    if (!state.history.empty()) { show_last_frame(state.history.last(), scene.model_of(0).order); }
     edit_settings(state.next_settings, order_settings);
     ImGui::Checkbox("painting order on the polygons", &state.order_numbers);
     show_pixel_check(state);

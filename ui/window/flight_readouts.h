@@ -15,17 +15,11 @@ struct FlightReadout {
     std::string value;
 };
 
-/// Returns what a pilot watches: throttle or collective, speed, height, climb, angle of attack and
-/// load factor.
+/// Returns what a pilot watches: throttle or collective, speed, height, climb, angle of attack and load factor.
 std::vector<FlightReadout> flight_readouts(
-    const sim::AircraftKind& kind,
-    const sim::AircraftState& state,
-    const sim::PilotControls& controls);
+    const sim::AircraftKind& kind, const sim::AircraftState& state, const sim::PilotControls& controls);
 
 /// Makes a picture of where stick, rudder and throttle stand, beside the numbers.
-void show_controls(
-    const sim::AircraftKind& kind,
-    const sim::AircraftState& state,
-    const sim::PilotControls& controls);
+void show_controls(const sim::AircraftKind& kind, const sim::AircraftState& state, const sim::PilotControls& controls);
 
 } // namespace octant::ui::window

@@ -35,8 +35,8 @@ float content_scale(GLFWwindow* window) {
 void set_style(float scale) {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
-    // Without round corners and smooth edges a rectangle is two triangles, which keeps panels cheap
-    // where a processor draws them.
+    // Without round corners and smooth edges a rectangle is two triangles, which keeps panels cheap where a processor
+    // draws them.
     style.WindowRounding = 0.0F;
     style.FrameRounding = 0.0F;
     style.AntiAliasedLines = false;
@@ -66,9 +66,7 @@ Gui::Gui(gl::WindowContext& window) {
     glm::ivec2 size{0};
     io.Fonts->GetTexDataAsAlpha8(&texels, &size.x, &size.y);
     painter_.emplace(
-        window,
-        std::span(texels, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)),
-        size);
+        window, std::span(texels, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)), size);
     pixels_.emplace(texels, size);
 }
 
@@ -83,40 +81,28 @@ void Gui::begin_frame() {
     ImGui::NewFrame();
 }
 
-void Gui::end_frame() {
-    ImGui::Render();
-}
+void Gui::end_frame() { ImGui::Render(); }
 
 void Gui::draw(const glm::ivec2& size_px) {
     const ImDrawData* const data = ImGui::GetDrawData();
-    if (vertices() == 0) {
-        return;
-    }
+    if (vertices() == 0) { return; }
     painter_->begin({0, size_px, {data->DisplaySize.x, data->DisplaySize.y}});
     for (int i = 0; i < data->CmdListsCount; ++i) {
         const ImDrawList& list = *data->CmdLists[i];
         draws_.clear();
         for (const ImDrawCmd& command : list.CmdBuffer) {
-            draws_.push_back(
-                {command.IdxOffset,
-                 command.ElemCount,
-                 command.VtxOffset,
-                 {command.ClipRect.x, command.ClipRect.y},
-                 {command.ClipRect.z, command.ClipRect.w}});
+            draws_.push_back({command.IdxOffset, command.ElemCount, command.VtxOffset,
+                {command.ClipRect.x, command.ClipRect.y}, {command.ClipRect.z, command.ClipRect.w}});
         }
-        painter_->draw(
-            {reinterpret_cast<const gl::PanelVertex*>(list.VtxBuffer.Data),
-             static_cast<std::size_t>(list.VtxBuffer.Size)},
-            {list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.Size)},
-            draws_);
+        painter_->draw({reinterpret_cast<const gl::PanelVertex*>(list.VtxBuffer.Data),
+                           static_cast<std::size_t>(list.VtxBuffer.Size)},
+            {list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.Size)}, draws_);
     }
     painter_->end();
 }
 
 void Gui::draw_into(std::uint8_t* pixels, const glm::ivec2& size_px) const {
-    if (vertices() > 0) {
-        pixels_->draw(*ImGui::GetDrawData(), pixels, size_px);
-    }
+    if (vertices() > 0) { pixels_->draw(*ImGui::GetDrawData(), pixels, size_px); }
 }
 
 int Gui::vertices() const {
@@ -124,12 +110,8 @@ int Gui::vertices() const {
     return data == nullptr ? 0 : data->TotalVtxCount;
 }
 
-bool Gui::wants_pointer() const {
-    return ImGui::GetIO().WantCaptureMouse;
-}
+bool Gui::wants_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
-bool Gui::wants_keys() const {
-    return ImGui::GetIO().WantTextInput;
-}
+bool Gui::wants_keys() const { return ImGui::GetIO().WantTextInput; }
 
 } // namespace octant::ui::window

@@ -30,8 +30,8 @@ public:
     void begin_frame();
     void end_frame();
 
-    /// Draws the last frame's panels over the window's framebuffer of `size_px`. Draws nothing
-    /// where there are no panels.
+    /// Draws the last frame's panels over the window's framebuffer of `size_px`. Draws nothing where there are no
+    /// panels.
     void draw(const glm::ivec2& size_px);
 
     /// The same over a picture in memory, as PanelRasterizer has it.

@@ -19,8 +19,7 @@ namespace {
 constexpr std::size_t largest_file_bytes = std::size_t{64} << 10;
 constexpr int max_joystick_axes = 16;
 constexpr const char* joystick_form = "an axis of the joystick from 1 to 16, perhaps after -";
-constexpr const char* pad_form =
-    "left x, left y, right x, right y, left trigger or right trigger, perhaps after -";
+constexpr const char* pad_form = "left x, left y, right x, right y, left trigger or right trigger, perhaps after -";
 
 std::string expected(std::string_view what, std::string_view got) {
     return fmt::format("expected {}, got '{}'", what, printable(std::string(got)));
@@ -35,23 +34,18 @@ std::optional<AxisBinding> axis_from(std::string_view input, const Number& numbe
         input.remove_prefix(1);
     }
     const std::optional<int> axis = number_of(input);
-    if (!axis) {
-        return std::nullopt;
-    }
+    if (!axis) { return std::nullopt; }
     choice.axis = *axis;
     return choice;
 }
 
 std::optional<int> joystick_axis(std::string_view name) {
     const auto number = whole_number(name);
-    return number && *number >= 1 && *number <= max_joystick_axes
-               ? std::optional(static_cast<int>(*number) - 1)
-               : std::nullopt;
+    return number && *number >= 1 && *number <= max_joystick_axes ? std::optional(static_cast<int>(*number) - 1)
+                                                                  : std::nullopt;
 }
 
-std::string text_of(const AxisBinding& choice, const std::string& name) {
-    return (choice.reversed ? "-" : "") + name;
-}
+std::string text_of(const AxisBinding& choice, const std::string& name) { return (choice.reversed ? "-" : "") + name; }
 
 /// The axis as it stands; 0 where the device has none such.
 float value_of(const AxisBinding& choice, std::span<const float> axes) {
@@ -63,12 +57,11 @@ float value_of(const AxisBinding& choice, std::span<const float> axes) {
 } // namespace
 
 KeyMap::KeyMap()
-    : look_button(GLFW_MOUSE_BUTTON_LEFT)
-    , stick_button(GLFW_MOUSE_BUTTON_RIGHT)
-    , gamepad{{GLFW_GAMEPAD_AXIS_LEFT_X}, {GLFW_GAMEPAD_AXIS_LEFT_Y}, {GLFW_GAMEPAD_AXIS_RIGHT_X}}
-    , throttle_up{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER}
-    , throttle_down{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER}
-    , joystick_throttle{3} {
+    : look_button(GLFW_MOUSE_BUTTON_LEFT),
+      stick_button(GLFW_MOUSE_BUTTON_RIGHT), gamepad{{GLFW_GAMEPAD_AXIS_LEFT_X}, {GLFW_GAMEPAD_AXIS_LEFT_Y},
+                                                 {GLFW_GAMEPAD_AXIS_RIGHT_X}},
+      throttle_up{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER}, throttle_down{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER}, joystick_throttle{
+                                                                                                       3} {
     pad_commands[GLFW_GAMEPAD_BUTTON_START] = ViewCommand::PlayOrPause;
     pad_commands[GLFW_GAMEPAD_BUTTON_BACK] = ViewCommand::ToBeginning;
     pad_commands[GLFW_GAMEPAD_BUTTON_X] = ViewCommand::ManualFlight;
@@ -77,19 +70,13 @@ KeyMap::KeyMap()
     pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_DOWN] = ViewCommand::Chase;
     pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_LEFT] = ViewCommand::Orbit;
     pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_RIGHT] = ViewCommand::Tower;
-    for (const ViewKey& each : view_keys()) {
-        commands_.push_back(each.key);
-    }
-    for (const HeldKey& each : held_keys()) {
-        held_.push_back(each.key);
-    }
+    for (const ViewKey& each : view_keys()) { commands_.push_back(each.key); }
+    for (const HeldKey& each : held_keys()) { held_.push_back(each.key); }
 }
 
 std::optional<ViewCommand> KeyMap::command_of(int key, bool repeats) const {
     for (std::size_t i = 0; i < commands_.size(); ++i) {
-        if (commands_[i] == key && (view_keys()[i].repeats || !repeats)) {
-            return view_keys()[i].command;
-        }
+        if (commands_[i] == key && (view_keys()[i].repeats || !repeats)) { return view_keys()[i].command; }
     }
     return std::nullopt;
 }
@@ -117,9 +104,7 @@ std::optional<std::string> KeyMap::bind_key(int& chosen, std::string_view input)
         return std::nullopt;
     }
     const auto key = key_of_name(input);
-    if (!key) {
-        return expected("the name of a key, or none", input);
-    }
+    if (!key) { return expected("the name of a key, or none", input); }
     std::ranges::replace(commands_, *key, GLFW_KEY_UNKNOWN);
     std::ranges::replace(held_, *key, GLFW_KEY_UNKNOWN);
     chosen = *key;
@@ -142,9 +127,9 @@ std::optional<std::string> KeyMap::bind_axis(std::string_view id, std::string_vi
     const std::string_view what = id.substr(id.find(' ') + 1);
     AxisMap map = of_pad ? gamepad : joystick.value_or(AxisMap{{0}, {1}, {2}});
     AxisBinding* chosen = what == "roll"     ? &map.roll
-                         : what == "pitch"  ? &map.pitch
-                         : what == "rudder" ? &map.rudder
-                                            : nullptr;
+                          : what == "pitch"  ? &map.pitch
+                          : what == "rudder" ? &map.rudder
+                                             : nullptr;
     if (of_pad && what == "throttle up") {
         chosen = &throttle_up;
     } else if (of_pad && what == "throttle down") {
@@ -152,12 +137,8 @@ std::optional<std::string> KeyMap::bind_axis(std::string_view id, std::string_vi
     } else if (!of_pad && what == "throttle") {
         chosen = &joystick_throttle;
     }
-    if (chosen == nullptr) {
-        return expected("something that keys, mouse or sticks do", id);
-    }
-    if (!choice) {
-        return expected(of_pad ? pad_form : joystick_form, input);
-    }
+    if (chosen == nullptr) { return expected("something that keys, mouse or sticks do", id); }
+    if (!choice) { return expected(of_pad ? pad_form : joystick_form, input); }
     *chosen = *choice;
     if (of_pad) {
         gamepad = map;
@@ -170,8 +151,7 @@ std::optional<std::string> KeyMap::bind_axis(std::string_view id, std::string_vi
 std::optional<std::string> KeyMap::bind(std::string_view id, std::string_view input) {
     const auto command = std::ranges::find(view_keys(), id, &ViewKey::id);
     if (command != view_keys().end()) {
-        return bind_key(
-            commands_[static_cast<std::size_t>(command - view_keys().begin())], input);
+        return bind_key(commands_[static_cast<std::size_t>(command - view_keys().begin())], input);
     }
     const auto chosen_action = std::ranges::find(held_keys(), id, &HeldKey::id);
     if (chosen_action != held_keys().end()) {
@@ -179,29 +159,21 @@ std::optional<std::string> KeyMap::bind(std::string_view id, std::string_view in
     }
     if (id == "mouse look" || id == "mouse stick") {
         const auto button = button_of_name(input);
-        if (!button) {
-            return expected("left, right or middle", input);
-        }
+        if (!button) { return expected("left, right or middle", input); }
         (id == "mouse look" ? look_button : stick_button) = *button;
         return std::nullopt;
     }
     constexpr std::string_view pad = "gamepad ";
     if (id.starts_with(pad)) {
-        if (const auto pressed = pad_button_of_name(id.substr(pad.size()))) {
-            return bind_pad_button(*pressed, input);
-        }
+        if (const auto pressed = pad_button_of_name(id.substr(pad.size()))) { return bind_pad_button(*pressed, input); }
     }
-    if (id.starts_with(pad) || id.starts_with("joystick ")) {
-        return bind_axis(id, input);
-    }
+    if (id.starts_with(pad) || id.starts_with("joystick ")) { return bind_axis(id, input); }
     return expected("something that keys, mouse or sticks do", id);
 }
 
 KeyMapFile read_key_map(const std::filesystem::path& file) {
     KeyMapFile read;
-    if (!path_exists(file)) {
-        return read;
-    }
+    if (!path_exists(file)) { return read; }
     std::string text;
     try {
         text = read_text_file(file, largest_file_bytes);
@@ -212,58 +184,41 @@ KeyMapFile read_key_map(const std::filesystem::path& file) {
     int number = 0;
     for (const std::string_view line : split_lines(text)) {
         ++number;
-        if (line.empty() || line.front() == '#') {
-            continue;
-        }
+        if (line.empty() || line.front() == '#') { continue; }
         const std::size_t sign = line.find('=');
         const auto trimmed = [](std::string_view part) { return split_fields(part, '\n').front(); };
         const std::optional<std::string> fault =
             sign == std::string_view::npos
                 ? expected("a line \"what = key\"", line)
                 : read.keys.bind(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)));
-        if (fault) {
-            read.errors.push_back(fmt::format("{}:{}: {}", file.string(), number, *fault));
-        }
+        if (fault) { read.errors.push_back(fmt::format("{}:{}: {}", file.string(), number, *fault)); }
     }
     return read;
 }
 
 std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> axes) {
-    return {
-        value_of(keys.gamepad.roll, axes),
-        value_of(keys.gamepad.pitch, axes),
-        value_of(keys.gamepad.rudder, axes),
-        0.0F,
-        value_of(keys.throttle_down, axes),
-        value_of(keys.throttle_up, axes)};
+    return {value_of(keys.gamepad.roll, axes), value_of(keys.gamepad.pitch, axes), value_of(keys.gamepad.rudder, axes),
+        0.0F, value_of(keys.throttle_down, axes), value_of(keys.throttle_up, axes)};
 }
 
-std::vector<ViewCommand>
-pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now) {
+std::vector<ViewCommand> pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now) {
     std::vector<ViewCommand> commands;
     for (std::size_t i = 0; i < now.size(); ++i) {
-        if (now[i] != 0 && before[i] == 0 && keys.pad_commands[i]) {
-            commands.push_back(*keys.pad_commands[i]);
-        }
+        if (now[i] != 0 && before[i] == 0 && keys.pad_commands[i]) { commands.push_back(*keys.pad_commands[i]); }
     }
     return commands;
 }
 
 GamepadButtons flying_buttons(const KeyMap& keys, GamepadButtons buttons) {
-    for (std::size_t i = 0; i < buttons.size(); ++i) {
-        buttons[i] = keys.pad_commands[i] ? 0 : buttons[i];
-    }
+    for (std::size_t i = 0; i < buttons.size(); ++i) { buttons[i] = keys.pad_commands[i] ? 0 : buttons[i]; }
     return buttons;
 }
 
 JoystickState mapped_joystick(const KeyMap& keys, std::span<const float> axes) {
     JoystickState joystick;
     if (keys.joystick) {
-        joystick.axes = {
-            value_of(keys.joystick->roll, axes),
-            value_of(keys.joystick->pitch, axes),
-            value_of(keys.joystick->rudder, axes),
-            value_of(keys.joystick_throttle, axes)};
+        joystick.axes = {value_of(keys.joystick->roll, axes), value_of(keys.joystick->pitch, axes),
+            value_of(keys.joystick->rudder, axes), value_of(keys.joystick_throttle, axes)};
         joystick.axis_count = 4;
         return joystick;
     }
@@ -273,19 +228,14 @@ JoystickState mapped_joystick(const KeyMap& keys, std::span<const float> axes) {
 }
 
 std::string text_of_key_map(const KeyMap& keys) {
-    std::string text =
-        "# Keys, mouse and sticks of octant view. What is left out is as usual.\n"
-        "# A key that is given twice does what its last line says; none is no key.\n";
-    for (const ViewKey& each : view_keys()) {
-        text += fmt::format("{} = {}\n", each.id, keys.name_of(each.command));
-    }
+    std::string text = "# Keys, mouse and sticks of octant view. What is left out is as usual.\n"
+                       "# A key that is given twice does what its last line says; none is no key.\n";
+    for (const ViewKey& each : view_keys()) { text += fmt::format("{} = {}\n", each.id, keys.name_of(each.command)); }
     for (const HeldKey& each : held_keys()) {
         text += fmt::format("{} = {}\n", each.id, keys.name_of(each.chosen_action));
     }
     text += fmt::format(
-        "mouse look = {}\nmouse stick = {}\n",
-        name_of_button(keys.look_button),
-        name_of_button(keys.stick_button));
+        "mouse look = {}\nmouse stick = {}\n", name_of_button(keys.look_button), name_of_button(keys.stick_button));
     const auto pad = [&](const char* id, const AxisBinding& choice) {
         text += fmt::format("gamepad {} = {}\n", id, text_of(choice, name_of_axis(choice.axis)));
     };
@@ -296,9 +246,7 @@ std::string text_of_key_map(const KeyMap& keys) {
     pad("throttle down", keys.throttle_down);
     for (std::size_t i = 0; i < keys.pad_commands.size(); ++i) {
         const auto& command = keys.pad_commands[i];
-        text += fmt::format(
-            "gamepad {} = {}\n",
-            name_of_pad_button(static_cast<int>(i)),
+        text += fmt::format("gamepad {} = {}\n", name_of_pad_button(static_cast<int>(i)),
             command ? std::ranges::find(view_keys(), *command, &ViewKey::command)->id : "none");
     }
     if (!keys.joystick) {
@@ -306,8 +254,7 @@ std::string text_of_key_map(const KeyMap& keys) {
                       "# joystick throttle = 4\n";
     }
     const auto stick = [&](const char* id, const AxisBinding& choice) {
-        text +=
-            fmt::format("joystick {} = {}\n", id, text_of(choice, std::to_string(choice.axis + 1)));
+        text += fmt::format("joystick {} = {}\n", id, text_of(choice, std::to_string(choice.axis + 1)));
     };
     stick("roll", keys.joystick->roll);
     stick("pitch", keys.joystick->pitch);

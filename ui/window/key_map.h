@@ -27,8 +27,7 @@ struct AxisMap {
     AxisBinding rudder;
 };
 
-/// Which keys, mouse buttons and axes do what. Made as the program has it; a person's file changes
-/// some of it.
+/// Which keys, mouse buttons and axes do what. Made as the program has it; a person's file changes some of it.
 class KeyMap {
 public:
     KeyMap();
@@ -42,12 +41,11 @@ public:
     int key_of(HeldAction chosen_action) const;
     std::string name_of(HeldAction chosen_action) const;
 
-    /// Changes what the line "id = input" of a file says. Returns nothing, or what was expected and
-    /// what came; then nothing is changed.
+    /// Changes what the line "id = input" of a file says. Returns nothing, or what was expected and what came; then
+    /// nothing is changed.
     std::optional<std::string> bind(std::string_view id, std::string_view input);
 
-    /// The buttons of the mouse, GLFW_MOUSE_BUTTON_..., that turn the look and that make the
-    /// pointer the stick.
+    /// The buttons of the mouse, GLFW_MOUSE_BUTTON_..., that turn the look and that make the pointer the stick.
     int look_button = 0;
     int stick_button = 1;
     AxisMap gamepad;
@@ -81,13 +79,12 @@ struct KeyMapFile {
 /// Reads a file of keys; where there is none, keys are as the program has them.
 KeyMapFile read_key_map(const std::filesystem::path& file);
 
-/// Returns the axes of a gamepad, in the order of GLFWgamepadstate, where the usual ones stand:
-/// roll, pitch, rudder, nothing, throttle down, throttle up.
+/// Returns the axes of a gamepad, in the order of GLFWgamepadstate, where the usual ones stand: roll, pitch, rudder,
+/// nothing, throttle down, throttle up.
 std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> axes);
 
 /// Returns the commands of the buttons that are pressed `now` and were not `before`.
-std::vector<ViewCommand>
-pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now);
+std::vector<ViewCommand> pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now);
 
 /// Returns the buttons without those that have a command: what is left to fly with.
 GamepadButtons flying_buttons(const KeyMap& keys, GamepadButtons buttons);

@@ -32,12 +32,8 @@ struct ListenWork {
 };
 
 void listen_in_window(ListenWork work) {
-    if (work.listen.listener.live.step) {
-        throw Error("--step: expected --headless beside it, got none");
-    }
-    if (work.listen.record.video) {
-        throw Error("--video: expected --headless beside it, got none");
-    }
+    if (work.listen.listener.live.step) { throw Error("--step: expected --headless beside it, got none"); }
+    if (work.listen.record.video) { throw Error("--video: expected --headless beside it, got none"); }
     work.view.settings = work.listen.settings;
     work.view.config_folder = base::configuration_folder();
     work.view.listener = work.listen.listener;
@@ -48,13 +44,9 @@ void listen_in_window(ListenWork work) {
     const base::StopSignals stop_signals;
     int frames = 0;
     while (viewer.run_frame() && !base::StopSignals::received()) {
-        if (work.view.settings.time.frames && ++frames >= *work.view.settings.time.frames) {
-            break;
-        }
+        if (work.view.settings.time.frames && ++frames >= *work.view.settings.time.frames) { break; }
     }
-    if (const auto report = viewer.finish_recording()) {
-        base::print_note(work.listen.quiet, *report);
-    }
+    if (const auto report = viewer.finish_recording()) { base::print_note(work.listen.quiet, *report); }
 }
 
 void listen(ListenWork work) {
@@ -69,8 +61,7 @@ void listen(ListenWork work) {
         aircraft = std::move(table.aircraft);
         work.listen.listener.live.shapes = std::move(table.types);
     } else {
-        const auto vehicles =
-            static_cast<std::size_t>(work.listen.vehicles.value_or(default_vehicles));
+        const auto vehicles = static_cast<std::size_t>(work.listen.vehicles.value_or(default_vehicles));
         const std::string last = aircraft.back();
         aircraft.resize(std::max(aircraft.size(), vehicles), last);
     }
@@ -85,34 +76,19 @@ void listen(ListenWork work) {
 std::vector<commands::Option> options_of(ListenWork& work) {
     using namespace commands;
     ListenOptions& listen = work.listen;
-    std::vector<Option> table = {
-        flag("--headless", "no window: pictures, video and recording alone", work.headless),
-        text_option(
-            "--record",
-            "DIR",
+    std::vector<Option> table = {flag("--headless", "no window: pictures, video and recording alone", work.headless),
+        text_option("--record", "DIR",
             "write the recording and its report into this folder; in a window its view stays as it "
             "is until F9 ends it",
             listen.record.folder),
-        text_option(
-            "--video",
-            "FILE.mp4",
-            "with --headless: write a video (needs ffmpeg)",
-            listen.record.video),
-        flag(
-            "--json",
-            "with --headless: summary as JSON, with every vehicle and what its packets were",
-            listen.json),
+        text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", listen.record.video),
+        flag("--json", "with --headless: summary as JSON, with every vehicle and what its packets were", listen.json),
         flag("--full-screen", "fill the screen (F11)", work.view.full_screen),
-        flag(
-            "--vsync,!--no-vsync",
-            "one picture a refresh of the display; else as many as there can be",
+        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be",
             work.view.vsync),
         flag("--panels,!--no-panels", "begin with panels shown (Tab)", work.view.panels)};
     std::vector<Option> shared = listen_options(listen);
-    table.insert(
-        table.end(),
-        std::make_move_iterator(shared.begin()),
-        std::make_move_iterator(shared.end()));
+    table.insert(table.end(), std::make_move_iterator(shared.begin()), std::make_move_iterator(shared.end()));
     return table;
 }
 
@@ -121,11 +97,9 @@ std::vector<commands::Option> options_of(ListenWork& work) {
 commands::Command listen_command() {
     auto work = std::make_shared<ListenWork>();
     work->view.recordings_folder = ".";
-    return {
-        .name = "listen",
-        .summary =
-            "Shows what other programs fly: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
-            "numbers",
+    return {.name = "listen",
+        .summary = "Shows what other programs fly: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
+                   "numbers",
         .options = options_of(*work),
         .footer = "Examples:\n"
                   "  octant listen\n"

@@ -20,29 +20,24 @@ namespace scene = visuals::scene;
 
 namespace {
 
-/// Area that a polygon must have on the screen to get a number: on smaller ones numbers would cover
-/// each other.
+/// Area that a polygon must have on the screen to get a number: on smaller ones numbers would cover each other.
 constexpr double min_area_px = 40.0;
 
-/// Projects points, in world axes with the eye at the origin, to places on the screen in ImGui's
-/// coordinates. The picture fills the window, however many pixels it has.
+/// Projects points, in world axes with the eye at the origin, to places on the screen in ImGui's coordinates. The
+/// picture fills the window, however many pixels it has.
 class ScreenPositions {
 public:
     ScreenPositions(const scene::Camera& camera, const glm::ivec2& picture_px)
         : eye_world_to_clip_(
-              scene::view_to_clip(
-                  camera, static_cast<double>(picture_px.x) / static_cast<double>(picture_px.y)) *
-              scene::world_to_view(camera))
-        , size_(ImGui::GetIO().DisplaySize) {}
+              scene::view_to_clip(camera, static_cast<double>(picture_px.x) / static_cast<double>(picture_px.y)) *
+              scene::world_to_view(camera)),
+          size_(ImGui::GetIO().DisplaySize) {}
 
     /// Returns nothing for a point behind the near plane.
     std::optional<ImVec2> of(const glm::dvec3& at_m) const {
         const glm::vec4 clip = eye_world_to_clip_ * glm::vec4(glm::vec3(at_m), 1.0F);
-        if (clip.w <= 0.0F || clip.z > clip.w) {
-            return std::nullopt;
-        }
-        return ImVec2(
-            (0.5F + 0.5F * clip.x / clip.w) * size_.x, (0.5F - 0.5F * clip.y / clip.w) * size_.y);
+        if (clip.w <= 0.0F || clip.z > clip.w) { return std::nullopt; }
+        return ImVec2((0.5F + 0.5F * clip.x / clip.w) * size_.x, (0.5F - 0.5F * clip.y / clip.w) * size_.y);
     }
 
 private:
@@ -52,9 +47,7 @@ private:
 
 glm::dvec3 centroid_of(const planning::ViewPolygon& polygon) {
     glm::dvec3 sum(0.0);
-    for (const planning::ViewVertex& corner : polygon) {
-        sum += corner.at_m;
-    }
+    for (const planning::ViewVertex& corner : polygon) { sum += corner.at_m; }
     return sum / static_cast<double>(polygon.size());
 }
 
@@ -72,9 +65,7 @@ double area_px(const planning::ViewPolygon& polygon, const ScreenPositions& posi
     std::optional<ImVec2> before = positions.of(polygon.back().at_m);
     for (const planning::ViewVertex& corner : polygon) {
         const auto at = positions.of(corner.at_m);
-        if (!at || !before) {
-            return 0.0;
-        }
+        if (!at || !before) { return 0.0; }
         twice += static_cast<double>(before->x * at->y - before->y * at->x);
         before = at;
     }
@@ -99,9 +90,7 @@ void write_number(int number, const ImVec2& at) {
 
 void write_order_numbers(const flight::Session& session) {
     const world::World& world = session.world();
-    if (session.states().empty() || session.settings().view.kind == scene::View::Cockpit) {
-        return;
-    }
+    if (session.states().empty() || session.settings().view.kind == scene::View::Cockpit) { return; }
     const planning::AircraftModel& model = world.scene.model_of(0);
     const sim::AircraftState& state = session.states().front();
     const scene::Camera& camera = session.camera();
@@ -118,23 +107,15 @@ void write_order_numbers(const flight::Session& session) {
     visuals::draworder::DrawOrder::Walk walk;
     std::vector<std::uint32_t> list;
     model.order.append_painted(
-        visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world),
-        walk,
-        list);
+        visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world), walk, list);
     planning::ViewPolygon polygon;
     int painted = 0;
     for (const std::uint32_t number : list) {
         planning::place_polygon(placed, number, polygon);
-        if (!faces_eye(polygon)) {
-            continue;
-        }
+        if (!faces_eye(polygon)) { continue; }
         ++painted;
-        if (area_px(polygon, positions) < min_area_px) {
-            continue;
-        }
-        if (const auto at = positions.of(centroid_of(polygon))) {
-            write_number(painted, *at);
-        }
+        if (area_px(polygon, positions) < min_area_px) { continue; }
+        if (const auto at = positions.of(centroid_of(polygon))) { write_number(painted, *at); }
     }
 }
 

@@ -24,10 +24,8 @@ struct KnownPanel {
 };
 
 /// From top to bottom.
-constexpr std::array known_panels{
-    KnownPanel{"Flight", &OpenPanels::flight, Column::Left},
-    KnownPanel{"Frame times", &OpenPanels::timing, Column::Left},
-    KnownPanel{"Scene", &OpenPanels::scene, Column::Left},
+constexpr std::array known_panels{KnownPanel{"Flight", &OpenPanels::flight, Column::Left},
+    KnownPanel{"Frame times", &OpenPanels::timing, Column::Left}, KnownPanel{"Scene", &OpenPanels::scene, Column::Left},
     KnownPanel{"Terrain", &OpenPanels::terrain, Column::Right},
     KnownPanel{"Draw order", &OpenPanels::draw_order, Column::Right},
     KnownPanel{"Aircraft", &OpenPanels::aircraft, Column::Right},
@@ -97,8 +95,7 @@ ColumnRect column_rect(Column column, const PanelArea& area, bool left_open, boo
         const float right = right_open ? side + gap_px * area.scale : 0.0F;
         const float to = area.size.x - border - std::max(right, area.inset.x);
         strip.width = std::floor(std::min(to - from, max_middle_width * area.scale));
-        strip.left = std::floor(
-            std::clamp(0.5F * (area.size.x - strip.width), from, std::max(from, to - strip.width)));
+        strip.left = std::floor(std::clamp(0.5F * (area.size.x - strip.width), from, std::max(from, to - strip.width)));
         strip.top += area.status_height;
     }
     return strip;
@@ -108,9 +105,7 @@ ColumnRect column_rect(Column column, const PanelArea& area, bool left_open, boo
 
 PanelColumns::PanelPlacement& PanelColumns::placement_of(std::string_view title) {
     const auto found = placements_.find(title);
-    if (found != placements_.end()) {
-        return found->second;
-    }
+    if (found != placements_.end()) { return found->second; }
     PanelPlacement place;
     place.rect = {glm::vec2(edge), {side_width, first_height}};
     place.wanted_height = first_height;
@@ -134,25 +129,17 @@ void PanelColumns::lay_out(const OpenPanels& open, const PanelArea& area) {
     }
     for (const Column column : {Column::Left, Column::MiddleColumn, Column::Right}) {
         const auto& placements = columns[static_cast<std::size_t>(column)];
-        const ColumnRect strip =
-            column_rect(column, area, !columns.front().empty(), !columns.back().empty());
-        if (column == Column::MiddleColumn) {
-            middle_ = {strip.left, strip.width};
-        }
+        const ColumnRect strip = column_rect(column, area, !columns.front().empty(), !columns.back().empty());
+        if (column == Column::MiddleColumn) { middle_ = {strip.left, strip.width}; }
         std::vector<float> heights;
-        for (const PanelPlacement* const place : placements) {
-            heights.push_back(place->wanted_height);
-        }
+        for (const PanelPlacement* const place : placements) { heights.push_back(place->wanted_height); }
         const float between = gap_px * area.scale;
-        const float gaps =
-            between * static_cast<float>(std::max<std::size_t>(placements.size(), 1) - 1);
+        const float gaps = between * static_cast<float>(std::max<std::size_t>(placements.size(), 1) - 1);
         heights = shrink_to_fit(std::move(heights), strip.bottom - strip.top - gaps);
         // What the middle shows stands at its bottom, below the aircraft.
         float y = strip.top;
         const float all = std::accumulate(heights.begin(), heights.end(), gaps);
-        if (column == Column::MiddleColumn) {
-            y = std::max(y, strip.bottom - all);
-        }
+        if (column == Column::MiddleColumn) { y = std::max(y, strip.bottom - all); }
         for (std::size_t i = 0; i < placements.size(); ++i) {
             const PanelRect rect{{strip.left, std::floor(y)}, {strip.width, heights[i]}};
             placements[i]->is_new = placements[i]->is_new || !is_near(rect, placements[i]->rect);
@@ -169,12 +156,8 @@ std::optional<PanelRect> PanelColumns::take_new_rect(std::string_view title) {
 
 void PanelColumns::report_rect(std::string_view title, const PanelRect& rect) {
     PanelPlacement& place = placement_of(title);
-    if (!place.is_new && !is_near(rect, place.rect)) {
-        place.user_placed = true;
-    }
-    if (place.user_placed) {
-        place.rect = rect;
-    }
+    if (!place.is_new && !is_near(rect, place.rect)) { place.user_placed = true; }
+    if (place.user_placed) { place.rect = rect; }
     place.is_new = false;
 }
 
@@ -192,9 +175,7 @@ void PanelColumns::reset_layout() {
 std::map<std::string, PanelRect, std::less<>> PanelColumns::user_placed() const {
     std::map<std::string, PanelRect, std::less<>> placements;
     for (const auto& [title, place] : placements_) {
-        if (place.user_placed) {
-            placements.emplace(title, place.rect);
-        }
+        if (place.user_placed) { placements.emplace(title, place.rect); }
     }
     return placements;
 }

@@ -37,10 +37,9 @@ struct MiddleColumn {
     float width = 0.0F;
 };
 
-/// The places of panels. Open panels stand one below the other in two columns at the sides, which
-/// leave the picture between them free, and each is as high as what it shows, or less where they
-/// do not all fit; the help and questions are in the middle. A panel that a person moves or sizes
-/// stays where it was put.
+/// The places of panels. Open panels stand one below the other in two columns at the sides, which leave the picture
+/// between them free, and each is as high as what it shows, or less where they do not all fit; the help and questions
+/// are in the middle. A panel that a person moves or sizes stays where it was put.
 class PanelColumns {
 public:
     /// Finds the places of all open panels, none over another, for the next frame.
@@ -49,8 +48,7 @@ public:
     /// Returns the part that open columns leave free; nothing before lay_out().
     std::optional<MiddleColumn> middle() const { return middle_; }
 
-    /// Returns where the panel is to be put at once; nothing where it already lies right, or where
-    /// a person puts it.
+    /// Returns where the panel is to be put at once; nothing where it already lies right, or where a person puts it.
     std::optional<PanelRect> take_new_rect(std::string_view title);
 
     /// Takes note of where a panel lies in this frame.

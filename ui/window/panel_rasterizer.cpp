@@ -38,9 +38,7 @@ struct Surface {
     glm::ivec2 most;
 };
 
-float byte_of(std::uint32_t colour, unsigned which) {
-    return static_cast<float>(colour >> (8 * which) & 0xffU);
-}
+float byte_of(std::uint32_t colour, unsigned which) { return static_cast<float>(colour >> (8 * which) & 0xffU); }
 
 /// `of`: a corner's value.
 template <class Of>
@@ -57,8 +55,7 @@ Plane plane_of(const TriangleVertices& corners, float signed_area2, const Of& of
     return plane;
 }
 
-/// Where the line from the upper to the lower corner crosses a row: the same whichever of two
-/// triangles asks.
+/// Where the line from the upper to the lower corner crosses a row: the same whichever of two triangles asks.
 float crossing(const Vertex& a, const Vertex& b, float y) {
     const auto& [upper, lower] = a.at_px.y < b.at_px.y ? std::pair(a, b) : std::pair(b, a);
     const glm::vec2 down = lower.at_px - upper.at_px;
@@ -66,39 +63,29 @@ float crossing(const Vertex& a, const Vertex& b, float y) {
 }
 
 /// The first pixel whose middle is not before a place.
-int first_from(float at_px) {
-    return static_cast<int>(std::ceil(at_px - 0.5F));
-}
+int first_from(float at_px) { return static_cast<int>(std::ceil(at_px - 0.5F)); }
 
 void blend(std::uint32_t colour, unsigned share, std::uint8_t* pixel) {
     const std::array<unsigned, 3> over{colour >> 16U & 0xffU, colour >> 8U & 0xffU, colour & 0xffU};
     for (std::size_t k = 0; k < over.size(); ++k) {
-        pixel[k] =
-            static_cast<std::uint8_t>((over[k] * share + pixel[k] * (255U - share) + 127U) / 255U);
+        pixel[k] = static_cast<std::uint8_t>((over[k] * share + pixel[k] * (255U - share) + 127U) / 255U);
     }
 }
 
 /// How much of a pixel a triangle covers and in which colour.
 class TrianglePainter {
 public:
-    TrianglePainter(
-        const TriangleVertices& corners,
-        float signed_area2,
-        const std::vector<std::uint8_t>& atlas,
+    TrianglePainter(const TriangleVertices& corners, float signed_area2, const std::vector<std::uint8_t>& atlas,
         const glm::ivec2& atlas_size)
-        : atlas_(atlas)
-        , atlas_size_(atlas_size)
-        , colour_(corners[0].colour)
-        , is_plain_(
-              corners[1].colour == colour_ && corners[2].colour == colour_ &&
-              corners[1].texel == corners[0].texel && corners[2].texel == corners[0].texel)
-        , has_one_colour_(corners[1].colour == colour_ && corners[2].colour == colour_)
-        , u_(plane_of(corners, signed_area2, [](const Vertex& c) { return c.texel.x; }))
-        , v_(plane_of(corners, signed_area2, [](const Vertex& c) { return c.texel.y; })) {
+        : atlas_(atlas), atlas_size_(atlas_size), colour_(corners[0].colour),
+          is_plain_(corners[1].colour == colour_ && corners[2].colour == colour_ &&
+                    corners[1].texel == corners[0].texel && corners[2].texel == corners[0].texel),
+          has_one_colour_(corners[1].colour == colour_ && corners[2].colour == colour_),
+          u_(plane_of(corners, signed_area2, [](const Vertex& c) { return c.texel.x; })),
+          v_(plane_of(corners, signed_area2, [](const Vertex& c) { return c.texel.y; })) {
         if (!has_one_colour_) {
             for (unsigned k = 0; k < bytes_.size(); ++k) {
-                bytes_[k] = plane_of(
-                    corners, signed_area2, [&](const Vertex& c) { return byte_of(c.colour, k); });
+                bytes_[k] = plane_of(corners, signed_area2, [&](const Vertex& c) { return byte_of(c.colour, k); });
             }
         }
     }
@@ -106,30 +93,23 @@ public:
     void row(int y, int first, int end, std::uint8_t* line) const {
         if (is_plain_) {
             const unsigned share = share_at(glm::vec2(u_.base, v_.base), colour_);
-            for (int x = first; x < end; ++x) {
-                blend(colour_, share, line + 4 * x);
-            }
+            for (int x = first; x < end; ++x) { blend(colour_, share, line + 4 * x); }
             return;
         }
         const float middle_y = static_cast<float>(y) + 0.5F;
         for (int x = first; x < end; ++x) {
             const float middle_x = static_cast<float>(x) + 0.5F;
             const std::uint32_t colour = has_one_colour_ ? colour_ : colour_at(middle_x, middle_y);
-            const unsigned share =
-                share_at(glm::vec2(u_.at(middle_x, middle_y), v_.at(middle_x, middle_y)), colour);
-            if (share > 0) {
-                blend(colour, share, line + 4 * x);
-            }
+            const unsigned share = share_at(glm::vec2(u_.at(middle_x, middle_y), v_.at(middle_x, middle_y)), colour);
+            if (share > 0) { blend(colour, share, line + 4 * x); }
         }
     }
 
 private:
     unsigned share_at(const glm::vec2& texel, std::uint32_t colour) const {
-        const glm::ivec2 at =
-            glm::clamp(glm::ivec2(glm::floor(texel)), glm::ivec2(0), atlas_size_ - 1);
+        const glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(texel)), glm::ivec2(0), atlas_size_ - 1);
         const auto number =
-            static_cast<std::size_t>(at.y) * static_cast<std::size_t>(atlas_size_.x) +
-            static_cast<std::size_t>(at.x);
+            static_cast<std::size_t>(at.y) * static_cast<std::size_t>(atlas_size_.x) + static_cast<std::size_t>(at.x);
         return ((colour >> 24U) * atlas_[number] + 127U) / 255U;
     }
 
@@ -161,12 +141,10 @@ void fill(TriangleVertices corners, const TrianglePainter& paint, const Surface&
     for (int row = first_row; row < end_row; ++row) {
         const float y = static_cast<float>(row) + 0.5F;
         const float whole = crossing(top, bottom, y);
-        const float bent =
-            y < middle.at_px.y ? crossing(top, middle, y) : crossing(middle, bottom, y);
+        const float bent = y < middle.at_px.y ? crossing(top, middle, y) : crossing(middle, bottom, y);
         const int first = std::max(first_from(std::min(whole, bent)), to.least.x);
         const int end = std::min(first_from(std::max(whole, bent)), to.most.x);
-        std::uint8_t* const line =
-            to.pixels + 4 * static_cast<std::size_t>(row) * static_cast<std::size_t>(to.width);
+        std::uint8_t* const line = to.pixels + 4 * static_cast<std::size_t>(row) * static_cast<std::size_t>(to.width);
         paint.row(row, first, end, line);
     }
 }
@@ -174,37 +152,27 @@ void fill(TriangleVertices corners, const TrianglePainter& paint, const Surface&
 } // namespace
 
 PanelRasterizer::PanelRasterizer(const std::uint8_t* atlas, const glm::ivec2& size)
-    : atlas_(atlas, atlas + static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
-    , atlas_size_(size) {}
+    : atlas_(atlas, atlas + static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)), atlas_size_(size) {}
 
-void PanelRasterizer::draw(
-    const ImDrawData& panels, std::uint8_t* pixels, const glm::ivec2& size_px) const {
-    const glm::vec2 px_per_unit =
-        glm::vec2(size_px) / glm::vec2(panels.DisplaySize.x, panels.DisplaySize.y);
+void PanelRasterizer::draw(const ImDrawData& panels, std::uint8_t* pixels, const glm::ivec2& size_px) const {
+    const glm::vec2 px_per_unit = glm::vec2(size_px) / glm::vec2(panels.DisplaySize.x, panels.DisplaySize.y);
     const glm::vec2 texels(atlas_size_);
     const auto corner_of = [&](const ImDrawVert& vertex) {
-        return Vertex{
-            glm::vec2(vertex.pos.x, vertex.pos.y) * px_per_unit,
-            glm::vec2(vertex.uv.x, vertex.uv.y) * texels,
+        return Vertex{glm::vec2(vertex.pos.x, vertex.pos.y) * px_per_unit, glm::vec2(vertex.uv.x, vertex.uv.y) * texels,
             vertex.col};
     };
     for (int i = 0; i < panels.CmdListsCount; ++i) {
         const ImDrawList& list = *panels.CmdLists[i];
         for (const ImDrawCmd& command : list.CmdBuffer) {
             const ImVec4& clip = command.ClipRect;
-            const Surface to{
-                pixels,
-                size_px.x,
-                glm::max(
-                    glm::ivec2(glm::floor(glm::vec2(clip.x, clip.y) * px_per_unit)), glm::ivec2(0)),
+            const Surface to{pixels, size_px.x,
+                glm::max(glm::ivec2(glm::floor(glm::vec2(clip.x, clip.y) * px_per_unit)), glm::ivec2(0)),
                 glm::min(glm::ivec2(glm::ceil(glm::vec2(clip.z, clip.w) * px_per_unit)), size_px)};
             const ImDrawIdx* const indices = list.IdxBuffer.Data + command.IdxOffset;
             const ImDrawVert* const vertices = list.VtxBuffer.Data + command.VtxOffset;
             for (unsigned first = 0; first < command.ElemCount; first += 3) {
-                const TriangleVertices corners{
-                    corner_of(vertices[indices[first]]),
-                    corner_of(vertices[indices[first + 1]]),
-                    corner_of(vertices[indices[first + 2]])};
+                const TriangleVertices corners{corner_of(vertices[indices[first]]),
+                    corner_of(vertices[indices[first + 1]]), corner_of(vertices[indices[first + 2]])};
                 const glm::vec2 ab = corners[1].at_px - corners[0].at_px;
                 const glm::vec2 ac = corners[2].at_px - corners[0].at_px;
                 const float signed_area2 = ab.x * ac.y - ab.y * ac.x;

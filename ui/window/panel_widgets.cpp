@@ -9,12 +9,8 @@
 
 namespace octant::ui::window {
 
-Panel::Panel(const char* title, PanelColumns& columns, bool& open)
-    : title_(title)
-    , columns_(columns) {
-    if (!open) {
-        return;
-    }
+Panel::Panel(const char* title, PanelColumns& columns, bool& open) : title_(title), columns_(columns) {
+    if (!open) { return; }
     if (const auto rect = columns.take_new_rect(title)) {
         ImGui::SetNextWindowPos({rect->at.x, rect->at.y});
         ImGui::SetNextWindowSize({rect->size.x, rect->size.y});
@@ -30,8 +26,7 @@ Panel::Panel(const char* title, PanelColumns& columns, bool& open)
 Panel::~Panel() {
     if (seen_) {
         const ImGuiStyle& style = ImGui::GetStyle();
-        columns_.report_height(
-            title_, ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
+        columns_.report_height(title_, ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
     }
     if (begun_) {
         ImGui::PopTextWrapPos();
@@ -49,14 +44,11 @@ float value_width() {
 
 void same_line_for(float width) {
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= right) {
-        ImGui::SameLine();
-    }
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= right) { ImGui::SameLine(); }
 }
 
 float checkbox_width(const char* label) {
-    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x +
-           ImGui::CalcTextSize(label, nullptr, true).x;
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label, nullptr, true).x;
 }
 
 bool next_button(const char* label) {
@@ -80,21 +72,14 @@ void show_tooltip(const std::string& text) {
 }
 
 void show_tooltip_on_hover(std::string_view text) {
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-        show_tooltip(std::string(text));
-    }
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) { show_tooltip(std::string(text)); }
 }
 
-std::optional<std::string>
-typed_text(const char* label, const std::string& text, std::string_view hint) {
+std::optional<std::string> typed_text(const char* label, const std::string& text, std::string_view hint) {
     std::array<char, 4096> buffer{};
     text.copy(buffer.data(), buffer.size() - 1);
     const bool entered = ImGui::InputTextWithHint(
-        label,
-        std::string(hint).c_str(),
-        buffer.data(),
-        buffer.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue);
+        label, std::string(hint).c_str(), buffer.data(), buffer.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     return entered ? std::optional<std::string>(buffer.data()) : std::nullopt;
 }
 
@@ -109,8 +94,7 @@ void count_slider(std::vector<std::string>& aircraft) {
     const int count = static_cast<int>(aircraft.size());
     int& wanted_count = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wanted count"), count);
     ImGui::SetNextItemWidth(value_width());
-    ImGui::SliderInt(
-        "aircraft", &wanted_count, 1, std::max(most, count), "%d", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderInt("aircraft", &wanted_count, 1, std::max(most, count), "%d", ImGuiSliderFlags_AlwaysClamp);
     show_tooltip_on_hover("the leader and wingmen of the same kind beside it");
     if (ImGui::IsItemDeactivatedAfterEdit()) {
         aircraft = with_aircraft_count(std::move(aircraft), wanted_count);

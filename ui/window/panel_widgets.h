@@ -17,8 +17,8 @@ inline const ImVec4 warning_colour{1.0F, 0.55F, 0.45F, 1.0F};
 /// How much of the picture below a panel its ground covers.
 constexpr float background_alpha = 0.82F;
 
-/// A panel, whose widgets are made while this object lives. The cross in its title closes it and
-/// sets `open` to false. It lies where the columns have it, which are told how high it would be.
+/// A panel, whose widgets are made while this object lives. The cross in its title closes it and sets `open` to false.
+/// It lies where the columns have it, which are told how high it would be.
 class Panel {
 public:
     Panel(const char* title, PanelColumns& columns, bool& open);
@@ -47,8 +47,8 @@ void same_line_for(float width);
 /// Returns the width of a check box or radio button with its name.
 float checkbox_width(const char* label);
 
-/// Makes a button in the same line as what stands before it, or in the next one where it does not
-/// fit. Returns whether it was pressed.
+/// Makes a button in the same line as what stands before it, or in the next one where it does not fit. Returns whether
+/// it was pressed.
 bool next_button(const char* label);
 
 /// Returns how many times larger everything is than at a font of 13 pixels.
@@ -60,8 +60,7 @@ void show_tooltip(const std::string& text);
 void show_tooltip_on_hover(std::string_view text);
 
 /// Makes a field of text. Returns what was typed when Enter is pressed, else nothing.
-std::optional<std::string>
-typed_text(const char* label, const std::string& text, std::string_view hint);
+std::optional<std::string> typed_text(const char* label, const std::string& text, std::string_view hint);
 
 /// Makes a slider of how many aircraft fly, which takes effect when it is let go.
 void count_slider(std::vector<std::string>& aircraft);

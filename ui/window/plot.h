@@ -9,8 +9,8 @@
 
 namespace octant::ui::window {
 
-/// A plot of the last frames over the panel's width, with the newest at its right edge. It shows
-/// values from `least` to `most` and cuts off its lines there.
+/// A plot of the last frames over the panel's width, with the newest at its right edge. It shows values from `least` to
+/// `most` and cuts off its lines there.
 class FramePlot {
 public:
     FramePlot(float height_px, double least, double most);
@@ -32,17 +32,15 @@ public:
     template <class IsMarked>
     void marks(std::span<const Record> records, IsMarked is_marked, ImU32 colour) const {
         for (std::size_t i = 0; i < records.size(); ++i) {
-            if (is_marked(records[i])) {
-                mark(records.size() - i, colour);
-            }
+            if (is_marked(records[i])) { mark(records.size() - i, colour); }
         }
     }
 
     /// Draws a horizontal line at `value` with its name.
     void level(double value, const char* name, ImU32 colour) const;
 
-    /// Returns the index in `records`, which are the last frames, of the frame under the pointer;
-    /// `none` where the pointer is not over one.
+    /// Returns the index in `records`, which are the last frames, of the frame under the pointer; `none` where the
+    /// pointer is not over one.
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t pointed_at(std::span<const Record> records) const;
 
@@ -64,8 +62,8 @@ struct BarPart {
     ImU32 colour;
 };
 
-/// Draws the parts side by side over the panel's width, which stands for the larger of `whole` and
-/// their sum. A legend below the bar lists their values in `unit`.
+/// Draws the parts side by side over the panel's width, which stands for the larger of `whole` and their sum. A legend
+/// below the bar lists their values in `unit`.
 void stacked_bar(std::span<const BarPart> parts, double whole, const char* unit);
 
 } // namespace octant::ui::window

@@ -19,12 +19,11 @@ using settings::RunSettings;
 
 namespace {
 
-/// Makes the name of a setting beside the widget of its value, which is made while this object
-/// lives. Both show what the setting means as a tooltip.
+/// Makes the name of a setting beside the widget of its value, which is made while this object lives. Both show what
+/// the setting means as a tooltip.
 class Row {
 public:
-    explicit Row(const settings::SettingInfo& info)
-        : info_(info) {
+    explicit Row(const settings::SettingInfo& info) : info_(info) {
         ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
         ImGui::BeginGroup();
         width_ = value_width();
@@ -35,9 +34,7 @@ public:
         ImGui::SameLine();
         ImGui::TextUnformatted(info_.name.data(), info_.name.data() + info_.name.size());
         ImGui::EndGroup();
-        if (ImGui::IsItemHovered()) {
-            show_tooltip(tooltip_of(info_));
-        }
+        if (ImGui::IsItemHovered()) { show_tooltip(tooltip_of(info_)); }
         ImGui::PopID();
     }
 
@@ -53,19 +50,14 @@ private:
     float width_ = 0.0F;
 };
 
-/// Makes a list to choose from. Returns the index of a name that was picked, if any. `chosen` is
-/// the index of the current name, below zero where the list does not hold it.
-std::optional<int>
-choose(const std::string& shown, std::span<const std::string_view> names, int chosen) {
+/// Makes a list to choose from. Returns the index of a name that was picked, if any. `chosen` is the index of the
+/// current name, below zero where the list does not hold it.
+std::optional<int> choose(const std::string& shown, std::span<const std::string_view> names, int chosen) {
     std::optional<int> picked;
-    if (!ImGui::BeginCombo("##value", shown.c_str())) {
-        return picked;
-    }
+    if (!ImGui::BeginCombo("##value", shown.c_str())) { return picked; }
     for (int i = 0; i < static_cast<int>(names.size()); ++i) {
         const std::string name(names[static_cast<std::size_t>(i)]);
-        if (ImGui::Selectable(name.c_str(), i == chosen) && i != chosen) {
-            picked = i;
-        }
+        if (ImGui::Selectable(name.c_str(), i == chosen) && i != chosen) { picked = i; }
     }
     ImGui::EndCombo();
     return picked;
@@ -83,8 +75,8 @@ bool edit_number(const settings::SettingInfo& info, Number& value) {
     bool changed = false;
     switch (number_style(info)) {
     case NumberStyle::Typed:
-        changed = ImGui::InputScalar(
-            "##value", type, &edited, nullptr, nullptr, form, ImGuiInputTextFlags_EnterReturnsTrue);
+        changed =
+            ImGui::InputScalar("##value", type, &edited, nullptr, nullptr, form, ImGuiInputTextFlags_EnterReturnsTrue);
         break;
     case NumberStyle::Drag:
         changed = ImGui::DragScalar("##value", type, &edited, drag_speed, &min_value, &max_value, form);
@@ -93,13 +85,11 @@ bool edit_number(const settings::SettingInfo& info, Number& value) {
         changed = ImGui::SliderScalar("##value", type, &edited, &min_value, &max_value, form);
         break;
     case NumberStyle::LogSlider:
-        changed = ImGui::SliderScalar(
-            "##value", type, &edited, &min_value, &max_value, form, ImGuiSliderFlags_Logarithmic);
+        changed =
+            ImGui::SliderScalar("##value", type, &edited, &min_value, &max_value, form, ImGuiSliderFlags_Logarithmic);
         break;
     }
-    if (!changed || !std::isfinite(static_cast<double>(edited))) {
-        return false;
-    }
+    if (!changed || !std::isfinite(static_cast<double>(edited))) { return false; }
     value = std::clamp(edited, min_value, max_value);
     return true;
 }
@@ -107,12 +97,9 @@ bool edit_number(const settings::SettingInfo& info, Number& value) {
 /// Makes a list of the only numbers that the setting takes. Returns whether another was picked.
 bool choose_number(const settings::SettingInfo& info, int& value) {
     bool changed = false;
-    if (!ImGui::BeginCombo("##value", settings::text_of(value).c_str())) {
-        return changed;
-    }
+    if (!ImGui::BeginCombo("##value", settings::text_of(value).c_str())) { return changed; }
     for (const int number : info.allowed_values) {
-        if (ImGui::Selectable(settings::text_of(number).c_str(), number == value) &&
-            number != value) {
+        if (ImGui::Selectable(settings::text_of(number).c_str(), number == value) && number != value) {
             value = number;
             changed = true;
         }
@@ -121,26 +108,18 @@ bool choose_number(const settings::SettingInfo& info, int& value) {
     return changed;
 }
 
-bool edit(const settings::SettingInfo& info, double& value) {
-    return edit_number(info, value);
-}
+bool edit(const settings::SettingInfo& info, double& value) { return edit_number(info, value); }
 
 bool edit(const settings::SettingInfo& info, int& value) {
     return info.allowed_values.empty() ? edit_number(info, value) : choose_number(info, value);
 }
 
-bool edit(const settings::SettingInfo& /*info*/, bool& value) {
-    return ImGui::Checkbox("##value", &value);
-}
+bool edit(const settings::SettingInfo& /*info*/, bool& value) { return ImGui::Checkbox("##value", &value); }
 
 bool edit(const settings::SettingInfo& info, std::string& value) {
-    if (!info.known.empty()) {
-        return choose_name(info, value, info.known);
-    }
+    if (!info.known.empty()) { return choose_name(info, value, info.known); }
     const auto typed = typed_text("##value", value, "");
-    if (!typed || typed->empty()) {
-        return false;
-    }
+    if (!typed || typed->empty()) { return false; }
     value = *typed;
     return true;
 }
@@ -148,18 +127,14 @@ bool edit(const settings::SettingInfo& info, std::string& value) {
 bool edit(const settings::SettingInfo& info, std::vector<std::string>& value) {
     const auto typed = typed_text("##value", comma_separated(value), info.form);
     const std::vector<std::string> names = typed ? split_at_commas(*typed) : std::vector<std::string>();
-    if (names.empty()) {
-        return false;
-    }
+    if (names.empty()) { return false; }
     value = names;
     return true;
 }
 
 bool edit(const settings::SettingInfo& info, glm::ivec2& value) {
     std::array<int, 2> edited{value.x, value.y};
-    if (!ImGui::InputInt2("##value", edited.data(), ImGuiInputTextFlags_EnterReturnsTrue)) {
-        return false;
-    }
+    if (!ImGui::InputInt2("##value", edited.data(), ImGuiInputTextFlags_EnterReturnsTrue)) { return false; }
     const auto bounded = [&info](int number) {
         return std::clamp(number, static_cast<int>(info.min_value), static_cast<int>(info.max_value));
     };
@@ -171,20 +146,11 @@ bool edit(const settings::SettingInfo& info, glm::dvec3& value) {
     std::array<double, 3> edited{value.x, value.y, value.z};
     constexpr float speed_m = 5.0F;
     if (!ImGui::DragScalarN(
-            "##value",
-            ImGuiDataType_Double,
-            edited.data(),
-            3,
-            speed_m,
-            &info.min_value,
-            &info.max_value,
-            "%.1f")) {
+            "##value", ImGuiDataType_Double, edited.data(), 3, speed_m, &info.min_value, &info.max_value, "%.1f")) {
         return false;
     }
     for (double& number : edited) {
-        if (!std::isfinite(number)) {
-            return false;
-        }
+        if (!std::isfinite(number)) { return false; }
         number = std::clamp(number, info.min_value, info.max_value);
     }
     value = {edited[0], edited[1], edited[2]};
@@ -210,9 +176,7 @@ bool edit(const settings::SettingInfo& /*info*/, glm::vec3& colour) {
 bool edit(const settings::SettingInfo& /*info*/, visuals::scene::Adaptation& adapt) {
     bool changed = false;
     for (const settings::AdaptationName& each : settings::adaptations) {
-        if (&each != &settings::adaptations.front()) {
-            ImGui::SameLine();
-        }
+        if (&each != &settings::adaptations.front()) { ImGui::SameLine(); }
         changed = ImGui::Checkbox(each.name.data(), &(adapt.*each.member)) || changed;
     }
     return changed;
@@ -222,11 +186,8 @@ template <class Enum>
 requires std::is_enum_v<Enum>
 
 bool edit(const settings::SettingInfo& /*info*/, Enum& value) {
-    const auto picked =
-        choose(settings::text_of(value), settings::names_of<Enum>(), static_cast<int>(value));
-    if (picked) {
-        value = static_cast<Enum>(*picked);
-    }
+    const auto picked = choose(settings::text_of(value), settings::names_of<Enum>(), static_cast<int>(value));
+    if (picked) { value = static_cast<Enum>(*picked); }
     return picked.has_value();
 }
 
@@ -249,9 +210,7 @@ bool edit(const settings::SettingInfo& info, std::optional<Enum>& value) {
 bool edit(const settings::SettingInfo& info, std::optional<std::string>& value) {
     const std::string hint(unset_meaning(info).empty() ? unset_word(info) : unset_meaning(info));
     const auto typed = typed_text("##value", value.value_or(""), hint);
-    if (!typed) {
-        return false;
-    }
+    if (!typed) { return false; }
     value = typed->empty() ? std::nullopt : typed;
     return true;
 }
@@ -273,9 +232,7 @@ bool edit(const settings::SettingInfo& info, std::optional<Value>& value) {
     bool unset = !value;
     const std::string word(unset_word(info));
     bool changed = ImGui::Checkbox(word.c_str(), &unset);
-    if (changed) {
-        value = unset ? std::nullopt : std::optional<Value>(started<Value>(info));
-    }
+    if (changed) { value = unset ? std::nullopt : std::optional<Value>(started<Value>(info)); }
     ImGui::SameLine();
     const float left = whole - (ImGui::GetCursorPosX() - from);
     if (value) {
@@ -299,12 +256,9 @@ struct RowOfWidgets {
 
 } // namespace
 
-bool choose_name(
-    const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names) {
+bool choose_name(const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names) {
     bool changed = false;
-    if (!ImGui::BeginCombo("##value", name.c_str())) {
-        return changed;
-    }
+    if (!ImGui::BeginCombo("##value", name.c_str())) { return changed; }
     for (const std::string_view each : names) {
         const std::string text(each);
         if (ImGui::Selectable(text.c_str(), each == name) && each != name) {
@@ -320,9 +274,7 @@ bool choose_name(
         name = *typed;
         ImGui::CloseCurrentPopup();
     }
-    if (ImGui::IsItemHovered()) {
-        show_tooltip(tooltip_of(info));
-    }
+    if (ImGui::IsItemHovered()) { show_tooltip(tooltip_of(info)); }
     ImGui::EndCombo();
     return changed;
 }
@@ -331,9 +283,7 @@ void edit_settings(RunSettings& settings, std::span<const std::string_view> name
     const RowOfWidgets row;
     for (const std::string_view name : names) {
         settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
-            if (info.name == name) {
-                row(info, value);
-            }
+            if (info.name == name) { row(info, value); }
         });
     }
 }
@@ -341,9 +291,7 @@ void edit_settings(RunSettings& settings, std::span<const std::string_view> name
 void edit_group(RunSettings& settings, settings::SettingGroup group) {
     const RowOfWidgets row;
     settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
-        if (info.group == group) {
-            row(info, value);
-        }
+        if (info.group == group) { row(info, value); }
     });
 }
 

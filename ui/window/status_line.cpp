@@ -15,15 +15,10 @@ namespace octant::ui::window {
 namespace {
 
 std::optional<ManualFlightStatus> manual_flight_status(const flight::Simulation& simulation) {
-    if (!simulation.by_hand()) {
-        return std::nullopt;
-    }
+    if (!simulation.by_hand()) { return std::nullopt; }
     const auto end = simulation.end_of_flight();
-    return ManualFlightStatus{
-        simulation.pilot().warnings(),
-        end.has_value(),
-        end.has_value() && *end == flight::Simulation::End::OffTheMap,
-        simulation.is_levelling()};
+    return ManualFlightStatus{simulation.pilot().warnings(), end.has_value(),
+        end.has_value() && *end == flight::Simulation::End::OffTheMap, simulation.is_levelling()};
 }
 
 const ImVec4 mark_colour{1.0F, 0.95F, 0.7F, 1.0F};
@@ -61,8 +56,8 @@ PanelArea panel_area_of(const ViewState& state, float status_height) {
     if (state.next_settings.view.inset) {
         const glm::ivec2& picture_px = state.next_settings.view.size_px;
         const auto inset = flight::inset_rectangle(picture_px);
-        const glm::vec2 share = glm::vec2(picture_px - glm::ivec2(inset.x, inset.y)) /
-                                glm::max(glm::vec2(picture_px), glm::vec2(1.0F));
+        const glm::vec2 share =
+            glm::vec2(picture_px - glm::ivec2(inset.x, inset.y)) / glm::max(glm::vec2(picture_px), glm::vec2(1.0F));
         constexpr float frame = 4.0F;
         area.inset = share * area.size + frame;
     }
@@ -74,9 +69,7 @@ PanelArea panel_area_of(const ViewState& state, float status_height) {
 float status_line(const ViewState& state, flight::Session& session, double now_s) {
     const auto marks = status_marks(state, manual_flight_status(session.simulation()));
     const bool speaks = now_s < state.message.until_s && !state.message.text.empty();
-    if (marks.empty() && !speaks) {
-        return 0.0F;
-    }
+    if (marks.empty() && !speaks) { return 0.0F; }
     constexpr float from_top = 6.0F;
     const float top = from_top * gui_scale();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -87,32 +80,23 @@ float status_line(const ViewState& state, flight::Session& session, double now_s
     const float share = below ? 1.0F : 0.0F;
     ImGui::SetNextWindowPos({left + 0.5F * width, at}, ImGuiCond_Always, {0.5F, share});
     ImGui::SetNextWindowBgAlpha(background_alpha);
-    ImGui::Begin(
-        "##status",
-        nullptr,
-        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-            ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
-            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    ImGui::Begin("##status", nullptr,
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     const float most = width - 2.0F * ImGui::GetStyle().WindowPadding.x;
     show_marks(marks, most);
-    if (speaks) {
-        show_wrapped(one_line(state.message.text), most);
-    }
+    if (speaks) { show_wrapped(one_line(state.message.text), most); }
     const float height = ImGui::GetWindowSize().y;
     ImGui::End();
     return below ? 0.0F : top + height;
 }
 
 void all_panels(ViewState& state, flight::Session& session, double now_s) {
-    if (state.order_numbers) {
-        write_order_numbers(session);
-    }
+    if (state.order_numbers) { write_order_numbers(session); }
     const float status_height = status_line(state, session, now_s);
     state.columns.lay_out(state.open, panel_area_of(state, status_height));
     leave_question(state);
-    if (!state.open.shown) {
-        return;
-    }
+    if (!state.open.shown) { return; }
     flight_panel(state, session);
     timing_panel(state);
     terrain_panel(state, session);

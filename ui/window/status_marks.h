@@ -26,8 +26,8 @@ struct ManualFlightStatus {
     bool levelling = false;
 };
 
-/// Returns those of the marks "REC folder", "paused", "x0.5", "x0.67 of real time", "by hand",
-/// "STALL", ... that hold now, in this order.
+/// Returns those of the marks "REC folder", "paused", "x0.5", "x0.67 of real time", "by hand", "STALL", ... that hold
+/// now, in this order.
 std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<ManualFlightStatus>& manual_flight);
 
 } // namespace octant::ui::window

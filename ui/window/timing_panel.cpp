@@ -56,47 +56,28 @@ void frame_time_plot(const ViewState& state) {
         records, [](const FrameRecord& record) { return record.overrun != 0; }, overrun_colour);
     if (const std::size_t at = plot.pointed_at(records); at != FramePlot::none) {
         const FrameRecord& record = records[at];
-        show_tooltip(fmt::format(
-            "frame {}: {:.2f} ms = sim {:.2f} + plan {:.2f} + draw {:.2f} + read {:.2f}",
-            record.frame,
-            record.frame_ms,
-            record.sim_ms,
-            record.plan_ms,
-            record.draw_ms,
-            record.read_ms));
+        show_tooltip(fmt::format("frame {}: {:.2f} ms = sim {:.2f} + plan {:.2f} + draw {:.2f} + read {:.2f}",
+            record.frame, record.frame_ms, record.sim_ms, record.plan_ms, record.draw_ms, record.read_ms));
     }
 }
 
 void show_stages(std::span<const FrameRecord> records) {
     const std::array parts{
+        BarPart{"sim", mean_of(records, [](const FrameRecord& r) { return r.sim_ms; }), IM_COL32(240, 180, 80, 255)},
+        BarPart{"plan", mean_of(records, [](const FrameRecord& r) { return r.plan_ms; }), IM_COL32(120, 210, 120, 255)},
+        BarPart{"draw", mean_of(records, [](const FrameRecord& r) { return r.draw_ms; }), IM_COL32(110, 170, 255, 255)},
         BarPart{
-            "sim",
-            mean_of(records, [](const FrameRecord& r) { return r.sim_ms; }),
-            IM_COL32(240, 180, 80, 255)},
-        BarPart{
-            "plan",
-            mean_of(records, [](const FrameRecord& r) { return r.plan_ms; }),
-            IM_COL32(120, 210, 120, 255)},
-        BarPart{
-            "draw",
-            mean_of(records, [](const FrameRecord& r) { return r.draw_ms; }),
-            IM_COL32(110, 170, 255, 255)},
-        BarPart{
-            "show",
-            mean_of(records, [](const FrameRecord& r) { return r.read_ms; }),
-            IM_COL32(210, 130, 230, 255)}};
+            "show", mean_of(records, [](const FrameRecord& r) { return r.read_ms; }), IM_COL32(210, 130, 230, 255)}};
     ImGui::BeginGroup();
     stacked_bar(parts, 1000.0 / 60.0, "ms");
     ImGui::EndGroup();
-    show_tooltip_on_hover(
-        "mean of the last 60 frames; the bar's width is 16.7 ms. sim: simulation steps, camera; "
-        "plan: what is drawn, in which order; draw: commands to the renderer; show: picture "
-        "finished and shown, with the wait for the display.");
+    show_tooltip_on_hover("mean of the last 60 frames; the bar's width is 16.7 ms. sim: simulation steps, camera; "
+                          "plan: what is drawn, in which order; draw: commands to the renderer; show: picture "
+                          "finished and shown, with the wait for the display.");
 }
 
 void show_percentiles(const report::Statistics& statistics) {
-    constexpr std::array<std::string_view, 5> shown{
-        "p50_ms", "p90_ms", "p99_ms", "max_ms", "low_1pct_fps"};
+    constexpr std::array<std::string_view, 5> shown{"p50_ms", "p90_ms", "p99_ms", "max_ms", "low_1pct_fps"};
     constexpr std::array<const char*, 5> names{"p50", "p90", "p99", "max", "1 % low"};
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const auto statistic = std::ranges::find(report::all_statistics(), shown[i], &report::Statistic::key);
@@ -106,9 +87,7 @@ void show_percentiles(const report::Statistics& statistics) {
         ImGui::Text(is_rate ? "%.1f/s" : "%.2f", statistic->value(statistics));
         ImGui::EndGroup();
         show_tooltip_on_hover(fmt::format("{}: {}", statistic->name, statistic->definition));
-        if (i + 1 < shown.size()) {
-            ImGui::SameLine(0.0F, ImGui::GetFontSize() * 1.2F);
-        }
+        if (i + 1 < shown.size()) { ImGui::SameLine(0.0F, ImGui::GetFontSize() * 1.2F); }
     }
 }
 
@@ -116,27 +95,21 @@ void show_clock(std::span<const FrameRecord> records) {
     const auto last = recent_records(records);
     ImGui::Text("%.1f frames/s, stress %.2f", frame_rate_hz(last), records.back().stress);
     show_tooltip_on_hover("stress: frame time over the frame's share of time; filtered where the terrain adapts");
-    const auto missed = std::ranges::count_if(
-        records, [](const FrameRecord& record) { return record.missed != 0; });
-    const auto overruns = std::ranges::count_if(
-        records, [](const FrameRecord& record) { return record.overrun != 0; });
-    ImGui::Text(
-        "latency %.1f ms, missed %ld, overruns %ld",
-        mean_of(last, [](const FrameRecord& record) { return record.latency_ms; }),
-        static_cast<long>(missed),
+    const auto missed = std::ranges::count_if(records, [](const FrameRecord& record) { return record.missed != 0; });
+    const auto overruns = std::ranges::count_if(records, [](const FrameRecord& record) { return record.overrun != 0; });
+    ImGui::Text("latency %.1f ms, missed %ld, overruns %ld",
+        mean_of(last, [](const FrameRecord& record) { return record.latency_ms; }), static_cast<long>(missed),
         static_cast<long>(overruns));
     show_tooltip_on_hover("latency: from the input that a picture shows to the picture finished, mean of the "
-            "last 60 frames. missed: pictures later than the next one was due; overruns: frames "
-            "above 16.67 ms; both of the last 300 frames.");
+                          "last 60 frames. missed: pictures later than the next one was due; overruns: frames "
+                          "above 16.67 ms; both of the last 300 frames.");
 }
 
 } // namespace
 
 void timing_panel(ViewState& state) {
     const Panel panel("Frame times", state.columns, state.open.timing);
-    if (!panel.is_seen()) {
-        return;
-    }
+    if (!panel.is_seen()) { return; }
     if (state.history.empty()) {
         ImGui::TextUnformatted("no frames yet");
         return;

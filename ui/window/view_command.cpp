@@ -1,4 +1,5 @@
 #include "ui/window/view_command.h"
+
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
@@ -33,8 +34,7 @@ struct WindowTimes {
     double p99_ms = 0.0;
 };
 
-/// Frame times of one flight without a window, in a window with hidden panels, and with open
-/// panels.
+/// Frame times of one flight without a window, in a window with hidden panels, and with open panels.
 struct WindowBench {
     WindowTimes without;
     WindowTimes hidden;
@@ -54,9 +54,8 @@ ViewOptions without_vsync_and_realtime(ViewOptions options) {
     return options;
 }
 
-/// Takes turns between the three ways, frame by frame, and times each whole turn, from the
-/// simulation to the picture read or shown with everything that the window does in between. Opens a
-/// window. Throws Error.
+/// Takes turns between the three ways, frame by frame, and times each whole turn, from the simulation to the picture
+/// read or shown with everything that the window does in between. Opens a window. Throws Error.
 WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
     Viewer viewer(without_vsync_and_realtime(options));
     settings::RunSettings settings = viewer.session().settings();
@@ -73,9 +72,7 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
         const auto timed = [&](std::vector<double>& all, const auto& work) {
             const base::Stopwatch watch;
             work();
-            if (frame >= warm_up_frames) {
-                all.push_back(watch.ms());
-            }
+            if (frame >= warm_up_frames) { all.push_back(watch.ms()); }
         };
         timed(without, [&] { session.draw(frame); });
         viewer.state().open.shown = false;
@@ -99,52 +96,37 @@ base::JsonValue figures_of(const WindowTimes& times) {
 }
 
 void print_bench_as_json(const WindowBench& bench) {
-    base::print_value(
-        {{"without_window", figures_of(bench.without)},
-         {"panels_hidden", figures_of(bench.hidden)},
-         {"panels_open", figures_of(bench.open)}},
+    base::print_value({{"without_window", figures_of(bench.without)}, {"panels_hidden", figures_of(bench.hidden)},
+                          {"panels_open", figures_of(bench.open)}},
         true);
 }
 
 void print_bench(const WindowBench& bench) {
     const auto line = [](std::string_view name, const WindowTimes& times, const std::string& rest) {
         std::fputs(
-            fmt::format("{:<28} {:>9.2f} {:>9.2f}  {}\n", name, times.median_ms, times.p99_ms, rest)
-                .c_str(),
-            stdout);
+            fmt::format("{:<28} {:>9.2f} {:>9.2f}  {}\n", name, times.median_ms, times.p99_ms, rest).c_str(), stdout);
     };
     std::fputs(fmt::format("{:<28} {:>9} {:>9}\n", "", "median ms", "p99 ms").c_str(), stdout);
     line("without a window", bench.without, "");
-    line(
-        "window, panels hidden",
-        bench.hidden,
+    line("window, panels hidden", bench.hidden,
         fmt::format("{:.2f} of it", bench.hidden.median_ms / bench.without.median_ms));
-    line(
-        "window, two panels open",
-        bench.open,
+    line("window, two panels open", bench.open,
         fmt::format("{:+.2f} ms", bench.open.median_ms - bench.hidden.median_ms));
 }
 
 void view(const ViewOptions& options, const std::vector<std::string>& given, bool quiet) {
     Viewer viewer(options);
     const world::World& world = viewer.session().world();
-    for (const std::string& note : world.notes) {
-        base::print_note(quiet, "note: " + note);
-    }
-    for (const std::string& note :
-         world::near_detail_warnings(world, options.settings.ground, given)) {
+    for (const std::string& note : world.notes) { base::print_note(quiet, "note: " + note); }
+    for (const std::string& note : world::near_detail_warnings(world, options.settings.ground, given)) {
         base::print_note(quiet, "note: " + note);
     }
     const base::StopSignals stop_signals;
     int frames = 0;
     while (viewer.run_frame() && !base::StopSignals::received()) {
-        if (options.settings.time.frames && ++frames >= *options.settings.time.frames) {
-            break;
-        }
+        if (options.settings.time.frames && ++frames >= *options.settings.time.frames) { break; }
     }
-    if (const auto report = viewer.finish_recording()) {
-        base::print_note(quiet, *report);
-    }
+    if (const auto report = viewer.finish_recording()) { base::print_note(quiet, *report); }
 }
 
 struct ViewWork {
@@ -157,8 +139,7 @@ struct ViewWork {
 
 void view_or_bench(ViewWork work) {
     if (work.view.settings.path.name == settings::live_path) {
-        throw Error(
-            "path: expected a path or a track, got 'live', which others fly: octant listen");
+        throw Error("path: expected a path or a track, got 'live', which others fly: octant listen");
     }
     if (work.json && !work.bench) {
         throw Error("--json: expected --bench beside it, as a window prints no figures, got none");
@@ -176,38 +157,22 @@ void view_or_bench(ViewWork work) {
 std::vector<commands::Option> options_of(ViewWork& work) {
     using namespace commands;
     ViewOptions& view = work.view;
-    std::vector<Option> table = {
-        flag("--by-hand", "in the pilot's hands from the start", view.by_hand),
+    std::vector<Option> table = {flag("--by-hand", "in the pilot's hands from the start", view.by_hand),
         flag("--full-screen", "fill the screen (F11)", view.full_screen),
-        flag(
-            "--vsync,!--no-vsync",
-            "one picture a refresh of the display; else as many as there can be",
-            view.vsync),
+        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be", view.vsync),
         flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels),
         text_option("--record", "DIR", "record from the first frame into this folder", view.record),
-        with_shown_default(
-            view.recordings_folder.string(),
+        with_shown_default(view.recordings_folder.string(),
             text_option(
-                "--records-into",
-                "DIR",
-                "where recordings (F9) and screenshots (F12) go",
-                view.recordings_folder)),
-        value_option(
-            {"bench",
-             "FRAMES",
-             "time so many frames without a window, with its panels hidden and with panels open, "
-             "in turn",
-             1,
-             100000},
+                "--records-into", "DIR", "where recordings (F9) and screenshots (F12) go", view.recordings_folder)),
+        value_option({"bench", "FRAMES",
+                         "time so many frames without a window, with its panels hidden and with panels open, "
+                         "in turn",
+                         1, 100000},
             work.bench),
-        list_option(
-            "--send",
-            "fdm|dis|xplane|cigi|tacview:HOST:PORT",
-            "send each picture's aircraft to another program, as octant fly --send",
-            Arity::Repeatable,
-            view.send),
-        flag("--json", "the times of --bench as JSON", work.json),
-        flag("--quiet", "no notes", work.quiet)};
+        list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
+            "send each picture's aircraft to another program, as octant fly --send", Arity::Repeatable, view.send),
+        flag("--json", "the times of --bench as JSON", work.json), flag("--quiet", "no notes", work.quiet)};
     add_setting_options(table, view.settings, &work.given);
     return table;
 }
@@ -218,8 +183,7 @@ commands::Command view_command() {
     auto work = std::make_shared<ViewWork>();
     work->view.settings.path.terrain = "canyon";
     work->view.recordings_folder = ".";
-    return {
-        .name = "view",
+    return {.name = "view",
         .summary = "Flies along a path or by hand in a window; F1 there lists its keys",
         .options = options_of(*work),
         .footer = "Examples:\n"

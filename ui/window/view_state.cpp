@@ -22,18 +22,12 @@ void RealTimeFactor::add(double passed_s, double flown_s) {
     }
 }
 
-double RealTimeFactor::share() const {
-    return passed_s_ > 0.0 ? std::clamp(flown_s_ / passed_s_, 0.0, 1.0) : 1.0;
-}
+double RealTimeFactor::share() const { return passed_s_ > 0.0 ? std::clamp(flown_s_ / passed_s_, 0.0, 1.0) : 1.0; }
 
 Playback::TimeChange Playback::advance(double wall_s, bool open_ended) {
-    if (!playing) {
-        return TimeChange::Advanced;
-    }
+    if (!playing) { return TimeChange::Advanced; }
     time_s += wall_s * speed;
-    if (open_ended || time_s <= end_s) {
-        return TimeChange::Advanced;
-    }
+    if (open_ended || time_s <= end_s) { return TimeChange::Advanced; }
     if (loops) {
         time_s = begin_s;
         return TimeChange::Restarted;
@@ -48,8 +42,6 @@ void Playback::step_frame(double frame_s, bool open_ended) {
     time_s = open_ended ? time_s + frame_s : std::min(time_s + frame_s, end_s);
 }
 
-void Playback::change_speed(int steps) {
-    speed = std::clamp(speed * std::pow(2.0, steps), slowest, fastest);
-}
+void Playback::change_speed(int steps) { speed = std::clamp(speed * std::pow(2.0, steps), slowest, fastest); }
 
 } // namespace octant::ui::window

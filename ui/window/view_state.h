@@ -14,8 +14,8 @@
 
 namespace octant::ui::window {
 
-/// How much of the last two seconds a window flew. Turns that take very long count only in part, so
-/// that the flight does not jump; time is lost then.
+/// How much of the last two seconds a window flew. Turns that take very long count only in part, so that the flight
+/// does not jump; time is lost then.
 class RealTimeFactor {
 public:
     /// Adds a turn that took `passed_s`, of which `flown_s` count.
@@ -38,8 +38,8 @@ private:
 /// Below this share a person should know that the flight is slower than real time.
 inline constexpr double full_speed_share = 0.97;
 
-/// The state of playing a path: its time, speed and limits. It reads no clock; callers hand in how
-/// much wall time has passed.
+/// The state of playing a path: its time, speed and limits. It reads no clock; callers hand in how much wall time has
+/// passed.
 struct Playback {
     static constexpr double slowest = 0.1;
     static constexpr double fastest = 10.0;
@@ -61,8 +61,8 @@ struct Playback {
         Restarted
     };
 
-    /// Lets `wall_s` seconds of wall time pass. At its end the path begins anew or stops, unless
-    /// the flight is `open_ended`, as one by hand is.
+    /// Lets `wall_s` seconds of wall time pass. At its end the path begins anew or stops, unless the flight is
+    /// `open_ended`, as one by hand is.
     TimeChange advance(double wall_s, bool open_ended);
 
     /// Advances by one frame of `frame_s` simulated seconds and pauses.
@@ -72,8 +72,7 @@ struct Playback {
     void change_speed(int steps);
 };
 
-/// What panels and keys ask for beside settings. The viewer fulfils requests before the next frame
-/// and clears them.
+/// What panels and keys ask for beside settings. The viewer fulfils requests before the next frame and clears them.
 struct ViewRequests {
     /// Go to this time of the path.
     std::optional<double> go_to_s;
@@ -116,8 +115,7 @@ struct ViewState {
     OpenPanels open;
     PanelColumns columns;
     KeyMap keys;
-    /// Where a person's own keys are read from, and what was wrong in it; empty where nothing is
-    /// kept.
+    /// Where a person's own keys are read from, and what was wrong in it; empty where nothing is kept.
     std::filesystem::path keys_file;
     bool keys_file_exists = false;
     std::vector<std::string> key_errors;

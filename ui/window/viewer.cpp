@@ -4,8 +4,8 @@
 #include "ui/base/data_files.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/settings/settings_change.h"
-#include "ui/window/gui.h"
 #include "ui/window/camera_control.h"
+#include "ui/window/gui.h"
 #include "ui/window/panels.h"
 #include "ui/world/sun_at_time.h"
 #include "visuals/gl/make_renderer.h"
@@ -53,9 +53,7 @@ bool gl_draws(const gl::WindowContext& context, const settings::RunSettings& set
 
 } // namespace
 
-Viewer::Viewer(const ViewOptions& options)
-    : options_(options)
-    , sender_(options.send) {
+Viewer::Viewer(const ViewOptions& options) : options_(options), sender_(options.send) {
     std::shared_ptr<gl::WindowContext> context = open_window(options);
     context_ = context.get();
     input_.emplace(context_->window());
@@ -83,23 +81,16 @@ Viewer::Viewer(const ViewOptions& options)
         toggle_manual_flight();
         session_->simulation().start_level();
     }
-    if (options.full_screen) {
-        toggle_full_screen();
-    }
-    for (const std::string& note : session_->world().notes) {
-        show_message(note);
-    }
-    if (options.record) {
-        start_recording(*options.record);
-    }
+    if (options.full_screen) { toggle_full_screen(); }
+    for (const std::string& note : session_->world().notes) { show_message(note); }
+    if (options.record) { start_recording(*options.record); }
     clock_ = base::Stopwatch();
 }
 
 std::unique_ptr<scene::Renderer> Viewer::make_renderer(
     std::shared_ptr<gl::WindowContext> context, const settings::RunSettings& settings) {
     if (gl_draws(*context, settings)) {
-        return gl::make_renderer(
-            std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
+        return gl::make_renderer(std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
     }
     painter_ = std::make_shared<gl::PicturePainter>(std::move(context));
     return flight::make_raster_renderer(settings, painter_);
@@ -112,16 +103,12 @@ void Viewer::present(scene::Renderer& renderer) {
         renderer.copy_to_window(size_px);
         return;
     }
-    if (painter_ ? renderer.is_drawn_to_window() : !renderer.is_drawn_to_window()) {
-        renderer.copy_to_window(size_px);
-    }
+    if (painter_ ? renderer.is_drawn_to_window() : !renderer.is_drawn_to_window()) { renderer.copy_to_window(size_px); }
     gui_->draw(size_px);
     context_->swap_buffers();
 }
 
-GLFWwindow* Viewer::window() const {
-    return context_->window();
-}
+GLFWwindow* Viewer::window() const { return context_->window(); }
 
 Viewer::~Viewer() {
     save_layout();
@@ -132,9 +119,7 @@ Viewer::~Viewer() {
     }
 }
 
-void Viewer::show_message(const std::string& text) {
-    state_.message = {text, clock_.s() + message_s};
-}
+void Viewer::show_message(const std::string& text) { state_.message = {text, clock_.s() + message_s}; }
 
 void Viewer::restart_playback() {
     const sim::Trajectory& path = session_->world().flight.trajectory;
@@ -149,13 +134,9 @@ bool Viewer::run_frame() {
     const double now_s = clock_.s();
     const double passed_s = now_s - last_frame_s_;
     const double wall_s = std::min(passed_s, max_frame_s);
-    if (state_.playback.playing) {
-        state_.real_time_factor.add(passed_s, wall_s);
-    }
+    if (state_.playback.playing) { state_.real_time_factor.add(passed_s, wall_s); }
     last_frame_s_ = now_s;
-    if (std::exchange(vsync_is_active_, state_.vsync) != state_.vsync) {
-        context_->wait_for_refresh(state_.vsync);
-    }
+    if (std::exchange(vsync_is_active_, state_.vsync) != state_.vsync) { context_->wait_for_refresh(state_.vsync); }
     glfwPollEvents();
     fit_to_window();
     gui_->begin_frame();
@@ -167,8 +148,8 @@ bool Viewer::run_frame() {
     if (state_.playback.playing && session_->simulation().end_of_flight()) {
         state_.playback.playing = false;
         show_message(session_->simulation().end_of_flight() == flight::Simulation::End::OffTheMap
-                ? "the edge of the map ends the flight: H goes back to the path"
-                : "the ground ends the flight: T flies on above it, H goes back to the path");
+                         ? "the edge of the map ends the flight: H goes back to the path"
+                         : "the ground ends the flight: T flies on above it, H goes back to the path");
     }
     const bool open_ended = session_->simulation().by_hand() || listener_ != nullptr;
     if (state_.playback.advance(wall_s, open_ended) == Playback::TimeChange::Restarted) {
@@ -189,13 +170,9 @@ bool Viewer::run_frame() {
 /// Whether the window was told to close. While a recording is being made, the first time only asks.
 bool Viewer::should_close() {
     const bool by_display = glfwWindowShouldClose(window()) != GLFW_FALSE;
-    if (!by_display && !state_.requests.leave && !state_.requests.leave_recording) {
-        return false;
-    }
+    if (!by_display && !state_.requests.leave && !state_.requests.leave_recording) { return false; }
     const bool asked = state_.open.leave_question && by_display;
-    if ((!recording_ && !live_recorder_) || asked || state_.requests.leave_recording) {
-        return true;
-    }
+    if ((!recording_ && !live_recorder_) || asked || state_.requests.leave_recording) { return true; }
     state_.requests.leave = false;
     state_.open.leave_question = true;
     glfwSetWindowShouldClose(window(), GLFW_FALSE);
@@ -216,15 +193,11 @@ void Viewer::handle_input(double wall_s) {
     input_s_ = clock_.s();
     const bool typing = gui_->wants_keys();
     if (!typing) {
-        for (const WindowEvents::Key& key : events.keys) {
-            press(key);
-        }
+        for (const WindowEvents::Key& key : events.keys) { press(key); }
         move_free_camera(wall_s);
     }
     const GamepadButtons pressed = input_->pad_buttons();
-    for (const ViewCommand what : pad_commands(state_.keys, previous_pad_buttons_, pressed)) {
-        command(what);
-    }
+    for (const ViewCommand what : pad_commands(state_.keys, previous_pad_buttons_, pressed)) { command(what); }
     previous_pad_buttons_ = pressed;
     fly_by_hand(wall_s, typing);
     if (!gui_->wants_pointer()) {
@@ -232,9 +205,7 @@ void Viewer::handle_input(double wall_s) {
         if (events.dragged != glm::vec2(0.0F)) {
             state_.next_settings = dragged(state_.next_settings, events.dragged / height);
         }
-        if (events.wheel_clicks != 0.0) {
-            state_.next_settings = zoomed(state_.next_settings, events.wheel_clicks);
-        }
+        if (events.wheel_clicks != 0.0) { state_.next_settings = zoomed(state_.next_settings, events.wheel_clicks); }
     }
 }
 
@@ -244,8 +215,7 @@ void Viewer::move_free_camera(double wall_s) {
     const auto sense = [&](A more, A less) {
         return static_cast<int>(is_down(more)) - static_cast<int>(is_down(less));
     };
-    const FreeMove move{
-        .right = sense(A::CameraRight, A::CameraLeft),
+    const FreeMove move{.right = sense(A::CameraRight, A::CameraLeft),
         .up = sense(A::CameraUp, A::CameraDown),
         .ahead = sense(A::CameraAhead, A::CameraBack),
         .fast = is_down(A::CameraFast)};
@@ -254,16 +224,10 @@ void Viewer::move_free_camera(double wall_s) {
 
 void Viewer::fly_by_hand(double wall_s, bool typing) {
     flight::Simulation& simulation = session_->simulation();
-    if (!simulation.by_hand()) {
-        return;
-    }
+    if (!simulation.by_hand()) { return; }
     PilotDevices devices = input_->pilot_devices(state_.keys);
-    if (typing) {
-        devices.keys = {};
-    }
-    if (simulation.is_levelling() && !moves_controls(devices)) {
-        return;
-    }
+    if (typing) { devices.keys = {}; }
+    if (simulation.is_levelling() && !moves_controls(devices)) { return; }
     simulation.set_controls(controls_after(simulation.controls(), devices, wall_s));
 }
 
@@ -278,20 +242,14 @@ void Viewer::apply_next_settings() {
         next_settings = session_->settings();
         return;
     }
-    if (listener_) {
-        next_settings.path.name = settings::live_path;
-    }
-    next_settings = world::with_sun_updated(
-        std::move(next_settings), session_->settings(), session_->world().ground_place);
-    if (next_settings == session_->settings()) {
-        return;
-    }
-    const bool other_flight = settings::change_between(session_->settings(), state_.next_settings) >=
-                              settings::SettingsChange::World;
+    if (listener_) { next_settings.path.name = settings::live_path; }
+    next_settings =
+        world::with_sun_updated(std::move(next_settings), session_->settings(), session_->world().ground_place);
+    if (next_settings == session_->settings()) { return; }
+    const bool other_flight =
+        settings::change_between(session_->settings(), state_.next_settings) >= settings::SettingsChange::World;
     try {
-        if (other_flight && recording_) {
-            throw Error("a recording keeps what is loaded: stop it first (F9)");
-        }
+        if (other_flight && recording_) { throw Error("a recording keeps what is loaded: stop it first (F9)"); }
         session_->apply(state_.next_settings);
     } catch (const Error& fault) {
         show_message(fault.what());
@@ -307,16 +265,15 @@ void Viewer::apply_next_settings() {
     }
 }
 
-/// Shows the picture whose time was chosen a turn ago, and begins the ground of the next one, where
-/// the ground is meshed ahead.
+/// Shows the picture whose time was chosen a turn ago, and begins the ground of the next one, where the ground is
+/// meshed ahead.
 void Viewer::draw() {
     const double next_s = state_.playback.time_s;
     const bool ahead = session_->settings().ground.mesh_async;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
     session_->pictures().set_window_target(input_->size_px());
-    report::FrameRecord record =
-        session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
+    report::FrameRecord record = session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
     const double now_s = clock_.s();
     record.latency_ms = 1000.0 * (now_s - (ahead ? shown_input_s_ : input_of_next_s));
     record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
@@ -330,13 +287,9 @@ void Viewer::draw() {
 
 /// Waits for the display's next refresh where the driver does not do so itself.
 void Viewer::wait_for_display(double turn_began_s) const {
-    if (!state_.vsync) {
-        return;
-    }
+    if (!state_.vsync) { return; }
     const double left_s = 1.0 / refresh_hz_ - (clock_.s() - turn_began_s);
-    if (left_s > 0.0) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
-    }
+    if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
 }
 
 } // namespace octant::ui::window

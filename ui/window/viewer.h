@@ -44,8 +44,8 @@ struct ViewOptions {
     std::optional<std::filesystem::path> record;
     /// The folder in which recordings and pictures get folders of their own.
     std::filesystem::path recordings_folder;
-    /// The user's own folder for the layout of panels and the mark that the first steps were shown;
-    /// an empty path keeps nothing.
+    /// The user's own folder for the layout of panels and the mark that the first steps were shown; an empty path keeps
+    /// nothing.
     std::filesystem::path config_folder;
     /// Others fly, by packets.
     std::optional<flight::ListenerOptions> listener;
@@ -55,8 +55,8 @@ struct ViewOptions {
     std::vector<std::string> send;
 };
 
-/// A window in which a flight is seen and flown: keys, mouse and panels change a ViewState, the
-/// session draws what it asks for.
+/// A window in which a flight is seen and flown: keys, mouse and panels change a ViewState, the session draws what it
+/// asks for.
 class Viewer {
 public:
     /// Opens the window and loads the world. Throws Error.
@@ -67,12 +67,11 @@ public:
     Viewer(Viewer&&) = delete;
     Viewer& operator=(Viewer&&) = delete;
 
-    /// Handles all input since the last turn and shows the next picture. Returns false when the
-    /// window is to be closed. Throws Error (driver, disk full).
+    /// Handles all input since the last turn and shows the next picture. Returns false when the window is to be closed.
+    /// Throws Error (driver, disk full).
     bool run_frame();
 
-    /// Ends the recording, if there is one, and returns the line that says where its report is.
-    /// Throws Error.
+    /// Ends the recording, if there is one, and returns the line that says where its report is. Throws Error.
     std::optional<std::string> finish_recording();
 
     const Gui& gui() const { return *gui_; }

@@ -23,18 +23,14 @@ namespace {
 
 constexpr std::size_t largest_layout_bytes = std::size_t{64} << 10;
 
-fs::path layout_file(const fs::path& folder) {
-    return folder.empty() ? fs::path() : folder / "layout.ini";
-}
+fs::path layout_file(const fs::path& folder) { return folder.empty() ? fs::path() : folder / "layout.ini"; }
 
 } // namespace
 
-/// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is
-/// kept and the viewer works all the same.
+/// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is kept and the viewer
+/// works all the same.
 void Viewer::read_layout() {
-    if (options_.config_folder.empty()) {
-        return;
-    }
+    if (options_.config_folder.empty()) { return; }
     const fs::path file = layout_file(options_.config_folder);
     try {
         make_folder(options_.config_folder);
@@ -50,31 +46,23 @@ void Viewer::read_layout() {
 
 /// Lines of the file of keys that are wrong are told and left out.
 void Viewer::read_keys() {
-    if (options_.config_folder.empty()) {
-        return;
-    }
+    if (options_.config_folder.empty()) { return; }
     state_.keys_file = options_.config_folder / "keys";
     state_.keys_file_exists = path_exists(state_.keys_file);
     KeyMapFile read = read_key_map(state_.keys_file);
     state_.keys = std::move(read.keys);
     state_.key_errors = std::move(read.errors);
     input_->set_look_button(state_.keys.look_button);
-    for (const std::string& fault : state_.key_errors) {
-        base::print_note(false, fault);
-    }
+    for (const std::string& fault : state_.key_errors) { base::print_note(false, fault); }
 }
 
 void Viewer::save_layout() noexcept {
     layout_saved_s_ = last_frame_s_;
-    if (options_.config_folder.empty()) {
-        return;
-    }
+    if (options_.config_folder.empty()) { return; }
     try {
         saved_layout_ = state_.columns.user_placed();
         write_file(layout_file(options_.config_folder), text_of_layout(*saved_layout_));
-    } catch (const std::exception&) {
-        options_.config_folder.clear();
-    }
+    } catch (const std::exception&) { options_.config_folder.clear(); }
 }
 
 void Viewer::handle_file_requests(const ViewRequests& requests) {
@@ -95,9 +83,7 @@ void Viewer::handle_file_requests(const ViewRequests& requests) {
             state_.next_settings.drawing.context = settings::ContextKind::Window;
             fit_to_window();
         }
-    } catch (const Error& fault) {
-        show_message(fault.what());
-    }
+    } catch (const Error& fault) { show_message(fault.what()); }
 }
 
 } // namespace octant::ui::window

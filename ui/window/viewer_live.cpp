@@ -19,9 +19,7 @@ double Viewer::receive_packets() {
     try {
         return *listener_->take(*session_); // not in steps: always a picture
     } catch (const Error& fault) {
-        if (!live_recorder_) {
-            throw;
-        }
+        if (!live_recorder_) { throw; }
         drop_recording();
         show_message(fault.what());
         return *listener_->take(*session_);
@@ -31,9 +29,7 @@ double Viewer::receive_packets() {
 /// Shows what has come up to now.
 void Viewer::draw_live() {
     const double time_s = receive_packets();
-    for (const std::string& line : listener_->take_new_messages()) {
-        base::print_note(options_.quiet, line);
-    }
+    for (const std::string& line : listener_->take_new_messages()) { base::print_note(options_.quiet, line); }
     state_.next_settings.air = session_->settings().air; // a host may have told another
     const bool records = live_recorder_.has_value();
     session_->pictures().set_reads_before_presenting(records);

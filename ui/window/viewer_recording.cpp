@@ -15,10 +15,8 @@ namespace fs = std::filesystem;
 void Viewer::start_live_recording(const fs::path& folder) {
     settings::RunSettings settings = world::with_absolute_paths(session_->settings());
     settings.drawing.context = settings::ContextKind::OsMesa;
-    live_recorder_.emplace(
-        flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .batch_context = {}},
-        settings,
-        *session_);
+    live_recorder_.emplace(flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .batch_context = {}},
+        settings, *session_);
     listener_->start_packet_recording(folder);
     state_.recording = folder;
     show_message(fmt::format("recording into {}: the view stays as it is", folder.string()));
@@ -43,12 +41,8 @@ void Viewer::start_recording(const fs::path& folder) {
 }
 
 std::optional<std::string> Viewer::finish_recording() {
-    if (live_recorder_) {
-        return finish_live_recording();
-    }
-    if (!recording_) {
-        return std::nullopt;
-    }
+    if (live_recorder_) { return finish_live_recording(); }
+    if (!recording_) { return std::nullopt; }
     const std::string line = recording_->finish(*session_);
     recording_.reset();
     state_.recording.reset();
@@ -76,18 +70,14 @@ void Viewer::toggle_recording() {
 void Viewer::drop_recording() {
     recording_.reset();
     live_recorder_.reset();
-    if (listener_) {
-        listener_->drop_recording();
-    }
+    if (listener_) { listener_->drop_recording(); }
     state_.recording.reset();
     session_->simulation().stop_log();
 }
 
 void Viewer::record_frame(const report::FrameRecord& record) {
     try {
-        if (recording_) {
-            recording_->add(record, *session_);
-        }
+        if (recording_) { recording_->add(record, *session_); }
         if (live_recorder_) {
             session_->read_picture();
             live_recorder_->add(record, *session_);

@@ -28,8 +28,7 @@ constexpr double skip_s = 2.0;
 
 void next_inset(settings::RunSettings& settings) {
     using scene::View;
-    constexpr std::array<std::optional<View>, 4> turns{
-        std::nullopt, View::Chase, View::Cockpit, View::Tower};
+    constexpr std::array<std::optional<View>, 4> turns{std::nullopt, View::Chase, View::Cockpit, View::Tower};
     const auto at = std::ranges::find(turns, settings.view.inset);
     settings.view.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
 }
@@ -38,35 +37,27 @@ void next_mesh_look(settings::RunSettings& settings) {
     using scene::MeshDisplay;
     settings.ground.show_mesh = settings.ground.show_mesh == MeshDisplay::None    ? MeshDisplay::Edges
                                 : settings.ground.show_mesh == MeshDisplay::Edges ? MeshDisplay::Levels
-                                                                               : MeshDisplay::None;
+                                                                                  : MeshDisplay::None;
 }
 
 } // namespace
 
 void Viewer::press(const WindowEvents::Key& key) {
-    if (const auto what = state_.keys.command_of(key.key, key.repeats)) {
-        command(*what);
-    }
+    if (const auto what = state_.keys.command_of(key.key, key.repeats)) { command(*what); }
 }
 
 /// Whoever uses a key has begun: the first steps no longer cover the picture.
 void Viewer::command(ViewCommand what) {
     state_.open.first_steps = false;
-    if (!view_command(what) && !panel_command(what)) {
-        flight_command(what);
-    }
+    if (!view_command(what) && !panel_command(what)) { flight_command(what); }
 }
 
 /// Carries out a command that changes the view. Returns false for any other command.
 bool Viewer::view_command(ViewCommand what) {
     using C = ViewCommand;
     using scene::View;
-    constexpr std::array<std::pair<C, View>, 5> views{
-        {{C::Cockpit, View::Cockpit},
-         {C::Chase, View::Chase},
-         {C::Tower, View::Tower},
-         {C::Orbit, View::Orbit},
-         {C::Free, View::Free}}};
+    constexpr std::array<std::pair<C, View>, 5> views{{{C::Cockpit, View::Cockpit}, {C::Chase, View::Chase},
+        {C::Tower, View::Tower}, {C::Orbit, View::Orbit}, {C::Free, View::Free}}};
     const auto view = std::ranges::find(views, what, &std::pair<C, View>::first);
     if (view != views.end()) {
         state_.next_settings = with_view(state_.next_settings, view->second, session_->camera());
@@ -85,15 +76,10 @@ bool Viewer::view_command(ViewCommand what) {
 /// Carries out a command that opens or closes panels. Returns false for any other command.
 bool Viewer::panel_command(ViewCommand what) {
     using C = ViewCommand;
-    constexpr std::array<std::pair<C, bool OpenPanels::*>, 8> panels{
-        {{C::FlightPanel, &OpenPanels::flight},
-         {C::TimingPanel, &OpenPanels::timing},
-         {C::TerrainPanel, &OpenPanels::terrain},
-         {C::DrawOrderPanel, &OpenPanels::draw_order},
-         {C::AircraftPanel, &OpenPanels::aircraft},
-         {C::ScenePanel, &OpenPanels::scene},
-         {C::SettingsPanel, &OpenPanels::settings},
-         {C::Help, &OpenPanels::help}}};
+    constexpr std::array<std::pair<C, bool OpenPanels::*>, 8> panels{{{C::FlightPanel, &OpenPanels::flight},
+        {C::TimingPanel, &OpenPanels::timing}, {C::TerrainPanel, &OpenPanels::terrain},
+        {C::DrawOrderPanel, &OpenPanels::draw_order}, {C::AircraftPanel, &OpenPanels::aircraft},
+        {C::ScenePanel, &OpenPanels::scene}, {C::SettingsPanel, &OpenPanels::settings}, {C::Help, &OpenPanels::help}}};
     OpenPanels& open = state_.open;
     const auto panel = std::ranges::find(panels, what, &std::pair<C, bool OpenPanels::*>::first);
     if (panel != panels.end()) {
@@ -116,9 +102,7 @@ void Viewer::flight_command(ViewCommand what) {
     switch (what) {
     case C::PlayOrPause:
         playback.playing = !playback.playing;
-        if (playback.playing && at_the_end) {
-            requests.go_to_s = playback.begin_s;
-        }
+        if (playback.playing && at_the_end) { requests.go_to_s = playback.begin_s; }
         return;
     case C::StepFrame:
         requests.step_frame = true;
@@ -155,8 +139,7 @@ void Viewer::flight_command(ViewCommand what) {
         requests.toggle_full_screen = true;
         return;
     case C::Leave:
-        requests.leave = !std::exchange(state_.open.leave_question, false) &&
-                         !std::exchange(state_.open.help, false);
+        requests.leave = !std::exchange(state_.open.leave_question, false) && !std::exchange(state_.open.help, false);
         return;
     default:
         return;
@@ -168,39 +151,25 @@ void Viewer::handle_requests() {
     state_.requests.leave = requests.leave;
     state_.requests.leave_recording = requests.leave_recording;
     handle_flight_requests(requests);
-    if (requests.toggle_recording) {
-        toggle_recording();
-    }
-    if (requests.screenshot) {
-        take_screenshot();
-    }
-    if (requests.toggle_full_screen) {
-        toggle_full_screen();
-    }
-    if (requests.count_wrong_pixels) {
-        count_wrong_pixels();
-    }
+    if (requests.toggle_recording) { toggle_recording(); }
+    if (requests.screenshot) { take_screenshot(); }
+    if (requests.toggle_full_screen) { toggle_full_screen(); }
+    if (requests.count_wrong_pixels) { count_wrong_pixels(); }
     handle_file_requests(requests);
 }
 
 void Viewer::handle_flight_requests(const ViewRequests& requests) {
     if (listener_) {
-        if (requests.toggle_manual_flight || requests.go_to_s) {
-            show_message("others fly this aircraft");
-        }
+        if (requests.toggle_manual_flight || requests.go_to_s) { show_message("others fly this aircraft"); }
         return;
     }
-    if (requests.toggle_manual_flight) {
-        toggle_manual_flight();
-    }
+    if (requests.toggle_manual_flight) { toggle_manual_flight(); }
     flight::Simulation& simulation = session_->simulation();
     if (requests.level_off && simulation.by_hand()) {
         simulation.level_off();
         state_.playback.playing = true;
     }
-    if (requests.step_frame) {
-        state_.playback.step_frame(1.0 / session_->rate_hz(), simulation.by_hand());
-    }
+    if (requests.step_frame) { state_.playback.step_frame(1.0 / session_->rate_hz(), simulation.by_hand()); }
     if (requests.go_to_s && recording_) {
         show_message("a recording goes on in time: stop it first (F9)");
     } else if (requests.go_to_s && simulation.by_hand()) {
@@ -213,15 +182,12 @@ void Viewer::handle_flight_requests(const ViewRequests& requests) {
 void Viewer::go_to(double time_s) {
     Playback& playback = state_.playback;
     playback.time_s = std::clamp(time_s, playback.begin_s, playback.end_s);
-    if (recording_) {
-        toggle_recording();
-    }
+    if (recording_) { toggle_recording(); }
     session_->begin_at(playback.time_s);
     shown_s_ = playback.time_s;
 }
 
-/// Gives the aircraft to the pilot or back to the path, which goes on from where it is at that
-/// time.
+/// Gives the aircraft to the pilot or back to the path, which goes on from where it is at that time.
 void Viewer::toggle_manual_flight() {
     flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
@@ -231,15 +197,10 @@ void Viewer::toggle_manual_flight() {
         simulation.take_over(kind);
         state_.playback.playing = true;
         const KeyMap& keys = state_.keys;
-        show_message(fmt::format(
-            "by hand{}: {}, {}, {} and {} are the stick, {} and {} the throttle, {} gives it back",
-            aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name),
-            keys.name_of(HeldAction::Pull),
-            keys.name_of(HeldAction::Push),
-            keys.name_of(HeldAction::RollLeft),
-            keys.name_of(HeldAction::RollRight),
-            keys.name_of(HeldAction::ThrottleUp),
-            keys.name_of(HeldAction::ThrottleDown),
+        show_message(fmt::format("by hand{}: {}, {}, {} and {} are the stick, {} and {} the throttle, {} gives it back",
+            aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name), keys.name_of(HeldAction::Pull),
+            keys.name_of(HeldAction::Push), keys.name_of(HeldAction::RollLeft), keys.name_of(HeldAction::RollRight),
+            keys.name_of(HeldAction::ThrottleUp), keys.name_of(HeldAction::ThrottleDown),
             keys.name_of(ViewCommand::ManualFlight)));
         return;
     }
@@ -250,9 +211,7 @@ void Viewer::toggle_manual_flight() {
 fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
     for (int number = 1;; ++number) {
         const fs::path path = options_.recordings_folder / fmt::format("{}-{}{}", stem, number, ending);
-        if (!path_exists(path)) {
-            return path;
-        }
+        if (!path_exists(path)) { return path; }
     }
 }
 
@@ -262,31 +221,21 @@ void Viewer::take_screenshot() {
         session_->read_picture();
         report::write_png(file, flight::pixel_view_of(session_->picture()));
         show_message(fmt::format("picture: {}", file.string()));
-    } catch (const Error& fault) {
-        show_message(fault.what());
-    }
+    } catch (const Error& fault) { show_message(fault.what()); }
 }
 
 void Viewer::count_wrong_pixels() {
     try {
         const flight::PixelCheck check = flight::check_pixels(*session_);
         state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
-    } catch (const Error& fault) {
-        show_message(fault.what());
-    }
+    } catch (const Error& fault) { show_message(fault.what()); }
 }
 
 void Viewer::toggle_full_screen() {
     GLFWwindow* const window = this->window();
     if (glfwGetWindowMonitor(window) != nullptr) {
-        glfwSetWindowMonitor(
-            window,
-            nullptr,
-            windowed_position_.x,
-            windowed_position_.y,
-            windowed_size_.x,
-            windowed_size_.y,
-            GLFW_DONT_CARE);
+        glfwSetWindowMonitor(window, nullptr, windowed_position_.x, windowed_position_.y, windowed_size_.x,
+            windowed_size_.y, GLFW_DONT_CARE);
         return;
     }
     GLFWmonitor* const monitor = glfwGetPrimaryMonitor();

@@ -21,17 +21,14 @@ struct WindowCallbacks {
         }
     }
 
-    static void wheel(GLFWwindow* window, double /*x*/, double y) {
-        input_of(window).events_.wheel_clicks += y;
-    }
+    static void wheel(GLFWwindow* window, double /*x*/, double y) { input_of(window).events_.wheel_clicks += y; }
 
     static void pointer(GLFWwindow* window, double x, double y) {
         input_of(window).move_pointer(glm::vec2(static_cast<float>(x), static_cast<float>(y)));
     }
 };
 
-WindowInput::WindowInput(GLFWwindow* window)
-    : window_(window) {
+WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, WindowCallbacks::key);
     glfwSetScrollCallback(window, WindowCallbacks::wheel);
@@ -39,19 +36,13 @@ WindowInput::WindowInput(GLFWwindow* window)
 }
 
 void WindowInput::move_pointer(const glm::vec2& to) {
-    if (glfwGetMouseButton(window_, look_button_) == GLFW_PRESS) {
-        events_.dragged += to - pointer_;
-    }
+    if (glfwGetMouseButton(window_, look_button_) == GLFW_PRESS) { events_.dragged += to - pointer_; }
     pointer_ = to;
 }
 
-WindowEvents WindowInput::take() {
-    return std::exchange(events_, {});
-}
+WindowEvents WindowInput::take() { return std::exchange(events_, {}); }
 
-bool WindowInput::is_down(int key) const {
-    return key != GLFW_KEY_UNKNOWN && glfwGetKey(window_, key) == GLFW_PRESS;
-}
+bool WindowInput::is_down(int key) const { return key != GLFW_KEY_UNKNOWN && glfwGetKey(window_, key) == GLFW_PRESS; }
 
 GamepadButtons WindowInput::pad_buttons() const {
     GamepadButtons buttons{};
@@ -68,8 +59,7 @@ GamepadButtons WindowInput::pad_buttons() const {
 PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
     PilotDevices devices;
     const auto is_held = [&](HeldAction chosen_action) { return is_down(keys.key_of(chosen_action)); };
-    devices.keys = {
-        .pull = is_held(HeldAction::Pull),
+    devices.keys = {.pull = is_held(HeldAction::Pull),
         .push = is_held(HeldAction::Push),
         .roll_left = is_held(HeldAction::RollLeft),
         .roll_right = is_held(HeldAction::RollRight),
@@ -80,8 +70,7 @@ PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
     if (glfwGetMouseButton(window_, keys.stick_button) == GLFW_PRESS) {
         constexpr double full_share = 0.4;
         const glm::dvec2 window(size());
-        devices.cursor = {
-            glm::dvec2(pointer_) - 0.5 * window, full_share * std::max(window.y, 1.0)};
+        devices.cursor = {glm::dvec2(pointer_) - 0.5 * window, full_share * std::max(window.y, 1.0)};
     }
     for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
         GLFWgamepadstate gamepad;
@@ -92,8 +81,7 @@ PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
         } else if (!devices.joystick && glfwJoystickPresent(id) == GLFW_TRUE) {
             int axes = 0;
             const float* const values = glfwGetJoystickAxes(id, &axes);
-            devices.joystick =
-                mapped_joystick(keys, std::span(values, static_cast<std::size_t>(std::max(axes, 0))));
+            devices.joystick = mapped_joystick(keys, std::span(values, static_cast<std::size_t>(std::max(axes, 0))));
         }
     }
     return devices;

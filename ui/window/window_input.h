@@ -28,8 +28,8 @@ struct WindowEvents {
     double wheel_clicks = 0.0;
 };
 
-/// Collects a window's events. It must be made before anything else that sets callbacks of the
-/// window, and those must call the callbacks that were set before.
+/// Collects a window's events. It must be made before anything else that sets callbacks of the window, and those must
+/// call the callbacks that were set before.
 class WindowInput {
 public:
     explicit WindowInput(GLFWwindow* window);
@@ -48,8 +48,8 @@ public:
     /// False for a key that there is not.
     bool is_down(int key) const;
 
-    /// Returns the state of the keys that fly, and of the first gamepad or joystick, whose axes
-    /// stand where those of the usual ones do.
+    /// Returns the state of the keys that fly, and of the first gamepad or joystick, whose axes stand where those of
+    /// the usual ones do.
     PilotDevices pilot_devices(const KeyMap& keys) const;
 
     /// Returns which buttons of the first gamepad are pressed; none where there is no gamepad.

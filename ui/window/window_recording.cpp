@@ -46,8 +46,8 @@ settings::RunSettings from_step(
     return settings;
 }
 
-/// Returns the simulation step of the session's time, which is simulated first where the session
-/// only went to that time. Throws Error at a path's end.
+/// Returns the simulation step of the session's time, which is simulated first where the session only went to that
+/// time. Throws Error at a path's end.
 long first_step_of(flight::Session& session) {
     flight::Simulation& simulation = session.simulation();
     simulation.advance_to(simulation.time_s());
@@ -58,11 +58,8 @@ long first_step_of(flight::Session& session) {
 }
 
 report::RunInfo info_of(
-    const flight::Session& session,
-    const settings::RunSettings& to_repeat,
-    const std::filesystem::path& folder) {
-    report::RunInfo info =
-        flight::run_info(world::with_absolute_paths(session.settings()), session, folder);
+    const flight::Session& session, const settings::RunSettings& to_repeat, const std::filesystem::path& folder) {
+    report::RunInfo info = flight::run_info(world::with_absolute_paths(session.settings()), session, folder);
     info.settings_json = settings::settings_json(to_repeat).dump(2);
     info.facts.emplace_back(report::window_fact, "in a window, by the clock");
     return info;
@@ -70,33 +67,26 @@ report::RunInfo info_of(
 
 /// Returns the states as lines of a track file, `with_head` for its first lines.
 std::string lines_of(std::span<const sim::AircraftState> states, bool with_head) {
-    const std::string text = flightpaths::exact_track_csv(
-        sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
+    const std::string text =
+        flightpaths::exact_track_csv(sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
     return with_head ? text : text.substr(text.find('\n') + 1);
 }
 
 } // namespace
 
 WindowRecording::WindowRecording(std::filesystem::path folder, flight::Session& session)
-    : first_step_(first_step_of(session))
-    , recording_(
-          folder,
-          info_of(
-              session,
-              from_step(session, first_step_, folder, session.simulation().by_hand()),
-              folder))
-    , by_hand_(session.simulation().by_hand())
-    , last_time_s_(sim::time_of_step(first_step_))
-    , next_picture_s_(last_time_s_) {
+    : first_step_(first_step_of(session)),
+      recording_(
+          folder, info_of(session, from_step(session, first_step_, folder, session.simulation().by_hand()), folder)),
+      by_hand_(session.simulation().by_hand()), last_time_s_(sim::time_of_step(first_step_)),
+      next_picture_s_(last_time_s_) {
     session.simulation().start_log();
     last_hash_ = session.simulation().state_hash();
 }
 
 void WindowRecording::append_states(flight::Session& session) {
     const auto log = session.simulation().log();
-    if (!flight_) {
-        flight_.emplace(recording_.folder() / flight_name);
-    }
+    if (!flight_) { flight_.emplace(recording_.folder() / flight_name); }
     if (states_written_ < log.size()) {
         flight_->append(lines_of(log.subspan(states_written_), states_written_ == 0));
         states_written_ = log.size();
@@ -105,9 +95,7 @@ void WindowRecording::append_states(flight::Session& session) {
 }
 
 void WindowRecording::add(report::FrameRecord record, flight::Session& session) {
-    if (std::exchange(first_is_older_, false)) {
-        return;
-    }
+    if (std::exchange(first_is_older_, false)) { return; }
     const base::Stopwatch writing;
     record.frame = frames_++;
     last_time_s_ = record.sim_time_s;
@@ -129,12 +117,10 @@ void WindowRecording::add(report::FrameRecord record, flight::Session& session) 
     recording_.add(record);
 }
 
-double WindowRecording::length_s() const {
-    return last_time_s_ - sim::time_of_step(first_step_);
-}
+double WindowRecording::length_s() const { return last_time_s_ - sim::time_of_step(first_step_); }
 
-/// Returns the number of states from the first step to that of the last picture. It is smaller
-/// where a flight by hand ended before.
+/// Returns the number of states from the first step to that of the last picture. It is smaller where a flight by hand
+/// ended before.
 std::size_t WindowRecording::states_to_the_end(flight::Session& session) const {
     const long steps = sim::step_at(last_time_s_) - first_step_ + 1;
     return std::min(static_cast<std::size_t>(steps), session.simulation().log().size());
@@ -158,9 +144,7 @@ std::string WindowRecording::finish(flight::Session& session) {
         flight_.reset();
         write_file(recording_.folder() / flight_name, lines_of(states, true));
     }
-    flight::write_tracks(
-        recording_.folder(),
-        session.world(),
+    flight::write_tracks(recording_.folder(), session.world(),
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())),
         session.world().ground_frame.get());
     recording_.finish(

@@ -12,17 +12,16 @@
 
 namespace octant::ui::window {
 
-/// Records a flight in a window. The run.json of the recording flies the same simulation steps
-/// again without a window. It flies along the path, from where the recording began and for as long
-/// as it took; a flight that was by hand for any time is flown along flight.csv, which holds the
-/// state at every step.
+/// Records a flight in a window. The run.json of the recording flies the same simulation steps again without a window.
+/// It flies along the path, from where the recording began and for as long as it took; a flight that was by hand for
+/// any time is flown along flight.csv, which holds the state at every step.
 class WindowRecording {
 public:
     /// Begins with the session's last simulation step. Throws Error.
     WindowRecording(std::filesystem::path folder, flight::Session& session);
 
-    /// Takes the frame that the session has just drawn. A picture is kept every simulated second.
-    /// Throws Error (disk full).
+    /// Takes the frame that the session has just drawn. A picture is kept every simulated second. Throws Error (disk
+    /// full).
     void add(report::FrameRecord record, flight::Session& session);
 
     /// Ends with the last picture and returns the line that says where the report is. Throws Error.

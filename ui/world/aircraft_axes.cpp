@@ -29,9 +29,7 @@ std::string axis_along(const FileAxes& axes, const glm::dvec3& in_body) {
     return text;
 }
 
-glm::dvec3 up_in_file(const FileAxes& axes) {
-    return axes.file_from_body({0.0, 0.0, -1.0});
-}
+glm::dvec3 up_in_file(const FileAxes& axes) { return axes.file_from_body({0.0, 0.0, -1.0}); }
 
 std::string_view source_of(AxesSource source) {
     switch (source) {
@@ -50,15 +48,9 @@ std::string_view source_of(AxesSource source) {
 } // namespace
 
 AircraftAxes aircraft_axes(
-    const std::string& setting,
-    const std::filesystem::path& file,
-    const models::TriangleMesh& mesh) {
-    if (setting != automatic) {
-        return {FileAxes::from_text(setting), AxesSource::Given};
-    }
-    if (const auto axes = models::meshfile::axes_of_format(file)) {
-        return {*axes, AxesSource::Format};
-    }
+    const std::string& setting, const std::filesystem::path& file, const models::TriangleMesh& mesh) {
+    if (setting != automatic) { return {FileAxes::from_text(setting), AxesSource::Given}; }
+    if (const auto axes = models::meshfile::axes_of_format(file)) { return {*axes, AxesSource::Format}; }
     const auto default_axes = models::meshfile::default_axes_of_format(file);
     const auto guessed = models::polygons::guess_axes(mesh);
     if (guessed && (!default_axes || up_in_file(*guessed) == up_in_file(*default_axes))) {
@@ -68,23 +60,16 @@ AircraftAxes aircraft_axes(
 }
 
 void check_axes(const std::string& setting) {
-    if (setting != automatic) {
-        FileAxes::from_text(setting);
-    }
+    if (setting != automatic) { FileAxes::from_text(setting); }
 }
 
 std::string axes_text(const AircraftAxes& axes) {
-    return fmt::format(
-        "nose towards {}, up {}: {}",
-        axis_along(axes.axes, {1.0, 0.0, 0.0}),
-        axis_along(axes.axes, {0.0, 0.0, -1.0}),
-        source_of(axes.source));
+    return fmt::format("nose towards {}, up {}: {}", axis_along(axes.axes, {1.0, 0.0, 0.0}),
+        axis_along(axes.axes, {0.0, 0.0, -1.0}), source_of(axes.source));
 }
 
 std::string axes_note(const AircraftAxes& axes, const std::filesystem::path& file) {
-    if (axes.source == AxesSource::Given || axes.source == AxesSource::Format) {
-        return {};
-    }
+    if (axes.source == AxesSource::Given || axes.source == AxesSource::Format) { return {}; }
     return fmt::format("{}: {}; --axes to change", file.filename().string(), axes_text(axes));
 }
 

@@ -1,4 +1,5 @@
 #include "ui/world/aircraft_loader.h"
+
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/rotating_model.h"
 #include "models/polygons/file_axes.h"
@@ -77,23 +78,17 @@ std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
     add_list(hash, mesh.normals);
     add_list(hash, mesh.corner_normals);
     add_list(hash, mesh.triangle_materials);
-    for (const models::Material& material : mesh.materials) {
-        hash.add(std::as_bytes(std::span(&material.colour, 1)));
-    }
+    for (const models::Material& material : mesh.materials) { hash.add(std::as_bytes(std::span(&material.colour, 1))); }
     return hash.value();
 }
 
 /// The file beside a hierarchy that tells what was repaired before it was made.
-fs::path repairs_file(fs::path file) {
-    return file.replace_extension(".repairs");
-}
+fs::path repairs_file(fs::path file) { return file.replace_extension(".repairs"); }
 
 void write_repairs(const fs::path& file, const std::vector<std::string>& repairs) {
     ordercache::BinaryWriter out;
     out.number(std::uint64_t{repairs.size()});
-    for (const std::string& line : repairs) {
-        out.text(line);
-    }
+    for (const std::string& line : repairs) { out.text(line); }
     out.number(checksum_of(out.bytes()));
     write_file(file, out.bytes());
 }
@@ -105,24 +100,18 @@ std::vector<std::string> read_repairs(const fs::path& file) {
     try {
         ordercache::BinaryReader in(bytes);
         std::vector<std::string> repairs(in.count(sizeof(std::uint64_t)));
-        for (std::string& line : repairs) {
-            line = in.text();
-        }
+        for (std::string& line : repairs) { line = in.text(); }
         const std::string_view summed(bytes.data(), bytes.size() - in.bytes_left());
         if (in.number<std::uint64_t>() != checksum_of(summed) || in.bytes_left() > 0) {
             throw Error("expected the bytes of its checksum, got others");
         }
         return repairs;
-    } catch (const Error& fault) {
-        throw_error_in(file, fault.what());
-    }
+    } catch (const Error& fault) { throw_error_in(file, fault.what()); }
 }
 
 /// Without its notes. Nothing, and a note where there is a file, when it cannot be used.
 std::optional<RefineMesh> read_cached_mesh(const fs::path& file, std::vector<std::string>& notes) {
-    if (!path_exists(file)) {
-        return std::nullopt;
-    }
+    if (!path_exists(file)) { return std::nullopt; }
     try {
         RefineMesh kept;
         kept.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
@@ -143,8 +132,7 @@ fs::path refine_mesh_cache_file(const fs::path& folder, const models::TriangleMe
     return folder / fmt::format("{:016x}{:016x}.pm", hash_of(mesh, 1), hash_of(mesh, 2));
 }
 
-RefineMesh
-cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
+RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
     const fs::path file = refine_mesh_cache_file(folder, mesh);
     std::vector<std::string> notes;
     if (auto kept = read_cached_mesh(file, notes)) {
@@ -156,9 +144,7 @@ cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, model
     try {
         write_repairs(repairs_file(file), made.repairs); // first: a hierarchy never lacks them
         refine::write_progressive(file, *made.mesh);
-    } catch (const Error& fault) {
-        notes.push_back(fmt::format("order cache {}: not kept", fault.what()));
-    }
+    } catch (const Error& fault) { notes.push_back(fmt::format("order cache {}: not kept", fault.what())); }
     made.notes.insert(made.notes.end(), notes.begin(), notes.end());
     return made;
 }
@@ -180,9 +166,7 @@ void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
     const auto first_material = static_cast<std::uint32_t>(to.materials.size());
     to.vertices_m.insert(to.vertices_m.end(), from.vertices_m.begin(), from.vertices_m.end());
     to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
-    for (const std::uint32_t vertex : from.corner_vertices) {
-        to.corner_vertices.push_back(first_vertex + vertex);
-    }
+    for (const std::uint32_t vertex : from.corner_vertices) { to.corner_vertices.push_back(first_vertex + vertex); }
     for (Polygon polygon : from.polygons) {
         polygon.first_corner += first_corner;
         polygon.material += first_material;
@@ -192,12 +176,9 @@ void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
 }
 
 /// Adds a mesh to a part, simplified to so many triangles. Returns their certified distance.
-double append_far(
-    const models::TriangleMesh& mesh, std::size_t faces, std::uint32_t part, PolygonModel& to) {
+double append_far(const models::TriangleMesh& mesh, std::size_t faces, std::uint32_t part, PolygonModel& to) {
     const models::TriangleMesh whole = models::repair::repaired(mesh).mesh;
-    if (whole.triangles.empty()) {
-        return 0.0;
-    }
+    if (whole.triangles.empty()) { return 0.0; }
     models::simplify::SimplifyOptions options;
     options.goal.faces = faces;
     const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
@@ -210,12 +191,8 @@ double append_far(
 
 /// Turns a mesh from its file's axes into body axes: a rotation, so that no triangle turns over.
 void rotate_mesh_to_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m = axes.body_from_file(vertex_m);
-    }
-    for (glm::vec3& normal : mesh.normals) {
-        normal = glm::vec3(axes.body_from_file(glm::dvec3(normal)));
-    }
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
+    for (glm::vec3& normal : mesh.normals) { normal = glm::vec3(axes.body_from_file(glm::dvec3(normal))); }
 }
 
 /// Turns a part with its axis from its file's axes into body axes.
@@ -225,16 +202,15 @@ void rotate_part_to_body(RotatingPart& part, const models::polygons::FileAxes& a
     part.about.direction = axes.body_from_file(part.about.direction);
 }
 
-/// Adds parts that turn to the polygons that stand in for an aircraft far away: a pivot for each,
-/// in their order, and as few triangles as a part far away needs. Body axes. Returns the largest
-/// certified distance, in metres, between a part and its polygons.
+/// Adds parts that turn to the polygons that stand in for an aircraft far away: a pivot for each, in their order, and
+/// as few triangles as a part far away needs. Body axes. Returns the largest certified distance, in metres, between a
+/// part and its polygons.
 double add_far_parts(std::span<const RotatingPart> parts, PolygonModel& polygons) {
     double error_m = 0.0;
     for (const RotatingPart& part : parts) {
         const auto number = static_cast<std::uint32_t>(polygons.parts.size());
         polygons.parts.push_back(fmt::format("turning-{}", number));
-        polygons.pivots.push_back(
-            {number, part.about.point_m, part.about.direction, part.about.turns_per_s});
+        polygons.pivots.push_back({number, part.about.point_m, part.about.direction, part.about.turns_per_s});
         const std::size_t faces = std::max(min_far_faces, far_faces_of_parts / parts.size());
         error_m = std::max(error_m, append_far(part.mesh, faces, number, polygons));
     }
@@ -258,8 +234,8 @@ namespace {
 /// Few enough polygons for a painting order.
 constexpr std::size_t far_faces = 250;
 
-std::shared_ptr<const refine::ProgressiveMesh>
-turned(const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
+std::shared_ptr<const refine::ProgressiveMesh> turned(
+    const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
     refine::ProgressiveMeshData parts = mesh.full_data();
     parts.origin_m = axes.body_from_file(parts.origin_m);
     for (glm::vec3& position_m : parts.positions_m) {
@@ -275,9 +251,7 @@ turned(const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& ax
 models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
     refine::SelectiveRefiner front(hierarchy);
     for (const std::uint32_t node : hierarchy->coarsest_first()) {
-        if (front.face_count() + 2 >= far_faces) {
-            break;
-        }
+        if (front.face_count() + 2 >= far_faces) { break; }
         front.split(node);
     }
     return refine::active_mesh(front).mesh;
@@ -286,8 +260,7 @@ models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMes
 models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
     models::TriangleMesh mesh;
     for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
-        mesh.vertices_m.push_back(
-            hierarchy.parts().origin_m + glm::dvec3(hierarchy.position_m(leaf)));
+        mesh.vertices_m.push_back(hierarchy.parts().origin_m + glm::dvec3(hierarchy.position_m(leaf)));
     }
     mesh.triangles.assign(hierarchy.faces().begin(), hierarchy.faces().end());
     return mesh;
@@ -295,19 +268,14 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
 
 /// Tells where nose and top were found.
 void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::filesystem::path& file) {
-    if (std::string note = axes_note(axes, file); !note.empty()) {
-        aircraft.notes.push_back(std::move(note));
-    }
+    if (std::string note = axes_note(axes, file); !note.empty()) { aircraft.notes.push_back(std::move(note)); }
 }
 
-/// A hierarchy from its file, or made of a mesh; what turns or is clear beside it goes to
-/// `aircraft`, in axes of the file.
-RefineMesh hierarchy_in(
-    const std::filesystem::path& file, const std::filesystem::path& cache, MeshAircraft& aircraft) {
+/// A hierarchy from its file, or made of a mesh; what turns or is clear beside it goes to `aircraft`, in axes of the
+/// file.
+RefineMesh hierarchy_in(const std::filesystem::path& file, const std::filesystem::path& cache, MeshAircraft& aircraft) {
     const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
-    if (refine::is_progressive_file(file)) {
-        return read_refine_mesh(input);
-    }
+    if (refine::is_progressive_file(file)) { return read_refine_mesh(input); }
     const meshfile::ReadOptions options{.pictures = true, .backs = true};
     meshfile::RotatingModel model;
     if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
@@ -322,9 +290,7 @@ RefineMesh hierarchy_in(
 }
 
 MeshAircraft from_hierarchy(
-    const std::filesystem::path& file,
-    const std::string& setting,
-    const std::filesystem::path& cache) {
+    const std::filesystem::path& file, const std::string& setting, const std::filesystem::path& cache) {
     const base::Stopwatch watch;
     MeshAircraft aircraft;
     RefineMesh input = hierarchy_in(file, cache, aircraft);
@@ -336,26 +302,17 @@ MeshAircraft from_hierarchy(
     measure::DistanceOptions loosely;
     loosely.tightness = 1.4;
     loosely.samples = 0;
-    aircraft.polygons_error_m =
-        measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).max_hausdorff_m();
+    aircraft.polygons_error_m = measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).max_hausdorff_m();
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
-    for (meshfile::RotatingPart& part : aircraft.turning) {
-        rotate_part_to_body(part, axes.axes);
-    }
+    for (meshfile::RotatingPart& part : aircraft.turning) { rotate_part_to_body(part, axes.axes); }
     rotate_mesh_to_body(aircraft.clear.mesh, axes.axes);
-    aircraft.polygons_error_m = std::max(
-        {aircraft.polygons_error_m,
-         add_far_parts(aircraft.turning, aircraft.polygons),
-         add_far_transparent(aircraft.clear.mesh, aircraft.polygons)});
+    aircraft.polygons_error_m = std::max({aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons),
+        add_far_transparent(aircraft.clear.mesh, aircraft.polygons)});
     if (!aircraft.turning.empty()) {
-        aircraft.notes.push_back(
-            fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
+        aircraft.notes.push_back(fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
     }
-    aircraft.notes.push_back(fmt::format(
-        "{}: {} triangles made ready to be refined in {:.1f} s",
-        file.string(),
-        aircraft.hierarchy->face_count(),
-        watch.s()));
+    aircraft.notes.push_back(fmt::format("{}: {} triangles made ready to be refined in {:.1f} s", file.string(),
+        aircraft.hierarchy->face_count(), watch.s()));
     return aircraft;
 }
 
@@ -366,13 +323,10 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
     const models::polygons::FileAxes& axes = found.axes;
     MeshAircraft aircraft;
     add_note(aircraft, found, file);
-    aircraft.polygons = chain.polygons ? std::move(*chain.polygons)
-                                       : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
-    aircraft.polygons_error_m =
-        chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
-    for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) {
-        vertex_m = axes.body_from_file(vertex_m);
-    }
+    aircraft.polygons =
+        chain.polygons ? std::move(*chain.polygons) : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
+    aircraft.polygons_error_m = chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
+    for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
     for (models::polygons::Pivot& pivot : aircraft.polygons.pivots) {
         pivot.point_m = axes.body_from_file(pivot.point_m);
         pivot.axis = axes.body_from_file(pivot.axis);
@@ -389,11 +343,8 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
 } // namespace
 
 MeshAircraft read_mesh_aircraft(
-    const std::filesystem::path& file,
-    const std::string& axes,
-    const std::filesystem::path& cache) {
-    return meshfile::is_chain_file(file) ? from_chain(file, axes)
-                                         : from_hierarchy(file, axes, cache);
+    const std::filesystem::path& file, const std::string& axes, const std::filesystem::path& cache) {
+    return meshfile::is_chain_file(file) ? from_chain(file, axes) : from_hierarchy(file, axes, cache);
 }
 
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
@@ -410,9 +361,7 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
         return;
     }
     std::vector<planning::MeshSource> sources;
-    for (const meshfile::ChainLevel& level : aircraft.levels) {
-        sources.push_back({&level.mesh, level.error_m});
-    }
+    for (const meshfile::ChainLevel& level : aircraft.levels) { sources.push_back({&level.mesh, level.error_m}); }
     planning::add_levels(model, sources, aircraft.polygons_error_m);
 }
 
@@ -434,8 +383,7 @@ const std::array<fs::path, 3> cache_file_endings{".order", ".pm", ".repairs"};
 std::vector<CacheFile> files_of(const fs::path& folder) {
     std::vector<CacheFile> files;
     std::error_code ignored;
-    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
-         entry.increment(ignored)) {
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
         const fs::path kind = entry->path().extension();
         std::error_code gone;
         std::error_code too;
@@ -446,11 +394,8 @@ std::vector<CacheFile> files_of(const fs::path& folder) {
         }
         const std::uintmax_t bytes = entry->file_size(gone);
         const fs::file_time_type written = entry->last_write_time(too);
-        const bool is_being_written =
-            is_rest && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
-        if (!gone && !too && !is_being_written) {
-            files.push_back({written, entry->path(), bytes});
-        }
+        const bool is_being_written = is_rest && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
+        if (!gone && !too && !is_being_written) { files.push_back({written, entry->path(), bytes}); }
     }
     return files;
 }
@@ -477,16 +422,12 @@ std::optional<fs::path> order_cache_folder(const std::string& value) {
         return value;
     }
     const fs::path own = base::cache_folder();
-    if (value == settings::no_order_cache || own.empty()) {
-        return std::nullopt;
-    }
+    if (value == settings::no_order_cache || own.empty()) { return std::nullopt; }
     try {
         ordercache::make_cache_folder(own / "orders");
         remove_oldest(own / "orders", max_bytes_of_user_cache);
         return own / "orders";
-    } catch (const Error&) {
-        return std::nullopt;
-    }
+    } catch (const Error&) { return std::nullopt; }
 }
 
 namespace planning = visuals::planning;
@@ -504,9 +445,7 @@ struct LoadNotes {
     /// Where painting orders are kept.
     std::optional<std::filesystem::path> order_cache_folder;
 
-    void note(const std::vector<std::string>& more) {
-        notes.insert(notes.end(), more.begin(), more.end());
-    }
+    void note(const std::vector<std::string>& more) { notes.insert(notes.end(), more.begin(), more.end()); }
 };
 
 /// An OBJ file with more faces is flown as a mesh.
@@ -524,42 +463,30 @@ struct OrderLimits {
     double seconds = 0.0;
 };
 
-draworder::OrderedModel with_order(
-    models::polygons::PolygonModel model,
-    const AircraftSources& inputs,
-    const OrderLimits& most,
-    LoadNotes& load_notes) {
-    if (inputs.hidden_surface != scene::HiddenSurface::Octant ||
-        model.polygons.size() > most.polygons) {
+draworder::OrderedModel with_order(models::polygons::PolygonModel model, const AircraftSources& inputs,
+    const OrderLimits& most, LoadNotes& load_notes) {
+    if (inputs.hidden_surface != scene::HiddenSurface::Octant || model.polygons.size() > most.polygons) {
         draworder::DrawOrder order = draworder::file_order(model);
         return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
     }
     draworder::OrderOptions options;
     options.method = inputs.order_method;
     options.seconds = std::min(inputs.order_seconds, most.seconds);
-    if (!load_notes.order_cache_folder) {
-        return draworder::ordered(std::move(model), options);
-    }
+    if (!load_notes.order_cache_folder) { return draworder::ordered(std::move(model), options); }
     ordercache::CachedOrder cached =
         ordercache::cached_order(*load_notes.order_cache_folder, std::move(model), options);
     load_notes.note(cached.notes);
-    if (settings::is_order_cache_folder(inputs.order_cache)) {
-        load_notes.order_files.push_back(cached.file);
-    }
+    if (settings::is_order_cache_folder(inputs.order_cache)) { load_notes.order_files.push_back(cached.file); }
     return std::move(cached.ordered);
 }
 
 /// Whether a line of an OBJ file names a material file of pictures or glass, which meshes show.
 bool names_pictures_or_glass(std::string_view line, const std::filesystem::path& file) {
-    if (!line.starts_with("mtllib")) {
-        return false;
-    }
+    if (!line.starts_with("mtllib")) { return false; }
     const std::filesystem::path folder = file.parent_path();
     const std::filesystem::path materials = folder / models::polygons::after_first_word(line);
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(materials, ignored)) {
-        return false;
-    }
+    if (!std::filesystem::is_regular_file(materials, ignored)) { return false; }
     const auto pictures = models::polygons::pictures_of_mtl(materials);
     return !models::polygons::opacities_of_mtl(materials).empty() ||
            std::ranges::any_of(pictures, [&](const auto& of_material) {
@@ -567,12 +494,10 @@ bool names_pictures_or_glass(std::string_view line, const std::filesystem::path&
            });
 }
 
-/// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all
-/// triangles are the mesh of a surface, which refinement in flight serves better.
+/// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
+/// mesh of a surface, which refinement in flight serves better.
 bool is_polygon_model(const std::filesystem::path& file) {
-    if (extension_of(file) != ".obj") {
-        return false;
-    }
+    if (extension_of(file) != ".obj") { return false; }
     std::size_t triangles = 0;
     std::size_t others = 0;
     bool is_plain = true;
@@ -589,76 +514,53 @@ bool is_polygon_model(const std::filesystem::path& file) {
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
-planning::AircraftModel finished_model(
-    models::polygons::PolygonModel model,
-    const sim::AircraftKind* kind,
-    const AircraftSources& inputs,
-    const OrderLimits& most,
-    LoadNotes& load_notes) {
+planning::AircraftModel finished_model(models::polygons::PolygonModel model, const sim::AircraftKind* kind,
+    const AircraftSources& inputs, const OrderLimits& most, LoadNotes& load_notes) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
     draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, load_notes);
     load_notes.note(ordered.notes);
-    std::vector<glm::vec3> normals =
-        shading::piece_normals(whole, shading::corner_normals(whole), ordered.model);
-    planning::AircraftModel made = planning::aircraft_model(
-        std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
+    std::vector<glm::vec3> normals = shading::piece_normals(whole, shading::corner_normals(whole), ordered.model);
+    planning::AircraftModel made =
+        planning::aircraft_model(std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
     // Orders move points by a hair: the camera keeps its place however hidden surfaces are removed.
     made.subject.radius_m = models::polygons::radius_m(whole);
     return made;
 }
 
-models::polygons::PolygonModel
-read_polygon_model(const std::filesystem::path& file, const std::string& axes, LoadNotes& load_notes) {
-    if (file.parent_path() == base::data_folder() / "models") {
-        return models::polygons::read_obj(file);
-    }
+models::polygons::PolygonModel read_polygon_model(
+    const std::filesystem::path& file, const std::string& axes, LoadNotes& load_notes) {
+    if (file.parent_path() == base::data_folder() / "models") { return models::polygons::read_obj(file); }
     const models::polygons::FileAxes default_axes;
     models::polygons::PolygonModel model = models::polygons::read_obj(file, default_axes);
     models::TriangleMesh shape = models::polygons::mesh_from_polygons(model);
-    for (glm::dvec3& vertex_m : shape.vertices_m) {
-        vertex_m = default_axes.file_from_body(vertex_m);
-    }
+    for (glm::dvec3& vertex_m : shape.vertices_m) { vertex_m = default_axes.file_from_body(vertex_m); }
     const AircraftAxes shown = aircraft_axes(axes, file, shape);
-    if (std::string note = axes_note(shown, file); !note.empty()) {
-        load_notes.notes.push_back(std::move(note));
-    }
-    return shown.axes.text() == default_axes.text() ? std::move(model)
-                                             : models::polygons::read_obj(file, shown.axes);
+    if (std::string note = axes_note(shown, file); !note.empty()) { load_notes.notes.push_back(std::move(note)); }
+    return shown.axes.text() == default_axes.text() ? std::move(model) : models::polygons::read_obj(file, shown.axes);
 }
 
-/// The polygons that stand in for a mesh far away. Without a painting order they only throw
-/// shadows.
+/// The polygons that stand in for a mesh far away. Without a painting order they only throw shadows.
 planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftSources& inputs, LoadNotes& load_notes) {
     if (mesh.polygons.polygons.size() <= max_polygons_of_a_mesh) {
         try {
             return finished_model(
-                mesh.polygons,
-                nullptr,
-                inputs,
-                {max_polygons_of_a_mesh, max_seconds_of_a_mesh},
-                load_notes);
+                mesh.polygons, nullptr, inputs, {max_polygons_of_a_mesh, max_seconds_of_a_mesh}, load_notes);
         } catch (const Error& fault) {
-            load_notes.notes.push_back(
-                fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
+            load_notes.notes.push_back(fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
         }
     }
     mesh.polygons_error_m = std::numeric_limits<double>::infinity();
     return finished_model(std::move(mesh.polygons), nullptr, inputs, {}, load_notes);
 }
 
-planning::AircraftModel
-load_model(const std::string& name, const AircraftSources& inputs, LoadNotes& load_notes) {
+planning::AircraftModel load_model(const std::string& name, const AircraftSources& inputs, LoadNotes& load_notes) {
     const std::filesystem::path file = base::aircraft_file(name);
     if (is_polygon_model(file)) {
         models::polygons::PolygonModel model = read_polygon_model(file, inputs.axes, load_notes);
         load_notes.note(model.notes);
-        return finished_model(
-            std::move(model),
-            sim::find_aircraft_kind(name),
-            inputs,
-            {max_polygons_of_a_model, inputs.order_seconds},
-            load_notes);
+        return finished_model(std::move(model), sim::find_aircraft_kind(name), inputs,
+            {max_polygons_of_a_model, inputs.order_seconds}, load_notes);
     }
     MeshAircraft mesh =
         read_mesh_aircraft(file, inputs.axes, load_notes.order_cache_folder.value_or(std::filesystem::path()));
@@ -671,9 +573,7 @@ load_model(const std::string& name, const AircraftSources& inputs, LoadNotes& lo
 /// Nothing where the aircraft has none.
 std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft) {
     const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft);
-    if (kind == nullptr) {
-        return std::nullopt;
-    }
+    if (kind == nullptr) { return std::nullopt; }
     models::polygons::PolygonModel model =
         models::polygons::read_obj(base::data_folder() / "models" / kind->cockpit_file);
     draworder::DrawOrder order = draworder::file_order(model);
@@ -682,10 +582,8 @@ std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft)
 
 } // namespace
 
-AircraftSources
-aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes) {
-    AircraftSources inputs{
-        .shapes = std::move(shapes),
+AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes) {
+    AircraftSources inputs{.shapes = std::move(shapes),
         .files = {},
         .axes = settings.path.axes,
         .hidden_surface = settings.surface.hidden_surface,
@@ -696,9 +594,7 @@ aircraft_sources(const settings::RunSettings& settings, std::vector<std::string>
         const std::filesystem::path file = base::aircraft_file(shape);
         const LineReader opened(file);
         add_mtime(file, inputs.files);
-        for (const std::filesystem::path& named : referenced_files(file)) {
-            add_mtime(named, inputs.files);
-        }
+        for (const std::filesystem::path& named : referenced_files(file)) { add_mtime(named, inputs.files); }
     }
     return inputs;
 }
@@ -722,9 +618,7 @@ LoadedAircraft load_aircraft(const AircraftSources& inputs) {
     }
     for (std::uint32_t i = 0; i < names.size(); ++i) {
         const sim::AircraftKind* kind = sim::find_aircraft_kind(names[i]);
-        if (kind == nullptr || kind->simple_type_name.empty()) {
-            continue;
-        }
+        if (kind == nullptr || kind->simple_type_name.empty()) { continue; }
         const std::string plain(kind->simple_type_name);
         const auto load_notes = std::find(names.begin(), names.end(), plain);
         loaded.far_models.push_back(
@@ -736,8 +630,7 @@ LoadedAircraft load_aircraft(const AircraftSources& inputs) {
     }
     if (auto cockpit = load_cockpit(inputs.shapes.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
-        loaded.dials =
-            planning::dials_of(cockpit->polygons, sim::aircraft_kind(inputs.shapes.front()).limits);
+        loaded.dials = planning::dials_of(cockpit->polygons, sim::aircraft_kind(inputs.shapes.front()).limits);
         add(std::move(*cockpit));
     }
     loaded.notes = std::move(told.notes);

@@ -22,24 +22,21 @@
 
 namespace octant::ui::world {
 
-/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or a .pm file another
-/// layout, or files beside it: what was kept before is then made anew.
+/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or a .pm file another layout, or files beside
+/// it: what was kept before is then made anew.
 inline constexpr unsigned refine_mesh_cache_version = 3;
 
-/// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that
-/// decides it: places, triangles, colours and materials.
-std::filesystem::path
-refine_mesh_cache_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
+/// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that decides it: places,
+/// triangles, colours and materials.
+std::filesystem::path refine_mesh_cache_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
 
-/// make_refine_mesh(), read from the folder where the same mesh was made ready before, else made
-/// and kept there. The hierarchy is the same, bit for bit, and so are the notes of what was
-/// repaired in the mesh. A file that is damaged or cut off is made anew and replaced, with a note.
-/// Processes may share a folder: files appear whole.
+/// make_refine_mesh(), read from the folder where the same mesh was made ready before, else made and kept there. The
+/// hierarchy is the same, bit for bit, and so are the notes of what was repaired in the mesh. A file that is damaged or
+/// cut off is made anew and replaced, with a note. Processes may share a folder: files appear whole.
 RefineMesh cached_refine_mesh(
     const std::filesystem::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh);
 
-/// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and
-/// polygons for far away.
+/// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and polygons for far away.
 struct MeshAircraft {
     /// Levels of detail, the finest first; none where there is a hierarchy.
     std::vector<models::meshfile::ChainLevel> levels;
@@ -56,13 +53,11 @@ struct MeshAircraft {
     std::vector<std::string> notes;
 };
 
-/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a
-/// hierarchy is made here, or read where `cache`, a folder, has it of before; empty: none. `axes`:
-/// as aircraft_axes takes them. Throws Error.
+/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a hierarchy is made
+/// here, or read where `cache`, a folder, has it of before; empty: none. `axes`: as aircraft_axes takes them. Throws
+/// Error.
 MeshAircraft read_mesh_aircraft(
-    const std::filesystem::path& file,
-    const std::string& axes,
-    const std::filesystem::path& cache = {});
+    const std::filesystem::path& file, const std::string& axes, const std::filesystem::path& cache = {});
 
 /// Gives the model that was made of its polygons the rest of a mesh aircraft.
 void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);
@@ -70,13 +65,12 @@ void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& air
 /// What the user's own cache may hold.
 inline constexpr std::uintmax_t max_bytes_of_user_cache = std::uintmax_t{256} << 20;
 
-/// The folder that a value of --order-cache means, made where it is missing; nothing for none. The
-/// user's own cache is done without where it cannot be made or written; a folder that is named and
-/// cannot be is an Error.
+/// The folder that a value of --order-cache means, made where it is missing; nothing for none. The user's own cache is
+/// done without where it cannot be made or written; a folder that is named and cannot be is an Error.
 std::optional<std::filesystem::path> order_cache_folder(const std::string& value);
 
-/// Removes the files of a folder that were written first, until the rest is no larger than that.
-/// What cannot be removed stays.
+/// Removes the files of a folder that were written first, until the rest is no larger than that. What cannot be removed
+/// stays.
 void remove_oldest(const std::filesystem::path& folder, std::uintmax_t max_bytes);
 
 /// What aircraft are loaded of: where all of it is the same, so are they.
@@ -96,8 +90,7 @@ struct AircraftSources {
 };
 
 /// Throws Error where a file cannot be opened.
-AircraftSources
-aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes);
+AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes);
 
 /// The aircraft of a run, as Scene has them.
 struct LoadedAircraft {
@@ -114,8 +107,8 @@ struct LoadedAircraft {
     std::vector<std::filesystem::path> order_files;
 };
 
-/// Loads aircraft, and the cockpit of the first one where it has one: polygon models with their
-/// painting orders, chains of levels, and meshes, which get levels here. Throws Error.
+/// Loads aircraft, and the cockpit of the first one where it has one: polygon models with their painting orders, chains
+/// of levels, and meshes, which get levels here. Throws Error.
 LoadedAircraft load_aircraft(const AircraftSources& inputs);
 
 } // namespace octant::ui::world

@@ -17,10 +17,9 @@ struct EntityTable {
     std::map<std::uint16_t, std::size_t> types;
 };
 
-/// Reads a TOML file of tables [[entity]], each with `type` (a number from 0 to 65535), `aircraft`
-/// (a name or a file) and `count`, how many of them are seen at a time (1 unless said). The first
-/// one's aircraft comes first. Throws Error with file and line: other keys, a type that stands
-/// there twice, more than 256 aircraft.
+/// Reads a TOML file of tables [[entity]], each with `type` (a number from 0 to 65535), `aircraft` (a name or a file)
+/// and `count`, how many of them are seen at a time (1 unless said). The first one's aircraft comes first. Throws Error
+/// with file and line: other keys, a type that stands there twice, more than 256 aircraft.
 EntityTable read_entity_table(const std::filesystem::path& file);
 
 } // namespace octant::ui::world

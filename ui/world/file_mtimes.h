@@ -13,8 +13,7 @@ struct FileMtime {
     bool operator==(const FileMtime&) const = default;
 };
 
-/// Adds the stamp of a file as it is now; of one that cannot be looked at, the oldest that there
-/// is.
+/// Adds the stamp of a file as it is now; of one that cannot be looked at, the oldest that there is.
 void add_mtime(const std::filesystem::path& file, std::vector<FileMtime>& mtimes);
 
 } // namespace octant::ui::world

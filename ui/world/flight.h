@@ -29,8 +29,8 @@ struct Flight {
     double lowest_clearance_m = 0.0;
     double lowest_clearance_s = 0.0;
     std::vector<flightpaths::LegStart> legs;
-    /// Of aircraft that fly a path of their own, by their numbers and by the first one's clock, in
-    /// world axes; before its start and after its end such an aircraft is not there.
+    /// Of aircraft that fly a path of their own, by their numbers and by the first one's clock, in world axes; before
+    /// its start and after its end such an aircraft is not there.
     std::map<std::size_t, sim::Trajectory> other_trajectories;
 };
 

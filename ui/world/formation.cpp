@@ -12,19 +12,16 @@ namespace {
 constexpr int max_abreast = 9;
 
 int aircraft_abreast(int aircraft) {
-    return aircraft <= max_abreast
-               ? aircraft
-               : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
+    return aircraft <= max_abreast ? aircraft
+                                   : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
 }
 
 } // namespace
 
 Formation::Formation(int aircraft, double largest_radius_m)
-    : abreast_(aircraft_abreast(aircraft))
-    , lines_per_layer_(aircraft <= max_abreast ? 1 : abreast_)
-    , wingmen_per_side_(abreast_ / 2)
-    , lateral_spacing_m_(1.7 * largest_radius_m)
-    , trail_spacing_m_(0.5 * largest_radius_m) {}
+    : abreast_(aircraft_abreast(aircraft)), lines_per_layer_(aircraft <= max_abreast ? 1 : abreast_),
+      wingmen_per_side_(abreast_ / 2), lateral_spacing_m_(1.7 * largest_radius_m),
+      trail_spacing_m_(0.5 * largest_radius_m) {}
 
 sim::AircraftState Formation::wingman_state(const sim::AircraftState& leader, int number) const {
     const int place = number % abreast_;
@@ -42,8 +39,7 @@ sim::AircraftState Formation::wingman_state(const sim::AircraftState& leader, in
 }
 
 double Formation::framed_radius_m(double leader_radius_m) const {
-    // The camera stands three radii behind and sees a little more than a third of a right angle to
-    // either side.
+    // The camera stands three radii behind and sees a little more than a third of a right angle to either side.
     constexpr double distances_per_aside = 2.2;
     const double distance_m = wingmen_per_side_ * (distances_per_aside * lateral_spacing_m_ + trail_spacing_m_);
     return std::max(leader_radius_m, distance_m / 3.0);

@@ -4,9 +4,9 @@
 
 namespace octant::ui::world {
 
-/// Where wingmen fly, in the leader's attitude and far enough apart for the largest of them: up to
-/// eight nearly abreast of him, alternately to his right and left; more in lines one above and one
-/// behind the other, so that a thousand are a block of ten by ten by ten.
+/// Where wingmen fly, in the leader's attitude and far enough apart for the largest of them: up to eight nearly abreast
+/// of him, alternately to his right and left; more in lines one above and one behind the other, so that a thousand are
+/// a block of ten by ten by ten.
 class Formation {
 public:
     /// `aircraft` >= 1 with the leader; `largest_radius_m` of any of them.
@@ -15,8 +15,8 @@ public:
     /// State of wingman `number` (from 1) beside the leader.
     sim::AircraftState wingman_state(const sim::AircraftState& leader, int number) const;
 
-    /// Radius of the sphere that a chase camera should frame, so that all are in its picture: the
-    /// leader's own radius unless the formation is too wide for it.
+    /// Radius of the sphere that a chase camera should frame, so that all are in its picture: the leader's own radius
+    /// unless the formation is too wide for it.
     double framed_radius_m(double leader_radius_m) const;
 
 private:

@@ -9,8 +9,7 @@
 
 namespace octant::ui::world {
 
-/// The settings with every file in them by its absolute name, so that they mean the same in any
-/// folder.
+/// The settings with every file in them by its absolute name, so that they mean the same in any folder.
 settings::RunSettings with_absolute_paths(settings::RunSettings settings);
 
 /// Where a recording has a file that its run reads.
@@ -26,35 +25,30 @@ enum class FileLocation {
 /// A file that a run reads.
 struct InputFile {
     std::filesystem::path file;
-    /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the
-    /// file's own name.
+    /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the file's own name.
     std::string name;
     FileLocation location = FileLocation::Copied;
 };
 
-/// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain
-/// and what lies on it. Throws Error for files that are missing.
+/// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain and what lies on it.
+/// Throws Error for files that are missing.
 std::vector<InputFile> input_files(const settings::RunSettings& settings);
 
-/// All files of this computer that the heights of a terrain come from; none for made ground. Throws
-/// Error where there are none.
+/// All files of this computer that the heights of a terrain come from; none for made ground. Throws Error where there
+/// are none.
 std::vector<std::filesystem::path> ground_files(const std::string& terrain);
 
 /// The name and a hash of the content of each of the files that a run reads. Throws Error.
-std::vector<std::pair<std::string, std::string>>
-input_hashes(const settings::RunSettings& settings);
+std::vector<std::pair<std::string, std::string>> input_hashes(const settings::RunSettings& settings);
 
-/// The settings as a recording in that folder has them: files by their names inside it, those
-/// outside by the way to them from there. settings::read_settings finds them again.
-settings::RunSettings
-settings_in_recording(const settings::RunSettings& settings, const std::filesystem::path& folder);
+/// The settings as a recording in that folder has them: files by their names inside it, those outside by the way to
+/// them from there. settings::read_settings finds them again.
+settings::RunSettings settings_in_recording(const settings::RunSettings& settings, const std::filesystem::path& folder);
 
 /// Copies of files that are to lie in a recording: their names in it and their bytes.
 using CopiedFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads what settings_in_recording() names inside the recording, and the painting orders that were used.
-/// Throws Error.
-CopiedFiles files_to_copy(
-    const settings::RunSettings& settings, const std::vector<std::filesystem::path>& order_files);
+/// Reads what settings_in_recording() names inside the recording, and the painting orders that were used. Throws Error.
+CopiedFiles files_to_copy(const settings::RunSettings& settings, const std::vector<std::filesystem::path>& order_files);
 
 } // namespace octant::ui::world

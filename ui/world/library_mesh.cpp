@@ -30,22 +30,18 @@ struct Library {
     std::string_view endings;
 };
 
-/// As with Octant's own readers. Of larger files the libraries read for a minute and then find no
-/// room for them.
+/// As with Octant's own readers. Of larger files the libraries read for a minute and then find no room for them.
 constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 30U;
 
 constexpr std::array libraries{
-    Library{
-        "assimp", "Assimp", ".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .x"},
+    Library{"assimp", "Assimp", ".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .x"},
     Library{"osg", "OpenSceneGraph", ".flt .ive .osg .osgb .osgt"}};
 
 const Library* library_of(const fs::path& file) {
     const std::string ending = extension_of(file);
     for (const Library& library : libraries) {
         const auto endings = split_words(library.endings);
-        if (std::ranges::find(endings, ending) != endings.end()) {
-            return &library;
-        }
+        if (std::ranges::find(endings, ending) != endings.end()) { return &library; }
     }
     return nullptr;
 }
@@ -57,18 +53,15 @@ const Library* library_of(const fs::path& file) {
     }
     constexpr std::size_t longest = 300;
     const std::string words = one_line(error_line.substr(0, longest));
-    throw_error_in(
-        file,
-        words.starts_with("expected ")
-            ? words
-            : fmt::format("expected a mesh that {} can read; its reader: {}", library.name, words));
+    throw_error_in(file, words.starts_with("expected ")
+                             ? words
+                             : fmt::format("expected a mesh that {} can read; its reader: {}", library.name, words));
 }
 
 /// Beside this program; empty where it was not built.
 fs::path reader_program() {
     std::error_code ignored;
-    const fs::path reader =
-        fs::read_symlink("/proc/self/exe", ignored).parent_path() / "octant-read-mesh";
+    const fs::path reader = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "octant-read-mesh";
     return fs::is_regular_file(reader, ignored) ? reader : fs::path();
 }
 
@@ -101,54 +94,34 @@ private:
 
 } // namespace
 
-bool is_library_file(const fs::path& file) {
-    return library_of(file) != nullptr;
-}
+bool is_library_file(const fs::path& file) { return library_of(file) != nullptr; }
 
-models::TriangleMesh
-read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& options) {
+models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& options) {
     const Library& library = *library_of(file);
     std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) {
-        throw_error_in(file, "expected a file that can be read, got none");
-    }
+    if (!fs::is_regular_file(file, ignored)) { throw_error_in(file, "expected a file that can be read, got none"); }
     if (fs::file_size(file, ignored) > largest_bytes) {
         throw_error_in(file, fmt::format("expected at most {} bytes, got more", largest_bytes));
     }
     const fs::path program = reader_program();
     if (program.empty()) {
-        throw_error_in(
-            file,
-            fmt::format(
-                "expected a build with {} for {} files, got one without",
-                library.name,
-                extension_of(file)));
+        throw_error_in(file,
+            fmt::format("expected a build with {} for {} files, got one without", library.name, extension_of(file)));
     }
     const ShortFolder folder;
     const fs::path out = folder.path() / "mesh.obj";
-    auto child = report::ChildProgram::start(
-        {program.string(),
-         std::string(library.word),
-         options.pictures ? "pictures" : "-",
-         options.backs ? "backs" : "-",
-         file.string(),
-         out.string()});
-    if (!child) {
-        throw_error_in(program, "expected a program that can be run, got another file");
-    }
+    auto child = report::ChildProgram::start({program.string(), std::string(library.word),
+        options.pictures ? "pictures" : "-", options.backs ? "backs" : "-", file.string(), out.string()});
+    if (!child) { throw_error_in(program, "expected a program that can be run, got another file"); }
     const report::ProgramResult ending = child->finish();
-    if (!ending.succeeded) {
-        refuse(file, library, ending.last_error_line);
-    }
+    if (!ending.succeeded) { refuse(file, library, ending.last_error_line); }
     models::TriangleMesh mesh = models::meshfile::read_mesh(out);
     mesh.name = file.stem().string();
     return mesh;
 }
 
 std::string library_formats() {
-    if (reader_program().empty()) {
-        return "no formats by libraries: built without Assimp and OpenSceneGraph";
-    }
+    if (reader_program().empty()) { return "no formats by libraries: built without Assimp and OpenSceneGraph"; }
     std::string text;
     for (const Library& library : libraries) {
         text += fmt::format("{}by {}: {}", text.empty() ? "" : "\n", library.name, library.endings);

@@ -26,25 +26,16 @@ constexpr double track_clearance_m = 50.0;
 const sim::AircraftKind& aircraft_kind_of_path(const flightpaths::PathScript& script) {
     try {
         return sim::aircraft_kind(script.aircraft);
-    } catch (const Error& fault) {
-        throw_error_at(script.file, script.aircraft_line, fault.what());
-    }
+    } catch (const Error& fault) { throw_error_at(script.file, script.aircraft_line, fault.what()); }
 }
 
 /// What a person should be told where an aircraft without a row of its own flies a built-in path.
-void note_what_flies(
-    const std::string& path,
-    const std::string& shape,
-    const sim::AircraftKind& flown,
+void note_what_flies(const std::string& path, const std::string& shape, const sim::AircraftKind& flown,
     std::vector<std::string>& notes) {
-    const bool is_built_in =
-        std::ranges::find(base::built_in_paths, path) != base::built_in_paths.end();
+    const bool is_built_in = std::ranges::find(base::built_in_paths, path) != base::built_in_paths.end();
     if (is_built_in && sim::find_aircraft_kind(shape) == nullptr) {
-        notes.push_back(fmt::format(
-            "{} flies the {} path of {}, within its limits: only its own shape is known",
-            printable(std::filesystem::path(shape).filename().string()),
-            path,
-            flown.name));
+        notes.push_back(fmt::format("{} flies the {} path of {}, within its limits: only its own shape is known",
+            printable(std::filesystem::path(shape).filename().string()), path, flown.name));
     }
 }
 
@@ -56,16 +47,8 @@ double mean_rate_hz(const sim::Trajectory& trajectory) {
 LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape) {
     const double rate_hz = mean_rate_hz(track.trajectory);
     const sim::AircraftKind* kind = sim::find_aircraft_kind(shape);
-    return {
-        std::move(track.trajectory),
-        rate_hz,
-        track_clearance_m,
-        kind == nullptr ? std::nullopt : std::optional(kind->limits),
-        track.origin,
-        {},
-        std::move(track.notes),
-        {},
-        {},
+    return {std::move(track.trajectory), rate_hz, track_clearance_m,
+        kind == nullptr ? std::nullopt : std::optional(kind->limits), track.origin, {}, std::move(track.notes), {}, {},
         false};
 }
 
@@ -73,9 +56,7 @@ LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape
 std::string tacview_note(const fs::path& file) {
     constexpr std::size_t largest_tape = std::size_t{256} << 20;
     const std::string bytes = read_file(file, largest_tape);
-    if (!bytes.starts_with("PK")) {
-        return bytes;
-    }
+    if (!bytes.starts_with("PK")) { return bytes; }
     const std::vector<report::ZipEntry> entries = report::zip_entries(file);
     const auto tape = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
         return extension_of(entry.name) == ".acmi" || extension_of(entry.name) == ".txt";
@@ -92,9 +73,8 @@ const sim::AircraftKind& aircraft_for_type(const std::string& type) {
     const auto kinds = sim::aircraft_kinds();
     const auto same = std::ranges::find_if(kinds, [&](const sim::AircraftKind& kind) {
         const auto wanted = split_fields(kind.tacview_type, '+');
-        return std::ranges::all_of(wanted, [&](std::string_view tag) {
-            return std::ranges::find(tags, tag) != tags.end();
-        });
+        return std::ranges::all_of(
+            wanted, [&](std::string_view tag) { return std::ranges::find(tags, tag) != tags.end(); });
     });
     return same == kinds.end() ? kinds.front() : *same;
 }
@@ -102,19 +82,14 @@ const sim::AircraftKind& aircraft_for_type(const std::string& type) {
 /// What a person should be told of who is who.
 std::string note_of(const flightpaths::RecordedAircraft& first, const std::string& shape) {
     const std::string_view type_name = aircraft_for_type(first.type).name;
-    return fmt::format(
-        "{}{}{} is followed, as {}{}",
-        printable(first.name.empty() ? "an aircraft" : first.name),
-        first.type.empty() ? "" : ", ",
-        printable(first.type),
-        printable(shape),
+    return fmt::format("{}{}{} is followed, as {}{}", printable(first.name.empty() ? "an aircraft" : first.name),
+        first.type.empty() ? "" : ", ", printable(first.type), printable(shape),
         shape == type_name ? "" : fmt::format("; --aircraft {} is of its type", type_name));
 }
 
 LoadedPath from_tacview(const fs::path& file, const std::string& shape) {
     flightpaths::AcmiRecording tape = flightpaths::parse_acmi(tacview_note(file), file);
-    LoadedPath loaded =
-        from_track({std::move(tape.aircraft.front().trajectory), tape.origin, {}}, shape);
+    LoadedPath loaded = from_track({std::move(tape.aircraft.front().trajectory), tape.origin, {}}, shape);
     loaded.is_tape = true;
     loaded.notes = std::move(tape.notes);
     loaded.notes.push_back(note_of(tape.aircraft.front(), shape));
@@ -129,27 +104,14 @@ LoadedPath from_tacview(const fs::path& file, const std::string& shape) {
 
 LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient) {
     const fs::path file = base::path_file(path, shape);
-    if (extension_of(file) == ".acmi") {
-        return from_tacview(file, shape);
-    }
-    if (file.extension() != ".toml") {
-        return from_track(flightpaths::read_recorded_track(file), shape);
-    }
+    if (extension_of(file) == ".acmi") { return from_tacview(file, shape); }
+    if (file.extension() != ".toml") { return from_track(flightpaths::read_recorded_track(file), shape); }
     const flightpaths::PathScript script = flightpaths::read_path_script(file);
     const sim::AircraftKind& kind = aircraft_kind_of_path(script);
     flightpaths::FlownPath flown = flightpaths::fly(script, kind, lenient);
     note_what_flies(path, shape, kind, flown.notes);
-    return {
-        std::move(flown.trajectory),
-        static_cast<double>(script.rate_hz),
-        script.min_clearance_m,
-        kind.limits,
-        {},
-        std::move(flown.legs),
-        std::move(flown.notes),
-        {},
-        {},
-        false};
+    return {std::move(flown.trajectory), static_cast<double>(script.rate_hz), script.min_clearance_m, kind.limits, {},
+        std::move(flown.legs), std::move(flown.notes), {}, {}, false};
 }
 
 } // namespace octant::ui::world

@@ -19,13 +19,12 @@ struct LoadedPath {
     double min_clearance_m = 0.0;
     /// Those of what flies, where they are known.
     std::optional<sim::AircraftLimits> limits;
-    /// That of a track which knows where it was flown: its axes are a TransverseMercator frame's
-    /// there.
+    /// That of a track which knows where it was flown: its axes are a TransverseMercator frame's there.
     std::optional<GeoPosition> origin;
     std::vector<flightpaths::LegStart> legs;
     std::vector<std::string> notes;
-    /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its
-    /// clock, and the built-in aircraft that each is shown as.
+    /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its clock, and the built-in
+    /// aircraft that each is shown as.
     std::vector<sim::Trajectory> other_trajectories;
     std::vector<std::string> other_aircraft;
     bool is_tape = false;

@@ -11,7 +11,6 @@ namespace octant::ui::world {
 std::string built_in_mesh_names();
 
 /// A triangle mesh by one of these names or from a file, not repaired. Throws Error.
-models::TriangleMesh
-load_mesh(const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
+models::TriangleMesh load_mesh(const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
 
 } // namespace octant::ui::world

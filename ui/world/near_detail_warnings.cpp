@@ -21,15 +21,13 @@ std::string reason_for_no_near_detail(const World& world, const visuals::scene::
 } // namespace
 
 std::vector<std::string> near_detail_warnings(
-    const World& world,
-    const visuals::scene::GroundSettings& settings,
-    std::span<const std::string> given) {
+    const World& world, const visuals::scene::GroundSettings& settings, std::span<const std::string> given) {
     const std::string why = reason_for_no_near_detail(world, settings);
     const Ellipsoid below = ellipsoid_below(world.ground_place);
-    const std::string textured =
-        world.scene.ground_texture ? "where a texture colours the ground there is none"
-        : !below.is_earth() ? fmt::format("nothing grows or is built on {}", name_of_body(below))
-                            : "";
+    const std::string textured = world.scene.ground_texture ? "where a texture colours the ground there is none"
+                                 : !below.is_earth()
+                                     ? fmt::format("nothing grows or is built on {}", name_of_body(below))
+                                     : "";
     std::vector<std::string> notes;
     const auto note = [&](const std::string& option, bool is_on, const std::string& reason) {
         if (is_on && !reason.empty() && std::ranges::find(given, option) != given.end()) {

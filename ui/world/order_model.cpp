@@ -1,9 +1,9 @@
 #include "ui/world/order_model.h"
 
-#include "models/procedural/background60.h"
 #include "models/polygons/obj_reader.h"
-#include "sim/base/random_generator.h"
+#include "models/procedural/background60.h"
 #include "sim/base/error.h"
+#include "sim/base/random_generator.h"
 #include "ui/base/data_files.h"
 
 #include <glm/geometric.hpp>
@@ -40,14 +40,10 @@ OrderModel read(const std::string& name, const std::string& axes) {
     if (std::ranges::find(base::built_in_models, name) != base::built_in_models.end()) {
         return {models::polygons::read_obj(base::aircraft_file(name)), {}};
     }
-    if (name == "torus") {
-        return {models::procedural::torus(), {}};
-    }
+    if (name == "torus") { return {models::procedural::torus(), {}}; }
     if (!is_file_name(name)) {
-        throw Error(fmt::format(
-            "model: expected {}, torus or an OBJ file, got '{}'",
-            fmt::join(base::built_in_models, ", "),
-            printable(name)));
+        throw Error(fmt::format("model: expected {}, torus or an OBJ file, got '{}'",
+            fmt::join(base::built_in_models, ", "), printable(name)));
     }
     return {models::polygons::read_obj(name, file_axes), file_axes};
 }
@@ -58,14 +54,11 @@ int max_tests(const draworder::DrawOrder& order) {
     const auto nodes = order.nodes();
     std::vector<int> most(nodes.size(), 0);
     for (std::size_t i = nodes.size(); i-- > 0;) { // children are later nodes
-        const auto below = [&](int child) {
-            return child >= 0 ? most[static_cast<std::size_t>(child)] : 0;
-        };
+        const auto below = [&](int child) { return child >= 0 ? most[static_cast<std::size_t>(child)] : 0; };
         const int front = below(nodes[i].front);
         const int back = below(nodes[i].back);
         const bool one = nodes[i].kind == Kind::ViewSplit;
-        most[i] = (nodes[i].kind == Kind::Sequence ? 0 : 1) +
-                  (one ? std::max(front, back) : front + back);
+        most[i] = (nodes[i].kind == Kind::Sequence ? 0 : 1) + (one ? std::max(front, back) : front + back);
     }
     return most.empty() ? 0 : most.front();
 }
@@ -80,12 +73,8 @@ int tests_of(const draworder::DrawOrder& order, const glm::dvec3& eye_m, std::ve
         to_do.pop_back();
         tests += node.kind == Kind::Sequence ? 0 : 1;
         const bool in_front = node.kind == Kind::ViewSplit && distance_m(node.plane, eye_m) >= 0.0;
-        if (node.front >= 0 && (node.kind != Kind::ViewSplit || in_front)) {
-            to_do.push_back(node.front);
-        }
-        if (node.back >= 0 && !in_front) {
-            to_do.push_back(node.back);
-        }
+        if (node.front >= 0 && (node.kind != Kind::ViewSplit || in_front)) { to_do.push_back(node.front); }
+        if (node.back >= 0 && !in_front) { to_do.push_back(node.back); }
     }
     return tests;
 }
@@ -95,10 +84,7 @@ int tests_of(const draworder::DrawOrder& order, const glm::dvec3& eye_m, std::ve
 OrderModel load_order_model(const std::string& name_or_file, const std::string& axes) {
     OrderModel input = read(name_or_file, axes);
     if (input.model.polygons.size() > max_polygons) {
-        throw Error(fmt::format(
-            "{}: expected at most {} polygons, got {}",
-            printable(name_or_file),
-            max_polygons,
+        throw Error(fmt::format("{}: expected at most {} polygons, got {}", printable(name_or_file), max_polygons,
             input.model.polygons.size()));
     }
     return input;
@@ -107,8 +93,7 @@ OrderModel load_order_model(const std::string& name_or_file, const std::string& 
 PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
     constexpr std::size_t max_tests_in_all = 20'000'000;
     const std::size_t nodes = ordered.order.nodes().size();
-    const int eyes =
-        static_cast<int>(std::clamp<std::size_t>(max_tests_in_all / (nodes + 1), 100, 10'000));
+    const int eyes = static_cast<int>(std::clamp<std::size_t>(max_tests_in_all / (nodes + 1), 100, 10'000));
     PlaneTests tests;
     tests.most = max_tests(ordered.order);
     RandomGenerator dice(1989);
@@ -127,21 +112,16 @@ PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
 orderfile::RayTestCounts cast_rays(
     const models::polygons::PolygonModel& model, const orderfile::CellOrders& orders, int rays) {
     std::vector<double> angles_rad = {0.0};
-    if (!model.pivots.empty()) {
-        angles_rad = {0.0, 0.7, 2.1, 4.4};
-    }
+    if (!model.pivots.empty()) { angles_rad = {0.0, 0.7, 2.1, 4.4}; }
     double min_m = orders.cells.empty() ? 0.0 : orders.cells.front().min_m;
-    for (const auto& cell : orders.cells) {
-        min_m = std::min(min_m, cell.min_m);
-    }
+    for (const auto& cell : orders.cells) { min_m = std::min(min_m, cell.min_m); }
     const double nearest_m = min_m / std::sqrt(3.0) - glm::length(orders.centre_m);
     orderfile::RayTestCounts count;
     for (std::size_t i = 0; i < angles_rad.size(); ++i) {
         orderfile::RaySampling samples;
         samples.eyes = std::max(1, rays / rays_per_eye / static_cast<int>(angles_rad.size()));
         samples.rays_per_eye = rays_per_eye;
-        samples.min_distance_radii =
-            std::max(nearest_radii, nearest_m / models::polygons::radius_m(model));
+        samples.min_distance_radii = std::max(nearest_radii, nearest_m / models::polygons::radius_m(model));
         samples.max_distance_radii = std::max(farthest_radii, 10.0 * samples.min_distance_radii);
         samples.seed = 1989 + i;
         samples.turn_rad = angles_rad[i];

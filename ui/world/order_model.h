@@ -16,8 +16,8 @@ struct OrderModel {
     models::polygons::FileAxes axes;
 };
 
-/// A built-in model (base::built_in_models, torus) in the usual axes, or an OBJ file in `axes`.
-/// Throws Error, also for more polygons than orders can be found for in reasonable time.
+/// A built-in model (base::built_in_models, torus) in the usual axes, or an OBJ file in `axes`. Throws Error, also for
+/// more polygons than orders can be found for in reasonable time.
 OrderModel load_order_model(const std::string& name_or_file, const std::string& axes);
 
 /// How many planes an eye is tried against.
@@ -29,11 +29,9 @@ struct PlaneTests {
 
 PlaneTests plane_tests(const visuals::draworder::OrderedModel& ordered);
 
-/// Tries orders with `rays` rays from random eyes within their range, 0.05 to 20 times the radius
-/// away, a quarter of them each at four angles of the turning parts where there are such.
+/// Tries orders with `rays` rays from random eyes within their range, 0.05 to 20 times the radius away, a quarter of
+/// them each at four angles of the turning parts where there are such.
 visuals::orderfile::RayTestCounts cast_rays(
-    const models::polygons::PolygonModel& model,
-    const visuals::orderfile::CellOrders& orders,
-    int rays);
+    const models::polygons::PolygonModel& model, const visuals::orderfile::CellOrders& orders, int rays);
 
 } // namespace octant::ui::world

@@ -1,4 +1,5 @@
 #include "ui/world/placed_flight.h"
+
 #include "flightpaths/placement.h"
 #include "flightpaths/reprojected_path.h"
 #include "models/heights/height_source.h"
@@ -45,9 +46,7 @@ std::optional<Part> part_of(std::string_view text, std::string_view letters) {
         text.remove_suffix(1);
     }
     const auto number = finite_number(text);
-    if (!number || (part.letter != '\0' && *number < 0.0)) {
-        return std::nullopt;
-    }
+    if (!number || (part.letter != '\0' && *number < 0.0)) { return std::nullopt; }
     part.value = part.letter == 'S' || part.letter == 'W' ? -*number : *number;
     return part;
 }
@@ -72,15 +71,9 @@ Pair pair_of(const std::string& text) {
 
 std::optional<GeoPosition> place_of(const settings::PathSettings& settings) {
     const std::string& terrain = settings.terrain;
-    if (settings::is_built_in_ground(terrain)) {
-        return std::nullopt;
-    }
-    if (settings::is_imported_ground(terrain)) {
-        return visuals::groundfile::open_ground(terrain).metadata().place;
-    }
-    return models::heights::HeightSource(
-               models::heights::map_inputs({terrain}), import_options(settings))
-        .place();
+    if (settings::is_built_in_ground(terrain)) { return std::nullopt; }
+    if (settings::is_imported_ground(terrain)) { return visuals::groundfile::open_ground(terrain).metadata().place; }
+    return models::heights::HeightSource(models::heights::map_inputs({terrain}), import_options(settings)).place();
 }
 
 } // namespace
@@ -98,46 +91,35 @@ glm::dvec2 path_origin_from_text(
     const Pair pair = pair_of(text);
     const glm::dvec2 as_metres(pair.first, pair.second);
     if (map_frame == nullptr) {
-        if (pair.lettered) {
-            refuse("X,Y in metres on a map without a place on the earth", text);
-        }
+        if (pair.lettered) { refuse("X,Y in metres on a map without a place on the earth", text); }
         return as_metres;
     }
     const bool can_be_degrees = std::abs(pair.first) <= 90.0 && std::abs(pair.second) <= 360.0;
     if (!can_be_degrees) {
-        if (pair.lettered) {
-            refuse("latitude up to 90 and longitude up to 360 degrees", text);
-        }
+        if (pair.lettered) { refuse("latitude up to 90 and longitude up to 360 degrees", text); }
         return as_metres;
     }
     const glm::dvec2 local_m = map_frame->local_from_geo({pair.first, pair.second});
-    const bool on_map =
-        std::abs(local_m.x) <= half_extent_m.x && std::abs(local_m.y) <= half_extent_m.y;
+    const bool on_map = std::abs(local_m.x) <= half_extent_m.x && std::abs(local_m.y) <= half_extent_m.y;
     return pair.lettered || on_map ? local_m : as_metres;
 }
 
 namespace {
 
 /// Whether a track lies over this ground where it was flown.
-bool has_own_origin(
-    const settings::RunSettings& settings, const LoadedPath& loaded, const PlacementGround& ground) {
+bool has_own_origin(const settings::RunSettings& settings, const LoadedPath& loaded, const PlacementGround& ground) {
     return loaded.origin && ground.frame && !settings.path.place;
 }
 
-/// A track that lies over this ground where it was flown, in the ground's axes; another one as it
-/// is.
-LoadedPath in_axes_of(
-    const PlacementGround& ground,
-    const settings::RunSettings& settings,
-    LoadedPath loaded,
+/// A track that lies over this ground where it was flown, in the ground's axes; another one as it is.
+LoadedPath in_axes_of(const PlacementGround& ground, const settings::RunSettings& settings, LoadedPath loaded,
     std::vector<std::string>& notes) {
     if (has_own_origin(settings, loaded, ground)) {
         const TransverseMercator own(*loaded.origin);
         const Ellipsoid ellipsoid = ground.frame->origin().ellipsoid;
         if (!ellipsoid.is_earth()) {
-            notes.push_back(fmt::format(
-                "the track's latitudes and longitudes are taken as places on {}",
-                name_of_body(ellipsoid)));
+            notes.push_back(
+                fmt::format("the track's latitudes and longitudes are taken as places on {}", name_of_body(ellipsoid)));
         }
         loaded.trajectory = flightpaths::reprojected(loaded.trajectory, own, *ground.frame);
         for (sim::Trajectory& other : loaded.other_trajectories) {
@@ -152,21 +134,17 @@ flightpaths::PlacementOptions placement_of(
     flightpaths::PlacementOptions placement;
     const bool at_its_own_place = has_own_origin(settings, loaded, ground);
     if (settings.path.place) {
-        placement.place_m =
-            path_origin_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
+        placement.place_m = path_origin_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = ground.frame->local_from_geo(*loaded.origin);
         placement.heading_rad = 0.0;
     }
-    if (settings.path.heading_deg) {
-        placement.heading_rad = rad_from_deg(*settings.path.heading_deg);
-    }
-    placement.mode = settings.path.height_mode.value_or(
-        at_its_own_place ? sim::HeightMode::Datum : sim::HeightMode::Clear);
+    if (settings.path.heading_deg) { placement.heading_rad = rad_from_deg(*settings.path.heading_deg); }
+    placement.mode =
+        settings.path.height_mode.value_or(at_its_own_place ? sim::HeightMode::Datum : sim::HeightMode::Clear);
     if (placement.mode == sim::HeightMode::Follow && !loaded.limits) {
-        throw Error(fmt::format(
-            "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
-            "got '{}'",
+        throw Error(fmt::format("--height-mode follow: expected an aircraft with known limits beside a recorded track, "
+                                "got '{}'",
             printable(settings::aircraft_shape(settings.path.aircraft.front()))));
     }
     return placement;
@@ -176,22 +154,21 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-/// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights
-/// meet ours, all of the tape is lifted clear, and a note says so.
-flightpaths::PlacedPath
-placed_path(const LoadedPath& loaded, flightpaths::PlacementOptions placement, const PlacementGround& ground) {
+/// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights meet ours, all of the
+/// tape is lifted clear, and a note says so.
+flightpaths::PlacedPath placed_path(
+    const LoadedPath& loaded, flightpaths::PlacementOptions placement, const PlacementGround& ground) {
     if (!loaded.is_tape || placement.mode != sim::HeightMode::Datum) {
         return flightpaths::place_over_ground(
             loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
     }
     constexpr double min_m = 2.0;
     placement.mode = sim::HeightMode::Clear;
-    flightpaths::PlacedPath lifted = flightpaths::place_over_ground(
-        loaded.trajectory, placement, ground.height_at, min_m, loaded.limits);
+    flightpaths::PlacedPath lifted =
+        flightpaths::place_over_ground(loaded.trajectory, placement, ground.height_at, min_m, loaded.limits);
     if (lifted.offset_m > 0.0) {
-        lifted.notes.push_back(fmt::format(
-            "the tape's first aircraft meets this ground: all are lifted by {:.1f} m",
-            lifted.offset_m));
+        lifted.notes.push_back(
+            fmt::format("the tape's first aircraft meets this ground: all are lifted by {:.1f} m", lifted.offset_m));
         return lifted;
     }
     placement.mode = sim::HeightMode::Datum;
@@ -200,47 +177,33 @@ placed_path(const LoadedPath& loaded, flightpaths::PlacementOptions placement, c
 }
 
 /// Lays a path over the ground; what is wrong with it is said with the name of the path.
-flightpaths::PlacedPath placed_by_name(
-    const std::string& name,
-    const LoadedPath& loaded,
-    const flightpaths::PlacementOptions& placement,
-    const PlacementGround& ground) {
+flightpaths::PlacedPath placed_by_name(const std::string& name, const LoadedPath& loaded,
+    const flightpaths::PlacementOptions& placement, const PlacementGround& ground) {
     try {
         return placed_path(loaded, placement, ground);
     } catch (const flightpaths::OutsideMapError& fault) {
-        throw Error(fmt::format(
-            "{}: {}; the map reaches {:.1f} km east and {:.1f} km north of its middle, and "
-            "--terrain none has no end",
-            printable(name),
-            fault.what(),
-            ground.half_extent_m.x / 1000.0,
-            ground.half_extent_m.y / 1000.0));
-    } catch (const Error& fault) {
-        throw Error(fmt::format("{}: {}", printable(name), fault.what()));
-    }
+        throw Error(fmt::format("{}: {}; the map reaches {:.1f} km east and {:.1f} km north of its middle, and "
+                                "--terrain none has no end",
+            printable(name), fault.what(), ground.half_extent_m.x / 1000.0, ground.half_extent_m.y / 1000.0));
+    } catch (const Error& fault) { throw Error(fmt::format("{}: {}", printable(name), fault.what())); }
 }
 
 /// A path as it is flown from another time on.
 sim::Trajectory starting_at_time(const sim::Trajectory& path, double time_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
-    for (sim::AircraftState& state : samples) {
-        state.time_s += time_s - path.start_s();
-    }
+    for (sim::AircraftState& state : samples) { state.time_s += time_s - path.start_s(); }
     return sim::Trajectory(std::move(samples));
 }
 
 } // namespace
 
 std::string path_of(const settings::RunSettings& settings) {
-    return settings::parse_aircraft_entry(settings.path.aircraft.front())
-        .path.value_or(settings.path.name);
+    return settings::parse_aircraft_entry(settings.path.aircraft.front()).path.value_or(settings.path.name);
 }
 
 PlacementGround placement_ground(const SceneGround& ground) {
-    return {
-        [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); },
-        ground.ground->half_extent_m(),
-        ground.frame};
+    return {[&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); },
+        ground.ground->half_extent_m(), ground.frame};
 }
 
 Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground) {
@@ -254,10 +217,8 @@ Flight live_flight(const settings::RunSettings& settings, const PlacementGround&
     const double ground_m = ground.height_at(place_m.x, place_m.y).value_or(0.0);
     state.position_m = glm::dvec3(place_m, ground_m + above_ground_m);
     state.body_to_world = body_to_world_from_euler({});
-    return {
-        .trajectory = sim::Trajectory({state}),
-        .title = fmt::format(
-            "live over {}", std::filesystem::path(settings.path.terrain).stem().string()),
+    return {.trajectory = sim::Trajectory({state}),
+        .title = fmt::format("live over {}", std::filesystem::path(settings.path.terrain).stem().string()),
         .rate_hz = usual_rate_hz,
         .place_m = place_m,
         .lowest_clearance_m = above_ground_m,
@@ -265,12 +226,8 @@ Flight live_flight(const settings::RunSettings& settings, const PlacementGround&
         .other_trajectories = {}};
 }
 
-Flight place_flight(
-    const settings::RunSettings& settings,
-    LoadedPath loaded,
-    const PlacementGround& ground,
-    std::vector<std::string>& notes,
-    const std::optional<PathPlacement>& given_placement) {
+Flight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
+    std::vector<std::string>& notes, const std::optional<PathPlacement>& given_placement) {
     loaded = in_axes_of(ground, settings, std::move(loaded), notes);
     flightpaths::PlacementOptions placement = placement_of(settings, loaded, ground);
     if (given_placement) {
@@ -283,16 +240,10 @@ Flight place_flight(
     for (std::size_t i = 0; i < loaded.other_trajectories.size(); ++i) {
         other_trajectories.emplace(i + 1, flightpaths::with_same_placement(loaded.other_trajectories[i], path));
     }
-    const auto stem = [](const std::string& name) {
-        return std::filesystem::path(name).stem().string();
-    };
-    return {
-        .trajectory = std::move(path.trajectory),
-        .title = fmt::format(
-            "{} {} over {}",
-            stem(settings::aircraft_shape(settings.path.aircraft.front())),
-            stem(path_of(settings)),
-            stem(settings.path.terrain)),
+    const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
+    return {.trajectory = std::move(path.trajectory),
+        .title = fmt::format("{} {} over {}", stem(settings::aircraft_shape(settings.path.aircraft.front())),
+            stem(path_of(settings)), stem(settings.path.terrain)),
         .rate_hz = loaded.rate_hz,
         .place_m = path.origin_m,
         .heading_rad = path.heading_rad,
@@ -303,15 +254,10 @@ Flight place_flight(
         .other_trajectories = std::move(other_trajectories)};
 }
 
-sim::Trajectory own_path(
-    const settings::RunSettings& settings,
-    const settings::AircraftEntry& flown,
-    const glm::dvec2& begin_m,
-    const PlacementGround& ground,
-    const Flight& first,
-    std::vector<std::string>& notes) {
-    const LoadedPath loaded = in_axes_of(
-        ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient), notes);
+sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,
+    const glm::dvec2& begin_m, const PlacementGround& ground, const Flight& first, std::vector<std::string>& notes) {
+    const LoadedPath loaded =
+        in_axes_of(ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient), notes);
     add(notes, loaded.notes);
     flightpaths::PlacementOptions placement = placement_of(settings, loaded, ground);
     if (!has_own_origin(settings, loaded, ground)) {

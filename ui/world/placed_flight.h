@@ -18,15 +18,14 @@
 
 namespace octant::ui::world {
 
-/// Where --place puts the path's origin, metres east and north of the map centre. Two numbers are
-/// degrees when they carry letters (49.3N,123.1W) or when the map has a place on the earth and they
-/// lie on it as latitude,longitude; otherwise metres. `map_frame` is null for a map without one.
-/// Throws Error for other text and for degrees on a map without a place.
-glm::dvec2 path_origin_from_text(
-    const std::string& text, const EarthFrame* map_frame, const glm::dvec2& half_extent_m);
+/// Where --place puts the path's origin, metres east and north of the map centre. Two numbers are degrees when they
+/// carry letters (49.3N,123.1W) or when the map has a place on the earth and they lie on it as latitude,longitude;
+/// otherwise metres. `map_frame` is null for a map without one. Throws Error for other text and for degrees on a map
+/// without a place.
+glm::dvec2 path_origin_from_text(const std::string& text, const EarthFrame* map_frame, const glm::dvec2& half_extent_m);
 
-/// Before anything is loaded: throws Error where path_origin_from_text would for this ground whatever its
-/// extent. Reads no more of a map than where it lies.
+/// Before anything is loaded: throws Error where path_origin_from_text would for this ground whatever its extent. Reads
+/// no more of a map than where it lies.
 void check_path_origin(const settings::PathSettings& settings);
 
 /// The first aircraft's path: its own, or that of the settings.
@@ -52,24 +51,14 @@ PlacementGround placement_ground(const SceneGround& ground);
 /// Where the first aircraft stands that others fly, until somebody moves it. Throws Error.
 Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground);
 
-/// Lays the first aircraft's path over the ground, and with it all that a tape has beside it. Adds
-/// what a person should be told to the notes. `given_placement`: there, and not where settings and ground
-/// say. Throws Error.
-Flight place_flight(
-    const settings::RunSettings& settings,
-    LoadedPath loaded,
-    const PlacementGround& ground,
-    std::vector<std::string>& notes,
-    const std::optional<PathPlacement>& given_placement = std::nullopt);
+/// Lays the first aircraft's path over the ground, and with it all that a tape has beside it. Adds what a person should
+/// be told to the notes. `given_placement`: there, and not where settings and ground say. Throws Error.
+Flight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
+    std::vector<std::string>& notes, const std::optional<PathPlacement>& given_placement = std::nullopt);
 
-/// An aircraft's own path over the ground: it begins at this place, turned as the first one's,
-/// unless it knows where it was flown. Throws Error.
-sim::Trajectory own_path(
-    const settings::RunSettings& settings,
-    const settings::AircraftEntry& flown,
-    const glm::dvec2& begin_m,
-    const PlacementGround& ground,
-    const Flight& first,
-    std::vector<std::string>& notes);
+/// An aircraft's own path over the ground: it begins at this place, turned as the first one's, unless it knows where it
+/// was flown. Throws Error.
+sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,
+    const glm::dvec2& begin_m, const PlacementGround& ground, const Flight& first, std::vector<std::string>& notes);
 
 } // namespace octant::ui::world

@@ -55,15 +55,11 @@ public:
     std::vector<fs::path> files;
 
 private:
-    static std::string text_of(const fs::path& file) {
-        return read_text_file(file, largest_model_bytes);
-    }
+    static std::string text_of(const fs::path& file) { return read_text_file(file, largest_model_bytes); }
 
     bool add(const fs::path& named) {
         std::error_code ignored;
-        if (named.empty() || files.size() >= max_files || !fs::is_regular_file(named, ignored)) {
-            return false;
-        }
+        if (named.empty() || files.size() >= max_files || !fs::is_regular_file(named, ignored)) { return false; }
         const fs::path file = fs::absolute(named).lexically_normal();
         if (std::ranges::find(files, file) == files.end()) {
             files.push_back(file);
@@ -75,17 +71,13 @@ private:
     /// As models/meshfile/baked_pictures.cpp looks for one.
     void add_picture(const fs::path& folder, std::string name) {
         std::ranges::replace(name, '\\', '/');
-        if (!name.empty() && !add(folder / name)) {
-            add(folder / fs::path(name).filename());
-        }
+        if (!name.empty() && !add(folder / name)) { add(folder / fs::path(name).filename()); }
     }
 
     void add_ac3d_references(const fs::path& file, const fs::path& pictures) {
         const std::string text = text_of(file);
         for (const std::string_view line : split_lines(text)) {
-            if (line.starts_with("texture ")) {
-                add_picture(pictures, after_first_word(line));
-            }
+            if (line.starts_with("texture ")) { add_picture(pictures, after_first_word(line)); }
         }
     }
 
@@ -93,9 +85,7 @@ private:
         LineReader lines(file);
         while (const auto line = lines.next()) {
             const auto words = split_words(*line);
-            if (words.size() < 2 || words.front() != "mtllib") {
-                continue;
-            }
+            if (words.size() < 2 || words.front() != "mtllib") { continue; }
             // One name with blanks, or several.
             add(file.parent_path() / std::string(words[1].data(), line->data() + line->size()));
             for (auto word = words.begin() + 1; word != words.end(); ++word) {
@@ -110,8 +100,7 @@ private:
             const auto words = split_words(line);
             if (words.size() >= 2 && words.front() == "map_Kd") {
                 add_picture(
-                    file.parent_path(),
-                    words[1].starts_with('-') ? std::string(words.back()) : after_first_word(line));
+                    file.parent_path(), words[1].starts_with('-') ? std::string(words.back()) : after_first_word(line));
             }
         }
     }
@@ -124,9 +113,7 @@ private:
             at += key.size();
             const std::size_t open = text.find('"', at);
             const std::size_t close = open == text.npos ? open : text.find('"', open + 1);
-            if (close == text.npos) {
-                return;
-            }
+            if (close == text.npos) { return; }
             if (text.compare(open + 1, 5, "data:") != 0) {
                 add(file.parent_path() / text.substr(open + 1, close - open - 1));
             }
@@ -134,18 +121,14 @@ private:
     }
 
     void add_xml_references(const fs::path& file, const models::meshfile::XmlElement& element) {
-        if (!element.include.empty()) {
-            add(models::meshfile::flightgear_file(file, element.include));
-        }
-        const fs::path pictures = models::meshfile::flightgear_pictures(
-            file, std::string(element.text_of("texture-path")));
+        if (!element.include.empty()) { add(models::meshfile::flightgear_file(file, element.include)); }
+        const fs::path pictures =
+            models::meshfile::flightgear_pictures(file, std::string(element.text_of("texture-path")));
         for (const models::meshfile::XmlElement& child : element.children) {
             if (child.name == "path") {
                 const fs::path named = models::meshfile::flightgear_file(file, child.text);
                 add(named);
-                if (!pictures.empty() && extension_of(named) == ".ac") {
-                    add_references(named, pictures);
-                }
+                if (!pictures.empty() && extension_of(named) == ".ac") { add_references(named, pictures); }
             }
             add_xml_references(file, child);
         }

@@ -40,8 +40,7 @@ void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh);
 /// Makes a hierarchy of a mesh that has been read from the input's file. Throws Error.
 RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh);
 
-/// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws
-/// Error.
+/// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws Error.
 RefineMesh load_refine_mesh(const RefineMeshOptions& input);
 
 } // namespace octant::ui::world

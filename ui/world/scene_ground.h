@@ -21,10 +21,9 @@
 
 namespace octant::ui::world {
 
-/// The settings with what the ground decides where they leave it open: its colours, and the sun at
-/// its place.
-settings::RunSettings
-with_ground_defaults(const settings::RunSettings& settings, const std::optional<GeoPosition>& place);
+/// The settings with what the ground decides where they leave it open: its colours, and the sun at its place.
+settings::RunSettings with_ground_defaults(
+    const settings::RunSettings& settings, const std::optional<GeoPosition>& place);
 
 /// What the heights of a ground are loaded of.
 struct TerrainSources {
@@ -62,23 +61,21 @@ struct SceneGround {
 using RunwayFinder = std::function<models::heights::RunwayStrip(
     const models::heights::HeightField& field, std::vector<std::string>& notes)>;
 
-/// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
-/// what cannot be read. `find_runway`: the heights are levelled for the runway that it finds; Error
-/// for ground that has no heights to be levelled, or more than are levelled.
+/// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for what cannot be
+/// read. `find_runway`: the heights are levelled for the runway that it finds; Error for ground that has no heights to
+/// be levelled, or more than are levelled.
 SceneGround load_scene_ground(
-    const settings::RunSettings& settings,
-    RenderDevice device,
-    const RunwayFinder& find_runway = nullptr);
+    const settings::RunSettings& settings, RenderDevice device, const RunwayFinder& find_runway = nullptr);
 
-/// The ground of a run whose heights another run has in memory: as it is there where these settings
-/// mesh and colour it alike. Nothing where it must be loaded. Throws Error for an image to be laid
-/// over it. `other` needs inputs, ground, place and filled voids only.
+/// The ground of a run whose heights another run has in memory: as it is there where these settings mesh and colour it
+/// alike. Nothing where it must be loaded. Throws Error for an image to be laid over it. `other` needs inputs, ground,
+/// place and filled voids only.
 std::optional<SceneGround> shared_scene_ground(
     const SceneGround& other, const settings::RunSettings& settings, RenderDevice device);
 
-/// Ground and texture of a scene as these settings, which are with_ground_defaults(), want them: made of
-/// the heights in memory, in other colours or under another mesh. Terrain is not read again; an
-/// image laid over it is. Nothing where the heights must be loaded. Throws Error for that image.
+/// Ground and texture of a scene as these settings, which are with_ground_defaults(), want them: made of the heights in
+/// memory, in other colours or under another mesh. Terrain is not read again; an image laid over it is. Nothing where
+/// the heights must be loaded. Throws Error for that image.
 std::optional<SceneGround> rebuilt_scene_ground(
     const visuals::planning::Scene& scene, const settings::RunSettings& settings, RenderDevice device);
 

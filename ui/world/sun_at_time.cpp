@@ -19,9 +19,7 @@ std::optional<sim::SunPosition> sun_of(const visuals::scene::AirSettings& air, c
 
 } // namespace
 
-double latitude_of(const Place& place) {
-    return place ? place->latitude_deg : default_latitude_deg;
-}
+double latitude_of(const Place& place) { return place ? place->latitude_deg : default_latitude_deg; }
 
 settings::RunSettings with_sun_at_time(settings::RunSettings settings, const Place& place) {
     if (const auto sun = sun_of(settings.air, place)) {
@@ -33,12 +31,10 @@ settings::RunSettings with_sun_at_time(settings::RunSettings settings, const Pla
 
 settings::RunSettings with_sun_updated(
     settings::RunSettings settings, const settings::RunSettings& before, const Place& place) {
-    const bool moved_by_hand = settings.air.time == before.air.time &&
-                               (settings.air.sun_azimuth_deg != before.air.sun_azimuth_deg ||
-                                settings.air.sun_elevation_deg != before.air.sun_elevation_deg);
-    if (moved_by_hand) {
-        settings.air.time.reset();
-    }
+    const bool moved_by_hand =
+        settings.air.time == before.air.time && (settings.air.sun_azimuth_deg != before.air.sun_azimuth_deg ||
+                                                    settings.air.sun_elevation_deg != before.air.sun_elevation_deg);
+    if (moved_by_hand) { settings.air.time.reset(); }
     return with_sun_at_time(std::move(settings), place);
 }
 
@@ -46,18 +42,14 @@ std::vector<std::string> sun_notes(const settings::RunSettings& settings, const 
     std::vector<std::string> notes;
     const auto sun = sun_of(settings.air, place);
     if (const Ellipsoid below = ellipsoid_below(place); sun && !below.is_earth()) {
-        notes.push_back(fmt::format(
-            "--time {}: the sun stands as over the earth at this latitude and date, not as over {}",
-            *settings.air.time,
-            name_of_body(below)));
+        notes.push_back(
+            fmt::format("--time {}: the sun stands as over the earth at this latitude and date, not as over {}",
+                *settings.air.time, name_of_body(below)));
     }
     if (sun && sun->elevation_deg < 0.0) {
-        notes.push_back(fmt::format(
-            "--time {}: the sun is {:.0f} degrees below the horizon at latitude {:.1f}; it is "
-            "shown on the horizon",
-            *settings.air.time,
-            -sun->elevation_deg,
-            latitude_of(place)));
+        notes.push_back(fmt::format("--time {}: the sun is {:.0f} degrees below the horizon at latitude {:.1f}; it is "
+                                    "shown on the horizon",
+            *settings.air.time, -sun->elevation_deg, latitude_of(place)));
     }
     return notes;
 }

@@ -49,16 +49,12 @@ void add_own_paths(const settings::RunSettings& settings, const SceneGround& gro
     const Formation abreast(static_cast<int>(aircraft.size()), largest_radius_m(world.scene));
     for (std::size_t i = 1; i < aircraft.size(); ++i) {
         const settings::AircraftEntry flown = settings::parse_aircraft_entry(aircraft[i]);
-        if (!flown.path) {
-            continue;
-        }
+        if (!flown.path) { continue; }
         const glm::dvec2 begin_m(abreast.wingman_state(start, static_cast<int>(i)).position_m);
         try {
             world.flight.other_trajectories.insert_or_assign(
                 i, own_path(settings, flown, begin_m, placement_ground(ground), world.flight, world.notes));
-        } catch (const Error& fault) {
-            throw Error(fmt::format("{}: {}", printable(aircraft[i]), fault.what()));
-        }
+        } catch (const Error& fault) { throw Error(fmt::format("{}: {}", printable(aircraft[i]), fault.what())); }
     }
 }
 
@@ -67,29 +63,24 @@ void check_wingmen(const World& world) {
     const Formation formation = formation_of(world.scene, world.flight);
     int number = 0;
     for (std::size_t i = 1; i < world.scene.aircraft.size(); ++i) {
-        if (world.flight.other_trajectories.contains(i)) {
-            continue;
-        }
+        if (world.flight.other_trajectories.contains(i)) { continue; }
         ++number;
         std::vector<sim::AircraftState> states;
         for (const sim::AircraftState& leader : world.flight.trajectory.samples()) {
             states.push_back(formation.wingman_state(leader, number));
         }
         try {
-            flightpaths::check_over_ground(
-                sim::Trajectory(std::move(states)),
+            flightpaths::check_over_ground(sim::Trajectory(std::move(states)),
                 [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); });
         } catch (const Error& fault) {
             throw Error(fmt::format(
-                "wingman {}: {}; fewer --aircraft, another --place or another --heading may do",
-                number,
-                fault.what()));
+                "wingman {}: {}; fewer --aircraft, another --place or another --heading may do", number, fault.what()));
         }
     }
 }
 
-/// Tells of aircraft of known types that fly what their types cannot: in formation the motion of
-/// another one, or what somebody else flew.
+/// Tells of aircraft of known types that fly what their types cannot: in formation the motion of another one, or what
+/// somebody else flew.
 void note_limits(const std::vector<std::string>& shapes, World& world) {
     const bool has_script = !world.flight.legs.empty();
     std::vector<std::string> in_formation_before;
@@ -97,37 +88,26 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
         const sim::AircraftKind* const kind = sim::find_aircraft_kind(shapes[i]);
         const auto own = world.flight.other_trajectories.find(i);
         const bool in_formation = i > 0 && own == world.flight.other_trajectories.end();
-        if (kind == nullptr || (in_formation && std::ranges::find(in_formation_before, shapes[i]) !=
-                                                    in_formation_before.end())) {
+        if (kind == nullptr ||
+            (in_formation && std::ranges::find(in_formation_before, shapes[i]) != in_formation_before.end())) {
             continue;
         }
-        if (in_formation) {
-            in_formation_before.push_back(shapes[i]);
-        }
-        const std::string beyond = flightpaths::limits_violation(
-            kind->limits,
+        if (in_formation) { in_formation_before.push_back(shapes[i]); }
+        const std::string beyond = flightpaths::limits_violation(kind->limits,
             own == world.flight.other_trajectories.end() ? world.flight.trajectory : own->second,
             in_formation && has_script);
         if (!beyond.empty()) {
             world.notes.push_back(fmt::format(
-                "{}{} is flown beyond its limits: {}",
-                kind->name,
-                in_formation ? " in formation" : "",
-                beyond));
+                "{}{} is flown beyond its limits: {}", kind->name, in_formation ? " in formation" : "", beyond));
         }
     }
 }
 
 /// The shapes of all aircraft of a run: those that are asked for, then those of its tape.
-std::vector<std::string>
-shapes_of(const settings::RunSettings& settings, const std::vector<std::string>& of_tape) {
+std::vector<std::string> shapes_of(const settings::RunSettings& settings, const std::vector<std::string>& of_tape) {
     std::vector<std::string> shapes;
-    for (const std::string& aircraft : settings.path.aircraft) {
-        shapes.push_back(settings::aircraft_shape(aircraft));
-    }
-    for (std::size_t i = shapes.size() - 1; i < of_tape.size(); ++i) {
-        shapes.push_back(of_tape[i]);
-    }
+    for (const std::string& aircraft : settings.path.aircraft) { shapes.push_back(settings::aircraft_shape(aircraft)); }
+    for (std::size_t i = shapes.size() - 1; i < of_tape.size(); ++i) { shapes.push_back(of_tape[i]); }
     return shapes;
 }
 
@@ -136,8 +116,7 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     for (std::size_t i = 0; i < settings.path.aircraft.size(); ++i) {
         const settings::AircraftEntry flown = settings::parse_aircraft_entry(settings.path.aircraft[i]);
         if (flown.path && (is_live || (i == 0 && flown.from_s > 0.0))) {
-            throw Error(fmt::format(
-                "aircraft: expected {}, got '{}'",
+            throw Error(fmt::format("aircraft: expected {}, got '{}'",
                 is_live ? "no path for one that others fly" : "the first one to begin at 0 s",
                 printable(settings.path.aircraft[i])));
         }
@@ -146,11 +125,8 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
 
 std::shared_ptr<const planning::DrawnPath> drawn_path(const Flight& flight) {
     std::vector<planning::NamedTime> legs;
-    for (const flightpaths::LegStart& leg : flight.legs) {
-        legs.push_back({leg.time_s, leg.label});
-    }
-    return std::make_shared<const planning::DrawnPath>(
-        planning::drawn_path(flight.trajectory, legs));
+    for (const flightpaths::LegStart& leg : flight.legs) { legs.push_back({leg.time_s, leg.label}); }
+    return std::make_shared<const planning::DrawnPath>(planning::drawn_path(flight.trajectory, legs));
 }
 
 /// What the tower is placed by; `flight` keeps the states.
@@ -158,22 +134,15 @@ scene::TowerRequest tower_request(const World& world, std::vector<sim::AircraftS
     constexpr int looks = 160;
     const sim::Trajectory& path = world.flight.trajectory;
     for (int i = 0; i <= looks; ++i) {
-        flight.push_back(
-            path.state_at(glm::mix(path.start_s(), path.end_s(), static_cast<double>(i) / looks)));
+        flight.push_back(path.state_at(glm::mix(path.start_s(), path.end_s(), static_cast<double>(i) / looks)));
     }
     const double radius_m = world.scene.model_of(0).subject.radius_m;
-    return {
-        flight,
-        formation_of(world.scene, world.flight).framed_radius_m(radius_m),
-        world.scene.ground->spacing_m(),
+    return {flight, formation_of(world.scene, world.flight).framed_radius_m(radius_m), world.scene.ground->spacing_m(),
         world.flight.place_m};
 }
 
 /// The ground of another world where it has the heights of these settings, else one that is loaded.
-SceneGround shared_or_load_ground(
-    const World* shared_world,
-    const settings::RunSettings& settings,
-    RenderDevice device,
+SceneGround shared_or_load_ground(const World* shared_world, const settings::RunSettings& settings, RenderDevice device,
     const RunwayFinder& find_runway) {
     // Levelled heights are those of one flight.
     if (shared_world != nullptr && !settings.ground.airfield && !shared_world->scene.ground->runway()) {
@@ -182,9 +151,7 @@ SceneGround shared_or_load_ground(
         other.filled_voids = shared_world->filled_voids;
         other.ground = shared_world->scene.ground;
         other.place = shared_world->ground_place;
-        if (auto shared = shared_scene_ground(other, settings, device)) {
-            return std::move(*shared);
-        }
+        if (auto shared = shared_scene_ground(other, settings, device)) { return std::move(*shared); }
     }
     return load_scene_ground(settings, device, find_runway);
 }
@@ -196,11 +163,7 @@ Formation formation_of(const planning::Scene& scene, const Flight& flight) {
     return {static_cast<int>(scene.aircraft.size() - own), largest_radius_m(scene)};
 }
 
-void formation_states(
-    const Flight& flight,
-    const Formation& formation,
-    const sim::AircraftState& leader,
-    double time_s,
+void formation_states(const Flight& flight, const Formation& formation, const sim::AircraftState& leader, double time_s,
     std::span<sim::AircraftState> states) {
     states.front() = leader;
     int number = 0;
@@ -213,9 +176,7 @@ void formation_states(
         const sim::Trajectory& path = own->second;
         states[i] = path.state_at(time_s);
         states[i].time_s = leader.time_s;
-        if (time_s < path.start_s() || time_s > path.end_s()) {
-            states[i].position_m.z = sim::absent_height_m;
-        }
+        if (time_s < path.start_s() || time_s > path.end_s()) { states[i].position_m.z = sim::absent_height_m; }
     }
 }
 
@@ -226,30 +187,22 @@ scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const
         points.free_eye_m = *settings.view.eye_m;
         points.free_look_m = *settings.view.look_m;
     }
-    if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) {
-        return points;
-    }
-    const GroundHeight ground = [&](double x_m, double y_m) {
-        return world.scene.ground->height_at(x_m, y_m);
-    };
+    if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) { return points; }
+    const GroundHeight ground = [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); };
     std::vector<sim::AircraftState> flight;
     const scene::TowerRequest wish = tower_request(world, flight);
     const bool placed_by_hand = settings.view.kind == scene::View::Tower && settings.view.eye_m;
-    points.tower = placed_by_hand ? scene::tower_at(*settings.view.eye_m, wish, ground)
-                                  : scene::tower_for(wish, ground);
+    points.tower =
+        placed_by_hand ? scene::tower_at(*settings.view.eye_m, wish, ground) : scene::tower_for(wish, ground);
     return points;
 }
 
 void check_clouds(const scene::AirSettings& air, const visuals::landscape::Ground& ground) {
-    if (air.clouds <= 0.0 || !air.cloud_height_m) {
-        return;
-    }
+    if (air.clouds <= 0.0 || !air.cloud_height_m) { return; }
     const double highest_m = visuals::landscape::highest_m(ground);
     if (*air.cloud_height_m <= highest_m) {
         throw Error(fmt::format(
-            "--cloud-height: expected more than the highest ground, {:.1f} m, got {}",
-            highest_m,
-            *air.cloud_height_m));
+            "--cloud-height: expected more than the highest ground, {:.1f} m, got {}", highest_m, *air.cloud_height_m));
     }
 }
 
@@ -262,17 +215,15 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     std::optional<LoadedPath> script;
     if (!is_live) {
         script = load_path(
-            path_of(settings),
-            settings::aircraft_shape(settings.path.aircraft.front()),
-            settings.path.lenient);
+            path_of(settings), settings::aircraft_shape(settings.path.aircraft.front()), settings.path.lenient);
     }
-    const AircraftSources inputs = aircraft_sources(
-        settings, shapes_of(settings, script ? script->other_aircraft : std::vector<std::string>()));
-    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
-    // first.
+    const AircraftSources inputs =
+        aircraft_sources(settings, shapes_of(settings, script ? script->other_aircraft : std::vector<std::string>()));
+    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told first.
     std::optional<PathPlacement> given_placement;
     std::future<SceneGround> coming_ground = std::async(std::launch::async, [&] {
-        return shared_or_load_ground(shared_world, settings, device, make_runway_finder(settings, script, given_placement));
+        return shared_or_load_ground(
+            shared_world, settings, device, make_runway_finder(settings, script, given_placement));
     });
     LoadedAircraft aircraft = shared_world != nullptr && shared_world->aircraft.inputs == inputs
                                   ? shared_world->aircraft
@@ -281,9 +232,7 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     check_clouds(settings.air, *ground.ground);
     World world;
     world.notes = aircraft.notes;
-    if (script) {
-        add_notes(world.notes, script->notes);
-    }
+    if (script) { add_notes(world.notes, script->notes); }
     add_notes(world.notes, ground.notes);
     world.flight =
         script ? place_flight(settings, std::move(*script), placement_ground(ground), world.notes, given_placement)
@@ -316,12 +265,10 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
             world.notes.push_back(std::move(*low));
         }
     }
-    const bool from_tower =
-        settings.view.kind == scene::View::Tower || settings.view.inset == scene::View::Tower;
+    const bool from_tower = settings.view.kind == scene::View::Tower || settings.view.inset == scene::View::Tower;
     if (is_live && from_tower && !settings.view.eye_m) {
-        world.notes.emplace_back(
-            "tower: nothing is known of the flight yet, so it stands beside the place where the "
-            "aircraft begins; --eye X,Y,Z puts it elsewhere");
+        world.notes.emplace_back("tower: nothing is known of the flight yet, so it stands beside the place where the "
+                                 "aircraft begins; --eye X,Y,Z puts it elsewhere");
     }
     return world;
 }

@@ -28,8 +28,7 @@ struct World {
     visuals::planning::Scene scene;
     /// The row of the first aircraft; null where only its shape is known.
     const sim::AircraftKind* leader_kind = nullptr;
-    Flight flight{
-        .trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)),
+    Flight flight{.trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)),
         .title = {},
         .legs = {},
         .other_trajectories = {}};
@@ -50,26 +49,20 @@ struct World {
 Formation formation_of(const visuals::planning::Scene& scene, const Flight& flight);
 
 /// The states of all aircraft at a time at which the first one's is `leader`.
-void formation_states(
-    const Flight& flight,
-    const Formation& formation,
-    const sim::AircraftState& leader,
-    double time_s,
+void formation_states(const Flight& flight, const Formation& formation, const sim::AircraftState& leader, double time_s,
     std::span<sim::AircraftState> states);
 
-/// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
-/// points that the view does not take.
+/// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye points that the view
+/// does not take.
 visuals::scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const World& world);
 
 /// Throws Error where clouds would lie in the ground.
 void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
 
-/// Loads aircraft, ground and path of a run and lays the path over the ground. `shared_world`: a world
-/// with which the two share what is loaded of the same inputs: aircraft with their orders, heights,
-/// and the whole ground where these settings mesh and colour it alike. Throws Error.
-World load_world(
-    const settings::RunSettings& settings,
-    RenderDevice device = RenderDevice::Cpu,
+/// Loads aircraft, ground and path of a run and lays the path over the ground. `shared_world`: a world with which the
+/// two share what is loaded of the same inputs: aircraft with their orders, heights, and the whole ground where these
+/// settings mesh and colour it alike. Throws Error.
+World load_world(const settings::RunSettings& settings, RenderDevice device = RenderDevice::Cpu,
     const World* shared_world = nullptr);
 
 } // namespace octant::ui::world

@@ -1,5 +1,5 @@
-// Binary space partition: H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A
-// Priori Tree Structures", SIGGRAPH 1980.
+// Binary space partition: H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A Priori Tree
+// Structures", SIGGRAPH 1980.
 //
 // Deviations:
 // - Before a set is divided, what hides what for eyes anywhere is looked at (clusters.h). Only
@@ -8,6 +8,7 @@
 // - Polygons that lie in a node's plane stay in the node, in file order, those of either facing
 //   apart.
 #include "visuals/bsp/partial_bsp_tree.h"
+
 #include "models/polygons/separating_edge.h"
 
 #include <glm/geometric.hpp>
@@ -30,9 +31,7 @@ constexpr std::size_t lanes_a_block = PieceTable::pieces_per_block / PieceBatch:
 
 PieceBatch empty_lanes() {
     PieceBatch lanes;
-    const auto clear = [](PieceBatch::Lane& lane) {
-        lane.fill(std::numeric_limits<double>::quiet_NaN());
-    };
+    const auto clear = [](PieceBatch::Lane& lane) { lane.fill(std::numeric_limits<double>::quiet_NaN()); };
     const auto clear_all = [&](PieceBatch::Points& points) {
         clear(points.x);
         clear(points.y);
@@ -52,15 +51,12 @@ void put(PieceBatch::Points& points, std::size_t place, const glm::dvec3& point)
 
 } // namespace
 
-PieceTable::PieceTable(
-    const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step) {
+PieceTable::PieceTable(const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step) {
     const std::size_t count = (items.size() + step - 1) / step;
     lanes_.assign((count + PieceBatch::pieces - 1) / PieceBatch::pieces, empty_lanes());
     has_extra_corners_.assign((count + pieces_per_block - 1) / pieces_per_block, 0);
     extra_corners_.reserve(count);
-    for (std::size_t i = 0; i < items.size(); i += step) {
-        add(pieces, pieces[items[i]]);
-    }
+    for (std::size_t i = 0; i < items.size(); i += step) { add(pieces, pieces[items[i]]); }
 }
 
 void PieceTable::add(const PolygonPieces& pieces, const PolygonPiece& piece) {
@@ -74,12 +70,10 @@ void PieceTable::add(const PolygonPieces& pieces, const PolygonPiece& piece) {
         put(lanes.first_corners[i], place, pieces.at(corner));
     }
     const std::size_t first_more = corners_.size();
-    for (std::size_t i = PieceBatch::corners; i < corners; ++i) {
-        corners_.push_back(pieces.at(piece.corners[i]));
-    }
+    for (std::size_t i = PieceBatch::corners; i < corners; ++i) { corners_.push_back(pieces.at(piece.corners[i])); }
     extra_corners_.push_back({first_more, corners_.size()});
     has_extra_corners_[count_ / pieces_per_block] |= std::uint64_t{corners > PieceBatch::corners}
-                                          << (count_ % pieces_per_block);
+                                                     << (count_ % pieces_per_block);
     ++count_;
 }
 
@@ -89,11 +83,9 @@ std::size_t PieceTable::count_in(std::size_t block) const {
 
 PlaneSideBits PieceTable::sides_reached(std::size_t block, const Plane& plane) const {
     const auto lanes = std::span(lanes_).subspan(block * lanes_a_block);
-    const PieceSideBits sides =
-        sides_of(lanes.first(std::min(lanes.size(), lanes_a_block)), plane, tolerance);
+    const PieceSideBits sides = sides_of(lanes.first(std::min(lanes.size(), lanes_a_block)), plane, tolerance);
     const std::uint64_t open = ~(sides.sphere_in_front | sides.sphere_behind);
-    PlaneSideBits sides_reached{
-        sides.sphere_in_front | (sides.corner_in_front & open),
+    PlaneSideBits sides_reached{sides.sphere_in_front | (sides.corner_in_front & open),
         sides.sphere_behind | (sides.corner_behind_plane & open)};
     std::uint64_t left = open & has_extra_corners_[block] & ~(sides_reached.before & sides_reached.behind);
     for (; left != 0; left &= left - 1) {
@@ -108,8 +100,8 @@ PlaneSideBits PieceTable::sides_reached(std::size_t block, const Plane& plane) c
     return sides_reached;
 }
 
-// Where to divide polygons. As in a BSP tree by polygons' own planes; across the axes, where models
-// have gaps between their parts, the number of cuts is known for all planes at once by a sweep.
+// Where to divide polygons. As in a BSP tree by polygons' own planes; across the axes, where models have gaps between
+// their parts, the number of cuts is known for all planes at once by a sweep.
 
 namespace {
 
@@ -118,8 +110,8 @@ constexpr std::size_t max_own_planes = 64;
 /// Sums over more pieces than this are estimated by some of them.
 constexpr std::size_t max_looked_at = 1'000;
 
-/// A cut costs as much as halves that differ by so many pieces. Of 2, 8, 30 and 200 this one makes
-/// the fewest pieces of parts of real aircraft and of made models.
+/// A cut costs as much as halves that differ by so many pieces. Of 2, 8, 30 and 200 this one makes the fewest pieces of
+/// parts of real aircraft and of made models.
 constexpr double polygons_a_cut = 8.0;
 
 /// A plane with its cost; less is better.
@@ -137,8 +129,7 @@ double cost_of(const SplitCounts& parted) {
         (parted.coplanar == 0 && parted.cut + parted.behind >= count && parted.before == 0)) {
         return std::numeric_limits<double>::infinity();
     }
-    const double uneven =
-        std::abs(static_cast<double>(parted.before) - static_cast<double>(parted.behind));
+    const double uneven = std::abs(static_cast<double>(parted.before) - static_cast<double>(parted.behind));
     return static_cast<double>(parted.cut) * polygons_a_cut + uneven;
 }
 
@@ -146,21 +137,18 @@ double cost_of(const SplitCounts& parted) {
 class Sample {
 public:
     Sample(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
-        : step_(items.size() / max_looked_at + 1)
-        , table_(pieces, items, step_)
-        , swept_(table_.blocks(), 0) {
+        : step_(items.size() / max_looked_at + 1), table_(pieces, items, step_), swept_(table_.blocks(), 0) {
         for (std::size_t i = 0; i < table_.count(); ++i) {
             const bool is_swept = pieces[items[i * step_]].pivot.has_value();
-            swept_[i / PieceTable::pieces_per_block] |= std::uint64_t{is_swept}
-                                                      << (i % PieceTable::pieces_per_block);
+            swept_[i / PieceTable::pieces_per_block] |= std::uint64_t{is_swept} << (i % PieceTable::pieces_per_block);
         }
     }
 
     /// How a plane parts all pieces, by these. Ends early where that costs more than `limit`.
     SplitCounts split_counts(const Plane& plane, double limit) const {
         SplitCounts parted;
-        const auto max_cuts = static_cast<std::size_t>(
-            std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
+        const auto max_cuts =
+            static_cast<std::size_t>(std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
         for (std::size_t i = 0; i < table_.blocks() && parted.cut <= max_cuts; ++i) {
             const PlaneSideBits sides_reached = table_.sides_reached(i, plane);
             const std::uint64_t cut = sides_reached.before & sides_reached.behind;
@@ -178,9 +166,7 @@ public:
     }
 
 private:
-    static std::size_t count_of(std::uint64_t bits) {
-        return static_cast<std::size_t>(std::popcount(bits));
-    }
+    static std::size_t count_of(std::uint64_t bits) { return static_cast<std::size_t>(std::popcount(bits)); }
 
     std::size_t step_;
     PieceTable table_;
@@ -194,13 +180,9 @@ Costed best_own(const PolygonPieces& pieces, std::span<const std::uint32_t> item
     const std::size_t tried = std::min(items.size(), max_own_planes);
     for (std::size_t i = 0; i < tried; ++i) {
         const auto& plane = pieces[items[i * items.size() / tried]].plane;
-        if (!plane) {
-            continue;
-        }
+        if (!plane) { continue; }
         const double cost = cost_of(sample.split_counts(*plane, best.cost));
-        if (cost < best.cost) {
-            best = {*plane, cost};
-        }
+        if (cost < best.cost) { best = {*plane, cost}; }
     }
     return best;
 }
@@ -229,22 +211,17 @@ Ends ends_along(const PolygonPieces& pieces, std::span<const std::uint32_t> item
             ends.swept_high.push_back(high);
         }
     }
-    for (auto* values : {&ends.low, &ends.high, &ends.swept_low, &ends.swept_high}) {
-        std::ranges::sort(*values);
-    }
+    for (auto* values : {&ends.low, &ends.high, &ends.swept_low, &ends.swept_high}) { std::ranges::sort(*values); }
     return ends;
 }
 
 /// How many of some sorted values lie below limits that are asked for in ascending order.
 class CountBelow {
 public:
-    explicit CountBelow(const std::vector<double>& sorted)
-        : sorted_(sorted) {}
+    explicit CountBelow(const std::vector<double>& sorted) : sorted_(sorted) {}
 
     std::size_t operator()(double limit) {
-        while (below_ < sorted_.size() && sorted_[below_] < limit) {
-            ++below_;
-        }
+        while (below_ < sorted_.size() && sorted_[below_] < limit) { ++below_; }
         return below_;
     }
 
@@ -257,11 +234,8 @@ private:
 class Sweep {
 public:
     explicit Sweep(const Ends& ends)
-        : count_(ends.low.size())
-        , lowlink_(ends.low)
-        , high_(ends.high)
-        , swept_low_(ends.swept_low)
-        , swept_high_(ends.swept_high) {}
+        : count_(ends.low.size()), lowlink_(ends.low), high_(ends.high), swept_low_(ends.swept_low),
+          swept_high_(ends.swept_high) {}
 
     SplitCounts split_at(double at) {
         SplitCounts parted;
@@ -294,9 +268,7 @@ Costed best_across(const PolygonPieces& pieces, std::span<const std::uint32_t> i
     Costed best;
     const auto try_at = [&](double at, Sweep& sweep) {
         const SplitCounts parted = sweep.split_at(at);
-        if (parted.before == 0 || parted.behind == 0) {
-            return;
-        }
+        if (parted.before == 0 || parted.behind == 0) { return; }
         const double cost = cost_of(parted);
         if (cost < best.cost) {
             glm::dvec3 normal(0.0);
@@ -317,9 +289,7 @@ std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<cons
     Costed best = best_own(pieces, items);
     for (int axis = 0; axis < 3; ++axis) {
         const Costed across = best_across(pieces, items, axis);
-        if (across.cost < best.cost) {
-            best = across;
-        }
+        if (across.cost < best.cost) { best = across; }
     }
     return std::isfinite(best.cost) ? std::optional(best.plane) : std::nullopt;
 }
@@ -346,11 +316,8 @@ bool is_decal_on(const PolygonPieces& pieces, std::uint32_t upper, std::uint32_t
 class OccluderRow {
 public:
     OccluderRow(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
-        : pieces_(pieces)
-        , items_(items)
-        , hides_(items.size())
-        , reaches_behind_(items.size())
-        , still_(hides_.words(), 0) {
+        : pieces_(pieces), items_(items), hides_(items.size()), reaches_behind_(items.size()),
+          still_(hides_.words(), 0) {
         for (std::size_t i = 0; i < items.size(); ++i) {
             const PolygonPiece& piece = pieces[items[i]];
             still_[i / 64] |= std::uint64_t{piece.plane && !piece.pivot} << (i % 64);
@@ -360,9 +327,7 @@ public:
     BitMatrix matrix() {
         const PieceTable table(pieces_, items_);
         for (std::size_t a = 0; a < items_.size(); ++a) {
-            if (is_still(a)) {
-                look_from(table, a);
-            }
+            if (is_still(a)) { look_from(table, a); }
         }
         reaches_behind_.transpose(); // now row a holds behind whose planes a reaches
         for (std::size_t a = 0; a < items_.size(); ++a) {
@@ -372,9 +337,7 @@ public:
             add_others(a);
             hides_.remove(a, a);
         }
-        for (const auto& [upper, lower] : decals_) {
-            hides_.add(lower, upper);
-        }
+        for (const auto& [upper, lower] : decals_) { hides_.add(lower, upper); }
         return std::move(hides_);
     }
 
@@ -388,9 +351,7 @@ private:
             const std::size_t end = std::min((i + 1) * 64, items_.size());
             const bool all_still = std::popcount(still_[i]) == static_cast<int>(end - i * 64);
             for (std::size_t b = i * 64; b < end && !(is_still(a) && all_still); ++b) {
-                if (!(is_still(a) && is_still(b)) && occludes(pieces_, items_[b], items_[a])) {
-                    hides_.add(a, b);
-                }
+                if (!(is_still(a) && is_still(b)) && occludes(pieces_, items_[b], items_[a])) { hides_.add(a, b); }
             }
         }
     }
@@ -404,9 +365,7 @@ private:
             for (std::uint64_t left = still_[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
                  left &= left - 1) {
                 const std::size_t b = i * 64 + static_cast<std::size_t>(std::countr_zero(left));
-                if (b != a && is_decal_on(pieces_, items_[b], items_[a])) {
-                    decals_.emplace_back(b, a);
-                }
+                if (b != a && is_decal_on(pieces_, items_[b], items_[a])) { decals_.emplace_back(b, a); }
             }
         }
     }
@@ -423,17 +382,12 @@ private:
 class Search {
 public:
     Search(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
-        : items_(items)
-        , hiding_(OccluderRow(pieces, items).matrix())
-        , number_(items.size(), 0)
-        , lowlink_(items.size(), 0)
-        , closed_(items.size(), false) {}
+        : items_(items), hiding_(OccluderRow(pieces, items).matrix()), number_(items.size(), 0),
+          lowlink_(items.size(), 0), closed_(items.size(), false) {}
 
     std::vector<std::vector<std::uint32_t>> components() {
         for (std::size_t i = items_.size(); i-- > 0;) {
-            if (number_[i] == 0) {
-                search_from(i);
-            }
+            if (number_[i] == 0) { search_from(i); }
         }
         std::ranges::reverse(found_); // components are closed in the reverse of painting order
         return std::move(found_);
@@ -463,8 +417,7 @@ private:
                 leave();
                 continue;
             }
-            const auto next =
-                visit.word * 64 + static_cast<std::size_t>(std::countr_zero(visit.left));
+            const auto next = visit.word * 64 + static_cast<std::size_t>(std::countr_zero(visit.left));
             visit.left &= visit.left - 1;
             if (number_[next] == 0) {
                 enter(next);
@@ -481,9 +434,7 @@ private:
             const std::size_t parent = visits_.back().item;
             lowlink_[parent] = std::min(lowlink_[parent], lowlink_[item]);
         }
-        if (lowlink_[item] != number_[item]) {
-            return;
-        }
+        if (lowlink_[item] != number_[item]) { return; }
         std::vector<std::uint32_t>& component = found_.emplace_back();
         std::size_t member = 0;
         do {
@@ -511,21 +462,15 @@ private:
 bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t far_one) {
     const PolygonPiece& b = pieces[occluder];
     const PolygonPiece& a = pieces[far_one];
-    if (a.pivot && a.pivot == b.pivot) {
-        return pieces.is_rigid(occluder, far_one);
-    }
-    if (!a.plane && !b.plane) {
-        return true;
-    }
+    if (a.pivot && a.pivot == b.pivot) { return pieces.is_rigid(occluder, far_one); }
+    if (!a.plane && !b.plane) { return true; }
     const PlaneSideFlags of_b = a.plane ? pieces.sides_reached(occluder, *a.plane) : PlaneSideFlags{true, true};
-    if (a.plane && b.plane && !of_b.before && !of_b.behind) {
-        return is_decal_on(pieces, occluder, far_one);
-    }
+    if (a.plane && b.plane && !of_b.before && !of_b.behind) { return is_decal_on(pieces, occluder, far_one); }
     return of_b.before && (!b.plane || pieces.sides_reached(far_one, *b.plane).behind);
 }
 
-std::vector<std::vector<std::uint32_t>>
-occlusion_components(const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
+std::vector<std::vector<std::uint32_t>> occlusion_components(
+    const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
     return Search(pieces, items).components();
 }
 
@@ -538,13 +483,11 @@ constexpr std::size_t always_looked_at = 150;
 
 using Items = std::vector<std::uint32_t>;
 
-/// Builds one tree. Work that is left is kept in a stack of its own, because chains of partings may
-/// be as long as there are polygons.
+/// Builds one tree. Work that is left is kept in a stack of its own, because chains of partings may be as long as there
+/// are polygons.
 class PartialBspBuilder {
 public:
-    PartialBspBuilder(PolygonPieces& pieces, bool has_list_leaves)
-        : pieces_(pieces)
-        , by_clusters_(has_list_leaves) {}
+    PartialBspBuilder(PolygonPieces& pieces, bool has_list_leaves) : pieces_(pieces), by_clusters_(has_list_leaves) {}
 
     PartialBspTree build(Items items) {
         to_do_.push_back({std::move(items), -1, nullptr, 1, false});
@@ -577,30 +520,20 @@ private:
     };
 
     int child_of(Task& task) {
-        if (task.items.empty()) {
-            return PartialBspTree::nothing;
-        }
-        if (task.items.size() == 1) {
-            return list_of(std::move(task.items));
-        }
+        if (task.items.empty()) { return PartialBspTree::nothing; }
+        if (task.items.size() == 1) { return list_of(std::move(task.items)); }
         const std::size_t count = task.items.size();
         const bool looks = by_clusters_ && !task.is_ring && count <= max_samples_at_once &&
                            (count <= always_looked_at || count <= task.looked_at / 4);
-        if (!looks) {
-            return choose_split(task);
-        }
+        if (!looks) { return choose_split(task); }
         task.looked_at = count;
         auto components = occlusion_components(pieces_, task.items);
-        if (components.size() == 1 && components.front().size() > 1) {
-            return choose_split(task);
-        }
+        if (components.size() == 1 && components.front().size() > 1) { return choose_split(task); }
         return sequence_of(components, 0, components.size(), task.depth);
     }
 
     int list_of(Items items) {
-        if (items.empty()) {
-            return PartialBspTree::nothing;
-        }
+        if (items.empty()) { return PartialBspTree::nothing; }
         tree_.lists.push_back(std::move(items));
         return ~static_cast<int>(tree_.lists.size() - 1);
     }
@@ -610,26 +543,19 @@ private:
         return static_cast<int>(tree_.nodes.size() - 1);
     }
 
-    /// Components from `first` to `end` painted one after the other. Depth grows with the logarithm
-    /// of their number.
-    int sequence_of(
-        const std::vector<Items>& components, std::size_t first, std::size_t end, int depth) {
+    /// Components from `first` to `end` painted one after the other. Depth grows with the logarithm of their number.
+    int sequence_of(const std::vector<Items>& components, std::size_t first, std::size_t end, int depth) {
         const auto is_ring = [&](std::size_t i) { return components[i].size() > 1; };
         std::size_t ring = first;
-        while (ring < end && !is_ring(ring)) {
-            ++ring;
-        }
+        while (ring < end && !is_ring(ring)) { ++ring; }
         if (ring == end) {
             Items list;
-            for (std::size_t i = first; i < end; ++i) {
-                list.push_back(components[i].front());
-            }
+            for (std::size_t i = first; i < end; ++i) { list.push_back(components[i].front()); }
             return list_of(std::move(list));
         }
         const int node = new_node({});
         if (end - first == 1) { // a ring alone: nothing is painted before it
-            to_do_.push_back(
-                {components[first], node, &Node::back, depth + 1, true, components[first].size()});
+            to_do_.push_back({components[first], node, &Node::back, depth + 1, true, components[first].size()});
             return node;
         }
         const std::size_t middle = divide_at(components, first, end);
@@ -641,17 +567,12 @@ private:
     }
 
     /// Where a sequence is divided: at an end of a run of single pieces near its middle.
-    static std::size_t
-    divide_at(const std::vector<Items>& components, std::size_t first, std::size_t end) {
+    static std::size_t divide_at(const std::vector<Items>& components, std::size_t first, std::size_t end) {
         std::size_t middle = (first + end) / 2;
         const auto single = [&](std::size_t i) { return components[i].size() == 1; };
-        while (middle > first + 1 && single(middle) && single(middle - 1)) {
-            --middle;
-        }
+        while (middle > first + 1 && single(middle) && single(middle - 1)) { --middle; }
         if (middle == first + 1 && single(first) && single(middle)) {
-            while (middle < end - 1 && single(middle)) {
-                ++middle;
-            }
+            while (middle < end - 1 && single(middle)) { ++middle; }
         }
         return middle;
     }
@@ -659,9 +580,7 @@ private:
     /// Divides pieces by a plane.
     int choose_split(Task& task) {
         const auto plane = splitting_plane(pieces_, task.items);
-        if (!plane) {
-            return unsplit_cycles(task);
-        }
+        if (!plane) { return unsplit_cycles(task); }
         Node node;
         node.plane = plane;
         Items front;
@@ -670,9 +589,7 @@ private:
         Items coplanar_back;
         for (const std::uint32_t item : task.items) {
             const PlaneSideFlags sides_reached = pieces_.sides_reached(item, *plane);
-            if (sides_reached.before && sides_reached.behind) {
-                back.push_back(pieces_.cut(item, *plane));
-            }
+            if (sides_reached.before && sides_reached.behind) { back.push_back(pieces_.cut(item, *plane)); }
             if (sides_reached.before) {
                 front.push_back(item);
             } else if (sides_reached.behind) {
@@ -680,21 +597,15 @@ private:
             } else {
                 const auto& own = pieces_[item].plane; // a flat body is seen from both sides
                 const double facing = own ? glm::dot(own->normal, plane->normal) : 0.0;
-                if (facing >= 0.0) {
-                    coplanar_front.push_back(item);
-                }
-                if (facing <= 0.0) {
-                    coplanar_back.push_back(item);
-                }
+                if (facing >= 0.0) { coplanar_front.push_back(item); }
+                if (facing <= 0.0) { coplanar_back.push_back(item); }
             }
         }
         node.coplanar_front = list_in_file_order(std::move(coplanar_front));
         node.coplanar_back = list_in_file_order(std::move(coplanar_back));
         const int made = new_node(node);
-        to_do_.push_back(
-            {std::move(front), made, &Node::front, task.depth + 1, false, task.looked_at});
-        to_do_.push_back(
-            {std::move(back), made, &Node::back, task.depth + 1, false, task.looked_at});
+        to_do_.push_back({std::move(front), made, &Node::front, task.depth + 1, false, task.looked_at});
+        to_do_.push_back({std::move(back), made, &Node::back, task.depth + 1, false, task.looked_at});
         return made;
     }
 
@@ -704,12 +615,8 @@ private:
         tree_.unsplit_cycles.push_back(task.items);
         Items turning;
         Items fixed_pieces;
-        for (const std::uint32_t item : task.items) {
-            (pieces_[item].pivot ? turning : fixed_pieces).push_back(item);
-        }
-        if (fixed_pieces.empty() || turning.empty()) {
-            return list_of(std::move(task.items));
-        }
+        for (const std::uint32_t item : task.items) { (pieces_[item].pivot ? turning : fixed_pieces).push_back(item); }
+        if (fixed_pieces.empty() || turning.empty()) { return list_of(std::move(task.items)); }
         const int node = new_node({});
         tree_.nodes.back().back = list_of(std::move(turning));
         to_do_.push_back({std::move(fixed_pieces), node, &Node::front, task.depth + 1, false});
@@ -717,8 +624,7 @@ private:
     }
 
     int list_in_file_order(Items items) {
-        std::ranges::sort(
-            items, {}, [&](std::uint32_t item) { return std::pair(pieces_[item].source, item); });
+        std::ranges::sort(items, {}, [&](std::uint32_t item) { return std::pair(pieces_[item].source, item); });
         return list_of(std::move(items));
     }
 

@@ -1,5 +1,5 @@
-// Many pieces against a plane, as many at once as the processor can. Compiled once for each
-// instruction set; all give the same bits.
+// Many pieces against a plane, as many at once as the processor can. Compiled once for each instruction set; all give
+// the same bits.
 #include "visuals/bsp/piece_batch.h"
 
 // SVE's vectors have no size that the compiler knows.
@@ -26,9 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Reals = hn::CappedTag<double, PieceBatch::pieces>;
 using Real = hn::Vec<Reals>;
 
-HWY_INLINE Real real(double value) {
-    return hn::Set(Reals(), value);
-}
+HWY_INLINE Real real(double value) { return hn::Set(Reals(), value); }
 
 HWY_INLINE std::uint64_t bits_of(hn::Mask<Reals> mask) {
     std::array<std::uint8_t, 8> bytes{};
@@ -44,15 +42,11 @@ struct Heights {
     Real offset;
 
     HWY_INLINE explicit Heights(const Plane& plane)
-        : x(real(plane.normal.x))
-        , y(real(plane.normal.y))
-        , z(real(plane.normal.z))
-        , offset(real(plane.offset_m)) {}
+        : x(real(plane.normal.x)), y(real(plane.normal.y)), z(real(plane.normal.z)), offset(real(plane.offset_m)) {}
 
     HWY_INLINE Real of(const PieceBatch::Points& points, std::size_t first) const {
-        const auto part = [first](Real normal, const PieceBatch::Lane& places) HWY_ATTR {
-            return hn::Mul(normal, hn::LoadU(Reals(), places.data() + first));
-        };
+        const auto part = [first](Real normal, const PieceBatch::Lane& places)
+                              HWY_ATTR { return hn::Mul(normal, hn::LoadU(Reals(), places.data() + first)); };
         const Real level = hn::Add(part(x, points.x), part(y, points.y));
         return hn::Add(hn::Add(level, part(z, points.z)), offset);
     }
@@ -60,11 +54,7 @@ struct Heights {
 
 /// Adds the sides of as many pieces as a vector holds, from the one of bit `at` on.
 HWY_INLINE void add_sides(
-    const PieceBatch& lanes,
-    std::size_t at,
-    const Heights& heights,
-    Real tolerance,
-    PieceSideBits& to) {
+    const PieceBatch& lanes, std::size_t at, const Heights& heights, Real tolerance, PieceSideBits& to) {
     const std::size_t first = at % PieceBatch::pieces;
     const Real height = heights.of(lanes.centres, first);
     const Real radius = hn::LoadU(Reals(), lanes.radii.data() + first);

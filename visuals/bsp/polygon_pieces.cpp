@@ -21,9 +21,7 @@ namespace {
 std::optional<Plane> plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 across = glm::cross(b - a, c - a);
     const double length = glm::length(across);
-    if (length < std::numeric_limits<double>::min()) {
-        return std::nullopt;
-    }
+    if (length < std::numeric_limits<double>::min()) { return std::nullopt; }
     const glm::dvec3 normal = across / length;
     return Plane{normal, -glm::dot(normal, (a + b + c) / 3.0)};
 }
@@ -47,19 +45,15 @@ PolygonPieces::PolygonPieces(const models::polygons::PolygonModel& model) {
     std::vector<std::uint32_t> vertex_of(model.vertices_m.size(), 0);
     for (std::uint32_t i = 0; i < model.vertices_m.size(); ++i) {
         const glm::dvec3& at_m = model.vertices_m[i];
-        const auto [place, is_new] = places.try_emplace(
-            {at_m.x, at_m.y, at_m.z}, static_cast<std::uint32_t>(vertices_.size()));
-        if (is_new) {
-            vertices_.push_back({.at = (at_m - middle_m_) / unit_m_, .in_model = i});
-        }
+        const auto [place, is_new] =
+            places.try_emplace({at_m.x, at_m.y, at_m.z}, static_cast<std::uint32_t>(vertices_.size()));
+        if (is_new) { vertices_.push_back({.at = (at_m - middle_m_) / unit_m_, .in_model = i}); }
         vertex_of[i] = place->second;
     }
     for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
         PolygonPiece& piece = pieces_.emplace_back();
         piece.source = i;
-        for (const std::uint32_t vertex : model.corners(i)) {
-            piece.corners.push_back(vertex_of[vertex]);
-        }
+        for (const std::uint32_t vertex : model.corners(i)) { piece.corners.push_back(vertex_of[vertex]); }
         piece.plane = plane_of(piece);
         find_bounding_sphere(piece);
     }
@@ -69,13 +63,11 @@ PolygonPieces::PolygonPieces(const models::polygons::PolygonModel& model) {
         }
     }
     first_count_ = model.polygons.size();
-    for (std::size_t i = first_count_; i < pieces_.size(); ++i) {
-        cut_from_.push_back(pieces_[i].source);
-    }
+    for (std::size_t i = first_count_; i < pieces_.size(); ++i) { cut_from_.push_back(pieces_[i].source); }
 }
 
-/// The plane of a polygon by Newell's sum about its centre, so that far origins cost no digits; not
-/// a number for one without area.
+/// The plane of a polygon by Newell's sum about its centre, so that far origins cost no digits; not a number for one
+/// without area.
 Plane PolygonPieces::plane_of(const PolygonPiece& piece) const {
     glm::dvec3 centre(0.0);
     for (const std::uint32_t vertex : piece.corners) {
@@ -94,18 +86,13 @@ Plane PolygonPieces::plane_of(const PolygonPiece& piece) const {
 void PolygonPieces::add_triangles(std::uint32_t polygon) {
     const std::vector<std::uint32_t> corners = pieces_[polygon].corners;
     const Plane plane = *pieces_[polygon].plane;
-    const bool planar = std::ranges::all_of(corners, [&](std::uint32_t vertex) {
-        return std::abs(distance_m(plane, at(vertex))) <= tolerance / 2.0;
-    });
-    if (planar || corners.size() == 3) {
-        return;
-    }
+    const bool planar = std::ranges::all_of(
+        corners, [&](std::uint32_t vertex) { return std::abs(distance_m(plane, at(vertex))) <= tolerance / 2.0; });
+    if (planar || corners.size() == 3) { return; }
     bool first = true;
     for (std::size_t i = 2; i < corners.size(); ++i) {
         const auto own = plane_through(at(corners[0]), at(corners[i - 1]), at(corners[i]));
-        if (!own) {
-            continue;
-        }
+        if (!own) { continue; }
         PolygonPiece& piece = first ? pieces_[polygon] : pieces_.emplace_back();
         first = false;
         piece.source = polygon;
@@ -138,9 +125,7 @@ void PolygonPieces::set_swept_hull(
         own.corners.push_back(static_cast<std::uint32_t>(vertices_.size()));
         vertices_.push_back({.at = (corner_m - middle_m_) / unit_m_});
     }
-    if (is_body) {
-        own.plane.reset();
-    }
+    if (is_body) { own.plane.reset(); }
     find_bounding_sphere(own);
 }
 
@@ -148,9 +133,7 @@ void PolygonPieces::set_plane(std::uint32_t piece, const Plane& in_model) {
     pieces_[piece].plane = {in_model.normal, distance_m(in_model, middle_m_) / unit_m_};
 }
 
-void PolygonPieces::add_rigid(std::uint32_t occluder, std::uint32_t far_one) {
-    rigid_.emplace(occluder, far_one);
-}
+void PolygonPieces::add_rigid(std::uint32_t occluder, std::uint32_t far_one) { rigid_.emplace(occluder, far_one); }
 
 bool PolygonPieces::is_rigid(std::uint32_t occluder, std::uint32_t far_one) const {
     return rigid_.contains({occluder, far_one});
@@ -159,17 +142,11 @@ bool PolygonPieces::is_rigid(std::uint32_t occluder, std::uint32_t far_one) cons
 PlaneSideFlags PolygonPieces::sides_reached(std::uint32_t piece, const Plane& plane) const {
     const PolygonPiece& own = pieces_[piece];
     const double height = distance_m(plane, own.middle);
-    if (height > own.radius + tolerance) {
-        return {true, false};
-    }
-    if (height < -own.radius - tolerance) {
-        return {false, true};
-    }
+    if (height > own.radius + tolerance) { return {true, false}; }
+    if (height < -own.radius - tolerance) { return {false, true}; }
     PlaneSideFlags sides_reached;
     for (const std::uint32_t vertex : own.corners) {
-        if (sides_reached.before && sides_reached.behind) {
-            break;
-        }
+        if (sides_reached.before && sides_reached.behind) { break; }
         const double at_vertex = distance_m(plane, at(vertex));
         sides_reached.before = sides_reached.before || at_vertex > tolerance;
         sides_reached.behind = sides_reached.behind || at_vertex < -tolerance;
@@ -183,20 +160,14 @@ std::optional<std::uint32_t> PolygonPieces::find_edge(std::uint32_t a, std::uint
     };
     const std::uint32_t of_a = vertices_[a].edge;
     const std::uint32_t of_b = vertices_[b].edge;
-    if (of_a != no_edge && (of_a == of_b || ends_at(of_a, b))) {
-        return of_a;
-    }
-    if (ends_at(of_b, a)) {
-        return of_b;
-    }
+    if (of_a != no_edge && (of_a == of_b || ends_at(of_a, b))) { return of_a; }
+    if (ends_at(of_b, a)) { return of_b; }
     const auto known = edge_of_ends_.find((std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b));
     return known != edge_of_ends_.end() ? std::optional(known->second) : std::nullopt;
 }
 
 std::uint32_t PolygonPieces::edge_of(std::uint32_t a, std::uint32_t b) {
-    if (const auto known = find_edge(a, b)) {
-        return *known;
-    }
+    if (const auto known = find_edge(a, b)) { return *known; }
     const auto made = static_cast<std::uint32_t>(edges_.size());
     edges_.push_back({std::min(a, b), std::max(a, b), {}});
     edge_of_ends_.emplace((std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b), made);
@@ -204,9 +175,7 @@ std::uint32_t PolygonPieces::edge_of(std::uint32_t a, std::uint32_t b) {
 }
 
 double PolygonPieces::share_of(std::uint32_t vertex, const Edge& edge) const {
-    if (vertex == edge.from) {
-        return 0.0;
-    }
+    if (vertex == edge.from) { return 0.0; }
     return vertex == edge.to ? 1.0 : vertices_[vertex].share;
 }
 
@@ -222,9 +191,7 @@ std::uint32_t PolygonPieces::crossing(std::uint32_t a, std::uint32_t b, const Pl
     const double length = glm::distance(from, to);
     for (const std::uint32_t vertex : edge.between) {
         const double other = vertices_[vertex].share;
-        if (std::abs(other - share) * length <= tolerance && other > low && other < high) {
-            return vertex;
-        }
+        if (std::abs(other - share) * length <= tolerance && other > low && other < high) { return vertex; }
     }
     const auto made = static_cast<std::uint32_t>(vertices_.size());
     vertices_.push_back({.at = glm::mix(from, to, share), .edge = number, .share = share});
@@ -244,12 +211,8 @@ std::uint32_t PolygonPieces::cut(std::uint32_t piece, const Plane& plane) {
     std::vector<std::uint32_t> back;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
-        if (heights[i] >= 0.0) {
-            front.push_back(outline[i]);
-        }
-        if (heights[i] <= 0.0) {
-            back.push_back(outline[i]);
-        }
+        if (heights[i] >= 0.0) { front.push_back(outline[i]); }
+        if (heights[i] <= 0.0) { back.push_back(outline[i]); }
         if (heights[i] * heights[next] < 0.0) {
             const std::uint32_t middle = crossing(outline[i], outline[next], plane);
             front.push_back(middle);
@@ -274,23 +237,17 @@ std::vector<std::uint32_t> PolygonPieces::full_outline(const PolygonPiece& piece
         const std::uint32_t next = piece.corners[(i + 1) % piece.corners.size()];
         outline.push_back(here);
         const auto number = find_edge(here, next);
-        if (!number || edges_[*number].between.empty()) {
-            continue;
-        }
+        if (!number || edges_[*number].between.empty()) { continue; }
         const Edge& edge = edges_[*number];
         const double from = share_of(here, edge);
         const double to = share_of(next, edge);
         const std::size_t first = outline.size();
         for (const std::uint32_t vertex : edge.between) {
             const double share = vertices_[vertex].share;
-            if (share > std::min(from, to) && share < std::max(from, to)) {
-                outline.push_back(vertex);
-            }
+            if (share > std::min(from, to) && share < std::max(from, to)) { outline.push_back(vertex); }
         }
         std::sort(
-            outline.begin() + static_cast<std::ptrdiff_t>(first),
-            outline.end(),
-            [&](std::uint32_t a, std::uint32_t b) {
+            outline.begin() + static_cast<std::ptrdiff_t>(first), outline.end(), [&](std::uint32_t a, std::uint32_t b) {
                 const double before = vertices_[a].share;
                 const double after = vertices_[b].share;
                 return from < to ? before < after : before > after;
@@ -300,9 +257,7 @@ std::vector<std::uint32_t> PolygonPieces::full_outline(const PolygonPiece& piece
 }
 
 void PolygonPieces::write_to(models::polygons::PolygonModel& model) const {
-    if (added() == 0) {
-        return;
-    }
+    if (added() == 0) { return; }
     if (model.parents.empty()) {
         model.parents.resize(model.polygons.size());
         std::iota(model.parents.begin(), model.parents.end(), 0U);
@@ -323,9 +278,7 @@ void PolygonPieces::write_to(models::polygons::PolygonModel& model) const {
         }
         const auto first = static_cast<std::uint32_t>(corners.size());
         if (!pieces_[i].pivot) {
-            for (const std::uint32_t vertex : full_outline(pieces_[i])) {
-                corners.push_back(vertex_of[vertex]);
-            }
+            for (const std::uint32_t vertex : full_outline(pieces_[i])) { corners.push_back(vertex_of[vertex]); }
         } else {
             const auto own = model.corners(i);
             corners.insert(corners.end(), own.begin(), own.end());

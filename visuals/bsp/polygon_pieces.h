@@ -17,8 +17,8 @@
 
 namespace octant::visuals::bsp {
 
-/// Lengths below this are rounding, in the unit of Pieces: about the radius of the model. A point
-/// within this distance of a plane lies on it.
+/// Lengths below this are rounding, in the unit of Pieces: about the radius of the model. A point within this distance
+/// of a plane lies on it.
 inline constexpr double tolerance = models::planar::planar_tolerance;
 
 /// A polygon, a piece of one, or what a turning polygon sweeps.
@@ -32,21 +32,19 @@ struct PolygonPiece {
     double radius = 0.0;
 };
 
-/// Where a piece reaches: beyond the tolerance before a plane, behind it, or both; neither when it
-/// lies in the plane.
+/// Where a piece reaches: beyond the tolerance before a plane, behind it, or both; neither when it lies in the plane.
 struct PlaneSideFlags {
     bool before = false;
     bool behind = false;
 };
 
-/// The polygons of a model while they are cut into pieces. Pieces keep the planes of their
-/// polygons, so that thin ones are as exact as large ones, and vertices on one edge of the model
-/// are shared by all pieces along it. The unit is half the diagonal of the model's bounding box,
-/// and its centre is the origin.
+/// The polygons of a model while they are cut into pieces. Pieces keep the planes of their polygons, so that thin ones
+/// are as exact as large ones, and vertices on one edge of the model are shared by all pieces along it. The unit is
+/// half the diagonal of the model's bounding box, and its centre is the origin.
 class PolygonPieces {
 public:
-    /// Piece i is polygon i. A polygon that is not planar becomes triangles unless it turns: the
-    /// first keeps the number, the others follow behind all polygons.
+    /// Piece i is polygon i. A polygon that is not planar becomes triangles unless it turns: the first keeps the
+    /// number, the others follow behind all polygons.
     explicit PolygonPieces(const models::polygons::PolygonModel& model);
 
     std::size_t count() const { return pieces_.size(); }
@@ -58,39 +56,31 @@ public:
     /// How many pieces were added since the start.
     std::size_t added() const { return pieces_.size() - first_count_; }
 
-    /// Which pieces those from number `first` on, which were added, were cut from. They share their
-    /// planes.
+    /// Which pieces those from number `first` on, which were added, were cut from. They share their planes.
     std::span<const std::uint32_t> cut_from(std::size_t first) const {
         return std::span(cut_from_).subspan(first - first_count_);
     }
 
-    /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body is one
-    /// that has no plane.
-    void set_swept_hull(
-        std::uint32_t piece,
-        std::uint32_t pivot,
-        std::span<const glm::dvec3> corners_m,
-        bool is_body);
+    /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body is one that has no plane.
+    void set_swept_hull(std::uint32_t piece, std::uint32_t pivot, std::span<const glm::dvec3> corners_m, bool is_body);
 
-    /// Gives a piece another plane, in body axes, metres: that of the polygon of which it is a
-    /// sliver.
+    /// Gives a piece another plane, in body axes, metres: that of the polygon of which it is a sliver.
     void set_plane(std::uint32_t piece, const Plane& in_model);
 
-    /// Says that one piece hides another of the same pivot at some angle. Others of one pivot do
-    /// not hide one another.
+    /// Says that one piece hides another of the same pivot at some angle. Others of one pivot do not hide one another.
     void add_rigid(std::uint32_t occluder, std::uint32_t far_one);
 
     bool is_rigid(std::uint32_t occluder, std::uint32_t far_one) const;
 
-    /// Cuts a piece that reaches to both sides of a plane (asserted), in this unit. The part in
-    /// front keeps the number; that of the part behind is returned.
+    /// Cuts a piece that reaches to both sides of a plane (asserted), in this unit. The part in front keeps the number;
+    /// that of the part behind is returned.
     std::uint32_t cut(std::uint32_t piece, const Plane& plane);
 
     PlaneSideFlags sides_reached(std::uint32_t piece, const Plane& plane) const;
 
-    /// Writes the pieces into the model that they were made of: polygon i becomes piece i, the
-    /// others are appended, and vertices on an edge become corners of all polygons along it, so
-    /// that no crack opens. Nothing changes where nothing was cut.
+    /// Writes the pieces into the model that they were made of: polygon i becomes piece i, the others are appended, and
+    /// vertices on an edge become corners of all polygons along it, so that no crack opens. Nothing changes where
+    /// nothing was cut.
     void write_to(models::polygons::PolygonModel& model) const;
 
     /// Converts a plane to body axes, metres.

@@ -1,4 +1,5 @@
 #include "visuals/certificate/order_certificate.h"
+
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
 #include "sim/base/format_once.h"
@@ -20,33 +21,24 @@ namespace octant::visuals::certificate {
 
 namespace {
 
-/// The lines of a certificate, in the order in which they are added; visuals/verify/README.md says
-/// what each means.
+/// The lines of a certificate, in the order in which they are added; visuals/verify/README.md says what each means.
 class CertificateText : public draworder::ProofVisitor {
 public:
-    /// `size_m` is the length that is 1 in a LocalModel; `on_part_done` is called after each node and
-    /// list.
+    /// `size_m` is the length that is 1 in a LocalModel; `on_part_done` is called after each node and list.
     CertificateText(double size_m, std::function<void()> on_part_done);
 
     /// The header, corners, axes and polygons.
-    void add_model(
-        const models::polygons::PolygonModel& model,
-        const separation::LocalModel& local,
+    void add_model(const models::polygons::PolygonModel& model, const separation::LocalModel& local,
         const models::polygons::FileAxes& axes);
 
     /// The lists and nodes. Where a choice has nothing on a side, its eyes are left unclaimed.
     void add_tree(
-        const draworder::DrawOrder& order,
-        const separation::LocalModel& local,
-        const models::polygons::FileAxes& axes);
+        const draworder::DrawOrder& order, const separation::LocalModel& local, const models::polygons::FileAxes& axes);
 
     void begin_pairs(int part, std::uint32_t later, std::size_t count) override;
     void add_pair(separation::DecidingPolygon by) override;
     void end_pairs() override;
-    void add_plane_proof(
-        int part,
-        const separation::SeparatingPlaneProof& plane_proof,
-        std::uint32_t earlier,
+    void add_plane_proof(int part, const separation::SeparatingPlaneProof& plane_proof, std::uint32_t earlier,
         std::uint32_t later) override;
     void add_back_facing(int part, std::uint32_t polygon, const separation::PlaneFactors& factors) override;
     void add_unproved(int part, std::uint32_t polygon) override;
@@ -74,18 +66,16 @@ private:
 using draworder::DrawOrder;
 using models::polygons::FileAxes;
 using separation::DecidingPolygon;
-using separation::PlaneFactors;
 using separation::LocalModel;
 using separation::LocalPolygon;
+using separation::PlaneFactors;
 using separation::SeparatingPlaneProof;
 
 std::string text_of(const glm::dvec3& v) {
     return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0); // no negative zeros
 }
 
-std::string text_of(const Plane& plane) {
-    return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0);
-}
+std::string text_of(const Plane& plane) { return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0); }
 
 std::string text_of_child(int child, const char* if_nothing = " nothing") {
     return child == DrawOrder::nothing ? if_nothing
@@ -99,8 +89,7 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
 }
 
 CertificateText::CertificateText(double size_m, std::function<void()> on_part_done)
-    : size_m_(size_m)
-    , on_part_done_(std::move(on_part_done)) {}
+    : size_m_(size_m), on_part_done_(std::move(on_part_done)) {}
 
 void CertificateText::add_model(
     const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
@@ -109,30 +98,20 @@ void CertificateText::add_model(
     const auto place = [&](const glm::dvec3& point_m) {
         return text_of(axes.file_from_body(point_m) - local.reference_m);
     };
-    if (local.reference_m != glm::dvec3(0.0)) {
-        append(text_, "about {}\n", text_of(local.reference_m));
-    }
-    for (const glm::dvec3& vertex_m : model.vertices_m) {
-        append(text_, "vertex {}\n", place(vertex_m));
-    }
+    if (local.reference_m != glm::dvec3(0.0)) { append(text_, "about {}\n", text_of(local.reference_m)); }
+    for (const glm::dvec3& vertex_m : model.vertices_m) { append(text_, "vertex {}\n", place(vertex_m)); }
     for (const models::polygons::Pivot& pivot : model.pivots) {
-        append(
-            text_, "axis {} {}\n", place(pivot.point_m), text_of(axes.file_from_body(pivot.axis)));
+        append(text_, "axis {} {}\n", place(pivot.point_m), text_of(axes.file_from_body(pivot.axis)));
     }
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const LocalPolygon& polygon = local.polygons[i];
-        append(
-            text_,
-            "{} {} {}",
-            polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
-            model.parent_of(i),
-            text_of(local.in_metres(polygon.plane)));
+        append(text_, "{} {} {}", polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
+            model.parent_of(i), text_of(local.in_metres(polygon.plane)));
         add_numbers(model.corners(i));
     }
 }
 
-void CertificateText::add_tree(
-    const DrawOrder& order, const LocalModel& local, const FileAxes& axes) {
+void CertificateText::add_tree(const DrawOrder& order, const LocalModel& local, const FileAxes& axes) {
     for (int list = 0; list < order.cell_count(); ++list) {
         text_ += "list";
         add_numbers(order.polygons_of(list));
@@ -140,19 +119,14 @@ void CertificateText::add_tree(
     for (const DrawOrder::Node& node : order.nodes()) {
         const bool is_choice = node.kind == DrawOrder::Kind::ViewSplit;
         const char* const if_nothing = is_choice ? " unclaimed" : " nothing";
-        const std::string children =
-            text_of_child(node.front, if_nothing) + text_of_child(node.back, if_nothing);
+        const std::string children = text_of_child(node.front, if_nothing) + text_of_child(node.back, if_nothing);
         if (node.kind == DrawOrder::Kind::Sequence) {
             append(text_, "node sequence{}\n", children);
             continue;
         }
         const bool parts = node.kind == DrawOrder::Kind::PolygonSplit;
-        append(
-            text_,
-            "node {} {}{}{}\n",
-            parts ? "parting" : "choice",
-            text_of(local.about({axes.file_from_body(node.plane.normal), node.plane.offset_m})),
-            children,
+        append(text_, "node {} {}{}{}\n", parts ? "parting" : "choice",
+            text_of(local.about({axes.file_from_body(node.plane.normal), node.plane.offset_m})), children,
             parts ? text_of_child(node.coplanar_front) + text_of_child(node.coplanar_back) : "");
     }
 }
@@ -177,9 +151,7 @@ void CertificateText::end_pairs() {
 
 void CertificateText::add_run() {
     if (run_length_ > 0) {
-        const char letter = run_by_ == DecidingPolygon::Earlier ? 'e'
-                            : run_by_ == DecidingPolygon::Later ? 'l'
-                                                        : '-';
+        const char letter = run_by_ == DecidingPolygon::Earlier ? 'e' : run_by_ == DecidingPolygon::Later ? 'l' : '-';
         append(text_, " {}{}", run_length_, letter);
         run_length_ = 0;
     }
@@ -193,13 +165,8 @@ void CertificateText::add_plane_proof(
         ++unproved_;
         return;
     }
-    append(
-        text_,
-        "{}{} {} {}",
-        plane_proof.kind == SeparatingPlaneProof::Kind::Sum ? "sum" : "never",
-        where,
-        plane_proof.factors.earlier,
-        plane_proof.factors.later);
+    append(text_, "{}{} {} {}", plane_proof.kind == SeparatingPlaneProof::Kind::Sum ? "sum" : "never", where,
+        plane_proof.factors.earlier, plane_proof.factors.later);
     add_walls(plane_proof.factors);
 }
 
@@ -213,56 +180,39 @@ void CertificateText::add_unproved(int part, std::uint32_t polygon) {
     ++unproved_;
 }
 
-void CertificateText::end_part(std::size_t /*polygons*/) {
-    on_part_done_();
-}
+void CertificateText::end_part(std::size_t /*polygons*/) { on_part_done_(); }
 
-std::string CertificateText::take() {
-    return std::move(text_);
-}
+std::string CertificateText::take() { return std::move(text_); }
 
 void CertificateText::add_numbers(std::span<const std::uint32_t> numbers) {
-    for (const std::uint32_t number : numbers) {
-        append(text_, " {}", number);
-    }
+    for (const std::uint32_t number : numbers) { append(text_, " {}", number); }
     text_ += '\n';
 }
 
 /// The factor of 1 is a length.
 void CertificateText::add_walls(const PlaneFactors& factors) {
     append(text_, " {}", factors.one * size_m_);
-    for (const double factor : factors.region_planes) {
-        append(text_, " {}", factor);
-    }
+    for (const double factor : factors.region_planes) { append(text_, " {}", factor); }
     text_ += '\n';
 }
 
 } // namespace
 
-OrderCertificate order_certificate(
-    const models::polygons::PolygonModel& model,
-    const draworder::DrawOrder& order,
-    const models::polygons::FileAxes& axes,
-    const std::function<void(std::size_t, std::size_t)>& progress) {
+OrderCertificate order_certificate(const models::polygons::PolygonModel& model, const draworder::DrawOrder& order,
+    const models::polygons::FileAxes& axes, const std::function<void(std::size_t, std::size_t)>& progress) {
     const std::size_t parts = order.nodes().size() + static_cast<std::size_t>(order.cell_count());
     OrderCertificate best;
     for (const double tolerance : separation::proof_tolerances_sizes) {
         const separation::LocalModel local = separation::local_model(model, axes, tolerance);
         CertificateText text(local.size_m, [&, done = std::size_t{0}]() mutable {
-            if (progress) {
-                progress(++done, parts);
-            }
+            if (progress) { progress(++done, parts); }
         });
         text.add_model(model, local, axes);
         text.add_tree(order, local, axes);
         draworder::visit_proof({model, order, axes, local}, text);
         OrderCertificate made{text.take(), text.unproved()};
-        if (best.text.empty() || made.unproved < best.unproved) {
-            best = std::move(made);
-        }
-        if (best.unproved == 0) {
-            break;
-        }
+        if (best.text.empty() || made.unproved < best.unproved) { best = std::move(made); }
+        if (best.unproved == 0) { break; }
     }
     return best;
 }

@@ -6,11 +6,10 @@
 
 namespace octant::visuals::draworder {
 
-/// The number of bits that are set in both of two rows of equal length. It adds up bytes of eight
-/// bits each (H. S. Warren, "Hacker's Delight", 2003, section 5-1), because without a processor's
-/// own instruction std::popcount is a function call for every word.
-inline std::size_t
-count_common_bits(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
+/// The number of bits that are set in both of two rows of equal length. It adds up bytes of eight bits each (H. S.
+/// Warren, "Hacker's Delight", 2003, section 5-1), because without a processor's own instruction std::popcount is a
+/// function call for every word.
+inline std::size_t count_common_bits(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
     constexpr std::uint64_t pairs = 0x5555555555555555;
     constexpr std::uint64_t nibbles = 0x3333333333333333;
     constexpr std::uint64_t bytes = 0x0f0f0f0f0f0f0f0f;

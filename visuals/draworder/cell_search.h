@@ -23,17 +23,13 @@ struct CellSearchResult {
     std::string incomplete_reason = {};
 };
 
-/// The best of several searches for a tree of planes over eye space. Throws SearchGivenUp when none
-/// finds anything, or only trees that split polygons more often than `max_splits` says
-/// (TreeSearch).
+/// The best of several searches for a tree of planes over eye space. Throws SearchGivenUp when none finds anything, or
+/// only trees that split polygons more often than `max_splits` says (TreeSearch).
 CellSearchResult best_tree(
-    const models::polygons::PolygonModel& model,
-    SearchBudget& budget,
-    const std::function<int()>& max_splits = {});
+    const models::polygons::PolygonModel& model, SearchBudget& budget, const std::function<int()>& max_splits = {});
 
 /// The best of several searches for octants that are divided further, for eyes of
 /// |x|+|y|+|z| >= `min_distance` radii. Throws SearchGivenUp when none finds anything.
-CellSearchResult best_cells(
-    const models::polygons::PolygonModel& model, double min_distance, SearchBudget& budget);
+CellSearchResult best_cells(const models::polygons::PolygonModel& model, double min_distance, SearchBudget& budget);
 
 } // namespace octant::visuals::draworder

@@ -1,7 +1,6 @@
-// Strongly connected components of hiding graphs: R. Tarjan, "Depth-first search and linear graph
-// algorithms", 1972, with a stack of its own instead of recursion and with rows of bits as
-// adjacency. A painting order exists exactly when there is no component of two or more polygons;
-// the 1989 paper does not mention cycles.
+// Strongly connected components of hiding graphs: R. Tarjan, "Depth-first search and linear graph algorithms", 1972,
+// with a stack of its own instead of recursion and with rows of bits as adjacency. A painting order exists exactly when
+// there is no component of two or more polygons; the 1989 paper does not mention cycles.
 #include "visuals/draworder/components.h"
 
 #include "visuals/draworder/bit_count.h"
@@ -25,25 +24,18 @@ std::uint64_t CyclicEdgeCounter::row_word(std::uint32_t polygon, std::size_t wor
     return graph_->row(polygon)[word] & allowed_[word] & ~barred;
 }
 
-/// Takes a finished component off the stack, given its first polygon, and counts the edges within
-/// it.
+/// Takes a finished component off the stack, given its first polygon, and counts the edges within it.
 void CyclicEdgeCounter::close(std::uint32_t polygon) {
     const auto first = std::ranges::find(open_, polygon);
     if (open_.end() - first > 1) {
         std::ranges::fill(members_, std::uint64_t{0});
+        for (auto it = first; it != open_.end(); ++it) { members_[*it / 64] |= std::uint64_t{1} << (*it % 64); }
         for (auto it = first; it != open_.end(); ++it) {
-            members_[*it / 64] |= std::uint64_t{1} << (*it % 64);
-        }
-        for (auto it = first; it != open_.end(); ++it) {
-            for (std::size_t word = 0; word < members_.size(); ++word) {
-                row_[word] = row_word(*it, word);
-            }
+            for (std::size_t word = 0; word < members_.size(); ++word) { row_[word] = row_word(*it, word); }
             edges_ += count_common_bits(row_, members_);
         }
     }
-    for (auto it = first; it != open_.end(); ++it) {
-        component_[*it] = next_component_;
-    }
+    for (auto it = first; it != open_.end(); ++it) { component_[*it] = next_component_; }
     open_.erase(first, open_.end());
     ++next_component_;
 }
@@ -77,18 +69,12 @@ void CyclicEdgeCounter::search_from(std::uint32_t root) {
             std::uint32_t& above = lowlink_[visits_.back().polygon];
             above = std::min(above, lowlink_[done]);
         }
-        if (lowlink_[done] == number_[done]) {
-            close(done);
-        }
+        if (lowlink_[done] == number_[done]) { close(done); }
     }
 }
 
-std::size_t CyclicEdgeCounter::count(
-    const OcclusionGraph& graph,
-    std::span<const std::uint32_t> among,
-    const PolygonSet& occluders,
-    const PolygonSet& occluded,
-    const PolygonSet& removed) {
+std::size_t CyclicEdgeCounter::count(const OcclusionGraph& graph, std::span<const std::uint32_t> among,
+    const PolygonSet& occluders, const PolygonSet& occluded, const PolygonSet& removed) {
     graph_ = &graph;
     hiding_ = &occluders;
     hidden_ = &occluded;
@@ -103,14 +89,10 @@ std::size_t CyclicEdgeCounter::count(
     edges_ = 0;
     for (const std::uint32_t polygon : among) {
         number_[polygon] = component_[polygon] = unseen;
-        if (!removed.has(polygon)) {
-            allowed_[polygon / 64] |= std::uint64_t{1} << (polygon % 64);
-        }
+        if (!removed.has(polygon)) { allowed_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
     }
     for (const std::uint32_t polygon : among) {
-        if (number_[polygon] == unseen && !removed.has(polygon)) {
-            search_from(polygon);
-        }
+        if (number_[polygon] == unseen && !removed.has(polygon)) { search_from(polygon); }
     }
     return edges_;
 }
@@ -121,24 +103,16 @@ CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint
     CyclicPart cycles{.polygons = {}, .components = {}, .inner = OcclusionGraph(graph.count())};
     cycles.edges = search.count(graph, among, none, none, none);
     std::vector<std::vector<std::uint32_t>> members(among.size());
-    for (const std::uint32_t polygon : among) {
-        members[search.component_of()[polygon]].push_back(polygon);
-    }
+    for (const std::uint32_t polygon : among) { members[search.component_of()[polygon]].push_back(polygon); }
     for (std::vector<std::uint32_t>& component : members) {
-        if (component.size() < 2) {
-            continue;
-        }
+        if (component.size() < 2) { continue; }
         std::ranges::sort(component);
         PolygonSet inside(graph.count());
-        for (const std::uint32_t polygon : component) {
-            inside.add(polygon);
-        }
+        for (const std::uint32_t polygon : component) { inside.add(polygon); }
         for (const std::uint32_t polygon : component) {
             const auto from = graph.row(polygon);
             const auto to = cycles.inner.row(polygon);
-            for (std::size_t word = 0; word < from.size(); ++word) {
-                to[word] = from[word] & inside.words()[word];
-            }
+            for (std::size_t word = 0; word < from.size(); ++word) { to[word] = from[word] & inside.words()[word]; }
         }
         cycles.polygons.insert(cycles.polygons.end(), component.begin(), component.end());
         cycles.components.push_back(std::move(component));
@@ -153,8 +127,7 @@ CyclicPart cyclic_part_of(const OcclusionGraph& graph) {
     return cyclic_part_of(graph, all);
 }
 
-std::vector<std::uint32_t>
-shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among) {
+std::vector<std::uint32_t> shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among) {
     std::vector<std::uint32_t> best;
     for (const std::uint32_t start : among) {
         std::vector<std::uint32_t> came_from(graph.count(), unseen);
@@ -167,17 +140,11 @@ shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among
                 }
             });
         }
-        if (came_from[start] == unseen) {
-            continue;
-        }
+        if (came_from[start] == unseen) { continue; }
         std::vector<std::uint32_t> ring{start};
-        for (std::uint32_t at = came_from[start]; at != start; at = came_from[at]) {
-            ring.push_back(at);
-        }
+        for (std::uint32_t at = came_from[start]; at != start; at = came_from[at]) { ring.push_back(at); }
         std::reverse(ring.begin() + 1, ring.end());
-        if (best.empty() || ring.size() < best.size()) {
-            best = std::move(ring);
-        }
+        if (best.empty() || ring.size() < best.size()) { best = std::move(ring); }
     }
     return best;
 }

@@ -9,40 +9,35 @@
 
 namespace octant::visuals::draworder {
 
-/// The cyclic part of a hiding graph: its strongly connected components of two or more polygons,
-/// and the edges within them.
+/// The cyclic part of a hiding graph: its strongly connected components of two or more polygons, and the edges within
+/// them.
 struct CyclicPart {
     std::vector<std::uint32_t> polygons; ///< The polygons of all components, ascending.
     /// The polygons of each component, ascending.
     std::vector<std::vector<std::uint32_t>> components;
-    OcclusionGraph inner;     ///< The edges within components.
+    OcclusionGraph inner;  ///< The edges within components.
     std::size_t edges = 0; ///< The number of these edges.
 };
 
-/// Finds the cyclic part by R. Tarjan, "Depth-first search and linear graph algorithms", 1972. Only
-/// the polygons `among` and the edges between them are looked at.
+/// Finds the cyclic part by R. Tarjan, "Depth-first search and linear graph algorithms", 1972. Only the polygons
+/// `among` and the edges between them are looked at.
 CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
 
 /// The cyclic part among all polygons.
 CyclicPart cyclic_part_of(const OcclusionGraph& graph);
 
-/// A cycle with the fewest polygons ("ring"): each is hidden by the next, and the last by the
-/// first. Empty when there is no cycle. The search starts from the polygons `among`.
-std::vector<std::uint32_t>
-shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
+/// A cycle with the fewest polygons ("ring"): each is hidden by the next, and the last by the first. Empty when there
+/// is no cycle. The search starts from the polygons `among`.
+std::vector<std::uint32_t> shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
 
-/// Counts the edges that lie within strongly connected components, for many variants of one graph
-/// in turn. Its memory is reused.
+/// Counts the edges that lie within strongly connected components, for many variants of one graph in turn. Its memory
+/// is reused.
 class CyclicEdgeCounter {
 public:
-    /// The number of such edges in `graph` restricted to the polygons `among`, without edges into
-    /// or out of `removed`, and without those by which a polygon of `occluders` hides one of `occluded`.
-    std::size_t count(
-        const OcclusionGraph& graph,
-        std::span<const std::uint32_t> among,
-        const PolygonSet& occluders,
-        const PolygonSet& occluded,
-        const PolygonSet& removed);
+    /// The number of such edges in `graph` restricted to the polygons `among`, without edges into or out of `removed`,
+    /// and without those by which a polygon of `occluders` hides one of `occluded`.
+    std::size_t count(const OcclusionGraph& graph, std::span<const std::uint32_t> among, const PolygonSet& occluders,
+        const PolygonSet& occluded, const PolygonSet& removed);
 
     /// For each polygon of `among` the number of its component, after count().
     std::span<const std::uint32_t> component_of() const { return component_; }

@@ -1,6 +1,6 @@
-// The run-time side of the 1989 paper, section III.2: "only the sign of the eye vector in the
-// object's frame is computed". Three sign tests are three planes of a tree; finer cells add planes
-// to it, so that octants, cells and trees are looked up by the same loop.
+// The run-time side of the 1989 paper, section III.2: "only the sign of the eye vector in the object's frame is
+// computed". Three sign tests are three planes of a tree; finer cells add planes to it, so that octants, cells and
+// trees are looked up by the same loop.
 #include "visuals/draworder/draw_order.h"
 
 #include "sim/base/hash.h"
@@ -24,26 +24,20 @@ std::vector<DrawOrder::Node> octant_nodes() {
     return {{z, 1, 4}, {y, 2, 3}, {x, ~0, ~1}, {x, ~2, ~3}, {y, 5, 6}, {x, ~4, ~5}, {x, ~6, ~7}};
 }
 
-bool is_in_front(const DrawOrder::Node& node, const glm::dvec3& eye_m) {
-    return distance_m(node.plane, eye_m) >= 0.0;
-}
+bool is_in_front(const DrawOrder::Node& node, const glm::dvec3& eye_m) { return distance_m(node.plane, eye_m) >= 0.0; }
 
 } // namespace
 
-DrawOrder::DrawOrder(const OctantOrders& orders)
-    : DrawOrder(octant_nodes(), orders.lists) {}
+DrawOrder::DrawOrder(const OctantOrders& orders) : DrawOrder(octant_nodes(), orders.lists) {}
 
 DrawOrder::DrawOrder(std::vector<std::uint32_t> list)
-    : polygons_(std::move(list))
-    , cells_{{0, polygons_.size()}}
-    , list_count_(1) {}
+    : polygons_(std::move(list)), cells_{{0, polygons_.size()}}, list_count_(1) {}
 
 DrawOrder::DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::uint32_t>> lists)
     : nodes_(std::move(nodes)) {
     assert(!nodes_.empty() || lists.size() == 1);
     add_cells(lists);
-    has_one_cell_per_eye_ =
-        std::ranges::all_of(nodes_, [](const Node& node) { return node.kind == Kind::ViewSplit; });
+    has_one_cell_per_eye_ = std::ranges::all_of(nodes_, [](const Node& node) { return node.kind == Kind::ViewSplit; });
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         for ([[maybe_unused]] const int child : {nodes_[i].front, nodes_[i].back}) {
             assert(child == nothing || child > static_cast<int>(i) || child < 0);
@@ -59,8 +53,7 @@ void DrawOrder::add_cells(std::span<const std::vector<std::uint32_t>> lists) {
         hash.add(std::as_bytes(std::span(list)));
         const auto [begin, end] = known.equal_range(hash.value());
         const auto same = std::find_if(begin, end, [&](const auto& entry) {
-            return std::ranges::equal(
-                std::span(polygons_).subspan(entry.second.first, entry.second.count), list);
+            return std::ranges::equal(std::span(polygons_).subspan(entry.second.first, entry.second.count), list);
         });
         if (same != end) {
             cells_.push_back(same->second);
@@ -83,16 +76,12 @@ int DrawOrder::cell_of(const glm::dvec3& eye_in_body_m) const {
     return ~at;
 }
 
-std::span<const DrawOrder::Range>
-DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
+std::span<const DrawOrder::Range> DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
     walk.ranges.clear();
     walk.pending.assign(1, nodes_.empty() ? ~0 : 0);
     const auto paint = [&](const Range& range) {
-        if (range.count == 0) {
-            return;
-        }
-        if (!walk.ranges.empty() &&
-            walk.ranges.back().first + walk.ranges.back().count == range.first) {
+        if (range.count == 0) { return; }
+        if (!walk.ranges.empty() && walk.ranges.back().first + walk.ranges.back().count == range.first) {
             walk.ranges.back().count += range.count;
             return;
         }
@@ -101,9 +90,7 @@ DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
     while (!walk.pending.empty()) {
         const int at = walk.pending.back();
         walk.pending.pop_back();
-        if (at == nothing) {
-            continue;
-        }
+        if (at == nothing) { continue; }
         if (at < 0) {
             paint(cells_[static_cast<std::size_t>(~at)]);
             continue;
@@ -123,8 +110,7 @@ DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
     return walk.ranges;
 }
 
-void DrawOrder::append_painted(
-    const glm::dvec3& eye_in_body_m, Walk& walk, std::vector<std::uint32_t>& painted) const {
+void DrawOrder::append_painted(const glm::dvec3& eye_in_body_m, Walk& walk, std::vector<std::uint32_t>& painted) const {
     for (const Range& range : ranges_of(eye_in_body_m, walk)) {
         const auto list = polygons().subspan(range.first, range.count);
         painted.insert(painted.end(), list.begin(), list.end());

@@ -14,16 +14,16 @@
 
 namespace octant::visuals::draworder {
 
-/// Painting orders as a renderer uploads them: one flat list of polygon numbers, and a tree that
-/// says for each eye which ranges of it are painted one after the other. At run time an eye needs
-/// plane tests and no sorting. Three kinds of nodes:
+/// Painting orders as a renderer uploads them: one flat list of polygon numbers, and a tree that says for each eye
+/// which ranges of it are painted one after the other. At run time an eye needs plane tests and no sorting. Three kinds
+/// of nodes:
 /// - a choice divides eye space by a plane, and the eye's side alone says what is painted;
 /// - a parting divides the polygons by a plane (a node of a BSP tree): first what lies on the other
 ///   side of it than the eye, then what lies in it and faces the eye, then what lies on the eye's
 ///   side;
 /// - a sequence paints two parts one after the other, for every eye.
-/// The leaves are cells with a list each. Where all nodes are choices, each eye lies in one cell,
-/// and its list is one range.
+/// The leaves are cells with a list each. Where all nodes are choices, each eye lies in one cell, and its list is one
+/// range.
 class DrawOrder {
 public:
     /// Polygons first to first + count - 1 of the flat list.
@@ -44,8 +44,8 @@ public:
         int front = 0; ///< Where dot(normal, .) + offset >= 0; of a sequence what is painted first.
         int back = 0;  ///< The other one.
         Kind kind = Kind::ViewSplit;
-        int coplanar_front = nothing;   ///< Of a parting: the cell of what lies in it and faces as it does.
-        int coplanar_back = nothing; ///< Of a parting: the cell of what lies in it and faces back.
+        int coplanar_front = nothing; ///< Of a parting: the cell of what lies in it and faces as it does.
+        int coplanar_back = nothing;  ///< Of a parting: the cell of what lies in it and faces back.
     };
 
     /// The ranges that an eye paints, and memory that is used on the way to them.
@@ -57,9 +57,8 @@ public:
     /// The paper's eight cells, the octants.
     explicit DrawOrder(const OctantOrders& orders);
 
-    /// Cells below a tree with node 0 as its root; without nodes there is a single cell. lists[i]
-    /// is the list of cell i, first painted first. Every child must be a later node, a cell or
-    /// nothing (asserted).
+    /// Cells below a tree with node 0 as its root; without nodes there is a single cell. lists[i] is the list of cell
+    /// i, first painted first. Every child must be a later node, a cell or nothing (asserted).
     DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::uint32_t>> lists);
 
     /// A single cell: the same list for every eye, first painted first.
@@ -69,9 +68,7 @@ public:
     template <typename Convert>
     void convert_planes(Convert convert) {
         for (Node& node : nodes_) {
-            if (node.kind != Kind::Sequence) {
-                node.plane = convert(node.plane);
-            }
+            if (node.kind != Kind::Sequence) { node.plane = convert(node.plane); }
         }
     }
 
@@ -85,18 +82,17 @@ public:
     /// Whether all nodes are choices, so that every eye lies in one cell.
     bool has_one_cell_per_eye() const { return has_one_cell_per_eye_; }
 
-    /// The cell in which an eye (body axes, metres) lies, 0 to cell_count - 1. Every eye must lie
-    /// in one (has_one_cell_per_eye, asserted).
+    /// The cell in which an eye (body axes, metres) lies, 0 to cell_count - 1. Every eye must lie in one
+    /// (has_one_cell_per_eye, asserted).
     int cell_of(const glm::dvec3& eye_in_body_m) const;
 
-    /// What is painted for an eye (body axes, metres), first painted first: consecutive ranges of
-    /// polygons(), joined where one goes on where the other ends. They stay until the next call
-    /// with the same memory; nothing is allocated once that has grown.
+    /// What is painted for an eye (body axes, metres), first painted first: consecutive ranges of polygons(), joined
+    /// where one goes on where the other ends. They stay until the next call with the same memory; nothing is allocated
+    /// once that has grown.
     std::span<const Range> ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const;
 
     /// Appends the polygons that are painted for an eye, first painted first.
-    void append_painted(
-        const glm::dvec3& eye_in_body_m, Walk& walk, std::vector<std::uint32_t>& painted) const;
+    void append_painted(const glm::dvec3& eye_in_body_m, Walk& walk, std::vector<std::uint32_t>& painted) const;
 
     /// The range of a cell's list in polygons().
     Range range_of(int cell) const;
@@ -125,8 +121,8 @@ struct OrderCell {
     std::vector<Plane> planes;
 };
 
-/// A single cell that lists all polygons in file order: for painting with a depth buffer, and for
-/// models whose file order is a painting order.
+/// A single cell that lists all polygons in file order: for painting with a depth buffer, and for models whose file
+/// order is a painting order.
 DrawOrder file_order(const models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::draworder

@@ -1,6 +1,5 @@
-// Outlines for the hiding test. Polygons of a model share edges, and rounding would let them
-// overlap a little and seem to hide one another; shrinking each outline by an inset that is larger
-// than the rounding prevents that.
+// Outlines for the hiding test. Polygons of a model share edges, and rounding would let them overlap a little and seem
+// to hide one another; shrinking each outline by an inset that is larger than the rounding prevents that.
 #include "visuals/draworder/face.h"
 
 #include "models/polygons/separating_edge.h"
@@ -28,13 +27,9 @@ glm::dvec2 inward_of(const glm::dvec2& from, const glm::dvec2& to) {
 /// The outline with every edge moved inwards.
 std::vector<glm::dvec2> drawn_in(const std::vector<glm::dvec2>& outline, double inset) {
     glm::dvec2 middle(0.0);
-    for (const glm::dvec2& corner : outline) {
-        middle += corner / static_cast<double>(outline.size());
-    }
+    for (const glm::dvec2& corner : outline) { middle += corner / static_cast<double>(outline.size()); }
     double nearest = std::numeric_limits<double>::max();
-    for (const glm::dvec2& corner : outline) {
-        nearest = std::min(nearest, glm::distance(corner, middle));
-    }
+    for (const glm::dvec2& corner : outline) { nearest = std::min(nearest, glm::distance(corner, middle)); }
     const double step = std::min(inset, nearest / 5.0);
     std::vector<glm::dvec2> inner;
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -63,8 +58,7 @@ Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, doubl
     }
     face.flat = drawn_in(outline, inset);
     for (const glm::dvec2& corner : face.flat) {
-        face.corners.push_back(
-            face.right * corner.x + face.up * corner.y - plane.normal * plane.offset_m);
+        face.corners.push_back(face.right * corner.x + face.up * corner.y - plane.normal * plane.offset_m);
     }
     for (std::size_t i = 0; i < face.flat.size(); ++i) {
         face.edge_directions.push_back(glm::normalize(face.flat[(i + 1) % face.flat.size()] - face.flat[i]));
@@ -73,13 +67,11 @@ Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, doubl
 }
 
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane) {
-    return std::ranges::all_of(face.corners, [&](const glm::dvec3& corner) {
-        return distance_m(plane, corner) <= on_plane;
-    });
+    return std::ranges::all_of(
+        face.corners, [&](const glm::dvec3& corner) { return distance_m(plane, corner) <= on_plane; });
 }
 
-std::vector<glm::dvec3>
-front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane) {
+std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane) {
     const auto height_of = [&](const glm::dvec3& corner) {
         const double height = distance_m(plane, corner);
         return std::abs(height) <= on_plane ? 0.0 : height;
@@ -92,9 +84,7 @@ front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on
         if (height * last_height < 0.0) {
             part.push_back(last + (corner - last) * (last_height / (last_height - height)));
         }
-        if (height >= 0.0) {
-            part.push_back(corner);
-        }
+        if (height >= 0.0) { part.push_back(corner); }
         last = corner;
         last_height = height;
     }
@@ -103,8 +93,7 @@ front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on
 
 bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
     const bool one_plane = a.plane && b.plane && !a.pivot && !b.pivot &&
-                           glm::dot(a.plane->normal, b.plane->normal) > 0.0 &&
-                           behind_or_on(a, *b.plane, on_plane) &&
+                           glm::dot(a.plane->normal, b.plane->normal) > 0.0 && behind_or_on(a, *b.plane, on_plane) &&
                            behind_or_on(b, *a.plane, on_plane) &&
                            behind_or_on(a, {-b.plane->normal, -b.plane->offset_m}, on_plane);
     const auto parts = [](const Face& of, const Face& other) {

@@ -13,9 +13,8 @@
 
 namespace octant::visuals::draworder {
 
-/// What is compared in place of a polygon: its outline, shrunk by a hair so that polygons which
-/// only touch do not hide one another, or a body that a turning polygon sweeps (turning_parts.h).
-/// Lengths are in the unit of ViewRegion.
+/// What is compared in place of a polygon: its outline, shrunk by a hair so that polygons which only touch do not hide
+/// one another, or a body that a turning polygon sweeps (turning_parts.h). Lengths are in the unit of ViewRegion.
 struct Face {
     /// Before shrinking; in order around an outline, in any order for a body.
     std::vector<glm::dvec3> outline;
@@ -38,22 +37,20 @@ struct Tolerances {
     double on_plane = inset / 10.0;
 };
 
-/// The face of a convex outline that lies in `plane` but for rounding. Its corners are projected
-/// onto the plane, and every edge is moved inwards by the inset, but by no more than a fifth of the
-/// least distance between a corner and the centroid.
+/// The face of a convex outline that lies in `plane` but for rounding. Its corners are projected onto the plane, and
+/// every edge is moved inwards by the inset, but by no more than a fifth of the least distance between a corner and the
+/// centroid.
 Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, double inset);
 
-/// The part of a convex outline in front of a plane that it straddles. Corners within `on_plane` of
-/// the plane belong to it as they are, so that no two corners lie closer together than those of the
-/// outline.
-std::vector<glm::dvec3>
-front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane);
+/// The part of a convex outline in front of a plane that it straddles. Corners within `on_plane` of the plane belong to
+/// it as they are, so that no two corners lie closer together than those of the outline.
+std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane);
 
 /// Whether all corners of a face lie behind a plane or on it.
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane);
 
-/// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap
-/// there. Not those that turn.
+/// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap there. Not those that
+/// turn.
 bool overlap_in_plane(const Face& a, const Face& b, double on_plane);
 
 } // namespace octant::visuals::draworder

@@ -11,16 +11,15 @@
 
 namespace octant::visuals::draworder {
 
-/// A model prepared for hiding tests: face i stands for polygon i. The unit of length is the
-/// model's radius about `origin_m`, which is the origin; axes are the body's.
+/// A model prepared for hiding tests: face i stands for polygon i. The unit of length is the model's radius about
+/// `origin_m`, which is the origin; axes are the body's.
 struct ModelFaces {
     std::vector<Face> faces;
     Tolerances tolerances;
     glm::dvec3 origin_m{0.0};
     double unit_m = 1.0;
-    /// Edges within turning parts, whose polygons keep their places to each other, and from each
-    /// polygon to later ones that overlap it in its plane. They hold for every eye and have no
-    /// cycles.
+    /// Edges within turning parts, whose polygons keep their places to each other, and from each polygon to later ones
+    /// that overlap it in its plane. They hold for every eye and have no cycles.
     OcclusionGraph rigid;
     /// Pairs that collide as they turn, in both directions; no order can be right for them.
     OcclusionGraph ignored;
@@ -34,8 +33,7 @@ struct ModelFaces {
     Plane to_face_space(const Plane& plane) const;
 };
 
-/// Prepares a planar model (models/planar/planar_model.h). Outlines are shrunk by planar_tolerance
-/// times the radius.
+/// Prepares a planar model (models/planar/planar_model.h). Outlines are shrunk by planar_tolerance times the radius.
 ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m);
 
 } // namespace octant::visuals::draworder

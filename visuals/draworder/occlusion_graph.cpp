@@ -10,9 +10,7 @@ void OcclusionGraph::add_sibling(std::size_t polygon) {
     for (std::size_t a = 0; a <= count_; ++a) {
         const std::size_t as = a < count_ ? a : polygon;
         std::ranges::copy(row(as), bigger.row(a).begin());
-        if (occludes(polygon, as)) {
-            bigger.add(count_, a);
-        }
+        if (occludes(polygon, as)) { bigger.add(count_, a); }
     }
     *this = std::move(bigger);
 }
@@ -21,9 +19,7 @@ std::vector<Precedence> OcclusionGraph::precedences(const PolygonSet& among) con
     std::vector<Precedence> pairs;
     for_each_bit(among.words(), [&](std::size_t a) {
         for_each_bit(row(a), [&](std::size_t b) {
-            if (among.has(b)) {
-                pairs.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
-            }
+            if (among.has(b)) { pairs.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}); }
         });
     });
     return pairs;

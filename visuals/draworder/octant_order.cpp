@@ -1,7 +1,6 @@
-// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
-// Animation", 1989, section III.1, steps 1, 5 and 6, equations (1)-(4), and section III.2,
-// equations (30)-(36). Steps 2 to 4 are in paper_rule.cpp.
-// Deviations:
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989,
+// section III.1, steps 1, 5 and 6, equations (1)-(4), and section III.2, equations (30)-(36). Steps 2 to 4 are in
+// paper_rule.cpp. Deviations:
 // - "Any point P of the octant" is one stated point, (1, 1, 1) * 3 R with the octant's signs.
 // - The normal is Newell's sum over all corners, not u x v of the first three, which may lie on one
 //   line.
@@ -14,6 +13,7 @@
 // - (33) multiplies by the transposed rotations (30)-(32); this equals the inverse of
 //   T Rx Ry Rz on column vectors, which is what eye_in_body computes from any attitude.
 #include "visuals/draworder/octant_order.h"
+
 #include "visuals/draworder/precedence.h"
 
 #include <glm/common.hpp>
@@ -28,9 +28,8 @@
 
 namespace octant::visuals::draworder {
 
-// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
-// Animation", 1989, section III.1, steps 2 to 4, equations (5)-(29).
-// Deviations:
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989,
+// section III.1, steps 2 to 4, equations (5)-(29). Deviations:
 // - The screen coordinates are not defined in the paper. Both readings are offered; in perspective
 //   depth is proportional to 1 / distance, without which a plane would not stay a plane and
 //   aXs + bYs + cZs + d = 0 would not hold.
@@ -42,18 +41,15 @@ namespace octant::visuals::draworder {
 // - The depths at a crossing are taken along the two edges instead of from the plane equations
 //   (21)-(29). Both edges lie in their planes, so the numbers are the same; they stay defined for
 //   a polygon that is seen edge-on.
-// Kept as printed, though it can be wrong: the depth ranges of step 2 decide also where the
-// polygons are slanted, and a polygon that lies inside the outline of another with overlapping
-// depth ranges is left free.
+// Kept as printed, though it can be wrong: the depth ranges of step 2 decide also where the polygons are slanted, and a
+// polygon that lies inside the outline of another with overlapping depth ranges is left free.
 
 namespace {
 
 constexpr double equal_within = 1e-9; ///< Depths and shares that differ by no more count as equal.
 
 /// The cross product on the screen.
-double cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return a.x * b.y - a.y * b.x;
-}
+double cross(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - a.y * b.x; }
 
 /// The depths of two edges where they cross on the screen.
 struct Crossing {
@@ -62,28 +58,19 @@ struct Crossing {
 };
 
 /// Whether a point is between the ends of an edge, given its share of the way along it.
-bool inside_edge(double share) {
-    return share >= -equal_within && share <= 1.0 + equal_within;
-}
+bool inside_edge(double share) { return share >= -equal_within && share <= 1.0 + equal_within; }
 
-/// The crossing of two edges, (13)-(20). Nothing for edges that are parallel, coincident, seen
-/// end-on or that do not meet.
+/// The crossing of two edges, (13)-(20). Nothing for edges that are parallel, coincident, seen end-on or that do not
+/// meet.
 std::optional<Crossing> crossing(
-    const glm::dvec3& a_from,
-    const glm::dvec3& a_to,
-    const glm::dvec3& b_from,
-    const glm::dvec3& b_to) {
+    const glm::dvec3& a_from, const glm::dvec3& a_to, const glm::dvec3& b_from, const glm::dvec3& b_to) {
     const glm::dvec3 a = a_to - a_from;
     const glm::dvec3 b = b_to - b_from;
     const double area = cross(a, b);
-    if (std::abs(area) <= equal_within * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) {
-        return std::nullopt;
-    }
+    if (std::abs(area) <= equal_within * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) { return std::nullopt; }
     const double share_a = cross(b_from - a_from, b) / area;
     const double share_b = cross(b_from - a_from, a) / area;
-    if (!inside_edge(share_a) || !inside_edge(share_b)) {
-        return std::nullopt;
-    }
+    if (!inside_edge(share_a) || !inside_edge(share_b)) { return std::nullopt; }
     return Crossing{a_from.z + share_a * a.z, b_from.z + share_b * b.z};
 }
 
@@ -91,29 +78,21 @@ std::optional<Crossing> crossing(
 PaintFirst by_depth_range(const ScreenPolygon& a, const ScreenPolygon& b) {
     const double most = a.most.z - b.most.z;
     const double least = a.least.z - b.least.z;
-    if (most > equal_within && least > equal_within) {
-        return PaintFirst::B;
-    }
-    if (most < -equal_within && least < -equal_within) {
-        return PaintFirst::A;
-    }
+    if (most > equal_within && least > equal_within) { return PaintFirst::B; }
+    if (most < -equal_within && least < -equal_within) { return PaintFirst::A; }
     return PaintFirst::Either;
 }
 
 /// Step 3, (9)-(12): whether the screen bounding boxes are disjoint.
 bool boxes_apart(const ScreenPolygon& a, const ScreenPolygon& b) {
-    return a.most.x < b.least.x || b.most.x < a.least.x || a.most.y < b.least.y ||
-           b.most.y < a.least.y;
+    return a.most.x < b.least.x || b.most.x < a.least.x || a.most.y < b.least.y || b.most.y < a.least.y;
 }
 
 /// Step 4, (13)-(29): decides by the depths at the first true crossing of two edges.
 PaintFirst by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
     for (std::size_t i = 0; i < a.corners.size(); ++i) {
         for (std::size_t j = 0; j < b.corners.size(); ++j) {
-            const auto at = crossing(
-                a.corners[i],
-                a.corners[(i + 1) % a.corners.size()],
-                b.corners[j],
+            const auto at = crossing(a.corners[i], a.corners[(i + 1) % a.corners.size()], b.corners[j],
                 b.corners[(j + 1) % b.corners.size()]);
             if (at && std::abs(at->depth_a - at->depth_b) > equal_within) {
                 return at->depth_a < at->depth_b ? PaintFirst::A : PaintFirst::B;
@@ -126,9 +105,7 @@ PaintFirst by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
 } // namespace
 
 ScreenView::ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m)
-    : distance_m_(glm::length(viewpoint_m))
-    , scale_m_(scale_m)
-    , screen_(screen) {
+    : distance_m_(glm::length(viewpoint_m)), scale_m_(scale_m), screen_(screen) {
     assert(distance_m_ > 0.0 && scale_m > 0.0);
     towards_eye_ = viewpoint_m / distance_m_;
     const bool along_x = std::abs(towards_eye_.x) > 0.9;
@@ -138,17 +115,13 @@ ScreenView::ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, d
 }
 
 glm::dvec3 ScreenView::screen_from_body(const glm::dvec3& point_m) const {
-    const glm::dvec3 in_view(
-        glm::dot(point_m, right_), glm::dot(point_m, up_), glm::dot(point_m, towards_eye_));
-    if (screen_ == ScreenProjection::Parallel) {
-        return in_view / scale_m_;
-    }
+    const glm::dvec3 in_view(glm::dot(point_m, right_), glm::dot(point_m, up_), glm::dot(point_m, towards_eye_));
+    if (screen_ == ScreenProjection::Parallel) { return in_view / scale_m_; }
     assert(in_view.z < distance_m_);
     return in_view * (distance_m_ / (distance_m_ - in_view.z) / scale_m_);
 }
 
-ScreenPolygon screen_polygon(
-    const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
+ScreenPolygon screen_polygon(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
     ScreenPolygon seen;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         seen.corners.push_back(view.screen_from_body(model.vertices_m[vertex]));
@@ -163,9 +136,7 @@ ScreenPolygon screen_polygon(
 
 PaintFirst paint_first(const ScreenPolygon& a, const ScreenPolygon& b) {
     const PaintFirst by_depth = by_depth_range(a, b);
-    if (by_depth != PaintFirst::Either) {
-        return by_depth;
-    }
+    if (by_depth != PaintFirst::Either) { return by_depth; }
     return boxes_apart(a, b) ? PaintFirst::Either : by_first_crossing(a, b);
 }
 
@@ -179,45 +150,33 @@ glm::dvec3 first_corner_m(const models::polygons::PolygonModel& model, std::size
 }
 
 /// Step 1, n . l > 0: whether a polygon is seen from a point.
-bool faces_point(
-    const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
+bool faces_point(const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     return glm::dot(normal, point_m - first_corner_m(model, polygon)) > 0.0;
 }
 
-/// Whether n . (eye - V1) > 0 for some eye of the octant with |eye| >= R. If a component of n has
-/// the octant's sign, eyes far out along its axis see the front. If none has, n . eye is largest at
-/// distance R on the axis where n has its smallest component.
+/// Whether n . (eye - V1) > 0 for some eye of the octant with |eye| >= R. If a component of n has the octant's sign,
+/// eyes far out along its axis see the front. If none has, n . eye is largest at distance R on the axis where n has its
+/// smallest component.
 bool faces_some_eye(
-    const models::polygons::PolygonModel& model,
-    std::size_t polygon,
-    const glm::dvec3& signs,
-    double radius_m) {
+    const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& signs, double radius_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const glm::dvec3 outward = normal * signs;
     const double largest = std::max({outward.x, outward.y, outward.z});
-    if (largest > min_component) {
-        return true;
-    }
+    if (largest > min_component) { return true; }
     const double offset_m = glm::dot(normal, first_corner_m(model, polygon));
     return std::min(largest, 0.0) * radius_m - offset_m > min_component * radius_m;
 }
 
 /// The polygons of an octant's list, ascending.
-std::vector<std::uint32_t> listed_polygons(
-    const models::polygons::PolygonModel& model,
-    const PaperOrderOptions& options,
-    const glm::dvec3& signs,
-    double radius_m) {
+std::vector<std::uint32_t> listed_polygons(const models::polygons::PolygonModel& model,
+    const PaperOrderOptions& options, const glm::dvec3& signs, double radius_m) {
     std::vector<std::uint32_t> listed;
     const glm::dvec3 viewpoint_m = signs * options.viewpoint_radii * radius_m;
     for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
-        const bool faces = options.listed == ListingRule::FromPoint
-                               ? faces_point(model, i, viewpoint_m)
-                               : faces_some_eye(model, i, signs, radius_m);
-        if (faces) {
-            listed.push_back(i);
-        }
+        const bool faces = options.listed == ListingRule::FromPoint ? faces_point(model, i, viewpoint_m)
+                                                                    : faces_some_eye(model, i, signs, radius_m);
+        if (faces) { listed.push_back(i); }
     }
     return listed;
 }
@@ -243,20 +202,16 @@ std::vector<Precedence> all_pairs(std::span<const ScreenPolygon> polygons) {
 std::string octant_name(int octant) {
     assert(octant >= 0 && octant < 8);
     std::string name;
-    for (int axis = 0; axis < 3; ++axis) {
-        name += octant_signs(octant)[axis] < 0.0 ? '-' : '+';
-    }
+    for (int axis = 0; axis < 3; ++axis) { name += octant_signs(octant)[axis] < 0.0 ? '-' : '+'; }
     return name;
 }
 
 glm::dvec3 octant_signs(int octant) {
     assert(octant >= 0 && octant < 8);
-    return {
-        octant % 2 == 0 ? 1.0 : -1.0, octant / 2 % 2 == 0 ? 1.0 : -1.0, octant < 4 ? 1.0 : -1.0};
+    return {octant % 2 == 0 ? 1.0 : -1.0, octant / 2 % 2 == 0 ? 1.0 : -1.0, octant < 4 ? 1.0 : -1.0};
 }
 
-OctantOrders
-paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options) {
+OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options) {
     assert(glm::all(glm::greaterThan(options.viewpoint_radii, glm::dvec3(0.0))));
     const double radius_m = models::polygons::radius_m(model);
     OctantOrders orders;
@@ -266,9 +221,7 @@ paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOption
         const auto listed = listed_polygons(model, options, signs, radius_m);
         std::vector<ScreenPolygon> seen;
         seen.reserve(listed.size());
-        for (const std::uint32_t polygon : listed) {
-            seen.push_back(screen_polygon(model, polygon, view));
-        }
+        for (const std::uint32_t polygon : listed) { seen.push_back(screen_polygon(model, polygon, view)); }
         const TopologicalOrder sequence = topological_order(seen.size(), all_pairs(seen));
         for (const std::uint32_t place : sequence.order) {
             orders.lists[static_cast<std::size_t>(octant)].push_back(listed[place]);
@@ -279,8 +232,7 @@ paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOption
     return orders;
 }
 
-glm::dvec3 eye_in_body(
-    const glm::dvec3& eye_m, const glm::dvec3& position_m, const glm::dquat& body_to_world) {
+glm::dvec3 eye_in_body(const glm::dvec3& eye_m, const glm::dvec3& position_m, const glm::dquat& body_to_world) {
     return glm::conjugate(body_to_world) * (eye_m - position_m);
 }
 

@@ -18,12 +18,12 @@ enum class ScreenProjection {
     Perspective ///< A perspective projection from the viewpoint, which looks at the origin.
 };
 
-/// Maps body axes to screen coordinates (Xs, Ys, Zs), where a larger Zs is nearer to the eye.
-/// Straight lines and planes stay straight. Near the origin coordinates are in units of `scale_m`.
+/// Maps body axes to screen coordinates (Xs, Ys, Zs), where a larger Zs is nearer to the eye. Straight lines and planes
+/// stay straight. Near the origin coordinates are in units of `scale_m`.
 class ScreenView {
 public:
-    /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With Screen::Perspective
-    /// every point that is mapped must be in front of the viewpoint (asserted).
+    /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With Screen::Perspective every point that is
+    /// mapped must be in front of the viewpoint (asserted).
     ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m);
 
     glm::dvec3 screen_from_body(const glm::dvec3& point_m) const;
@@ -45,18 +45,17 @@ struct ScreenPolygon {
 };
 
 /// A polygon of the model in screen coordinates.
-ScreenPolygon
-screen_polygon(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
+ScreenPolygon screen_polygon(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
 
 /// Which of two polygons must be painted first.
 enum class PaintFirst { A, B, Either };
 
-/// Steps 2 to 4 of the paper for one pair of polygons: depth ranges, bounding boxes, and the first
-/// true crossing of their edges. The time is that of comparing all edges of a with all of b.
+/// Steps 2 to 4 of the paper for one pair of polygons: depth ranges, bounding boxes, and the first true crossing of
+/// their edges. The time is that of comparing all edges of a with all of b.
 PaintFirst paint_first(const ScreenPolygon& a, const ScreenPolygon& b);
 
-// Octants of the eye in body axes are numbered 0 to 7: bit 0 is set where x is negative, bit 1
-// where y is, and bit 2 where z is. Zero, of either sign, counts as positive.
+// Octants of the eye in body axes are numbered 0 to 7: bit 0 is set where x is negative, bit 1 where y is, and bit 2
+// where z is. Zero, of either sign, counts as positive.
 
 /// The signs of x, y, z as the paper writes them: octant 0 is "+++", 1 is "-++", 4 is "++-".
 std::string octant_name(int octant);
@@ -72,9 +71,8 @@ enum class ListingRule {
 
 /// How the paper is read where it leaves a choice.
 struct PaperOrderOptions {
-    /// The viewpoint P of octant +++, in units of the model's radius R; for the other octants its
-    /// signs change. Each component must be > 0, and with Screen::Perspective its length > 1
-    /// (asserted).
+    /// The viewpoint P of octant +++, in units of the model's radius R; for the other octants its signs change. Each
+    /// component must be > 0, and with Screen::Perspective its length > 1 (asserted).
     glm::dvec3 viewpoint_radii{3.0};
     ScreenProjection screen = ScreenProjection::Parallel;
     ListingRule listed = ListingRule::FromOctant;
@@ -88,16 +86,12 @@ struct OctantOrders {
     int cyclic_octants = 0; ///< The number of octants with broken cycles.
 };
 
-/// Steps 1 to 6 of the paper: the 8 painting orders of a model. Where the paper leaves the order
-/// free, the lower polygon number comes first. The time grows with the square of the polygons
-/// listed.
-OctantOrders
-paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options = {});
+/// Steps 1 to 6 of the paper: the 8 painting orders of a model. Where the paper leaves the order free, the lower
+/// polygon number comes first. The time grows with the square of the polygons listed.
+OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options = {});
 
-/// The eye in body axes, metres: inverse(T R) * eye for an aircraft at `position_m` in the world
-/// with the attitude `body_to_world` (a unit quaternion). Its octant is the paper's run-time step,
-/// equations (33)-(36).
-glm::dvec3
-eye_in_body(const glm::dvec3& eye_m, const glm::dvec3& position_m, const glm::dquat& body_to_world);
+/// The eye in body axes, metres: inverse(T R) * eye for an aircraft at `position_m` in the world with the attitude
+/// `body_to_world` (a unit quaternion). Its octant is the paper's run-time step, equations (33)-(36).
+glm::dvec3 eye_in_body(const glm::dvec3& eye_m, const glm::dvec3& position_m, const glm::dquat& body_to_world);
 
 } // namespace octant::visuals::draworder

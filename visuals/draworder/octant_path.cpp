@@ -7,8 +7,8 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Where one axis of a coordinate system points in another one: along which axis, and whether in
-/// the opposite direction.
+/// Where one axis of a coordinate system points in another one: along which axis, and whether in the opposite
+/// direction.
 struct AxisPlace {
     std::size_t axis = 0;
     bool turned_round = false;
@@ -16,17 +16,14 @@ struct AxisPlace {
 
 AxisPlace place_of(const glm::dvec3& unit) {
     for (int i = 0; i < 3; ++i) {
-        if (std::abs(unit[i]) > 0.5) {
-            return {static_cast<std::size_t>(i), unit[i] < 0.0};
-        }
+        if (std::abs(unit[i]) > 0.5) { return {static_cast<std::size_t>(i), unit[i] < 0.0}; }
     }
     assert(false);
     return {};
 }
 
-/// Converts an octant path to other axes. Signs move with their axes. Children 0, 1, 2 are those at
-/// the corners on x, y, z, and the corners of each child are named alike, so that every level
-/// changes in the same way.
+/// Converts an octant path to other axes. Signs move with their axes. Children 0, 1, 2 are those at the corners on x,
+/// y, z, and the corners of each child are named alike, so that every level changes in the same way.
 template <typename ToOther>
 std::string with_axes_changed(const std::string& path, ToOther to_other) {
     assert(is_octant_path(path));
@@ -40,9 +37,7 @@ std::string with_axes_changed(const std::string& path, ToOther to_other) {
     }
     for (std::size_t at = 4; at < path.size(); at += 2) {
         const auto child = static_cast<std::size_t>(path[at] - '0');
-        if (child < 3) {
-            out[at] = static_cast<char>('0' + places[child].axis);
-        }
+        if (child < 3) { out[at] = static_cast<char>('0' + places[child].axis); }
     }
     return out;
 }
@@ -50,16 +45,12 @@ std::string with_axes_changed(const std::string& path, ToOther to_other) {
 } // namespace
 
 bool is_octant_path(std::string_view text) {
-    if (text.size() < 3 || text.size() % 2 == 0 || text.size() > 3 + 2 * max_path_levels) {
-        return false;
-    }
+    if (text.size() < 3 || text.size() % 2 == 0 || text.size() > 3 + 2 * max_path_levels) { return false; }
     for (std::size_t i = 0; i < text.size(); ++i) {
         const bool good = i < 3        ? text[i] == '+' || text[i] == '-'
                           : i % 2 == 1 ? text[i] == '/'
                                        : text[i] >= '0' && text[i] <= '3';
-        if (!good) {
-            return false;
-        }
+        if (!good) { return false; }
     }
     return true;
 }

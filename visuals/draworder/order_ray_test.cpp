@@ -1,6 +1,7 @@
-// Every order is tried before it is used. Rays that pass a side of a polygon within a hair are not
-// counted: there rounding decides what is seen.
+// Every order is tried before it is used. Rays that pass a side of a polygon within a hair are not counted: there
+// rounding decides what is seen.
 #include "visuals/draworder/order_ray_test.h"
+
 #include "models/polygons/inside_outline.h"
 #include "sim/base/random_generator.h"
 #include "visuals/draworder/proof_walk.h"
@@ -25,17 +26,15 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// By so much of it and by so many radii of the model is a ball larger than its target: a thousand
-/// times what rounding makes of the distance of a ray from an eye twenty radii away.
+/// By so much of it and by so many radii of the model is a ball larger than its target: a thousand times what rounding
+/// makes of the distance of a ray from an eye twenty radii away.
 constexpr double more_of_ball = 1e-3;
 constexpr double more_of_model = 1e-5;
 
 /// Adds what follows from the corners; false for a polygon without area.
 bool complete(RayTarget& target) {
     const std::size_t count = target.corners.size();
-    for (const glm::dvec3& corner : target.corners) {
-        target.middle += corner / static_cast<double>(count);
-    }
+    for (const glm::dvec3& corner : target.corners) { target.middle += corner / static_cast<double>(count); }
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 from = target.corners[i] - target.middle;
@@ -47,12 +46,9 @@ bool complete(RayTarget& target) {
 }
 
 /// Where a ray meets a target above which its eye lies.
-std::optional<RayHit>
-meet_one(const RayTarget& target, const glm::dvec3& eye, double height, const glm::dvec3& ray) {
+std::optional<RayHit> meet_one(const RayTarget& target, const glm::dvec3& eye, double height, const glm::dvec3& ray) {
     const double slope = glm::dot(ray, target.normal);
-    if (slope >= 0.0) {
-        return std::nullopt;
-    }
+    if (slope >= 0.0) { return std::nullopt; }
     const double hit_distance = -height / slope;
     const glm::dvec3 at = eye + ray * hit_distance;
     const glm::dvec3 aside = at - target.middle;
@@ -61,16 +57,12 @@ meet_one(const RayTarget& target, const glm::dvec3& eye, double height, const gl
         return std::nullopt;
     }
     return RayHit{
-        0,
-        hit_distance,
-        models::polygons::distance_to_sides(target.corners, at),
-        RayTargets::ray_tolerance / -slope};
+        0, hit_distance, models::polygons::distance_to_sides(target.corners, at), RayTargets::ray_tolerance / -slope};
 }
 
 } // namespace
 
-RayTargets::RayTargets(const models::polygons::PolygonModel& model)
-    : model_(model) {
+RayTargets::RayTargets(const models::polygons::PolygonModel& model) : model_(model) {
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(std::numeric_limits<double>::lowest());
     for (const std::uint32_t vertex : model.corner_vertices) {
@@ -87,16 +79,12 @@ void RayTargets::turn(double turn_rad, bool turning_parts) {
     faced_.clear();
     for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
         const auto pivot = models::polygons::pivot_of(model_, i);
-        if (pivot && !turning_parts) {
-            continue;
-        }
+        if (pivot && !turning_parts) { continue; }
         RayTarget target;
         target.polygon = i;
         for (const std::uint32_t vertex : model_.corners(i)) {
             glm::dvec3 at_m = model_.vertices_m[vertex];
-            if (pivot) {
-                at_m = models::polygons::turned(model_.pivots[*pivot], at_m, turn_rad);
-            }
+            if (pivot) { at_m = models::polygons::turned(model_.pivots[*pivot], at_m, turn_rad); }
             target.corners.push_back((at_m - middle_m_) / radius_m_);
         }
         if (complete(target)) {
@@ -129,9 +117,7 @@ void RayTargets::intersect(const glm::dvec3& ray, std::vector<RayHit>& hits) con
     hits.clear();
     for (const FacingTarget& faced : faced_) {
         const double along = glm::dot(faced.to_middle, ray);
-        if (along * along < faced.min_along2) {
-            continue;
-        }
+        if (along * along < faced.min_along2) { continue; }
         if (std::optional<RayHit> hit = meet_one(all_[faced.target], eye_, faced.height, ray)) {
             hit->target = faced.target;
             hits.push_back(*hit);
@@ -150,8 +136,7 @@ constexpr std::uint64_t units_of_polygon_in_part = 60;
 /// Counts what is found, and what that costs.
 class Counting : public ProofVisitor {
 public:
-    explicit Counting(SearchBudget& budget)
-        : budget_(budget) {}
+    explicit Counting(SearchBudget& budget) : budget_(budget) {}
 
     OrderProof& proof() { return proof_; }
 
@@ -163,19 +148,14 @@ public:
 
     void end_pairs() override {}
 
-    void add_plane_proof(
-        int /*part*/,
-        const separation::SeparatingPlaneProof& plane_proof,
-        std::uint32_t earlier,
+    void add_plane_proof(int /*part*/, const separation::SeparatingPlaneProof& plane_proof, std::uint32_t earlier,
         std::uint32_t later) override {
         if (plane_proof.kind != separation::SeparatingPlaneProof::Kind::None) {
             budget_.spend(units_of_witness);
             return;
         }
         ++proof_.unproved;
-        if (proof_.unproved_pairs.size() < OrderProof::max_open) {
-            proof_.unproved_pairs.emplace_back(earlier, later);
-        }
+        if (proof_.unproved_pairs.size() < OrderProof::max_open) { proof_.unproved_pairs.emplace_back(earlier, later); }
         budget_.spend(units_of_none);
     }
 
@@ -189,9 +169,7 @@ public:
         budget_.spend(units_of_none);
     }
 
-    void end_part(std::size_t polygons) override {
-        budget_.spend(units_of_polygon_in_part * polygons);
-    }
+    void end_part(std::size_t polygons) override { budget_.spend(units_of_polygon_in_part * polygons); }
 
 private:
     SearchBudget& budget_;
@@ -200,8 +178,7 @@ private:
 
 } // namespace
 
-OrderProof
-prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
+OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
     SearchBudget budget(seconds);
     OrderProof best;
     if (model.corner_vertices.empty()) {
@@ -215,15 +192,9 @@ prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order,
         try {
             visit_proof({model, order, axes, local}, counting);
             counting.proof().is_complete = true;
-        } catch (const SearchGivenUp&) {
-            return best.is_complete ? best : counting.proof();
-        }
-        if (!best.is_complete || counting.proof().unproved < best.unproved) {
-            best = counting.proof();
-        }
-        if (best.unproved == 0) {
-            break;
-        }
+        } catch (const SearchGivenUp&) { return best.is_complete ? best : counting.proof(); }
+        if (!best.is_complete || counting.proof().unproved < best.unproved) { best = counting.proof(); }
+        if (best.unproved == 0) { break; }
     }
     return best;
 }
@@ -237,8 +208,8 @@ constexpr double ray_tolerance = RayTargets::ray_tolerance;
 constexpr std::size_t max_comparisons = 20'000'000;
 constexpr std::size_t max_eyes = 2'000;
 constexpr std::size_t rays_an_eye = 10;
-/// So many rays are cast at each pair for which no proof was found; fewer where that would be more
-/// comparisons than all others.
+/// So many rays are cast at each pair for which no proof was found; fewer where that would be more comparisons than all
+/// others.
 constexpr std::size_t rays_a_pair = 100;
 constexpr std::size_t min_rays_a_pair = 4;
 /// Polygons whose corners are all nearer than this to one another's planes lie in one plane.
@@ -248,33 +219,23 @@ constexpr double in_plane = 1e-9;
 class RayTester {
 public:
     RayTester(const PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope)
-        : model_(model)
-        , order_(order)
-        , scope_(scope)
-        , targets_(model) {}
+        : model_(model), order_(order), scope_(scope), targets_(model) {}
 
     void look(double turn_rad, std::size_t comparisons, RayTestResult& ray_test) {
         targets_.turn(turn_rad, scope_.turning_parts);
-        if (targets_.all().empty()) {
-            return;
-        }
+        if (targets_.all().empty()) { return; }
         const std::size_t rays = comparisons / targets_.all().size();
         const std::size_t most = max_eyes * comparisons / max_comparisons;
         const std::size_t eyes = std::clamp<std::size_t>(rays / rays_an_eye, 20, most);
         for (std::size_t i = 0; i < eyes; ++i) {
             const glm::dvec3 eye = next_eye(i);
             const glm::dvec3 eye_m = targets_.in_model_m(eye);
-            if (is_looked_from(eye_m)) {
-                set_eye(eye, eye_m, ray_test);
-            }
+            if (is_looked_from(eye_m)) { set_eye(eye, eye_m, ray_test); }
         }
     }
 
-    /// Casts rays at polygons through others that are painted earlier, from eyes beyond, as the
-    /// parts were turned last.
-    void check_pairs(
-        std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs,
-        std::size_t comparisons,
+    /// Casts rays at polygons through others that are painted earlier, from eyes beyond, as the parts were turned last.
+    void check_pairs(std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs, std::size_t comparisons,
         RayTestResult& ray_test) {
         const std::size_t once = std::max<std::size_t>(pairs.size() * targets_.all().size(), 1);
         const std::size_t rays = std::clamp(comparisons / once, min_rays_a_pair, rays_a_pair);
@@ -338,8 +299,7 @@ private:
             const double place = dice_.next() * static_cast<double>(nodes.size());
             const auto& node = nodes[std::min(static_cast<std::size_t>(place), nodes.size() - 1)];
             const double side = dice_.next() < 0.5 ? -small() : small();
-            const double height =
-                distance_m(node.plane, targets_.in_model_m(hit_distance)) / targets_.radius_m();
+            const double height = distance_m(node.plane, targets_.in_model_m(hit_distance)) / targets_.radius_m();
             return hit_distance + node.plane.normal * (side - height);
         }
         return hit_distance;
@@ -350,9 +310,7 @@ private:
         painted_.clear();
         order_.append_painted(eye_m, walk_, painted_);
         place_.assign(model_.polygons.size(), 0);
-        for (std::uint32_t i = 0; i < painted_.size(); ++i) {
-            place_[painted_[i]] = i + 1;
-        }
+        for (std::uint32_t i = 0; i < painted_.size(); ++i) { place_[painted_[i]] = i + 1; }
     }
 
     void set_eye(const glm::dvec3& eye, const glm::dvec3& eye_m, RayTestResult& ray_test) {
@@ -361,9 +319,7 @@ private:
         for (std::size_t i = 0; i < rays_an_eye; ++i) {
             const glm::dvec3 towards = point_of(any_target()) - eye;
             const double length = glm::length(towards);
-            if (length > 0.0) {
-                cast_ray(towards / length, ray_test);
-            }
+            if (length > 0.0) { cast_ray(towards / length, ray_test); }
         }
     }
 
@@ -373,40 +329,35 @@ private:
         RayHit seen = nearest;
         std::uint32_t last = 0;
         for (const RayHit& hit : met_) {
-            if (hit.hit_distance < nearest.hit_distance) {
-                nearest = hit;
-            }
-            if (const std::uint32_t place = place_[targets_.all()[hit.target].polygon];
-                place > last) {
+            if (hit.hit_distance < nearest.hit_distance) { nearest = hit; }
+            if (const std::uint32_t place = place_[targets_.all()[hit.target].polygon]; place > last) {
                 last = place;
                 seen = hit;
             }
         }
-        if (std::isinf(nearest.hit_distance) || nearest.edge_distance < ray_tolerance) {
-            return;
-        }
+        if (std::isinf(nearest.hit_distance) || nearest.edge_distance < ray_tolerance) { return; }
         ++ray_test.rays;
-        const double perturbed_distance = seen.perturbed_distance + nearest.perturbed_distance + ray_tolerance * nearest.hit_distance;
+        const double perturbed_distance =
+            seen.perturbed_distance + nearest.perturbed_distance + ray_tolerance * nearest.hit_distance;
         const bool clear = last == 0 || seen.edge_distance >= ray_tolerance;
         const bool behind = seen.hit_distance - nearest.hit_distance > perturbed_distance;
         ray_test.wrong += clear && (behind || (last != 0 && lies_under(seen))) ? 1 : 0;
     }
 
-    /// Whether a later polygon of the file lies on what is seen, in one plane and facing alike,
-    /// where the ray meets it.
+    /// Whether a later polygon of the file lies on what is seen, in one plane and facing alike, where the ray meets it.
     bool lies_under(const RayHit& seen) const {
         const RayTarget& target = targets_.all()[seen.target];
         return std::ranges::any_of(met_, [&](const RayHit& hit) {
             const RayTarget& other = targets_.all()[hit.target];
-            return hit.edge_distance >= ray_tolerance && std::abs(hit.hit_distance - seen.hit_distance) < hit.perturbed_distance &&
+            return hit.edge_distance >= ray_tolerance &&
+                   std::abs(hit.hit_distance - seen.hit_distance) < hit.perturbed_distance &&
                    model_.parent_of(other.polygon) > model_.parent_of(target.polygon) &&
-                   glm::dot(other.normal, target.normal) > 0.0 && lies_in(other, target) &&
-                   lies_in(target, other);
+                   glm::dot(other.normal, target.normal) > 0.0 && lies_in(other, target) && lies_in(target, other);
         });
     }
 
-    /// Whether a polygon of the file lies in the plane of a piece of another one, given any of its
-    /// pieces: planes that cross at a small angle are near one another along a line, too.
+    /// Whether a polygon of the file lies in the plane of a piece of another one, given any of its pieces: planes that
+    /// cross at a small angle are near one another along a line, too.
     bool lies_in(const RayTarget& piece, const RayTarget& other) const {
         const std::uint32_t parent = model_.parent_of(piece.polygon);
         return std::ranges::all_of(targets_.all(), [&](const RayTarget& target) {
@@ -447,10 +398,8 @@ RayTestResult ray_test_order(const PolygonModel& model, const DrawOrder& order, 
     const std::size_t angles = turns && scope.turning_parts ? angles_rad.size() : 1;
     OrderProof proof;
     if (!turns || scope.turning_parts) { // else no order is right, and none can be proved
-        proof = prove_order(
-            model,
-            scope.min_distance_m > 0.0 ? with_min_distance(order, scope.centre_m, scope.min_distance_m)
-                                       : order,
+        proof = prove_order(model,
+            scope.min_distance_m > 0.0 ? with_min_distance(order, scope.centre_m, scope.min_distance_m) : order,
             scope.proof_s);
     }
     RayTestResult ray_test{.unproved = proof.unproved, .is_proof_complete = proof.is_complete};

@@ -28,22 +28,20 @@ struct RayHit {
     double hit_distance = 0.0;
     /// How far inside the sides.
     double edge_distance = 0.0;
-    /// How far along the ray it would be met if the target were moved by a hair. That is more for a
-    /// ray that grazes it.
+    /// How far along the ray it would be met if the target were moved by a hair. That is more for a ray that grazes it.
     double perturbed_distance = 0.0;
 };
 
 /// The polygons of a model at one angle of its turning parts.
 class RayTargets {
 public:
-    /// In radii of the model: what lies nearer to a side than this is not counted, nor differences
-    /// of depth below it. A little more than the inset of hiding tests (Tolerances).
+    /// In radii of the model: what lies nearer to a side than this is not counted, nor differences of depth below it. A
+    /// little more than the inset of hiding tests (Tolerances).
     static constexpr double ray_tolerance = 3e-9;
 
     explicit RayTargets(const models::polygons::PolygonModel& model);
 
-    /// Turns the parts that have a pivot; without them unless `turning_parts`. Polygons without
-    /// area are left out.
+    /// Turns the parts that have a pivot; without them unless `turning_parts`. Polygons without area are left out.
     void turn(double turn_rad, bool turning_parts);
 
     const std::vector<RayTarget>& all() const { return all_; }
@@ -58,13 +56,12 @@ public:
     /// Sets the eye of the rays that follow, until the parts are turned.
     void set_eye(const glm::dvec3& eye);
 
-    /// Replaces `hits` by all targets whose fronts a ray of unit length from the eye meets, in
-    /// their order.
+    /// Replaces `hits` by all targets whose fronts a ray of unit length from the eye meets, in their order.
     void intersect(const glm::dvec3& ray, std::vector<RayHit>& hits) const;
 
 private:
-    /// A target whose front the eye sees. Most rays miss the ball around it, which is found out
-    /// without the target: they do not pass its middle far enough along.
+    /// A target whose front the eye sees. Most rays miss the ball around it, which is found out without the target:
+    /// they do not pass its middle far enough along.
     struct FacingTarget {
         std::size_t target = 0;
         double height = 0.0; ///< Of the eye above the target's plane.
@@ -76,8 +73,7 @@ private:
     glm::dvec3 middle_m_{0.0};
     double radius_m_ = 1.0;
     std::vector<RayTarget> all_;
-    std::vector<double>
-        ball2_; ///< Of a ball around each target, a little larger: its radius squared.
+    std::vector<double> ball2_; ///< Of a ball around each target, a little larger: its radius squared.
     glm::dvec3 eye_{0.0};
     std::vector<FacingTarget> faced_;
 };
@@ -93,15 +89,13 @@ struct OrderProof {
     bool is_complete = false;
 };
 
-/// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core
-/// go. They are counted, not timed: the same model and order give the same proof.
-OrderProof
-prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds);
+/// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core go. They are
+/// counted, not timed: the same model and order give the same proof.
+OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds);
 
 /// Which eyes and polygons a trial looks at.
 struct RayTestOptions {
-    /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can
-    /// be right for them.
+    /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can be right for them.
     bool turning_parts = true;
     /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from there, metres.
     double min_distance_m = 0.0;
@@ -119,11 +113,10 @@ struct RayTestResult {
     bool is_proof_complete = false; ///< Whether the proof came to the end of the order.
 };
 
-/// Tries an order before it is used, with none of the code that made it: from eyes far and near,
-/// close to the planes of its nodes and close to polygons, at points of polygons; and by a proof.
-/// Pairs that it leaves open are looked at by rays that one of the two would hide the other along.
-/// The work is bounded, some tenths of a second and the proof; the same model and order give the
-/// same trial.
+/// Tries an order before it is used, with none of the code that made it: from eyes far and near, close to the planes of
+/// its nodes and close to polygons, at points of polygons; and by a proof. Pairs that it leaves open are looked at by
+/// rays that one of the two would hide the other along. The work is bounded, some tenths of a second and the proof; the
+/// same model and order give the same trial.
 RayTestResult ray_test_order(
     const models::polygons::PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope);
 

@@ -1,7 +1,7 @@
-// The three ways to the orders of a model, and the choice among several results. The exact methods
-// first cut polygons that pass through one another (split.cpp), then search over regions of eyes
-// (cell_search.cpp).
+// The three ways to the orders of a model, and the choice among several results. The exact methods first cut polygons
+// that pass through one another (split.cpp), then search over regions of eyes (cell_search.cpp).
 #include "visuals/draworder/ordered_model.h"
+
 #include "models/planar/planar_model.h"
 #include "visuals/bsp/partial_bsp_tree.h"
 #include "visuals/bsp/polygon_pieces.h"
@@ -52,26 +52,20 @@ PolygonModel alone(const PolygonModel& model, const Polygons& polygons, std::uin
 /// Builds one order.
 class BspOrderBuilder {
 public:
-    BspOrderBuilder(PolygonModel model, BspLeaves way)
-        : model_(std::move(model))
-        , pieces_(model_)
-        , way_(way) {}
+    BspOrderBuilder(PolygonModel model, BspLeaves way) : model_(std::move(model)), pieces_(model_), way_(way) {}
 
     BspOrder order() {
         find_turning_parts();
         tree_ = bsp::partial_bsp_tree(pieces_, items(), way_ == BspLeaves::Clusters);
-        for (const Polygons& ring : tree_.unsplit_cycles) {
-            add_note(ring);
-        }
+        for (const Polygons& ring : tree_.unsplit_cycles) { add_note(ring); }
         const auto splits = static_cast<int>(pieces_.added());
         pieces_.write_to(model_);
         if (tree_.root >= 0) {
             write_nodes();
         } else {
-            lists_.push_back(
-                tree_.root == bsp::PartialBspTree::nothing
-                    ? Polygons{}
-                    : tree_.lists[static_cast<std::size_t>(~tree_.root)]);
+            lists_.push_back(tree_.root == bsp::PartialBspTree::nothing
+                                 ? Polygons{}
+                                 : tree_.lists[static_cast<std::size_t>(~tree_.root)]);
         }
         return {std::move(model_), DrawOrder(std::move(nodes_), lists_), splits, std::move(notes_)};
     }
@@ -82,18 +76,15 @@ public:
         lists_ = std::move(incomplete_cells.lists);
         made_at_.assign(lists_.size(), model_.polygons.size());
         for (std::uint32_t i = 0; i < pieces_.count(); ++i) {
-            if (!pieces_[i].pivot) {
-                pieces_.set_plane(i, incomplete_cells.planes[pieces_[i].source]);
-            }
+            if (!pieces_[i].pivot) { pieces_.set_plane(i, incomplete_cells.planes[pieces_[i].source]); }
         }
         std::vector<int> instead(lists_.size());
         for (std::size_t cell = 0; cell < instead.size(); ++cell) {
-            instead[cell] =
-                incomplete_cells.incomplete_cells[cell].empty() ? ~static_cast<int>(cell) : sequence_of(incomplete_cells.incomplete_cells[cell]);
+            instead[cell] = incomplete_cells.incomplete_cells[cell].empty()
+                                ? ~static_cast<int>(cell)
+                                : sequence_of(incomplete_cells.incomplete_cells[cell]);
         }
-        for (std::size_t list = 0; list < lists_.size(); ++list) {
-            add_new_pieces(lists_[list], made_at_[list]);
-        }
+        for (std::size_t list = 0; list < lists_.size(); ++list) { add_new_pieces(lists_[list], made_at_[list]); }
         replace_cells(instead);
         const auto splits = static_cast<int>(pieces_.added());
         pieces_.write_to(model_);
@@ -124,8 +115,7 @@ private:
     int sequence_of(std::span<const Run> runs) {
         if (runs.size() == 1) {
             const Run& run = runs.front();
-            return run.is_ring ? parted(run.polygons)
-                               : add_list(run.polygons, model_.polygons.size());
+            return run.is_ring ? parted(run.polygons) : add_list(run.polygons, model_.polygons.size());
         }
         const std::size_t node = nodes_.size(); // before its children
         nodes_.push_back({.plane = {}, .kind = DrawOrder::Kind::Sequence});
@@ -136,19 +126,14 @@ private:
         return static_cast<int>(node);
     }
 
-    /// Leads from each cell to what stands in its place, and leaves out lists that are used no
-    /// more.
+    /// Leads from each cell to what stands in its place, and leaves out lists that are used no more.
     void replace_cells(const std::vector<int>& instead) {
         std::vector<int> number(lists_.size(), DrawOrder::nothing);
         std::vector<Polygons> used;
         const auto settle = [&](int& child) {
             const auto list = static_cast<std::size_t>(~child);
-            if (child < 0 && child != DrawOrder::nothing && list < instead.size()) {
-                child = instead[list];
-            }
-            if (child >= 0 || child == DrawOrder::nothing) {
-                return;
-            }
+            if (child < 0 && child != DrawOrder::nothing && list < instead.size()) { child = instead[list]; }
+            if (child >= 0 || child == DrawOrder::nothing) { return; }
             int& moved = number[static_cast<std::size_t>(~child)];
             if (moved == DrawOrder::nothing) {
                 moved = ~static_cast<int>(used.size());
@@ -157,9 +142,7 @@ private:
             child = moved;
         };
         for (DrawOrder::Node& node : nodes_) {
-            for (int* child : {&node.front, &node.back, &node.coplanar_front, &node.coplanar_back}) {
-                settle(*child);
-            }
+            for (int* child : {&node.front, &node.back, &node.coplanar_front, &node.coplanar_back}) { settle(*child); }
         }
         lists_ = std::move(used);
     }
@@ -175,21 +158,17 @@ private:
     int parted(Polygons set) {
         add_new_pieces(set, model_.polygons.size());
         tree_ = bsp::partial_bsp_tree(pieces_, std::move(set), true);
-        for (const Polygons& ring : tree_.unsplit_cycles) {
-            add_note(ring);
-        }
+        for (const Polygons& ring : tree_.unsplit_cycles) { add_note(ring); }
         if (tree_.root >= 0) {
             const std::size_t first = nodes_.size();
             write_nodes();
             made_at_.resize(lists_.size(), pieces_.count());
             return static_cast<int>(first);
         }
-        return add_list(
-            std::move(tree_.lists[static_cast<std::size_t>(~tree_.root)]), pieces_.count());
+        return add_list(std::move(tree_.lists[static_cast<std::size_t>(~tree_.root)]), pieces_.count());
     }
 
-    /// Adds to a list the pieces that were cut since there were `count`, behind what they are cut
-    /// from.
+    /// Adds to a list the pieces that were cut since there were `count`, behind what they are cut from.
     void add_new_pieces(Polygons& list, std::size_t count) const {
         insert_cut_pieces(list, pieces_.cut_from(count), static_cast<std::uint32_t>(count));
     }
@@ -198,13 +177,9 @@ private:
         for (std::uint32_t pivot = 0; pivot < model_.pivots.size(); ++pivot) {
             Polygons polygons;
             for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
-                if (models::polygons::pivot_of(model_, i) == pivot) {
-                    polygons.push_back(i);
-                }
+                if (models::polygons::pivot_of(model_, i) == pivot) { polygons.push_back(i); }
             }
-            if (!polygons.empty()) {
-                add_turning_part(polygons, pivot);
-            }
+            if (!polygons.empty()) { add_turning_part(polygons, pivot); }
         }
     }
 
@@ -214,9 +189,7 @@ private:
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             all.add(i);
             std::vector<glm::dvec3> swept_m;
-            for (const glm::dvec3& corner : faces.faces[i].outline) {
-                swept_m.push_back(corner * faces.unit_m);
-            }
+            for (const glm::dvec3& corner : faces.faces[i].outline) { swept_m.push_back(corner * faces.unit_m); }
             pieces_.set_swept_hull(polygons[i], pivot, swept_m, !faces.faces[i].plane);
         }
         for (const Precedence& pair : faces.rigid.precedences(all)) {
@@ -230,9 +203,7 @@ private:
         Polygons items;
         for (std::uint32_t i = 0; i < pieces_.count(); ++i) {
             const auto& plane = pieces_[i].plane; // not a number where there is no area
-            if (!plane || std::isfinite(plane->normal.x)) {
-                items.push_back(i);
-            }
+            if (!plane || std::isfinite(plane->normal.x)) { items.push_back(i); }
         }
         return items;
     }
@@ -240,32 +211,23 @@ private:
     void add_note(const Polygons& ring) {
         for (const std::uint32_t item : ring) {
             if (const auto pivot = pieces_[item].pivot) {
-                const std::string note = fmt::format(
-                    "{} meets other parts as it turns; no order is right for them",
+                const std::string note = fmt::format("{} meets other parts as it turns; no order is right for them",
                     model_.parts[model_.pivots[*pivot].part]);
-                if (std::ranges::find(notes_, note) == notes_.end()) {
-                    notes_.push_back(note);
-                }
+                if (std::ranges::find(notes_, note) == notes_.end()) { notes_.push_back(note); }
             }
         }
     }
 
-    /// Writes the tree with its lists in the order of a walk from back to front, so that many eyes
-    /// find neighbours side by side.
+    /// Writes the tree with its lists in the order of a walk from back to front, so that many eyes find neighbours side
+    /// by side.
     void write_nodes() {
         constexpr int nothing = bsp::PartialBspTree::nothing;
         const std::size_t first = nodes_.size();
-        const auto moved = [&](int child) {
-            return child >= 0 ? child + static_cast<int>(first) : child;
-        };
+        const auto moved = [&](int child) { return child >= 0 ? child + static_cast<int>(first) : child; };
         for (const bsp::PartialBspTree::Node& from : tree_.nodes) {
-            nodes_.push_back(
-                {from.plane ? pieces_.in_model(*from.plane) : Plane(),
-                 moved(from.front),
-                 moved(from.back),
-                 from.plane ? DrawOrder::Kind::PolygonSplit : DrawOrder::Kind::Sequence,
-                 from.coplanar_front,
-                 from.coplanar_back});
+            nodes_.push_back({from.plane ? pieces_.in_model(*from.plane) : Plane(), moved(from.front), moved(from.back),
+                from.plane ? DrawOrder::Kind::PolygonSplit : DrawOrder::Kind::Sequence, from.coplanar_front,
+                from.coplanar_back});
         }
         std::vector<int*> pending;
         int root = static_cast<int>(first);
@@ -283,8 +245,7 @@ private:
                 if (node.kind == DrawOrder::Kind::Sequence) {
                     pending.insert(pending.end(), {&node.back, &node.front});
                 } else {
-                    pending.insert(
-                        pending.end(), {&node.front, &node.coplanar_front, &node.coplanar_back, &node.back});
+                    pending.insert(pending.end(), {&node.front, &node.coplanar_front, &node.coplanar_back, &node.back});
                 }
             }
         }
@@ -302,9 +263,7 @@ private:
 
 } // namespace
 
-BspOrder bsp_order(PolygonModel model, BspLeaves way) {
-    return BspOrderBuilder(std::move(model), way).order();
-}
+BspOrder bsp_order(PolygonModel model, BspLeaves way) { return BspOrderBuilder(std::move(model), way).order(); }
 
 BspOrder complete_order(PolygonModel model, IncompleteOrder order) {
     return BspOrderBuilder(std::move(model), BspLeaves::Clusters).completed(std::move(order));
@@ -324,13 +283,11 @@ constexpr double proof_share_of_large = 0.002;
 
 OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
-    OrderedModel out{
-        .model = std::move(model), .order = DrawOrder(orders), .cells = {}, .notes = {}};
+    OrderedModel out{.model = std::move(model), .order = DrawOrder(orders), .cells = {}, .notes = {}};
     for (int octant = 0; octant < 8; ++octant) {
         const glm::dvec3 signs = octant_signs(octant);
-        out.cells.push_back(
-            {octant_name(octant),
-             {{{signs.x, 0.0, 0.0}, 0.0}, {{0.0, signs.y, 0.0}, 0.0}, {{0.0, 0.0, signs.z}, 0.0}}});
+        out.cells.push_back({octant_name(octant),
+            {{{signs.x, 0.0, 0.0}, 0.0}, {{0.0, signs.y, 0.0}, 0.0}, {{0.0, 0.0, signs.z}, 0.0}}});
     }
     out.cyclic_cells = orders.cyclic_octants;
     out.found_by = OrderSource::Paper;
@@ -341,33 +298,20 @@ OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& 
 
 /// Completes orders of which some cells are open by dividing polygons there.
 OrderedModel completed(CellSearchResult orders, int penetrating, std::string& reason) {
-    const auto found =
-        std::ranges::count_if(orders.incomplete_cells, [](const auto& sets) { return sets.empty(); });
-    reason = fmt::format(
-        "{} of {} cells are found, the others drawn by parts: {}",
-        found,
-        orders.cells.size(),
+    const auto found = std::ranges::count_if(orders.incomplete_cells, [](const auto& sets) { return sets.empty(); });
+    reason = fmt::format("{} of {} cells are found, the others drawn by parts: {}", found, orders.cells.size(),
         orders.incomplete_reason);
     const ModelFaces& faces = orders.work.faces;
     std::vector<Plane> planes;
-    for (const Face& face : faces.faces) {
-        planes.push_back(face.plane ? faces.in_model(*face.plane) : Plane());
-    }
+    for (const Face& face : faces.faces) { planes.push_back(face.plane ? faces.in_model(*face.plane) : Plane()); }
     const auto splits = static_cast<int>(orders.work.sibling_pieces.size());
     std::vector<std::string> notes = std::move(orders.work.notes);
-    BspOrder parted = complete_order(
-        std::move(orders.work.model),
-        {std::move(orders.nodes),
-         std::move(orders.lists),
-         std::move(orders.incomplete_cells),
-         std::move(planes)});
+    BspOrder parted = complete_order(std::move(orders.work.model),
+        {std::move(orders.nodes), std::move(orders.lists), std::move(orders.incomplete_cells), std::move(planes)});
     for (std::string& note : parted.notes) {
-        if (std::ranges::find(notes, note) == notes.end()) {
-            notes.push_back(std::move(note));
-        }
+        if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(std::move(note)); }
     }
-    return {
-        .model = std::move(parted.model),
+    return {.model = std::move(parted.model),
         .order = std::move(parted.order),
         .cells = {},
         .splits = penetrating + splits + parted.splits,
@@ -377,8 +321,7 @@ OrderedModel completed(CellSearchResult orders, int penetrating, std::string& re
 
 OrderedModel by_parts(models::polygons::PolygonModel model, BspLeaves way) {
     BspOrder parted = bsp_order(std::move(model), way);
-    return {
-        .model = std::move(parted.model),
+    return {.model = std::move(parted.model),
         .order = std::move(parted.order),
         .cells = {},
         .splits = parted.splits,
@@ -390,22 +333,18 @@ OrderedModel by_parts(models::polygons::PolygonModel model, BspLeaves way) {
 bool is_right(OrderedModel& ordered, double search_s) {
     const bool is_large = ordered.model.polygons.size() > max_polygons_searched;
     // Where no order is right for turning parts, they say nothing about the others.
-    ordered.ray_test = ray_test_order(
-        ordered.model,
-        ordered.order,
+    ordered.ray_test = ray_test_order(ordered.model, ordered.order,
         {.turning_parts = ordered.notes.empty(),
-         .min_distance_m = ordered.min_distance_m,
-         .centre_m = ordered.centre_m,
-         .proof_s = search_s * (is_large ? proof_share_of_large : proof_share)});
+            .min_distance_m = ordered.min_distance_m,
+            .centre_m = ordered.centre_m,
+            .proof_s = search_s * (is_large ? proof_share_of_large : proof_share)});
     return ordered.ray_test.wrong == 0;
 }
 
 /// A model's order by parts, made and tried when it is first asked for.
 class BspFallback {
 public:
-    BspFallback(const models::polygons::PolygonModel& model, double search_s)
-        : model_(model)
-        , search_s_(search_s) {}
+    BspFallback(const models::polygons::PolygonModel& model, double search_s) : model_(model), search_s_(search_s) {}
 
     bool is_right() {
         make();
@@ -435,33 +374,23 @@ private:
     bool is_right_ = false;
 };
 
-/// Finds the orders by Cells or Tree; a tree only while it splits no more than `parts`. `reason` says
-/// why some cells are drawn by parts, if they are.
+/// Finds the orders by Cells or Tree; a tree only while it splits no more than `parts`. `reason` says why some cells
+/// are drawn by parts, if they are.
 OrderedModel exact(
-    models::polygons::PolygonModel model,
-    const OrderOptions& options,
-    BspFallback& parts,
-    std::string& reason) {
+    models::polygons::PolygonModel model, const OrderOptions& options, BspFallback& parts, std::string& reason) {
     SearchBudget budget(options.seconds, options.progress);
     const int penetrating = split_penetrating(model, budget);
     const bool by_cells = options.method == OrderMethod::Cells;
     const auto max_splits = [&] { return parts.max_splits() - penetrating; };
-    CellSearchResult orders = by_cells ? best_cells(model, options.min_distance_radii, budget)
-                                 : best_tree(model, budget, max_splits);
+    CellSearchResult orders =
+        by_cells ? best_cells(model, options.min_distance_radii, budget) : best_tree(model, budget, max_splits);
     const ModelFaces& faces = orders.work.faces;
-    for (DrawOrder::Node& node : orders.nodes) {
-        node.plane = faces.in_model(node.plane);
-    }
+    for (DrawOrder::Node& node : orders.nodes) { node.plane = faces.in_model(node.plane); }
     for (OrderCell& cell : orders.cells) {
-        for (Plane& plane : cell.planes) {
-            plane = faces.in_model(plane);
-        }
+        for (Plane& plane : cell.planes) { plane = faces.in_model(plane); }
     }
-    if (!orders.incomplete_cells.empty()) {
-        return completed(std::move(orders), penetrating, reason);
-    }
-    return {
-        .model = std::move(orders.work.model),
+    if (!orders.incomplete_cells.empty()) { return completed(std::move(orders), penetrating, reason); }
+    return {.model = std::move(orders.work.model),
         .order = DrawOrder(std::move(orders.nodes), orders.lists),
         .cells = std::move(orders.cells),
         .centre_m = faces.origin_m,
@@ -471,13 +400,10 @@ OrderedModel exact(
         .found_by = by_cells ? OrderSource::Cells : OrderSource::Tree};
 }
 
-/// The orders of the method asked for; nothing where the search for cells is given up without any.
-/// `reason` says why then, and why some are not found; it stays empty where `parts` cut less.
+/// The orders of the method asked for; nothing where the search for cells is given up without any. `reason` says why
+/// then, and why some are not found; it stays empty where `parts` cut less.
 std::optional<OrderedModel> searched(
-    const models::polygons::PolygonModel& model,
-    const OrderOptions& options,
-    BspFallback& parts,
-    std::string& reason) {
+    const models::polygons::PolygonModel& model, const OrderOptions& options, BspFallback& parts, std::string& reason) {
     if (model.polygons.size() > max_polygons_searched) {
         reason = fmt::format("cells are searched for up to {} polygons", max_polygons_searched);
         return std::nullopt;
@@ -494,8 +420,7 @@ std::optional<OrderedModel> searched(
 void add_note(OrderedModel& ordered) {
     if (ordered.ray_test.unproved > 0) {
         ordered.notes.push_back(fmt::format(
-            "no proof is found for {} pairs of polygons; no ray at them was wrong",
-            ordered.ray_test.unproved));
+            "no proof is found for {} pairs of polygons; no ray at them was wrong", ordered.ray_test.unproved));
     }
 }
 
@@ -519,10 +444,9 @@ OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions&
             if (is_right(*found, options.seconds)) {
                 OrderedModel best = with_fewer_splits(std::move(*found), parts);
                 if (!reason.empty()) {
-                    best.notes.push_back(
-                        best.found_by == OrderSource::TreeAndSplitPolygons
-                            ? reason
-                            : "drawn by parts, which cut less than cells: " + reason);
+                    best.notes.push_back(best.found_by == OrderSource::TreeAndSplitPolygons
+                                             ? reason
+                                             : "drawn by parts, which cut less than cells: " + reason);
                 }
                 return best;
             }
@@ -540,19 +464,17 @@ OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions&
         }
         parted = std::move(single);
     }
-    if (!reason.empty()) {
-        parted.notes.push_back("drawn by parts, not by cells: " + reason);
-    }
+    if (!reason.empty()) { parted.notes.push_back("drawn by parts, not by cells: " + reason); }
     return parted;
 }
 
 std::vector<std::string> notes_of(const PlanarModel& planar) {
     std::vector<std::string> notes;
     if (planar.triangulated_polygons > 0) {
-        notes.push_back(fmt::format(
-            "{} polygons are not planar or not convex enough to be ordered as they are: cut into "
-            "pieces",
-            planar.triangulated_polygons));
+        notes.push_back(
+            fmt::format("{} polygons are not planar or not convex enough to be ordered as they are: cut into "
+                        "pieces",
+                planar.triangulated_polygons));
     }
     if (planar.dropped_polygons > 0) {
         notes.push_back(fmt::format("{} polygons have no area: left out", planar.dropped_polygons));
@@ -566,9 +488,7 @@ OrderedModel in_model_frame(
     found.model = models::planar::in_model_frame(std::move(found.model), planar, given);
     found.order.convert_planes([&](const Plane& plane) { return planar.to_model_frame(plane); });
     for (OrderCell& cell : found.cells) {
-        for (Plane& plane : cell.planes) {
-            plane = planar.to_model_frame(plane);
-        }
+        for (Plane& plane : cell.planes) { plane = planar.to_model_frame(plane); }
     }
     found.centre_m = planar.to_model_frame(found.centre_m);
     found.min_distance_m *= planar.radius_m;
@@ -580,12 +500,10 @@ OrderedModel in_model_frame(
 } // namespace
 
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options) {
-    if (options.method == OrderMethod::Paper) {
-        return by_paper(std::move(model), options);
-    }
+    if (options.method == OrderMethod::Paper) { return by_paper(std::move(model), options); }
     using models::planar::Attitude; // octants are those of the model's own file
-    const PlanarModel planar = models::planar::planar_model(
-        model, options.method == OrderMethod::Cells ? Attitude::Given : Attitude::Own);
+    const PlanarModel planar =
+        models::planar::planar_model(model, options.method == OrderMethod::Cells ? Attitude::Given : Attitude::Own);
     OrderedModel found = of_planar(planar.model, options);
     add_note(found);
     return in_model_frame(std::move(found), planar, model);

@@ -27,35 +27,34 @@ struct BspOrder {
     std::vector<std::string> notes;
 };
 
-/// Orders any model for every eye by partings (visuals/bsp), without a search. A polygon that
-/// turns is taken for what it sweeps and never cut, so that the order holds at every angle. Notes
-/// tell of turning parts that no plane parts from others.
+/// Orders any model for every eye by partings (visuals/bsp), without a search. A polygon that turns is taken for what
+/// it sweeps and never cut, so that the order holds at every angle. Notes tell of turning parts that no plane parts
+/// from others.
 BspOrder bsp_order(models::polygons::PolygonModel model, BspLeaves way = BspLeaves::Clusters);
 
 /// A tree of choices of which some cells have no list yet.
 struct IncompleteOrder {
     std::vector<DrawOrder::Node> nodes; ///< As DrawOrder takes them; at least one.
     std::vector<std::vector<std::uint32_t>> lists;
-    /// For each cell without a list the sets of polygons that are painted one after the other;
-    /// empty for others.
+    /// For each cell without a list the sets of polygons that are painted one after the other; empty for others.
     std::vector<std::vector<std::vector<std::uint32_t>>> incomplete_cells;
     /// For each polygon of the model its plane, in body axes: slivers are not asked for theirs.
     std::vector<Plane> planes;
 };
 
-/// Orders the open cells by dividing their sets: what hides nothing in a ring for the eyes of a
-/// cell is not parted, and found lists take up the pieces that are cut.
+/// Orders the open cells by dividing their sets: what hides nothing in a ring for the eyes of a cell is not parted, and
+/// found lists take up the pieces that are cut.
 BspOrder complete_order(models::polygons::PolygonModel model, IncompleteOrder order);
 
 struct OrderOptions {
     OrderMethod method = OrderMethod::Tree;
-    /// Cells, Tree: about how long the search may take on one core. It is counted in work, not in
-    /// time, so that the same model gives the same order everywhere.
+    /// Cells, Tree: about how long the search may take on one core. It is counted in work, not in time, so that the
+    /// same model gives the same order everywhere.
     double seconds = 20.0;
     /// Cells, Tree: told how much of that is spent, 0 to 1; may be empty.
     SearchBudget::Progress progress = {};
     double min_distance_radii = 2.0; ///< Cells: exact for eyes with |x|+|y|+|z| >= this many radii.
-    PaperOrderOptions paper;              ///< For Method::Paper.
+    PaperOrderOptions paper;         ///< For Method::Paper.
 };
 
 /// What an order was found by in the end.
@@ -87,12 +86,11 @@ struct OrderedModel {
 
 /// Finds the painting orders of a model. Meant for loading: it may take seconds.
 ///
-/// There is an answer for any model. Where the search for cells is given up, what was found is
-/// kept, and in the other cells polygons are divided (bsp_order.h); all of them where nothing
-/// was found or the model has more polygons than are searched. Every order but that of
-/// Method::Paper is tried by rays before it is returned, and proved pair by pair as far as a
-/// fiftieth of the seconds goes (order_trial.h); one that is wrong is replaced in the same way, and
-/// in the end by a BSP tree of single polygons. Notes say so, and what no proof was found for.
+/// There is an answer for any model. Where the search for cells is given up, what was found is kept, and in the other
+/// cells polygons are divided (bsp_order.h); all of them where nothing was found or the model has more polygons than
+/// are searched. Every order but that of Method::Paper is tried by rays before it is returned, and proved pair by pair
+/// as far as a fiftieth of the seconds goes (order_trial.h); one that is wrong is replaced in the same way, and in the
+/// end by a BSP tree of single polygons. Notes say so, and what no proof was found for.
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 
 } // namespace octant::visuals::draworder

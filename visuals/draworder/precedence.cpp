@@ -1,6 +1,5 @@
-// Topological sorting after A. B. Kahn, "Topological sorting of large networks", 1962, with a
-// priority queue so that the result is unique. The 1989 paper does not say how a sequence is made
-// from its pairs (step 5).
+// Topological sorting after A. B. Kahn, "Topological sorting of large networks", 1962, with a priority queue so that
+// the result is unique. The 1989 paper does not say how a sequence is made from its pairs (step 5).
 #include "visuals/draworder/precedence.h"
 
 #include <cassert>
@@ -17,18 +16,14 @@ constexpr std::uint32_t nobody = ~std::uint32_t{0};
 class Sequencer {
 public:
     Sequencer(std::size_t count, std::span<const Precedence> precedences)
-        : later_(count)
-        , waits_for_(count, 0)
-        , painted_(count, false) {
+        : later_(count), waits_for_(count, 0), painted_(count, false) {
         for (const Precedence& pair : precedences) {
             assert(pair.first < count && pair.later < count && pair.first != pair.later);
             later_[pair.first].push_back(pair.later);
             ++waits_for_[pair.later];
         }
         for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
-            if (waits_for_[polygon] == 0) {
-                ready_.push(polygon);
-            }
+            if (waits_for_[polygon] == 0) { ready_.push(polygon); }
         }
     }
 
@@ -55,9 +50,7 @@ private:
         painted_[polygon] = true;
         for (const std::uint32_t later : later_[polygon]) {
             --waits_for_[later];
-            if (waits_for_[later] == 0 && !painted_[later]) {
-                ready_.push(later);
-            }
+            if (waits_for_[later] == 0 && !painted_[later]) { ready_.push(later); }
         }
     }
 
@@ -66,9 +59,7 @@ private:
         std::uint32_t best = nobody;
         for (std::uint32_t polygon = 0; polygon < later_.size(); ++polygon) {
             const bool better = best == nobody || waits_for_[polygon] < waits_for_[best];
-            if (!painted_[polygon] && better) {
-                best = polygon;
-            }
+            if (!painted_[polygon] && better) { best = polygon; }
         }
         return best;
     }

@@ -19,8 +19,8 @@ namespace {
 using separation::DecidingPolygon;
 using separation::LocalModel;
 using separation::LocalPolygon;
-using separation::PolygonPairSet;
 using separation::PolygonBitset;
+using separation::PolygonPairSet;
 using separation::SeparatingPlaneProof;
 using Polygons = std::vector<std::uint32_t>;
 
@@ -28,18 +28,12 @@ using Polygons = std::vector<std::uint32_t>;
 class ProofWalker {
 public:
     ProofWalker(const ProofInput& input, ProofVisitor& visitor)
-        : model_(input.model)
-        , order_(input.order)
-        , axes_(input.axes)
-        , local_(input.local)
-        , mark_(input.model.polygons.size(), 0)
-        , sink_(visitor) {}
+        : model_(input.model), order_(input.order), axes_(input.axes), local_(input.local),
+          mark_(input.model.polygons.size(), 0), sink_(visitor) {}
 
     void walk() {
         Polygons all;
-        for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
-            all.push_back(i);
-        }
+        for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) { all.push_back(i); }
         to_do_.push_back({order_.nodes().empty() ? ~0 : 0, {}, std::move(all), false});
         while (!to_do_.empty()) {
             const Task task = std::move(to_do_.back());
@@ -49,8 +43,8 @@ public:
     }
 
 private:
-    /// A part of the tree, the walls of its eyes, and the polygons that have to be painted there if
-    /// they face such an eye.
+    /// A part of the tree, the walls of its eyes, and the polygons that have to be painted there if they face such an
+    /// eye.
     struct Task {
         int child = 0;
         std::vector<Plane> region_planes; ///< In the unit of local_.
@@ -58,8 +52,8 @@ private:
         bool in_plane = false;
     };
 
-    /// A child of a choice, or the first choice: a place for claims about the eyes before its walls
-    /// and all that is known for them.
+    /// A child of a choice, or the first choice: a place for claims about the eyes before its walls and all that is
+    /// known for them.
     struct Level {
         int child = 0;
         std::size_t region_planes = 0;
@@ -74,9 +68,7 @@ private:
     void check_list(const Task& task) {
         const auto list = order_.polygons_of(~task.child);
         find_missing_polygons(task, {list.begin(), list.end()});
-        if (task.in_plane) {
-            return;
-        }
+        if (task.in_plane) { return; }
         if (!levels_.empty()) {
             check_unproved_pairs(task, list);
             return;
@@ -96,9 +88,7 @@ private:
             Polygons unproved_pairs;
             levels_.back().known.for_each_missing(
                 painted, later, [&](std::uint32_t earlier) { unproved_pairs.push_back(earlier); });
-            for (const std::uint32_t earlier : unproved_pairs) {
-                find_proof_for_eyes(task, earlier, later);
-            }
+            for (const std::uint32_t earlier : unproved_pairs) { find_proof_for_eyes(task, earlier, later); }
             separation::add(painted, later);
         }
     }
@@ -109,15 +99,11 @@ private:
         auto& region_planes = plane_proof.factors.region_planes;
         std::size_t level = levels_.size() - 1;
         if (plane_proof.kind != SeparatingPlaneProof::Kind::None) {
-            while (level > 0 && region_planes[levels_[level].region_planes - 1] == 0.0) {
-                --level;
-            }
+            while (level > 0 && region_planes[levels_[level].region_planes - 1] == 0.0) { --level; }
             region_planes.resize(levels_[level].region_planes);
         }
         sink_.add_plane_proof(levels_[level].child, plane_proof, earlier, later);
-        for (; level < levels_.size(); ++level) {
-            levels_[level].known.add(earlier, later);
-        }
+        for (; level < levels_.size(); ++level) { levels_[level].known.add(earlier, later); }
     }
 
     void check_node(const Task& task) {
@@ -134,9 +120,7 @@ private:
             all.insert(all.end(), parts[i].begin(), parts[i].end());
         }
         find_missing_polygons(task, all);
-        if (node.kind == DrawOrder::Kind::PolygonSplit) {
-            find_unproved_pairs(task.child, parts, wall_of(node));
-        }
+        if (node.kind == DrawOrder::Kind::PolygonSplit) { find_unproved_pairs(task.child, parts, wall_of(node)); }
         for (const std::uint32_t later : parts[1]) {
             if (node.kind == DrawOrder::Kind::Sequence && !parts[0].empty()) {
                 for (const std::uint32_t earlier : check_row(task.child, parts[0], later)) {
@@ -162,16 +146,12 @@ private:
         if (is_first) {
             levels_.push_back({task.child, task.region_planes.size(), PolygonPairSet(model_.polygons.size())});
             const Polygons below = contents(task.child);
-            for (const std::uint32_t later : below) {
-                check_row(task.child, below, later);
-            }
+            for (const std::uint32_t later : below) { check_row(task.child, below, later); }
         }
         const Plane wall = wall_of(node);
         check_side(task, node.front, wall);
         check_side(task, node.back, {-wall.normal, -wall.offset_m});
-        if (is_first) {
-            levels_.pop_back();
-        }
+        if (is_first) { levels_.pop_back(); }
     }
 
     void check_side(const Task& task, int child, const Plane& wall) {
@@ -184,12 +164,8 @@ private:
         PolygonBitset behind = level.known.none();
         Polygons before;
         for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
-            if (is_behind(local_, i, wall, true)) {
-                separation::add(behind, i);
-            }
-            if (is_before(local_, i, wall, true)) {
-                before.push_back(i);
-            }
+            if (is_behind(local_, i, wall, true)) { separation::add(behind, i); }
+            if (is_before(local_, i, wall, true)) { before.push_back(i); }
         }
         for (const std::uint32_t later : before) {
             if (!local_.polygons[later].axis) {
@@ -198,8 +174,7 @@ private:
             }
             for (std::uint32_t earlier = 0; earlier < model_.polygons.size(); ++earlier) {
                 // Polygons that turn together see the wall turn.
-                if (separation::has(behind, earlier) &&
-                    local_.polygons[earlier].axis != local_.polygons[later].axis) {
+                if (separation::has(behind, earlier) && local_.polygons[earlier].axis != local_.polygons[later].axis) {
                     level.known.add(earlier, later);
                 }
             }
@@ -216,9 +191,7 @@ private:
         while (!pending.empty()) {
             const int next = pending.back();
             pending.pop_back();
-            if (next == DrawOrder::nothing) {
-                continue;
-            }
+            if (next == DrawOrder::nothing) { continue; }
             if (next < 0) {
                 const auto list = order_.polygons_of(~next);
                 found.insert(found.end(), list.begin(), list.end());
@@ -234,26 +207,19 @@ private:
 
     /// Tells why polygons that are expected need not be painted.
     void find_missing_polygons(const Task& task, const Polygons& painted) {
-        for (const std::uint32_t polygon : painted) {
-            mark_[polygon] = 1;
-        }
+        for (const std::uint32_t polygon : painted) { mark_[polygon] = 1; }
         for (const std::uint32_t polygon : task.expected) {
-            if (mark_[polygon] != 0) {
-                continue;
-            }
+            if (mark_[polygon] != 0) { continue; }
             if (const auto factors = find_back_facing_proof(local_, task.region_planes, polygon)) {
                 sink_.add_back_facing(task.child, polygon, *factors);
             } else {
                 sink_.add_unproved(task.child, polygon);
             }
         }
-        for (const std::uint32_t polygon : painted) {
-            mark_[polygon] = 0;
-        }
+        for (const std::uint32_t polygon : painted) { mark_[polygon] = 0; }
     }
 
-    /// Tells which pairs the plane of one polygon decides; returns the earlier polygons of the
-    /// others.
+    /// Tells which pairs the plane of one polygon decides; returns the earlier polygons of the others.
     Polygons check_row(int child, std::span<const std::uint32_t> earlier, std::uint32_t later) {
         sink_.begin_pairs(child, later, earlier.size());
         Polygons unproved_pairs;
@@ -273,8 +239,7 @@ private:
         return unproved_pairs;
     }
 
-    void find_proof(
-        int child, std::span<const Plane> region_planes, std::uint32_t earlier, std::uint32_t later) {
+    void find_proof(int child, std::span<const Plane> region_planes, std::uint32_t earlier, std::uint32_t later) {
         sink_.add_plane_proof(child, find_separating_plane(local_, region_planes, earlier, later), earlier, later);
     }
 
@@ -287,19 +252,14 @@ private:
                 const bool good = i == 0   ? before
                                   : i == 1 ? behind
                                            : before && behind && faces(parts, i, polygon, plane);
-                if (!good) {
-                    sink_.add_unproved(child, polygon);
-                }
+                if (!good) { sink_.add_unproved(child, polygon); }
             }
         }
     }
 
     /// Whether a polygon in the plane of a parting is seen from the side it is painted for.
     bool faces(
-        const std::array<Polygons, 4>& parts,
-        std::size_t part,
-        std::uint32_t polygon,
-        const Plane& plane) const {
+        const std::array<Polygons, 4>& parts, std::size_t part, std::uint32_t polygon, const Plane& plane) const {
         const LocalPolygon& local = local_.polygons[polygon];
         const double facing = glm::dot(local.plane.normal, plane.normal);
         return std::ranges::binary_search(parts[part == 2 ? 3 : 2], polygon) ||
@@ -318,8 +278,6 @@ private:
 
 } // namespace
 
-void visit_proof(const ProofInput& input, ProofVisitor& visitor) {
-    ProofWalker(input, visitor).walk();
-}
+void visit_proof(const ProofInput& input, ProofVisitor& visitor) { ProofWalker(input, visitor).walk(); }
 
 } // namespace octant::visuals::draworder

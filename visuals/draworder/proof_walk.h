@@ -16,18 +16,15 @@ class ProofVisitor {
 public:
     virtual ~ProofVisitor() = default;
 
-    /// The pairs of one later polygon with `count` earlier ones of a part, which their own planes
-    /// may decide: begin, one call a pair in the order of the part, end.
+    /// The pairs of one later polygon with `count` earlier ones of a part, which their own planes may decide: begin,
+    /// one call a pair in the order of the part, end.
     virtual void begin_pairs(int part, std::uint32_t later, std::size_t count) = 0;
     virtual void add_pair(separation::DecidingPolygon by) = 0;
     virtual void end_pairs() = 0;
 
     /// What was found for a pair that is not decided so: a witness, or none.
     virtual void add_plane_proof(
-        int part,
-        const separation::SeparatingPlaneProof& plane_proof,
-        std::uint32_t earlier,
-        std::uint32_t later) = 0;
+        int part, const separation::SeparatingPlaneProof& plane_proof, std::uint32_t earlier, std::uint32_t later) = 0;
 
     /// The polygon faces away from every eye that comes to the part.
     virtual void add_back_facing(int part, std::uint32_t polygon, const separation::PlaneFactors& factors) = 0;
@@ -47,10 +44,10 @@ struct ProofInput {
     const separation::LocalModel& local; ///< Of the same model and axes.
 };
 
-/// Walks through an order and seeks for each pair of polygons that it paints one before the other
-/// the plane that proves that nothing is hidden wrongly, and for each polygon that it leaves out
-/// that it faces away. The order is one for every eye of the model, or for those that a choice with
-/// nothing on one side leaves (with_min_distance.h). An exception of the sink ends the walk.
+/// Walks through an order and seeks for each pair of polygons that it paints one before the other the plane that proves
+/// that nothing is hidden wrongly, and for each polygon that it leaves out that it faces away. The order is one for
+/// every eye of the model, or for those that a choice with nothing on one side leaves (with_min_distance.h). An
+/// exception of the sink ends the walk.
 void visit_proof(const ProofInput& input, ProofVisitor& visitor);
 
 } // namespace octant::visuals::draworder

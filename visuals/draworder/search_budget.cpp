@@ -9,9 +9,7 @@ void SearchBudget::spend(std::uint64_t units) {
     if (spent_s_ > seconds_) {
         throw SearchGivenUp{fmt::format("the search for cells took more than {:g} s", seconds_)};
     }
-    if (progress_) {
-        progress_(spent_s_ / seconds_);
-    }
+    if (progress_) { progress_(spent_s_ / seconds_); }
 }
 
 } // namespace octant::visuals::draworder

@@ -1,5 +1,5 @@
-// Cuts one polygon of a model along a plane. Which polygons are cut, and where, is said in
-// split_penetrating.cpp and cycle_split.cpp.
+// Cuts one polygon of a model along a plane. Which polygons are cut, and where, is said in split_penetrating.cpp and
+// cycle_split.cpp.
 
 #include "visuals/draworder/split.h"
 
@@ -37,10 +37,8 @@ struct Halves {
     std::vector<CutSide> cut_sides;
 };
 
-/// Cuts an outline. Corners within the tolerance belong to both halves; new vertices are added to
-/// the model.
-Halves
-halves_of(PolygonModel& model, const Outline& outline, const Plane& plane, double tolerance_m) {
+/// Cuts an outline. Corners within the tolerance belong to both halves; new vertices are added to the model.
+Halves halves_of(PolygonModel& model, const Outline& outline, const Plane& plane, double tolerance_m) {
     Halves halves;
     const auto height_m = [&](std::uint32_t vertex) {
         const double at_m = distance_m(plane, model.vertices_m[vertex]);
@@ -51,17 +49,12 @@ halves_of(PolygonModel& model, const Outline& outline, const Plane& plane, doubl
         const std::uint32_t next = outline[(i + 1) % outline.size()];
         const double here_m = height_m(here);
         const double next_m = height_m(next);
-        if (here_m >= 0.0) {
-            halves.front.push_back(here);
-        }
-        if (here_m <= 0.0) {
-            halves.back.push_back(here);
-        }
+        if (here_m >= 0.0) { halves.front.push_back(here); }
+        if (here_m <= 0.0) { halves.back.push_back(here); }
         if (here_m * next_m < 0.0) {
             const auto middle = static_cast<std::uint32_t>(model.vertices_m.size());
             const double share = here_m / (here_m - next_m);
-            model.vertices_m.push_back(
-                glm::mix(model.vertices_m[here], model.vertices_m[next], share));
+            model.vertices_m.push_back(glm::mix(model.vertices_m[here], model.vertices_m[next], share));
             halves.front.push_back(middle);
             halves.back.push_back(middle);
             halves.cut_sides.push_back({here, next, middle});
@@ -72,9 +65,7 @@ halves_of(PolygonModel& model, const Outline& outline, const Plane& plane, doubl
 
 /// An outline with the vertices that cuts have put in the middle of its sides.
 Outline with_cut_sides(
-    const PolygonModel& model,
-    std::span<const std::uint32_t> outline,
-    const std::vector<CutSide>& sides) {
+    const PolygonModel& model, std::span<const std::uint32_t> outline, const std::vector<CutSide>& sides) {
     const auto& at_m = model.vertices_m;
     Outline out;
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -84,9 +75,7 @@ Outline with_cut_sides(
         for (const CutSide& side : sides) {
             const bool along = here_m == at_m[side.from] && next_m == at_m[side.to];
             const bool against = here_m == at_m[side.to] && next_m == at_m[side.from];
-            if (along || against) {
-                out.push_back(side.middle);
-            }
+            if (along || against) { out.push_back(side.middle); }
         }
     }
     return out;
@@ -95,9 +84,7 @@ Outline with_cut_sides(
 } // namespace
 
 double split_tolerance_m(const PolygonModel& model) {
-    if (model.vertices_m.empty()) {
-        return 0.0;
-    }
+    if (model.vertices_m.empty()) { return 0.0; }
     glm::dvec3 least = model.vertices_m[0];
     glm::dvec3 most = model.vertices_m[0];
     for (const glm::dvec3& vertex : model.vertices_m) {
@@ -127,9 +114,7 @@ std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plan
         corner_vertices.insert(corner_vertices.end(), outline.begin(), outline.end());
     };
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        add(model.polygons[i],
-            i == polygon ? halves.front
-                         : with_cut_sides(model, model.corners(i), halves.cut_sides));
+        add(model.polygons[i], i == polygon ? halves.front : with_cut_sides(model, model.corners(i), halves.cut_sides));
     }
     const auto back = static_cast<std::uint32_t>(model.polygons.size());
     model.polygons.push_back(model.polygons[polygon]);

@@ -1,7 +1,5 @@
-// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
-// Animation", 1989, section IV and fig. 14: polygons that pass through one another are cut before
-// they are ordered.
-// Deviations:
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989,
+// section IV and fig. 14: polygons that pass through one another are cut before they are ordered. Deviations:
 // - The paper cuts by hand, both polygons of a pair and along lines that end inside the polygon:
 //   fig. 14 becomes six pieces. Here a cut runs right across a polygon, so that the pieces stay
 //   convex, and one polygon of a pair is cut: then both its pieces lie on one side of the other.
@@ -41,9 +39,7 @@ constexpr std::size_t cuts_always_allowed = 100;
 Corners corners_of(const PolygonModel& model, std::size_t polygon) {
     Corners corners;
     corners.reserve(model.polygons[polygon].corner_count);
-    for (const std::uint32_t vertex : model.corners(polygon)) {
-        corners.push_back(model.vertices_m[vertex]);
-    }
+    for (const std::uint32_t vertex : model.corners(polygon)) { corners.push_back(model.vertices_m[vertex]); }
     return corners;
 }
 
@@ -54,12 +50,8 @@ Corners front_part(const Corners& corners, const Plane& plane) {
         const glm::dvec3& next = corners[(i + 1) % corners.size()];
         const double here_m = distance_m(plane, corners[i]);
         const double next_m = distance_m(plane, next);
-        if (here_m >= 0.0) {
-            kept.push_back(corners[i]);
-        }
-        if (here_m * next_m < 0.0) {
-            kept.push_back(glm::mix(corners[i], next, here_m / (here_m - next_m)));
-        }
+        if (here_m >= 0.0) { kept.push_back(corners[i]); }
+        if (here_m * next_m < 0.0) { kept.push_back(glm::mix(corners[i], next, here_m / (here_m - next_m))); }
     }
     return kept;
 }
@@ -81,8 +73,7 @@ struct Interval {
     double most = -std::numeric_limits<double>::infinity();
 };
 
-/// The interval in which a convex polygon that straddles a plane crosses it, measured along a
-/// direction.
+/// The interval in which a convex polygon that straddles a plane crosses it, measured along a direction.
 Interval crossing(const Corners& corners, const Plane& plane, const glm::dvec3& along) {
     Interval at;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -128,9 +119,7 @@ bool penetrate(const Face& a, const Face& b, double tolerance_m) {
     }
     const glm::dvec3 along = glm::cross(a.plane.normal, b.plane.normal);
     const double slope = glm::length(along);
-    if (slope < 1e-12) {
-        return false;
-    }
+    if (slope < 1e-12) { return false; }
     const Interval in_a = crossing(a.corners, b.plane, along / slope);
     const Interval in_b = crossing(b.corners, a.plane, along / slope);
     return std::min(in_a.most, in_b.most) - std::max(in_a.least, in_b.least) > tolerance_m;
@@ -139,20 +128,14 @@ bool penetrate(const Face& a, const Face& b, double tolerance_m) {
 /// Cuts penetrating polygons, the most useful cut first.
 class Splitter {
 public:
-    explicit Splitter(PolygonModel& model)
-        : model_(model)
-        , tolerance_m_(split_tolerance_m(model)) {
+    explicit Splitter(PolygonModel& model) : model_(model), tolerance_m_(split_tolerance_m(model)) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             faces_.push_back(face_of(
-                corners_of(model, i),
-                models::polygons::plane_of(model, i),
-                models::polygons::pivot_of(model, i)));
+                corners_of(model, i), models::polygons::plane_of(model, i), models::polygons::pivot_of(model, i)));
         }
         partners_.resize(faces_.size());
         cuts_.resize(faces_.size());
-        for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-            find_partners_after(i);
-        }
+        for (std::uint32_t i = 0; i < faces_.size(); ++i) { find_partners_after(i); }
     }
 
     int split_all(SearchBudget& budget) {
@@ -160,8 +143,7 @@ public:
         std::size_t added = 0;
         while (const auto polygon = best_polygon()) {
             if (added == most) {
-                throw SearchGivenUp{
-                    fmt::format("polygons that pass through one another need {} cuts", most)};
+                throw SearchGivenUp{fmt::format("polygons that pass through one another need {} cuts", most)};
             }
             budget.spend(units_of_cut * faces_.size());
             cut(*polygon, cuts_[*polygon]->along);
@@ -171,8 +153,7 @@ public:
     }
 
 private:
-    /// The best cut of a polygon: along the plane of another one, with the number of pairs that it
-    /// removes.
+    /// The best cut of a polygon: along the plane of another one, with the number of pairs that it removes.
     struct PolygonCut {
         std::uint32_t along = 0;
         long pairs_fewer = 0;
@@ -192,15 +173,9 @@ private:
     std::optional<std::uint32_t> best_polygon() {
         std::optional<std::uint32_t> best;
         for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-            if (partners_[i].empty()) {
-                continue;
-            }
-            if (!cuts_[i]) {
-                cuts_[i] = best_polygon_cut(i);
-            }
-            if (!best || cuts_[i]->pairs_fewer > cuts_[*best]->pairs_fewer) {
-                best = i;
-            }
+            if (partners_[i].empty()) { continue; }
+            if (!cuts_[i]) { cuts_[i] = best_polygon_cut(i); }
+            if (!best || cuts_[i]->pairs_fewer > cuts_[*best]->pairs_fewer) { best = i; }
         }
         return best;
     }
@@ -209,9 +184,7 @@ private:
         std::optional<PolygonCut> best;
         for (const std::uint32_t along : partners_[face]) {
             const long has_fewer_splits = pairs_fewer(face, faces_[along].plane);
-            if (!best || has_fewer_splits > best->pairs_fewer) {
-                best = PolygonCut{along, has_fewer_splits};
-            }
+            if (!best || has_fewer_splits > best->pairs_fewer) { best = PolygonCut{along, has_fewer_splits}; }
         }
         return *best;
     }
@@ -220,8 +193,7 @@ private:
     long pairs_fewer(std::uint32_t face, const Plane& plane) const {
         const Face& whole = faces_[face];
         const Face front = face_of(front_part(whole.corners, plane), whole.plane, whole.pivot);
-        const Face back =
-            face_of(front_part(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
+        const Face back = face_of(front_part(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
         auto has_fewer_splits = static_cast<long>(partners_[face].size());
         for (const std::uint32_t other : partners_[face]) {
             has_fewer_splits -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;

@@ -1,8 +1,8 @@
-// Convex regions by the double description method: T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M.
-// Thrall, "The double description method", 1953. The region is known both by its half-spaces and by
-// its generating rays. A cut keeps the rays in front of the new plane and adds one for each edge
-// between a ray in front and one behind it. Edges are found by the combinatorial test of adjacency
-// in K. Fukuda, A. Prodon, "Double description method revisited", 1996, proposition 7.
+// Convex regions by the double description method: T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M. Thrall, "The double
+// description method", 1953. The region is known both by its half-spaces and by its generating rays. A cut keeps the
+// rays in front of the new plane and adds one for each edge between a ray in front and one behind it. Edges are found
+// by the combinatorial test of adjacency in K. Fukuda, A. Prodon, "Double description method revisited", 1996,
+// proposition 7.
 //
 // Deviations:
 // - Heights within 1e-10 of a plane count as on it.
@@ -24,17 +24,13 @@ namespace {
 constexpr double min_slope = 1e-4;
 
 /// A half-space as a vector, whose dot product with a homogeneous point is the height.
-glm::dvec4 front_of(const Plane& plane) {
-    return {plane.normal, plane.offset_m};
-}
+glm::dvec4 front_of(const Plane& plane) { return {plane.normal, plane.offset_m}; }
 
 } // namespace
 
 ViewRegion::Facets ViewRegion::Facets::operator&(const Facets& other) const {
     Facets both;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        both.words[i] = words[i] & other.words[i];
-    }
+    for (std::size_t i = 0; i < words.size(); ++i) { both.words[i] = words[i] & other.words[i]; }
     return both;
 }
 
@@ -54,14 +50,10 @@ ViewRegion ViewRegion::all_space() {
 bool ViewRegion::intersects_front_of(const Plane& plane) const {
     const glm::dvec4 front = front_of(plane);
     for (const glm::dvec4& line : lines_) {
-        if (std::abs(glm::dot(front, line)) > on_plane) {
-            return true;
-        }
+        if (std::abs(glm::dot(front, line)) > on_plane) { return true; }
     }
     for (const Ray& ray : rays_) {
-        if (glm::dot(front, ray.at) > on_plane) {
-            return true;
-        }
+        if (glm::dot(front, ray.at) > on_plane) { return true; }
     }
     return false;
 }
@@ -77,9 +69,7 @@ std::optional<ViewRegion> ViewRegion::cut(const Plane& plane) const {
             steepest = i + 1;
         }
     }
-    if (steepest > 0) {
-        return cut_across_line(front, steepest - 1);
-    }
+    if (steepest > 0) { return cut_across_line(front, steepest - 1); }
     std::vector<double> heights;
     heights.reserve(rays_.size());
     bool some_front = false;
@@ -89,14 +79,11 @@ std::optional<ViewRegion> ViewRegion::cut(const Plane& plane) const {
         some_front = some_front || heights.back() > on_plane;
         some_back = some_back || heights.back() < -on_plane;
     }
-    if (!some_front) {
-        return std::nullopt;
-    }
+    if (!some_front) { return std::nullopt; }
     return some_back ? cut_rays(front, heights) : *this;
 }
 
-/// The line becomes the one ray that is not on the new facet; everything else slides along it onto
-/// the facet.
+/// The line becomes the one ray that is not on the new facet; everything else slides along it onto the facet.
 ViewRegion ViewRegion::cut_across_line(const glm::dvec4& front, std::size_t line) const {
     assert(facets_.size() <= max_planes);
     ViewRegion out = *this;
@@ -107,13 +94,9 @@ ViewRegion ViewRegion::cut_across_line(const glm::dvec4& front, std::size_t line
         return glm::normalize(at - inward * (glm::dot(front, at) / std::abs(slope)));
     };
     out.lines_.erase(out.lines_.begin() + static_cast<std::ptrdiff_t>(line));
-    for (glm::dvec4& other : out.lines_) {
-        other = slid(other);
-    }
+    for (glm::dvec4& other : out.lines_) { other = slid(other); }
     Ray added{inward, {}};
-    for (std::size_t facet = 0; facet < facets_.size(); ++facet) {
-        added.on.add(facet);
-    }
+    for (std::size_t facet = 0; facet < facets_.size(); ++facet) { added.on.add(facet); }
     for (Ray& ray : out.rays_) {
         ray.at = slid(ray.at);
         ray.on.add(facets_.size());
@@ -124,35 +107,24 @@ ViewRegion ViewRegion::cut_across_line(const glm::dvec4& front, std::size_t line
     return out;
 }
 
-/// Makes the lines perpendicular to one another and the rays to the lines: what generates a region
-/// is then the same whatever the axes are.
+/// Makes the lines perpendicular to one another and the rays to the lines: what generates a region is then the same
+/// whatever the axes are.
 void ViewRegion::straighten() {
     const auto without = [](glm::dvec4 at, std::span<const glm::dvec4> lines) {
-        for (const glm::dvec4& line : lines) {
-            at -= line * glm::dot(line, at);
-        }
+        for (const glm::dvec4& line : lines) { at -= line * glm::dot(line, at); }
         return glm::normalize(at);
     };
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-        lines_[i] = without(lines_[i], std::span(lines_).first(i));
-    }
-    for (Ray& ray : rays_) {
-        ray.at = without(ray.at, lines_);
-    }
+    for (std::size_t i = 0; i < lines_.size(); ++i) { lines_[i] = without(lines_[i], std::span(lines_).first(i)); }
+    for (Ray& ray : rays_) { ray.at = without(ray.at, lines_); }
 }
 
 /// Two rays of a cone span an edge of it unless a third one lies on all facets on which both lie.
 bool ViewRegion::adjacent(std::size_t a, std::size_t b) const {
     const Facets both = rays_[a].on & rays_[b].on;
-    const bool share_enough =
-        lines_.empty() ? both.more_than_one() : lines_.size() > 1 || both.any();
-    if (!share_enough) {
-        return false;
-    }
+    const bool share_enough = lines_.empty() ? both.more_than_one() : lines_.size() > 1 || both.any();
+    if (!share_enough) { return false; }
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        if (i != a && i != b && (both & rays_[i].on) == both) {
-            return false;
-        }
+        if (i != a && i != b && (both & rays_[i].on) == both) { return false; }
     }
     return true;
 }
@@ -168,9 +140,7 @@ ViewRegion ViewRegion::cut_rays(const glm::dvec4& front, const std::vector<doubl
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         if (heights[i] >= -on_plane) {
             out.rays_.push_back(rays_[i]);
-            if (heights[i] <= on_plane) {
-                out.rays_.back().on.add(facets_.size());
-            }
+            if (heights[i] <= on_plane) { out.rays_.back().on.add(facets_.size()); }
         }
     }
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -178,8 +148,7 @@ ViewRegion ViewRegion::cut_rays(const glm::dvec4& front, const std::vector<doubl
             if (heights[j] < -on_plane && adjacent(i, j)) {
                 const glm::dvec4 at = rays_[j].at * heights[i] - rays_[i].at * heights[j];
                 const double length = glm::length(at);
-                out.is_well_conditioned_ =
-                    out.is_well_conditioned_ && length > min_slope * (heights[i] - heights[j]);
+                out.is_well_conditioned_ = out.is_well_conditioned_ && length > min_slope * (heights[i] - heights[j]);
                 Ray added{at / length, rays_[i].on & rays_[j].on};
                 added.on.add(facets_.size());
                 out.rays_.push_back(added);
@@ -190,9 +159,7 @@ ViewRegion ViewRegion::cut_rays(const glm::dvec4& front, const std::vector<doubl
 }
 
 void ViewRegion::append_generators(std::vector<glm::dvec4>& generators) const {
-    for (const Ray& ray : rays_) {
-        generators.push_back(ray.at);
-    }
+    for (const Ray& ray : rays_) { generators.push_back(ray.at); }
     for (const glm::dvec4& line : lines_) {
         generators.push_back(line);
         generators.push_back(-line);
@@ -201,12 +168,8 @@ void ViewRegion::append_generators(std::vector<glm::dvec4>& generators) const {
 
 std::optional<glm::dvec3> ViewRegion::interior_point() const {
     glm::dvec4 sum(0.0);
-    for (const Ray& ray : rays_) {
-        sum += ray.at;
-    }
-    if (sum.w <= 0.0) {
-        return std::nullopt;
-    }
+    for (const Ray& ray : rays_) { sum += ray.at; }
+    if (sum.w <= 0.0) { return std::nullopt; }
     return glm::dvec3(sum.x, sum.y, sum.z) / sum.w;
 }
 
@@ -216,17 +179,13 @@ std::vector<Plane> ViewRegion::planes() const {
     for (std::size_t i = 1; i < facets_.size(); ++i) {
         for (std::size_t other = 0; other < facets_.size() && kept[i]; ++other) {
             bool within = other != i && kept[other];
-            for (const Ray& ray : rays_) {
-                within = within && (!ray.on.has(i) || ray.on.has(other));
-            }
+            for (const Ray& ray : rays_) { within = within && (!ray.on.has(i) || ray.on.has(other)); }
             kept[i] = !within;
         }
     }
     std::vector<Plane> planes;
     for (std::size_t i = 1; i < facets_.size(); ++i) {
-        if (kept[i]) {
-            planes.push_back({{facets_[i].x, facets_[i].y, facets_[i].z}, facets_[i].w});
-        }
+        if (kept[i]) { planes.push_back({{facets_[i].x, facets_[i].y, facets_[i].z}, facets_[i].w}); }
     }
     return planes;
 }

@@ -1,11 +1,11 @@
-// Method::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989
-// paper divides the viewing directions until all hidden surfaces are removed; here eye space is
-// divided by planes until each cell's hiding graph has no cycle.
+// Method::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides the
+// viewing directions until all hidden surfaces are removed; here eye space is divided by planes until each cell's
+// hiding graph has no cycle.
 //
-// The search is greedy: at a node the plane that leaves least of the cycles divides it
-// (fork_choice.cpp). Before that, an eye in the middle of the node is looked at: if it already sees
-// a ring, no plane can help, and a polygon is split.
+// The search is greedy: at a node the plane that leaves least of the cycles divides it (fork_choice.cpp). Before that,
+// an eye in the middle of the node is looked at: if it already sees a ring, no plane can help, and a polygon is split.
 #include "visuals/draworder/view_space_tree.h"
+
 #include "sim/base/plane.h"
 #include "visuals/draworder/bit_count.h"
 #include "visuals/draworder/candidate_planes.h"
@@ -27,15 +27,14 @@
 
 namespace octant::visuals::draworder {
 
-// Which plane divides a node of the tree over eye space. Candidate planes are judged in three
-// stages, each more exact and more expensive, and applied to fewer planes: by where polygons lie to
-// the plane (PlaneScorer), by the edges that stay on cycles then (CyclicEdgeCounter), and by building both
-// sides' graphs with the exact hiding test. The plane with the least cost divides the node.
+// Which plane divides a node of the tree over eye space. Candidate planes are judged in three stages, each more exact
+// and more expensive, and applied to fewer planes: by where polygons lie to the plane (PlaneScorer), by the edges that
+// stay on cycles then (CyclicEdgeCounter), and by building both sides' graphs with the exact hiding test. The plane
+// with the least cost divides the node.
 
-// The first and coarsest of three judgements in the search for a plane (view_space_tree.cpp). For eyes
-// in front of a plane, a polygon behind it or in it cannot hide one in front of it or in it, so
-// such edges disappear; counting them takes a few operations on rows of bits. What remains may
-// still contain edges that the exact test would remove.
+// The first and coarsest of three judgements in the search for a plane (view_space_tree.cpp). For eyes in front of a
+// plane, a polygon behind it or in it cannot hide one in front of it or in it, so such edges disappear; counting them
+// takes a few operations on rows of bits. What remains may still contain edges that the exact test would remove.
 
 namespace {
 
@@ -49,13 +48,9 @@ bool has(const std::vector<std::uint64_t>& words, std::size_t first_word, std::s
 /// A bounding sphere: the mean of the corners and the distance of the farthest one.
 std::pair<glm::dvec3, double> ball_around(const std::vector<glm::dvec3>& corners) {
     glm::dvec3 middle(0.0);
-    for (const glm::dvec3& corner : corners) {
-        middle += corner / static_cast<double>(corners.size());
-    }
+    for (const glm::dvec3& corner : corners) { middle += corner / static_cast<double>(corners.size()); }
     double radius = 0.0;
-    for (const glm::dvec3& corner : corners) {
-        radius = std::max(radius, glm::distance(corner, middle));
-    }
+    for (const glm::dvec3& corner : corners) { radius = std::max(radius, glm::distance(corner, middle)); }
     return {middle, radius};
 }
 
@@ -65,12 +60,8 @@ void set(std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t 
 
 } // namespace
 
-PlaneScorer::PlaneScorer(const ModelFaces& model, const CyclicPart& cycles)
-    : model_(model)
-    , edges_(cycles.edges) {
-    for (const std::vector<std::uint32_t>& component : cycles.components) {
-        add(cycles.inner, component);
-    }
+PlaneScorer::PlaneScorer(const ModelFaces& model, const CyclicPart& cycles) : model_(model), edges_(cycles.edges) {
+    for (const std::vector<std::uint32_t>& component : cycles.components) { add(cycles.inner, component); }
 }
 
 /// Adds the rows of a component.
@@ -86,14 +77,10 @@ void PlaneScorer::add(const OcclusionGraph& graph, const std::vector<std::uint32
         const auto [middle, radius] = ball_around(model_.faces[polygon].corners);
         const std::size_t weight = bit % step == 0 ? step : 0;
         members_.push_back({polygon, middle, radius, first_word, bit, rows_.size(), words, weight});
-        if (weight == 0) {
-            continue;
-        }
+        if (weight == 0) { continue; }
         rows_.resize(rows_.size() + words, 0);
         for (std::size_t other = 0; other < component.size(); ++other) {
-            if (graph.occludes(component[other], polygon)) {
-                set(rows_, members_.back().first_row_word, other);
-            }
+            if (graph.occludes(component[other], polygon)) { set(rows_, members_.back().first_row_word, other); }
         }
     }
 }
@@ -107,15 +94,9 @@ void PlaneScorer::set_plane(const Plane& plane) {
     for (const Member& member : members_) {
         const double height = distance_m(plane, member.middle);
         PlaneSide side{height > member.radius, height < -member.radius};
-        if (!side.before && !side.behind) {
-            side = side_of(plane, model_.faces[member.polygon], on);
-        }
-        if (side.before) {
-            set(front_or_on_, member.first_word, member.bit);
-        }
-        if (side.behind) {
-            set(back_or_on_, member.first_word, member.bit);
-        }
+        if (!side.before && !side.behind) { side = side_of(plane, model_.faces[member.polygon], on); }
+        if (side.before) { set(front_or_on_, member.first_word, member.bit); }
+        if (side.behind) { set(back_or_on_, member.first_word, member.bit); }
         const auto& own = model_.faces[member.polygon].plane;
         if (side.before && side.behind && own) {
             const bool along = glm::dot(plane.normal, own->normal) > 0.0;
@@ -125,17 +106,14 @@ void PlaneScorer::set_plane(const Plane& plane) {
     }
 }
 
-/// The number of edges that do not disappear on one side of the plane: `occluded` are the polygons on
-/// that side or in the plane, `occluders` those on the other side or in it, and `unseen` those that
-/// face away from all eyes there.
+/// The number of edges that do not disappear on one side of the plane: `occluded` are the polygons on that side or in
+/// the plane, `occluders` those on the other side or in it, and `unseen` those that face away from all eyes there.
 std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, const Words& unseen) const {
     std::size_t ended = 0;
     Words mask;
     for (const Member& member : members_) {
         const auto row = std::span(rows_).subspan(member.first_row_word, member.words);
-        if (member.weight == 0) {
-            continue;
-        }
+        if (member.weight == 0) { continue; }
         const bool parted = has(occluded, member.first_word, member.bit);
         if (!some_unseen_) {
             const auto others = std::span(occluders).subspan(member.first_word, member.words);
@@ -146,31 +124,24 @@ std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, con
         mask.resize(member.words);
         for (std::size_t word = 0; word < member.words; ++word) {
             const std::size_t at = member.first_word + word;
-            mask[word] =
-                removed ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
+            mask[word] = removed ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
         }
         ended += member.weight * count_common_bits(row, mask);
     }
     return edges_ - std::min(ended, edges_);
 }
 
-std::size_t PlaneScorer::edges_left_in_front() const {
-    return left(front_or_on_, back_or_on_, unseen_in_front_);
-}
+std::size_t PlaneScorer::edges_left_in_front() const { return left(front_or_on_, back_or_on_, unseen_in_front_); }
 
-std::size_t PlaneScorer::edges_left_behind() const {
-    return left(back_or_on_, front_or_on_, unseen_behind_);
-}
+std::size_t PlaneScorer::edges_left_behind() const { return left(back_or_on_, front_or_on_, unseen_behind_); }
 
 namespace {
 
-/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both
-/// results. Neither may write to what the other one uses, so that the result is the same either
-/// way.
+/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both results. Neither may
+/// write to what the other one uses, so that the result is the same either way.
 template <typename PaintFirst, typename Second>
 auto both(bool worthwhile, PaintFirst first, Second second) {
-    auto there =
-        std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
+    auto there = std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
     auto here = second();
     return std::pair(there.get(), std::move(here));
 }
@@ -192,9 +163,7 @@ struct ViewSplit {
 };
 
 /// Whether a node's work is worth a second thread.
-bool is_large(const ViewCell& node) {
-    return node.cycles.edges > 500;
-}
+bool is_large(const ViewCell& node) { return node.cycles.edges > 500; }
 
 /// The work of judging a plane by where polygons lie to it.
 std::uint64_t units_of_plane(const CyclicPart& cycles) {
@@ -216,9 +185,7 @@ std::uint64_t units_of_rings(const CyclicPart& cycles) {
 class SplitPlaneChooser {
 public:
     SplitPlaneChooser(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search)
-        : work_(work)
-        , node_(node)
-        , search_(search) {}
+        : work_(work), node_(node), search_(search) {}
 
     std::optional<CellSplit> best() const;
 
@@ -237,12 +204,10 @@ private:
     const SplitPlaneSearch& search_;
 };
 
-/// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is
-/// better. A side that stays as it was is no gain at all and costs infinitely much.
+/// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is better. A side that
+/// stays as it was is no gain at all and costs infinitely much.
 double SplitPlaneChooser::cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const {
-    if (front_edges >= before || back_edges >= before) {
-        return HUGE_VAL;
-    }
+    if (front_edges >= before || back_edges >= before) { return HUGE_VAL; }
     return std::pow(static_cast<double>(front_edges), search_.power) +
            std::pow(static_cast<double>(back_edges), search_.power);
 }
@@ -253,34 +218,25 @@ double SplitPlaneChooser::little_gain(std::size_t before) const {
     return cost(left, left, before + 1);
 }
 
-/// First stage: the best planes by where polygons lie to them. `first_number` is the number of the
-/// first plane.
-std::vector<ViewSplit>
-SplitPlaneChooser::by_sides(std::span<const Plane> planes, std::size_t first_number) const {
+/// First stage: the best planes by where polygons lie to them. `first_number` is the number of the first plane.
+std::vector<ViewSplit> SplitPlaneChooser::by_sides(std::span<const Plane> planes, std::size_t first_number) const {
     const CyclicPart& cycles = node_.cycles;
     PlaneScorer scorer(work_.faces, cycles);
     std::vector<ViewSplit> best;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const Plane& plane = planes[i];
-        if (!node_.region.intersects_front_of(plane) ||
-            !node_.region.intersects_front_of(turned_over(plane))) {
+        if (!node_.region.intersects_front_of(plane) || !node_.region.intersects_front_of(turned_over(plane))) {
             continue;
         }
         const double limit = best.size() == search_.coarse_candidates ? best.back().cost : HUGE_VAL;
         scorer.set_plane(plane);
         const std::size_t front_edges = scorer.edges_left_in_front();
-        if (cost(front_edges, 0, cycles.edges) >= limit) {
-            continue;
-        }
+        if (cost(front_edges, 0, cycles.edges) >= limit) { continue; }
         const double value = cost(front_edges, scorer.edges_left_behind(), cycles.edges);
-        if (value >= limit) {
-            continue;
-        }
+        if (value >= limit) { continue; }
         const ViewSplit choice{plane, value, first_number + i};
         best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
-        if (best.size() > search_.coarse_candidates) {
-            best.pop_back();
-        }
+        if (best.size() > search_.coarse_candidates) { best.pop_back(); }
     }
     return best;
 }
@@ -293,10 +249,8 @@ std::vector<ViewSplit> SplitPlaneChooser::by_rings(std::span<const ViewSplit> ch
     for (ViewSplit& choice : out) {
         const PolygonsByPlaneSide sides = sides_of(choice.plane, work_.faces, cycles.polygons);
         const auto& [front, back] = sides.sets;
-        const auto front_edges =
-            rings.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
-        const auto back_edges =
-            rings.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
+        const auto front_edges = rings.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
+        const auto back_edges = rings.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
         choice.cost = cost(front_edges, back_edges, cycles.edges);
     }
     return out;
@@ -308,9 +262,7 @@ std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) 
     const bool large = is_large(node_);
     const std::size_t half = planes.size() / 2;
     auto [choices, others] = both(
-        large,
-        [&] { return by_sides(planes.first(half), 0); },
-        [&] { return by_sides(planes.subspan(half), half); });
+        large, [&] { return by_sides(planes.first(half), 0); }, [&] { return by_sides(planes.subspan(half), half); });
     choices.insert(choices.end(), others.begin(), others.end());
     std::sort(choices.begin(), choices.end());
     choices.resize(std::min(search_.coarse_candidates, choices.size()));
@@ -318,9 +270,7 @@ std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) 
     const std::size_t middle = choices.size() / 2;
     const std::span<const ViewSplit> all(choices);
     auto [judged, rest] = both(
-        large,
-        [&] { return by_rings(all.first(middle)); },
-        [&] { return by_rings(all.subspan(middle)); });
+        large, [&] { return by_rings(all.first(middle)); }, [&] { return by_rings(all.subspan(middle)); });
     judged.insert(judged.end(), rest.begin(), rest.end());
     std::sort(judged.begin(), judged.end());
     return judged;
@@ -335,19 +285,14 @@ CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
         return part_of(graphs, node_, *node_.region.cut(before), &sets);
     };
     auto [front, back] = both(
-        is_large(node_),
-        [&] { return part(plane, sides); },
-        [&] { return part(turned_over(plane), turned); });
+        is_large(node_), [&] { return part(plane, sides); }, [&] { return part(turned_over(plane), turned); });
     return {plane, std::move(front), std::move(back)};
 }
 
 /// The choices by the candidate planes of some polygons, of which there are about `most`.
-std::vector<ViewSplit>
-SplitPlaneChooser::of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
+std::vector<ViewSplit> SplitPlaneChooser::of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
     std::vector<Plane> planes;
-    if (search_.tries_axis_planes_first) {
-        planes = axis_planes(work_.faces, among, 2 * most);
-    }
+    if (search_.tries_axis_planes_first) { planes = axis_planes(work_.faces, among, 2 * most); }
     const auto others = candidate_planes(work_.faces, among, most);
     planes.insert(planes.end(), others.begin(), others.end());
     return ranked(planes);
@@ -361,15 +306,15 @@ std::vector<ViewSplit> SplitPlaneChooser::coarse_ranking() const {
         choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
     }
     if (choices.empty()) {
-        // Of many polygons not all candidate planes were made. All those of one ring are enough to
-        // resolve it in the end.
+        // Of many polygons not all candidate planes were made. All those of one ring are enough to resolve it in the
+        // end.
         choices = of_planes(shortest_cycle(cycles.inner, cycles.polygons), search_.edge_planes);
     }
     return choices;
 }
 
-/// Third stage: divides the node by each of the best choices and keeps the best result; for very
-/// large graphs only the first choice.
+/// Third stage: divides the node by each of the best choices and keeps the best result; for very large graphs only the
+/// first choice.
 std::optional<CellSplit> SplitPlaneChooser::best() const {
     const CyclicPart& cycles = node_.cycles;
     std::vector<ViewSplit> choices = coarse_ranking();
@@ -391,8 +336,7 @@ std::optional<CellSplit> SplitPlaneChooser::best() const {
 
 } // namespace
 
-std::optional<CellSplit>
-best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search) {
+std::optional<CellSplit> best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search) {
     return SplitPlaneChooser(work, node, search).best();
 }
 
@@ -412,10 +356,7 @@ struct Branch {
 /// Builds one tree.
 class TreeBuilder {
 public:
-    TreeBuilder(WorkingModel& work, const TreeSearch& search)
-        : work_(work)
-        , graphs_(work.faces)
-        , search_(search) {}
+    TreeBuilder(WorkingModel& work, const TreeSearch& search) : work_(work), graphs_(work.faces), search_(search) {}
 
     std::unique_ptr<Branch> grow(ViewCell node, std::size_t depth);
 
@@ -441,11 +382,9 @@ private:
 void TreeBuilder::check_cost() const {
     const TreeCost cost{work_.sibling_pieces.size(), cells_};
     const bool costs_more = search_.cost_limit && cost >= *search_.cost_limit;
-    const bool splits_more = cost.splits > 0 && search_.max_splits &&
-                             static_cast<int>(cost.splits) > search_.max_splits();
-    if (costs_more || splits_more) {
-        throw SearchGivenUp{"another order costs less", true};
-    }
+    const bool splits_more =
+        cost.splits > 0 && search_.max_splits && static_cast<int>(cost.splits) > search_.max_splits();
+    if (costs_more || splits_more) { throw SearchGivenUp{"another order costs less", true}; }
 }
 
 /// The finished cell of a node without cycles.
@@ -459,19 +398,14 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const ViewCell& node) {
     return out;
 }
 
-/// Splits polygons until an eye in the middle of the node sees no ring and some plane makes the
-/// node simpler, and returns the node divided by that plane. Returns nothing once the node has no
-/// cycles.
+/// Splits polygons until an eye in the middle of the node sees no ring and some plane makes the node simpler, and
+/// returns the node divided by that plane. Returns nothing once the node has no cycles.
 std::optional<CellSplit> TreeBuilder::settle(ViewCell& node) {
     while (node.cycles.edges > 0) {
         std::optional<PersistentCycle> persistent_cycle;
-        if (!search_.prefers_planes) {
-            persistent_cycle = cycle_at_eye(graphs_, node);
-        }
+        if (!search_.prefers_planes) { persistent_cycle = cycle_at_eye(graphs_, node); }
         if (!persistent_cycle) {
-            if (auto fork = best_split(work_, node, search_.plane_search)) {
-                return fork;
-            }
+            if (auto fork = best_split(work_, node, search_.plane_search)) { return fork; }
             persistent_cycle = cycle_at_eye(graphs_, node);
         }
         if (!persistent_cycle) {
@@ -498,15 +432,11 @@ std::unique_ptr<Branch> TreeBuilder::open_leaf(ViewCell& node) {
 
 /// The branch of a node, recursively.
 std::unique_ptr<Branch> TreeBuilder::grow(ViewCell node, std::size_t depth) {
-    if (!search_.keeps_partial_result) {
-        return found(node, depth);
-    }
+    if (!search_.keeps_partial_result) { return found(node, depth); }
     try {
         return found(node, depth);
     } catch (const SearchGivenUp& given_up) {
-        if (given_up.is_worse_than_best) {
-            throw;
-        }
+        if (given_up.is_worse_than_best) { throw; }
         why_open_ = why_open_.empty() ? given_up.reason : why_open_;
         return open_leaf(node);
     }
@@ -516,17 +446,12 @@ std::unique_ptr<Branch> TreeBuilder::grow(ViewCell node, std::size_t depth) {
 std::unique_ptr<Branch> TreeBuilder::found(ViewCell& node, std::size_t depth) {
     check_entries(entries_); // where a list was too much already, another one is, too
     if (depth == search_.max_depth) {
-        throw SearchGivenUp{
-            fmt::format("{} planes one after another make no cell", search_.max_depth)};
+        throw SearchGivenUp{fmt::format("{} planes one after another make no cell", search_.max_depth)};
     }
-    if (work_.add_new_pieces(node)) {
-        node = part_of(graphs_, node, node.region);
-    }
+    if (work_.add_new_pieces(node)) { node = part_of(graphs_, node, node.region); }
     work_.spend(search_units(node));
     std::optional<CellSplit> fork = settle(node);
-    if (!fork) {
-        return leaf(node);
-    }
+    if (!fork) { return leaf(node); }
     ++cells_;
     check_cost();
     auto out = std::make_unique<Branch>();
@@ -540,9 +465,7 @@ std::unique_ptr<Branch> TreeBuilder::found(ViewCell& node, std::size_t depth) {
 int flatten(Branch& branch, const WorkingModel& work, ViewSpaceTree& out) {
     if (!branch.plane) {
         work.add_new_pieces(branch.list, branch.polygons);
-        for (std::vector<std::uint32_t>& set : branch.incomplete_cells) {
-            work.add_new_pieces(set, branch.polygons);
-        }
+        for (std::vector<std::uint32_t>& set : branch.incomplete_cells) { work.add_new_pieces(set, branch.polygons); }
         out.lists.push_back(std::move(branch.list));
         out.incomplete_cells.push_back(std::move(branch.incomplete_cells));
         out.cell_planes.push_back(std::move(branch.planes));
@@ -562,9 +485,7 @@ int flatten(Branch& branch, const WorkingModel& work, ViewSpaceTree& out) {
 ViewSpaceTree view_space_tree(WorkingModel& work, const ViewCell& root, const TreeSearch& search) {
     TreeBuilder builder(work, search);
     const auto branch = builder.grow(root, 0);
-    if (!branch->plane && !builder.incomplete_reason().empty()) {
-        throw SearchGivenUp{builder.incomplete_reason()};
-    }
+    if (!branch->plane && !builder.incomplete_reason().empty()) { throw SearchGivenUp{builder.incomplete_reason()}; }
     ViewSpaceTree tree;
     flatten(*branch, work, tree);
     tree.incomplete_reason = builder.incomplete_reason();

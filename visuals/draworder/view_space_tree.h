@@ -20,11 +20,10 @@
 
 namespace octant::visuals::draworder {
 
-/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie
-/// to the plane alone. This is quick, so that thousands of planes can be judged. The edges of each
-/// component are held in rows of their own, so that small components of large models cost little;
-/// of large components only some rows are looked at, evenly spread, and stand for all. Keeps a
-/// reference to the faces.
+/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie to the plane alone.
+/// This is quick, so that thousands of planes can be judged. The edges of each component are held in rows of their own,
+/// so that small components of large models cost little; of large components only some rows are looked at, evenly
+/// spread, and stand for all. Keeps a reference to the faces.
 class PlaneScorer {
 public:
     PlaneScorer(const ModelFaces& model, const CyclicPart& cycles);
@@ -32,8 +31,7 @@ public:
     /// Turns to a plane.
     void set_plane(const Plane& plane);
 
-    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on
-    /// cycles or not.
+    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on cycles or not.
     std::size_t edges_left_in_front() const;
     /// The number of cyclic edges that remain for eyes behind the plane.
     std::size_t edges_left_behind() const;
@@ -92,19 +90,17 @@ struct CellSplit {
     ViewCell back;
 };
 
-/// The plane that leaves a node simplest, with the node divided by it; nothing when no plane makes
-/// the node simpler. Throws SearchGivenUp (search_budget.h) when a budget is spent.
-std::optional<CellSplit>
-best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search);
+/// The plane that leaves a node simplest, with the node divided by it; nothing when no plane makes the node simpler.
+/// Throws SearchGivenUp (search_budget.h) when a budget is spent.
+std::optional<CellSplit> best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search);
 
-/// A tree of planes over a region of eye space, with the lists and planes of its cells. Planes are
-/// in the faces' space.
+/// A tree of planes over a region of eye space, with the lists and planes of its cells. Planes are in the faces' space.
 struct ViewSpaceTree {
     std::vector<DrawOrder::Node> nodes; ///< Node 0 is the root; children come after their parents.
     std::vector<std::vector<std::uint32_t>> lists;
     std::vector<std::vector<Plane>> cell_planes;
-    /// For each cell without a list of its own, where the search was given up, its sets of polygons
-    /// (component_sets); empty for others.
+    /// For each cell without a list of its own, where the search was given up, its sets of polygons (component_sets);
+    /// empty for others.
     std::vector<std::vector<std::vector<std::uint32_t>>> incomplete_cells;
     std::string incomplete_reason; ///< Why the search was given up first; empty if it was not.
 };
@@ -122,22 +118,20 @@ struct TreeSearch {
     SplitPlaneSearch plane_search = {};
     /// The most cuts one after another.
     std::size_t max_depth = 100;
-    /// Whether planes are tried before polygons are split, even where an eye in the middle of a
-    /// region sees a ring: more cells, sometimes fewer splits.
+    /// Whether planes are tried before polygons are split, even where an eye in the middle of a region sees a ring:
+    /// more cells, sometimes fewer splits.
     bool prefers_planes = false;
     /// Whether what was found is kept where the search is given up (ViewSpaceTree::open).
     bool keeps_partial_result = false;
-    /// The search is given up as soon as its tree is sure to cost as much as this; then nothing of
-    /// it is kept.
+    /// The search is given up as soon as its tree is sure to cost as much as this; then nothing of it is kept.
     std::optional<TreeCost> cost_limit = {};
-    /// So is it where the tree is sure to have more splits. Asked once a polygon is split; may be
-    /// empty.
+    /// So is it where the tree is sure to have more splits. Asked once a polygon is split; may be empty.
     std::function<int()> max_splits = {};
 };
 
-/// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there
-/// is no order otherwise. Throws SearchGivenUp (search_budget.h) when it grows beyond what can be
-/// held, or when a budget is spent; where part of it is kept, only if there is none.
+/// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there is no order
+/// otherwise. Throws SearchGivenUp (search_budget.h) when it grows beyond what can be held, or when a budget is spent;
+/// where part of it is kept, only if there is none.
 ViewSpaceTree view_space_tree(WorkingModel& work, const ViewCell& root, const TreeSearch& search);
 
 } // namespace octant::visuals::draworder

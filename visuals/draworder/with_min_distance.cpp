@@ -1,5 +1,5 @@
-// The lists of octant cells hold from a distance on. The eyes nearer by are an octahedron: in each
-// octant what is behind one of its sides.
+// The lists of octant cells hold from a distance on. The eyes nearer by are an octahedron: in each octant what is
+// behind one of its sides.
 #include "visuals/draworder/with_min_distance.h"
 
 #include <glm/geometric.hpp>
@@ -20,9 +20,7 @@ constexpr int axes = 3;
 class MinDistanceAdder {
 public:
     MinDistanceAdder(const DrawOrder& order, const glm::dvec3& centre_m, double distance_m)
-        : order_(order)
-        , centre_m_(centre_m)
-        , distance_m_(distance_m) {}
+        : order_(order), centre_m_(centre_m), distance_m_(distance_m) {}
 
     DrawOrder limited() {
         copy(0, glm::dvec3(0.0), 0);
@@ -42,9 +40,7 @@ private:
             at(made).front = copy(child, signs, above + 1);
             return made;
         }
-        if (child < 0) {
-            return child;
-        }
+        if (child < 0) { return child; }
         const DrawOrder::Node node = order_.nodes()[static_cast<std::size_t>(child)];
         assert(node.kind == DrawOrder::Kind::ViewSplit);
         const bool is_octant = above < axes;

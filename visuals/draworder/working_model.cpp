@@ -1,7 +1,7 @@
-// The last resort of both exact methods: where no division of eye space gives an order, a polygon
-// is split (section IV and figure 14 of the 1989 paper), and all that was found before is kept up
-// to date.
+// The last resort of both exact methods: where no division of eye space gives an order, a polygon is split (section IV
+// and figure 14 of the 1989 paper), and all that was found before is kept up to date.
 #include "visuals/draworder/working_model.h"
+
 #include "sim/base/plane.h"
 #include "visuals/draworder/components.h"
 #include "visuals/draworder/cut_pieces.h"
@@ -16,12 +16,11 @@
 
 namespace octant::visuals::draworder {
 
-// Splitting of polygons that hide one another in a ring: E. K. Kim, J. A. Park, C. Song, J. H. Kim,
-// 1989, section IV and figure 14.
+// Splitting of polygons that hide one another in a ring: E. K. Kim, J. A. Park, C. Song, J. H. Kim, 1989, section IV
+// and figure 14.
 //
-// Deviations: the paper splits polygons that pass through one another (split.cpp does that); here
-// the same cut serves polygons that overlap cyclically, such as three bars each over the next.
-// Which one to split is not in the paper.
+// Deviations: the paper splits polygons that pass through one another (split.cpp does that); here the same cut serves
+// polygons that overlap cyclically, such as three bars each over the next. Which one to split is not in the paper.
 
 namespace {
 
@@ -31,13 +30,11 @@ OcclusionGraph graph_of(OcclusionGraphBuilder& graphs, const PersistentCycle& pe
     OcclusionGraph pairs(graphs.model().faces.size());
     for (const std::uint32_t a : among) {
         for (const std::uint32_t b : among) {
-            if (a != b && !graphs.model().ignored.occludes(b, a)) {
-                pairs.add(b, a);
-            }
+            if (a != b && !graphs.model().ignored.occludes(b, a)) { pairs.add(b, a); }
         }
     }
     return persistent_cycle.eye ? graphs.at_eye(*persistent_cycle.eye, pairs, among)
-                        : graphs.surviving(persistent_cycle.region, pairs, among);
+                                : graphs.surviving(persistent_cycle.region, pairs, among);
 }
 
 /// Whether a face reaches more than `margin` to both sides of a plane.
@@ -48,32 +45,24 @@ bool straddles(const Face& face, const Plane& plane, double margin) {
 }
 
 /// The number of cyclic edges among the ring's polygons once one of them has been cut.
-std::size_t left_after(
-    const ModelFaces& model,
-    const PersistentCycle& persistent_cycle,
-    const std::vector<std::uint32_t>& ring,
-    const PolygonCut& cut) {
+std::size_t left_after(const ModelFaces& model, const PersistentCycle& persistent_cycle,
+    const std::vector<std::uint32_t>& ring, const PolygonCut& cut) {
     const Plane plane = *model.faces[cut.cut_by].plane;
     const Face& whole = model.faces[cut.polygon];
     const std::size_t count = ring.size() + 1;
-    ModelFaces pieces{
-        .faces = {},
+    ModelFaces pieces{.faces = {},
         .tolerances = model.tolerances,
         .rigid = OcclusionGraph(count),
         .ignored = OcclusionGraph(count),
         .notes = {}};
     for (const std::uint32_t polygon : ring) {
-        pieces.faces.push_back(
-            polygon == cut.polygon ? outline_face(
-                                         front_part(whole.outline, plane, model.tolerances.inset),
-                                         *whole.plane,
-                                         model.tolerances.inset)
+        pieces.faces.push_back(polygon == cut.polygon
+                                   ? outline_face(front_part(whole.outline, plane, model.tolerances.inset),
+                                         *whole.plane, model.tolerances.inset)
                                    : model.faces[polygon]);
     }
     pieces.faces.push_back(outline_face(
-        front_part(whole.outline, turned_over(plane), model.tolerances.inset),
-        *whole.plane,
-        model.tolerances.inset));
+        front_part(whole.outline, turned_over(plane), model.tolerances.inset), *whole.plane, model.tolerances.inset));
     PersistentCycle among{std::vector<std::uint32_t>(count), persistent_cycle.region, persistent_cycle.eye};
     std::iota(among.polygons.begin(), among.polygons.end(), 0U);
     OcclusionGraphBuilder graphs(pieces);
@@ -92,9 +81,7 @@ std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const 
         for (const std::uint32_t cut_by : ring) {
             const Face& face = model.faces[polygon];
             const auto& plane = model.faces[cut_by].plane;
-            if (face.pivot || !plane || !straddles(face, *plane, 2.0 * model.tolerances.inset)) {
-                continue;
-            }
+            if (face.pivot || !plane || !straddles(face, *plane, 2.0 * model.tolerances.inset)) { continue; }
             const std::size_t left = left_after(model, persistent_cycle, ring, {polygon, cut_by});
             if (!best || left < fewest) {
                 best = PolygonCut{polygon, cut_by};
@@ -110,9 +97,7 @@ std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const Pers
     const auto& faces = graphs.model().faces;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t next = ring[(i + 1) % ring.size()];
-        if (faces[ring[i]].pivot || faces[next].pivot) {
-            return Precedence{ring[i], next};
-        }
+        if (faces[ring[i]].pivot || faces[next].pivot) { return Precedence{ring[i], next}; }
     }
     return std::nullopt;
 }
@@ -137,11 +122,9 @@ void WorkingModel::resolve(const PersistentCycle& persistent_cycle) {
         sibling_pieces.push_back(cut->polygon);
         const Face whole = faces.faces[cut->polygon];
         const double inset = faces.tolerances.inset;
-        faces.faces[cut->polygon] =
-            outline_face(front_part(whole.outline, plane, inset), *whole.plane, inset);
+        faces.faces[cut->polygon] = outline_face(front_part(whole.outline, plane, inset), *whole.plane, inset);
         const Plane back = turned_over(plane);
-        faces.faces.push_back(
-            outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
+        faces.faces.push_back(outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
         faces.rigid.add_sibling(cut->polygon);
         faces.ignored.add_sibling(cut->polygon);
         end_overlaps(cut->polygon);
@@ -149,15 +132,11 @@ void WorkingModel::resolve(const PersistentCycle& persistent_cycle) {
         return;
     }
     const auto weakest = pair_to_drop(graphs, persistent_cycle);
-    if (!weakest) {
-        throw SearchGivenUp{"polygons hide one another in a ring that no cut resolves"};
-    }
+    if (!weakest) { throw SearchGivenUp{"polygons hide one another in a ring that no cut resolves"}; }
     const Precedence pair = *weakest;
     faces.ignored.add(pair.later, pair.first);
-    notes.push_back(fmt::format(
-        "{} and {} hide one another as they turn; no order is right at every angle",
-        model.parts[model.polygons[pair.first].part],
-        model.parts[model.polygons[pair.later].part]));
+    notes.push_back(fmt::format("{} and {} hide one another as they turn; no order is right at every angle",
+        model.parts[model.polygons[pair.first].part], model.parts[model.polygons[pair.later].part]));
 }
 
 /// A piece overlaps no more polygons of its plane than the whole did, and often fewer.
@@ -176,17 +155,13 @@ bool WorkingModel::add_new_pieces(ViewCell& node) const {
     while (node.graph.count() < faces.faces.size()) {
         node.graph.add_sibling(sibling_pieces[node.graph.count() - first_count]);
     }
-    if (node.graph.count() > before) {
-        node.cycles = cyclic_part_of(node.graph);
-    }
+    if (node.graph.count() > before) { node.cycles = cyclic_part_of(node.graph); }
     return node.graph.count() > before;
 }
 
 void WorkingModel::add_new_pieces(std::vector<std::uint32_t>& list, std::size_t polygons) const {
     insert_cut_pieces(
-        list,
-        std::span(sibling_pieces).subspan(polygons - first_count),
-        static_cast<std::uint32_t>(polygons));
+        list, std::span(sibling_pieces).subspan(polygons - first_count), static_cast<std::uint32_t>(polygons));
 }
 
 } // namespace octant::visuals::draworder

@@ -43,8 +43,7 @@ BareGrid bare_grid(int triangles, const glm::mat4& view_to_clip) {
     BareGrid grid;
     for (int row = 0; row <= rows; ++row) {
         for (int column = 0; column <= columns; ++column) {
-            const glm::vec2 share(
-                static_cast<float>(column) / static_cast<float>(columns),
+            const glm::vec2 share(static_cast<float>(column) / static_cast<float>(columns),
                 static_cast<float>(row) / static_cast<float>(rows));
             grid.vertices.push_back(vertex_at(2.0F * share - 1.0F, view_to_clip));
         }
@@ -54,8 +53,7 @@ BareGrid bare_grid(int triangles, const glm::mat4& view_to_clip) {
         for (std::uint32_t column = 0; column + 1 < wide; ++column) {
             const std::uint32_t corner = row * wide + column;
             grid.indices.insert(
-                grid.indices.end(),
-                {corner, corner + 1, corner + wide + 1, corner, corner + wide + 1, corner + wide});
+                grid.indices.end(), {corner, corner + 1, corner + wide + 1, corner, corner + wide + 1, corner + wide});
         }
     }
     return grid;

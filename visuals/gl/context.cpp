@@ -20,22 +20,15 @@ std::string text(const Functions& gl, GLenum what) {
 bool is_software_device(std::string_view renderer) {
     constexpr std::array<std::string_view, 5> known = {
         "llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader"};
-    return std::ranges::any_of(known, [&](std::string_view name) {
-        return renderer.find(name) != std::string_view::npos;
-    });
+    return std::ranges::any_of(
+        known, [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
 }
 
-bool is_software_renderer(const Functions& gl) {
-    return is_software_device(text(gl, GL_RENDERER));
-}
+bool is_software_renderer(const Functions& gl) { return is_software_device(text(gl, GL_RENDERER)); }
 
 void Context::make_current() {
-    if (current == this) {
-        return;
-    }
-    if (current != nullptr) {
-        current->leave();
-    }
+    if (current == this) { return; }
+    if (current != nullptr) { current->leave(); }
     bind();
     current = this;
 }

@@ -28,17 +28,10 @@ const char* kind_text(GLenum kind) {
     }
 }
 
-void APIENTRY print(
-    GLenum /*source*/,
-    GLenum kind,
-    GLuint /*id*/,
-    GLenum /*severity*/,
-    GLsizei length,
-    const GLchar* text,
-    const void* /*user*/) {
-    const std::string_view whole = length < 0
-                                       ? std::string_view(text)
-                                       : std::string_view(text, static_cast<std::size_t>(length));
+void APIENTRY print(GLenum /*source*/, GLenum kind, GLuint /*id*/, GLenum /*severity*/, GLsizei length,
+    const GLchar* text, const void* /*user*/) {
+    const std::string_view whole =
+        length < 0 ? std::string_view(text) : std::string_view(text, static_cast<std::size_t>(length));
     std::cerr << "OpenGL " << kind_text(kind) << ": " << whole << '\n';
 }
 
@@ -48,8 +41,7 @@ void print_debug_messages(const Functions& gl) {
     gl.enable(GL_DEBUG_OUTPUT);
     gl.enable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // in the call that a message is about
     gl.debug_message_callback(print, nullptr);
-    gl.debug_message_control(
-        GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
+    gl.debug_message_control(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
 }
 
 void label_object(const Functions& gl, GLenum kind, GLuint name, const char* label) {
@@ -60,8 +52,7 @@ void label_object(const Functions& gl, GLenum kind, GLuint name, const char* lab
 
 void print_debug_messages(const Functions& /*gl*/) {}
 
-void label_object(
-    const Functions& /*gl*/, GLenum /*kind*/, GLuint /*name*/, const char* /*label*/) {}
+void label_object(const Functions& /*gl*/, GLenum /*kind*/, GLuint /*name*/, const char* /*label*/) {}
 
 #endif
 

@@ -15,31 +15,26 @@ using scene::DepthUse;
 
 constexpr GLint planes_uniform = 0; ///< place in the shaders, where CUT is defined
 
-// Shadow pieces lie in the plane of ground triangles, yet their depths differ by rounding: of the
-// corners to 1/256 pixel, which one pixel's change of depth covers, and of the depth itself.
+// Shadow pieces lie in the plane of ground triangles, yet their depths differ by rounding: of the corners to 1/256
+// pixel, which one pixel's change of depth covers, and of the depth itself.
 constexpr float towards_eye_px = 1.0F;
 constexpr float towards_eye_steps = 16.0F; ///< of the float nearest to the triangle's depths
 
-// What is edge-on has depths without meaning and closes holes between triangles that have: it is
-// pushed back by one to two per cent of its distance, so that these are before it.
+// What is edge-on has depths without meaning and closes holes between triangles that have: it is pushed back by one to
+// two per cent of its distance, so that these are before it.
 constexpr float edge_on_steps = -0x1p23F * 0.02F;
 
 } // namespace
 
-ProgramPair make_program_pair(
-    const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
+ProgramPair make_program_pair(const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
     const std::string clipped = std::string(name) + ", cut";
-    if (defined == nullptr) {
-        return {make_program(gl, name, text), make_program(gl, clipped.c_str(), text, {"CUT"})};
-    }
-    return {
-        make_program(gl, name, text, {defined}),
-        make_program(gl, clipped.c_str(), text, {defined, "CUT"})};
+    if (defined == nullptr) { return {make_program(gl, name, text), make_program(gl, clipped.c_str(), text, {"CUT"})}; }
+    return {make_program(gl, name, text, {defined}), make_program(gl, clipped.c_str(), text, {defined, "CUT"})};
 }
 
 void DrawState::begin_picture(RowOrder row_order) {
-    // The upper left origin brings the rows out from the top. Which side of a triangle is its
-    // front does not change with it: OpenGL turns the sign of the area along with the origin.
+    // The upper left origin brings the rows out from the top. Which side of a triangle is its front does not change
+    // with it: OpenGL turns the sign of the area along with the origin.
     gl_.clip_control(row_order == RowOrder::TopDown ? GL_UPPER_LEFT : GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_.front_face(GL_CCW);
     gl_.cull_face(GL_BACK);
@@ -81,8 +76,7 @@ void DrawState::cull_back_faces(bool cull) {
 void DrawState::blend(bool by_alpha) {
     if (by_alpha) {
         gl_.enable(GL_BLEND);
-        gl_.blend_func_separate(
-            GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        gl_.blend_func_separate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     } else {
         gl_.disable(GL_BLEND);
     }
@@ -109,8 +103,7 @@ void DrawState::use_program(const ProgramPair& programs, const Clip* clip) {
         std::array<glm::vec4, Clip::max_planes> planes;
         planes.fill(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)); // cuts nothing
         std::copy_n(clip->planes.begin(), clip->count, planes.begin());
-        gl_.program_uniform_4fv(
-            program.name(), planes_uniform, Clip::max_planes, glm::value_ptr(planes.front()));
+        gl_.program_uniform_4fv(program.name(), planes_uniform, Clip::max_planes, glm::value_ptr(planes.front()));
     }
 }
 

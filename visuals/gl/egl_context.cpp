@@ -17,9 +17,7 @@ bool has_word(const char* words, std::string_view wanted) {
     std::string_view rest = words == nullptr ? "" : words;
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find(' '), rest.size());
-        if (rest.substr(0, end) == wanted) {
-            return true;
-        }
+        if (rest.substr(0, end) == wanted) { return true; }
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     return false;
@@ -30,18 +28,16 @@ std::vector<EGLDisplay> surfaceless_displays() {
     const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     std::vector<EGLDisplay> displays;
     if (has_word(extensions, "EGL_MESA_platform_surfaceless")) {
-        displays.push_back(
-            eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+        displays.push_back(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
     }
-    const auto query_devices =
-        reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+    const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
     if (has_word(extensions, "EGL_EXT_platform_device") && query_devices != nullptr) {
         std::array<EGLDeviceEXT, 16> devices{};
         EGLint count = 0;
         query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count);
         for (EGLint i = 0; i < count; ++i) {
-            displays.push_back(eglGetPlatformDisplay(
-                EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
+            displays.push_back(
+                eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
         }
     }
     std::erase(displays, EGL_NO_DISPLAY);
@@ -50,8 +46,7 @@ std::vector<EGLDisplay> surfaceless_displays() {
 
 class EglContext final : public Context {
 public:
-    explicit EglContext(EGLDisplay display)
-        : display_(display) {
+    explicit EglContext(EGLDisplay display) : display_(display) {
         // Never terminated: EGL hands out the same display again and does not count its users.
         if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
             throw Error("expected EGL to initialise without a display, got a refusal");
@@ -61,22 +56,13 @@ public:
         EGLConfig config = nullptr;
         EGLint configs = 0;
         eglChooseConfig(display, requested_config.data(), &config, 1, &configs);
-        const std::array<EGLint, 9> wanted{
-            EGL_CONTEXT_MAJOR_VERSION,
-            4,
-            EGL_CONTEXT_MINOR_VERSION,
-            5,
-            EGL_CONTEXT_OPENGL_PROFILE_MASK,
-            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-            EGL_CONTEXT_OPENGL_DEBUG,
-            prints_debug_messages ? EGL_TRUE : EGL_FALSE,
-            EGL_NONE};
+        const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_CONTEXT_OPENGL_DEBUG,
+            prints_debug_messages ? EGL_TRUE : EGL_FALSE, EGL_NONE};
         if (configs > 0 && eglBindAPI(EGL_OPENGL_API) == EGL_TRUE) {
             context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
         }
-        if (context_ == EGL_NO_CONTEXT) {
-            throw Error("expected OpenGL 4.5, got no such context from EGL");
-        }
+        if (context_ == EGL_NO_CONTEXT) { throw Error("expected OpenGL 4.5, got no such context from EGL"); }
     }
 
     ~EglContext() override {
@@ -99,9 +85,7 @@ private:
         }
     }
 
-    void release() override {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
+    void release() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
     EGLDisplay display_;
     EGLContext context_ = EGL_NO_CONTEXT;
@@ -117,9 +101,7 @@ std::unique_ptr<Context> make_egl_context() {
             auto context = std::make_unique<EglContext>(display);
             context->start();
             return context;
-        } catch (const Error& error) {
-            fault = error.what();
-        }
+        } catch (const Error& error) { fault = error.what(); }
     }
     throw Error(fault);
 }

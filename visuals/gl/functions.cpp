@@ -9,16 +9,13 @@
 namespace octant::visuals::gl {
 namespace {
 
-/// Major and minor number at the start of a GL_VERSION text; 0, 0 when it starts otherwise (as
-/// "OpenGL ES 3.2" does).
+/// Major and minor number at the start of a GL_VERSION text; 0, 0 when it starts otherwise (as "OpenGL ES 3.2" does).
 std::pair<int, int> version_numbers(std::string_view version) {
     int major = 0;
     int minor = 0;
     const char* const end = version.data() + version.size();
     const auto [dot, major_fault] = std::from_chars(version.data(), end, major);
-    if (major_fault != std::errc() || dot == end || *dot != '.') {
-        return {0, 0};
-    }
+    if (major_fault != std::errc() || dot == end || *dot != '.') { return {0, 0}; }
     const auto [rest, minor_fault] = std::from_chars(dot + 1, end, minor);
     return minor_fault == std::errc() ? std::pair(major, minor) : std::pair(0, 0);
 }
@@ -26,9 +23,7 @@ std::pair<int, int> version_numbers(std::string_view version) {
 template <typename Function>
 void load(Function& function, const char* name, ProcAddressLookup look_up_address) {
     function = reinterpret_cast<Function>(look_up_address(name));
-    if (function == nullptr) {
-        throw Error(std::string("expected the driver to have ") + name + ", got nothing");
-    }
+    if (function == nullptr) { throw Error(std::string("expected the driver to have ") + name + ", got nothing"); }
 }
 
 } // namespace

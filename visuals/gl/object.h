@@ -13,21 +13,13 @@ public:
 
     Object() = default;
 
-    Object(const Functions& gl, GLuint name, Delete deleter)
-        : gl_(&gl)
-        , name_(name)
-        , delete_(deleter) {}
+    Object(const Functions& gl, GLuint name, Delete deleter) : gl_(&gl), name_(name), delete_(deleter) {}
 
     ~Object() {
-        if (name_ != 0) {
-            delete_(*gl_, name_);
-        }
+        if (name_ != 0) { delete_(*gl_, name_); }
     }
 
-    Object(Object&& other) noexcept
-        : gl_(other.gl_)
-        , name_(std::exchange(other.name_, 0U))
-        , delete_(other.delete_) {}
+    Object(Object&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0U)), delete_(other.delete_) {}
 
     Object& operator=(Object&& other) noexcept {
         std::swap(gl_, other.gl_);

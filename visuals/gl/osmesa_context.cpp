@@ -11,8 +11,8 @@
 namespace octant::visuals::gl {
 namespace {
 
-/// OSMesa is opened when the first context is made: it brings a compiler with it, which takes as
-/// long to load as everything else that a program does at its start.
+/// OSMesa is opened when the first context is made: it brings a compiler with it, which takes as long to load as
+/// everything else that a program does at its start.
 constinit LazyLibrary osmesa_library(OCTANT_OSMESA_FILE);
 
 #define OCTANT_OSMESA(name) const LazyFunction<decltype(::name)> name(osmesa_library, #name)
@@ -28,22 +28,10 @@ constexpr int unused_px = 16;
 class OsmesaContext final : public Context {
 public:
     OsmesaContext() {
-        const std::array<int, 11> wanted{
-            OSMESA_FORMAT,
-            OSMESA_RGBA,
-            OSMESA_PROFILE,
-            OSMESA_CORE_PROFILE,
-            OSMESA_CONTEXT_MAJOR_VERSION,
-            4,
-            OSMESA_CONTEXT_MINOR_VERSION,
-            5,
-            OSMESA_DEPTH_BITS,
-            0,
-            0};
+        const std::array<int, 11> wanted{OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+            OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, OSMESA_DEPTH_BITS, 0, 0};
         context_ = OSMesaCreateContextAttribs(wanted.data(), nullptr);
-        if (context_ == nullptr) {
-            throw Error("expected OpenGL 4.5, got no such context from OSMesa");
-        }
+        if (context_ == nullptr) { throw Error("expected OpenGL 4.5, got no such context from OSMesa"); }
     }
 
     ~OsmesaContext() override {
@@ -60,8 +48,7 @@ public:
 
 private:
     void bind() override {
-        if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, unused_px, unused_px) ==
-            GL_FALSE) {
+        if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, unused_px, unused_px) == GL_FALSE) {
             throw Error("expected OSMesa to make its context current, got a refusal");
         }
     }

@@ -21,14 +21,12 @@ constexpr GLuint atlas_input = 2;
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 18;
 
-Object
-make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm::ivec2& size) {
+Object make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm::ivec2& size) {
     assert(texels.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     Object texture = make_texture(gl, "panel atlas");
     gl.texture_storage_2d(texture.name(), 1, GL_R8, size.x, size.y);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
-    gl.texture_sub_image_2d(
-        texture.name(), 0, 0, 0, size.x, size.y, GL_RED, GL_UNSIGNED_BYTE, texels.data());
+    gl.texture_sub_image_2d(texture.name(), 0, 0, 0, size.x, size.y, GL_RED, GL_UNSIGNED_BYTE, texels.data());
     gl.texture_parameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.texture_parameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
@@ -46,19 +44,13 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 
 } // namespace
 
-PanelPainter::PanelPainter(
-    Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
-    : context_(context)
-    , gl_(context.current_functions())
-    , program_(make_program(gl_, "panels", {panel_vert, panel_frag}))
-    , atlas_(make_atlas(gl_, atlas, size))
-    , vertices_(gl_, "panel vertices", first_capacity_bytes)
-    , indices_(gl_, "panel indices", first_capacity_bytes)
-    , array_(make_array(gl_, vertices_, indices_)) {}
+PanelPainter::PanelPainter(Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
+    : context_(context), gl_(context.current_functions()),
+      program_(make_program(gl_, "panels", {panel_vert, panel_frag})), atlas_(make_atlas(gl_, atlas, size)),
+      vertices_(gl_, "panel vertices", first_capacity_bytes), indices_(gl_, "panel indices", first_capacity_bytes),
+      array_(make_array(gl_, vertices_, indices_)) {}
 
-PanelPainter::~PanelPainter() {
-    context_.make_current();
-}
+PanelPainter::~PanelPainter() { context_.make_current(); }
 
 void PanelPainter::begin(const PanelSurface& surface) {
     context_.make_current();
@@ -84,23 +76,16 @@ void PanelPainter::end() {
 }
 
 void PanelPainter::draw(
-    std::span<const PanelVertex> vertices,
-    std::span<const std::uint16_t> indices,
-    std::span<const PanelDraw> draws) {
+    std::span<const PanelVertex> vertices, std::span<const std::uint16_t> indices, std::span<const PanelDraw> draws) {
     vertices_.fill({std::as_bytes(vertices)});
     indices_.fill({std::as_bytes(indices)});
     const glm::vec2 px_per_unit = glm::vec2(surface_.size_px) / surface_.size;
     for (const PanelDraw& each : draws) {
         const glm::ivec2 least(glm::floor(each.least * px_per_unit));
         const glm::ivec2 most(glm::ceil(each.most * px_per_unit));
-        if (each.index_count == 0 || most.x <= least.x || most.y <= least.y) {
-            continue;
-        }
+        if (each.index_count == 0 || most.x <= least.x || most.y <= least.y) { continue; }
         gl_.scissor(least.x, surface_.size_px.y - most.y, most.x - least.x, most.y - least.y);
-        gl_.draw_elements_base_vertex(
-            GL_TRIANGLES,
-            static_cast<GLsizei>(each.index_count),
-            GL_UNSIGNED_SHORT,
+        gl_.draw_elements_base_vertex(GL_TRIANGLES, static_cast<GLsizei>(each.index_count), GL_UNSIGNED_SHORT,
             reinterpret_cast<const void*>(each.first_index * sizeof(std::uint16_t)),
             static_cast<GLint>(each.first_vertex));
     }

@@ -37,8 +37,8 @@ struct PanelSurface {
 /// Draws user-interface triangles over a window. Makes the window's context current by itself.
 class PanelPainter {
 public:
-    /// `atlas`: one byte a texel, `size` of them, row by row: how much is covered. Not filtered:
-    /// glyphs are to lie on whole pixels. The context must outlive the painter.
+    /// `atlas`: one byte a texel, `size` of them, row by row: how much is covered. Not filtered: glyphs are to lie on
+    /// whole pixels. The context must outlive the painter.
     PanelPainter(Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size);
     ~PanelPainter();
     PanelPainter(const PanelPainter&) = delete;
@@ -46,15 +46,12 @@ public:
     PanelPainter(PanelPainter&&) = delete;
     PanelPainter& operator=(PanelPainter&&) = delete;
 
-    /// To be called before the draw()s of a picture and after them, with nothing drawn otherwise
-    /// between.
+    /// To be called before the draw()s of a picture and after them, with nothing drawn otherwise between.
     void begin(const PanelSurface& surface);
     void end();
 
     /// One list of triangles.
-    void draw(
-        std::span<const PanelVertex> vertices,
-        std::span<const std::uint16_t> indices,
+    void draw(std::span<const PanelVertex> vertices, std::span<const std::uint16_t> indices,
         std::span<const PanelDraw> draws);
 
 private:

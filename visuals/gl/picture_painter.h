@@ -12,8 +12,8 @@
 
 namespace octant::visuals::gl {
 
-/// Puts pictures that were made elsewhere into a context's window: straight by memory shared with
-/// the display where a processor draws, else by a texture.
+/// Puts pictures that were made elsewhere into a context's window: straight by memory shared with the display where a
+/// processor draws, else by a texture.
 class PicturePainter final : public scene::WindowPicture {
 public:
     explicit PicturePainter(std::shared_ptr<WindowContext> context);
@@ -26,11 +26,9 @@ public:
     std::uint8_t* begin(const glm::ivec2& size_px) override;
     void show(const glm::ivec2& window_px) override;
 
-    /// Whether show() puts the picture into a window of this size without OpenGL: nothing is to be
-    /// drawn over it and no buffers are to be swapped then.
-    bool presents_directly(const glm::ivec2& window_px) const {
-        return shared_ && window_px == size_px_;
-    }
+    /// Whether show() puts the picture into a window of this size without OpenGL: nothing is to be drawn over it and no
+    /// buffers are to be swapped then.
+    bool presents_directly(const glm::ivec2& window_px) const { return shared_ && window_px == size_px_; }
 
     /// Of the picture at hand, as begin() gave them.
     std::uint8_t* pixels() { return shared_ ? shared_->pixels() : own_.data(); }

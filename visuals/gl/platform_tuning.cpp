@@ -17,8 +17,7 @@ namespace {
 std::optional<int> number_in(std::string_view text) {
     int number = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return fault == std::errc() && end == text.data() + text.size() ? std::optional(number)
-                                                                    : std::nullopt;
+    return fault == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 /// Kernel's numbers of the threads that Mesa named "llvmpipe-0", "llvmpipe-1", ...
@@ -29,9 +28,7 @@ std::vector<pid_t> raster_threads() {
         std::string name;
         std::getline(std::ifstream(task.path() / "comm"), name);
         const std::optional<int> id = number_in(task.path().filename().string());
-        if (name.starts_with("llvmpipe-") && id) {
-            threads.push_back(*id);
-        }
+        if (name.starts_with("llvmpipe-") && id) { threads.push_back(*id); }
     }
     return threads;
 }
@@ -43,9 +40,7 @@ std::vector<int> allowed_cpus() {
     CPU_ZERO(&allowed);
     if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) {
         for (int i = 0; i < CPU_SETSIZE; ++i) {
-            if (CPU_ISSET(static_cast<unsigned>(i), &allowed)) {
-                processors.push_back(i);
-            }
+            if (CPU_ISSET(static_cast<unsigned>(i), &allowed)) { processors.push_back(i); }
         }
     }
     return processors;
@@ -64,9 +59,7 @@ void tune_allocator() {
 int spread_raster_threads() {
     const std::vector<pid_t> threads = raster_threads();
     const std::vector<int> processors = allowed_cpus();
-    if (processors.empty() || processors.size() > threads.size()) {
-        return 0;
-    }
+    if (processors.empty() || processors.size() > threads.size()) { return 0; }
     int placed = 0;
     for (std::size_t i = 0; i < threads.size(); ++i) {
         cpu_set_t one;

@@ -9,24 +9,18 @@
 namespace octant::visuals::gl {
 namespace {
 
-std::string first_line(const std::string& text) {
-    return printable(text.substr(0, text.find('\n')));
-}
+std::string first_line(const std::string& text) { return printable(text.substr(0, text.find('\n'))); }
 
 Object make_shader(const Functions& gl, const char* name, GLenum kind, const char* text) {
-    Object shader(
-        gl, gl.create_shader(kind), [](const Functions& f, GLuint n) { f.delete_shader(n); });
+    Object shader(gl, gl.create_shader(kind), [](const Functions& f, GLuint n) { f.delete_shader(n); });
     gl.shader_source(shader.name(), 1, &text, nullptr);
     gl.compile_shader(shader.name());
     GLint compiled = GL_FALSE;
     gl.get_shaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_FALSE) {
         std::array<char, 1000> log{};
-        gl.get_shader_info_log(
-            shader.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw Error(
-            std::string("shader ") + name + ": expected it to compile, got " +
-            first_line(log.data()));
+        gl.get_shader_info_log(shader.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+        throw Error(std::string("shader ") + name + ": expected it to compile, got " + first_line(log.data()));
     }
     return shader;
 }
@@ -43,12 +37,8 @@ std::string with_definitions(const char* text, std::initializer_list<const char*
 } // namespace
 
 Object make_program(
-    const Functions& gl,
-    const char* name,
-    const ProgramText& text,
-    std::initializer_list<const char*> defined) {
-    Object program(
-        gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });
+    const Functions& gl, const char* name, const ProgramText& text, std::initializer_list<const char*> defined) {
+    Object program(gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });
     label_object(gl, GL_PROGRAM, program.name(), name);
     const auto attach = [&](GLenum kind, const char* stage) {
         if (stage != nullptr) {
@@ -64,10 +54,8 @@ Object make_program(
     gl.get_programiv(program.name(), GL_LINK_STATUS, &linked);
     if (linked == GL_FALSE) {
         std::array<char, 1000> log{};
-        gl.get_program_info_log(
-            program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw Error(
-            std::string("shader ") + name + ": expected it to link, got " + first_line(log.data()));
+        gl.get_program_info_log(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+        throw Error(std::string("shader ") + name + ": expected it to link, got " + first_line(log.data()));
     }
     return program;
 }

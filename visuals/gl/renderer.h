@@ -29,14 +29,10 @@ struct ModelInstance {
 
 /// The vertex array of scene::ModelVertex, one ModelInstance an instance.
 Object make_model_array(
-    const Functions& gl,
-    GLuint vertices,
-    GLuint indices,
-    GLuint instances,
-    const char* label = "aircraft");
+    const Functions& gl, GLuint vertices, GLuint indices, GLuint instances, const char* label = "aircraft");
 
-/// Draws FramePlan::refined: meshes that are uploaded anew for each picture, by the programs and
-/// the buffers of the aircraft. From a plan's upload on, each step is one of that plan.
+/// Draws FramePlan::refined: meshes that are uploaded anew for each picture, by the programs and the buffers of the
+/// aircraft. From a plan's upload on, each step is one of that plan.
 class RefinedPainter {
 public:
     RefinedPainter(const Functions& gl, DrawState& state);
@@ -86,8 +82,8 @@ private:
     std::size_t index_count_ = 0;
 };
 
-/// Colour (8 bits a part) and depth (32-bit float) to draw into, with 1 or 4 samples a pixel.
-/// Rows come out from the top when it was drawn with the clip origin at the upper left.
+/// Colour (8 bits a part) and depth (32-bit float) to draw into, with 1 or 4 samples a pixel. Rows come out from the
+/// top when it was drawn with the clip origin at the upper left.
 class Framebuffer {
 public:
     /// Throws Error when the driver cannot hold that size or `samples` is neither 1 nor 4.
@@ -103,16 +99,16 @@ public:
     /// The framebuffer object to draw into the same colour, without depth.
     GLuint name_without_depth() const { return without_depth_.name(); }
 
-    /// Waits for the drawing and copies it, 4 * width * height bytes (asserted). Several samples
-    /// are averaged. Leaves another framebuffer bound.
+    /// Waits for the drawing and copies it, 4 * width * height bytes (asserted). Several samples are averaged. Leaves
+    /// another framebuffer bound.
     void read(std::span<std::uint8_t> rgba) const;
 
     bool fits(const glm::ivec2& size_px, int samples) const {
         return size_px == glm::ivec2(width_, height_) && samples == samples_;
     }
 
-    /// Copies it upside down into the lower left corner of another framebuffer, so that rows drawn
-    /// from the top stand upright in a window; stretched where `size_px` is another size.
+    /// Copies it upside down into the lower left corner of another framebuffer, so that rows drawn from the top stand
+    /// upright in a window; stretched where `size_px` is another size.
     void copy_to(GLuint target, const glm::ivec2& size_px) const;
 
 private:
@@ -152,8 +148,7 @@ public:
     /// Puts an aircraft 100 m ahead into a plan without any, if a model is loaded.
     void add_one_of_each(scene::FramePlan& plan) const;
 
-    /// A step of Aircraft, by one call unless aircraft of one range and of several take turns. No
-    /// clip = not cut.
+    /// A step of Aircraft, by one call unless aircraft of one range and of several take turns. No clip = not cut.
     void draw(const scene::PaintStep& step, const scene::Clip* clip);
 
 private:
@@ -173,8 +168,7 @@ private:
         GLuint first_instance = 0; ///< of instance_buffer_
     };
 
-    /// Appends the indices of a draw of several ranges to joined_indices_ and lets its command read them
-    /// there.
+    /// Appends the indices of a draw of several ranges to joined_indices_ and lets its command read them there.
     void append_ranges(const scene::AircraftDraw& draw, Command& command);
     void draw_commands(std::size_t first, std::size_t count);
 
@@ -193,29 +187,28 @@ private:
     Object array_;
     Object joined_array_; ///< with joined_index_buffer_ in place of model_indices_
     std::vector<ModelRange> models_;
-    std::vector<std::uint32_t> indices_;    ///< of all models
-    std::vector<std::uint32_t> joined_indices_;   ///< of the draws of several ranges, one after the other
-    std::vector<Command> commands_;         ///< one for each aircraft
+    std::vector<std::uint32_t> indices_;            ///< of all models
+    std::vector<std::uint32_t> joined_indices_;     ///< of the draws of several ranges, one after the other
+    std::vector<Command> commands_;                 ///< one for each aircraft
     std::vector<std::uint8_t> uses_joined_indices_; ///< whether a command reads joined_index_buffer_
     std::vector<ModelInstance> instances_;
     bool has_depth_drawn_meshes_ = false;
 };
 
-/// Draws frame plans by OpenGL into a picture of its own, with a 32-bit float depth buffer that is
-/// attached only where a plan asks for depth.
+/// Draws frame plans by OpenGL into a picture of its own, with a 32-bit float depth buffer that is attached only where
+/// a plan asks for depth.
 ///
-/// Colours are display values from input to picture: nothing is converted. Back faces of aircraft
-/// are not drawn. Those of the ground are: the plan has left them out but for triangles seen
-/// edge-on, which the driver must judge by the positions it draws. A flat triangle of an aircraft
-/// has the colour of its first vertex: a polygon split into a fan around its first corner keeps one
-/// colour.
+/// Colours are display values from input to picture: nothing is converted. Back faces of aircraft are not drawn. Those
+/// of the ground are: the plan has left them out but for triangles seen edge-on, which the driver must judge by the
+/// positions it draws. A flat triangle of an aircraft has the colour of its first vertex: a polygon split into a fan
+/// around its first corner keeps one colour.
 ///
-/// Every call that needs it makes the context current by itself, so that renderers can take turns
-/// in a thread. A change from one context to another takes 1 or 2 us.
+/// Every call that needs it makes the context current by itself, so that renderers can take turns in a thread. A change
+/// from one context to another takes 1 or 2 us.
 class Renderer final : public scene::Renderer {
 public:
-    /// Picture size in pixels, 1 or 4 samples a pixel. The context stays alive as long as a
-    /// renderer that draws with it. Throws Error when the driver cannot.
+    /// Picture size in pixels, 1 or 4 samples a pixel. The context stays alive as long as a renderer that draws with
+    /// it. Throws Error when the driver cannot.
     Renderer(std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples);
     ~Renderer() override;
     Renderer(const Renderer&) = delete;
@@ -238,8 +231,8 @@ public:
 
     int draw_calls() const override { return state_.draw_calls(); }
 
-    /// Pictures are drawn straight into framebuffer 0, the window's, where they have its size, one
-    /// sample a pixel and no depth, not even for meshes that later plans may draw.
+    /// Pictures are drawn straight into framebuffer 0, the window's, where they have its size, one sample a pixel and
+    /// no depth, not even for meshes that later plans may draw.
     void set_window_target(const glm::ivec2& window_px) override { window_px_ = window_px; }
 
     bool is_drawn_to_window() const override { return row_order_ == RowOrder::BottomUp; }

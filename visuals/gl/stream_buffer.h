@@ -8,8 +8,8 @@
 
 namespace octant::visuals::gl {
 
-/// A buffer that is filled anew for each picture. Its old memory is given up first, so that the
-/// driver need not wait for the picture before; its size only grows.
+/// A buffer that is filled anew for each picture. Its old memory is given up first, so that the driver need not wait
+/// for the picture before; its size only grows.
 class StreamBuffer {
 public:
     /// `label`: what debug messages call it.

@@ -1,4 +1,5 @@
 #include "visuals/gl/triangle_painter.h"
+
 #include "sim/base/error.h"
 #include "visuals/gl/context.h"
 #include "visuals/gl/object.h"
@@ -29,9 +30,8 @@ enum class TextureKind {
     Slopes   ///< x and y of a normal: 2 bytes a texel
 };
 
-/// A texture with all its mip levels, filtered between them (trilinear), on a GPU also along the
-/// line of sight (anisotropic); beyond its edge it continues as at the edge. Throws Error when the
-/// driver has no memory for it.
+/// A texture with all its mip levels, filtered between them (trilinear), on a GPU also along the line of sight
+/// (anisotropic); beyond its edge it continues as at the edge. Throws Error when the driver has no memory for it.
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
 
 /// A texel for each kind (up) and pattern (right): the shares by which a colour changes.
@@ -45,9 +45,7 @@ bool has_extension(const Functions& gl, std::string_view name) {
     gl.get_integerv(GL_NUM_EXTENSIONS, &count);
     for (GLint i = 0; i < count; ++i) {
         const GLubyte* const found = gl.get_stringi(GL_EXTENSIONS, static_cast<GLuint>(i));
-        if (found != nullptr && name == reinterpret_cast<const char*>(found)) {
-            return true;
-        }
+        if (found != nullptr && name == reinterpret_cast<const char*>(found)) { return true; }
     }
     return false;
 }
@@ -61,11 +59,10 @@ void set_filters(const Functions& gl, const Object& texture, GLenum beyond) {
     set(GL_TEXTURE_WRAP_S, beyond);
     set(GL_TEXTURE_WRAP_T, beyond);
     if (!is_software_renderer(gl) && (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
-                                    has_extension(gl, "GL_ARB_texture_filter_anisotropic"))) {
+                                         has_extension(gl, "GL_ARB_texture_filter_anisotropic"))) {
         GLfloat most = 1.0F;
         gl.get_floatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &most);
-        gl.texture_parameterf(
-            texture.name(), GL_TEXTURE_MAX_ANISOTROPY, std::min(most, max_anisotropy));
+        gl.texture_parameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, std::min(most, max_anisotropy));
     }
 }
 
@@ -73,30 +70,16 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
     const bool colours = kind == TextureKind::Colours;
     Object texture = make_texture(gl, colours ? "ground colours" : "ground slopes");
     const auto longer_side = static_cast<unsigned>(std::max(image.width, image.height));
-    gl.texture_storage_2d(
-        texture.name(),
-        static_cast<GLsizei>(std::bit_width(longer_side)),
-        colours ? GL_RGB8 : GL_RG8,
-        image.width,
-        image.height);
+    gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(std::bit_width(longer_side)), colours ? GL_RGB8 : GL_RG8,
+        image.width, image.height);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
-    gl.texture_sub_image_2d(
-        texture.name(),
-        0,
-        0,
-        0,
-        image.width,
-        image.height,
-        colours ? GL_RGB : GL_RG,
-        GL_UNSIGNED_BYTE,
-        image.texels.data());
+    gl.texture_sub_image_2d(texture.name(), 0, 0, 0, image.width, image.height, colours ? GL_RGB : GL_RG,
+        GL_UNSIGNED_BYTE, image.texels.data());
     gl.generate_texture_mipmap(texture.name());
     set_filters(gl, texture, GL_CLAMP_TO_EDGE);
     if (gl.get_error() != GL_NO_ERROR) {
-        throw Error(fmt::format(
-            "expected memory for a ground texture of {} x {} texels, got a refusal by the driver",
-            image.width,
-            image.height));
+        throw Error(fmt::format("expected memory for a ground texture of {} x {} texels, got a refusal by the driver",
+            image.width, image.height));
     }
     return texture;
 }
@@ -111,15 +94,7 @@ Object make_detail_texture(const Functions& gl) {
     GLint number = 0;
     for (const scene::DetailPattern& level : levels) {
         gl.texture_sub_image_2d(
-            texture.name(),
-            number++,
-            0,
-            0,
-            level.size,
-            level.size,
-            GL_RED,
-            GL_UNSIGNED_BYTE,
-            level.texels.data());
+            texture.name(), number++, 0, 0, level.size, level.size, GL_RED, GL_UNSIGNED_BYTE, level.texels.data());
     }
     set_filters(gl, texture, GL_REPEAT);
     return texture;
@@ -131,14 +106,11 @@ Object make_texture(const Functions& gl, const scene::LandCoverContrast& contras
     constexpr std::uint32_t signs = 0x80200800U;
     std::vector<std::uint32_t> shares;
     shares.reserve(contrast.table().size());
-    for (const std::uint32_t entry : contrast.table()) {
-        shares.push_back(entry ^ signs);
-    }
+    for (const std::uint32_t entry : contrast.table()) { shares.push_back(entry ^ signs); }
     constexpr GLsizei width = scene::LandCoverContrast::pattern_step_count;
     constexpr GLsizei height = scene::LandCoverContrast::mixture_count;
     gl.texture_storage_2d(texture.name(), 1, GL_RGB10_A2, width, height);
-    gl.texture_sub_image_2d(
-        texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_INT_10_10_10_2, shares.data());
+    gl.texture_sub_image_2d(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_INT_10_10_10_2, shares.data());
     return texture;
 }
 
@@ -166,18 +138,13 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 } // namespace
 
 TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
-    : gl_(gl)
-    , state_(state)
-    , ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag}))
-    , sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}
-    , detail_texture_(make_detail_texture(gl))
-    , vertices_(gl, "ground and sky vertices", first_capacity_bytes)
-    , indices_(gl, "ground and sky indices", first_capacity_bytes)
-    , array_(make_array(gl, vertices_, indices_)) {}
+    : gl_(gl), state_(state), ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag})),
+      sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}, detail_texture_(make_detail_texture(gl)),
+      vertices_(gl, "ground and sky vertices", first_capacity_bytes),
+      indices_(gl, "ground and sky indices", first_capacity_bytes), array_(make_array(gl, vertices_, indices_)) {}
 
 void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
-    texture_ = {
-        make_program_pair(gl_, "textured ground", {ground_textured_vert, ground_textured_frag}),
+    texture_ = {make_program_pair(gl_, "textured ground", {ground_textured_vert, ground_textured_frag}),
         make_texture(gl_, texture.albedo, TextureKind::Colours),
         make_texture(gl_, texture.normal, TextureKind::Slopes)};
 }
@@ -185,12 +152,10 @@ void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
 /// The programs that show the mesh are made when first asked for: few runs look at it.
 void TrianglePainter::use_mesh_display(const scene::FramePlan& plan) {
     shows_mesh_ = plan.mesh_display != scene::MeshDisplay::None;
-    if (!shows_mesh_) {
-        return;
-    }
+    if (!shows_mesh_) { return; }
     if (!mesh_programs_) {
-        mesh_programs_ = make_program_pair(
-            gl_, "ground's mesh", {ground_vert, ground_mesh_frag, ground_mesh_geom}, "MESH");
+        mesh_programs_ =
+            make_program_pair(gl_, "ground's mesh", {ground_vert, ground_mesh_frag, ground_mesh_geom}, "MESH");
     }
     const std::array<float, 4> look{
         plan.sample_spacing_m, plan.mesh_display == scene::MeshDisplay::Levels ? 1.0F : 0.0F, 0.0F, 0.0F};
@@ -200,9 +165,7 @@ void TrianglePainter::use_mesh_display(const scene::FramePlan& plan) {
 }
 
 void TrianglePainter::use_detail_texture(const scene::FramePlan& plan) {
-    if (!plan.detail_texture) {
-        return;
-    }
+    if (!plan.detail_texture) { return; }
     if (plan.detail_texture->contrast != uploaded_contrast_) {
         uploaded_contrast_ = plan.detail_texture->contrast;
         contrast_ = make_texture(gl_, *uploaded_contrast_);
@@ -215,8 +178,7 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
     use_mesh_display(plan);
     has_polygon_numbers_ = plan.ground_has_polygon_numbers;
     if (has_polygon_numbers_ && !polygon_number_programs_) {
-        polygon_number_programs_ =
-            make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, "NUMBERS");
+        polygon_number_programs_ = make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, "NUMBERS");
     }
     use_detail_texture(plan);
     is_textured_ = plan.ground_texture.has_value();
@@ -228,13 +190,8 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
     const std::span shadow_vertices(plan.shadow_vertices);
     const std::span again(plan.repaint_indices);
     vertices_.fill(
-        {std::as_bytes(plan.ground.vertices),
-         std::as_bytes(shadow_vertices),
-         std::as_bytes(plan.sky.vertices)});
-    indices_.fill(
-        {std::as_bytes(plan.ground.indices),
-         std::as_bytes(again),
-         std::as_bytes(plan.sky.indices)});
+        {std::as_bytes(plan.ground.vertices), std::as_bytes(shadow_vertices), std::as_bytes(plan.sky.vertices)});
+    indices_.fill({std::as_bytes(plan.ground.indices), std::as_bytes(again), std::as_bytes(plan.sky.indices)});
     ground_ = {0, plan.ground.indices.size()};
     repaint_range_ = {ground_.count, again.size()};
     sky_ = {repaint_range_.first + repaint_range_.count, plan.sky.indices.size()};
@@ -246,27 +203,18 @@ void TrianglePainter::draw(const PaintStep& step, const scene::Clip* clip) {
     const Range& list = is_sky ? sky_ : step.content == PaintStep::Content::Ground ? ground_ : repaint_range_;
     assert(std::size_t{step.first} + step.count <= list.count);
     assert(clip == nullptr || !is_sky);
-    if (step.count == 0) {
-        return;
-    }
+    if (step.count == 0) { return; }
     const bool depth_only = step.depth == scene::DepthUse::DepthOnly;
-    if (depth_only) {
-        gl_.color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    }
+    if (depth_only) { gl_.color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); }
     state_.use_depth(step.depth);
     state_.use_program(is_sky ? sky_programs_ : ground_programs(), clip);
     state_.cull_back_faces(false);
     gl_.bind_vertex_array(array_.name());
-    gl_.draw_elements_base_vertex(
-        GL_TRIANGLES,
-        static_cast<GLsizei>(step.count),
-        GL_UNSIGNED_INT,
+    gl_.draw_elements_base_vertex(GL_TRIANGLES, static_cast<GLsizei>(step.count), GL_UNSIGNED_INT,
         reinterpret_cast<const void*>((list.first + step.first) * sizeof(std::uint32_t)),
         is_sky ? first_sky_vertex_ : 0);
     state_.count_draw_call();
-    if (depth_only) {
-        gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    }
+    if (depth_only) { gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); }
 }
 
 } // namespace octant::visuals::gl

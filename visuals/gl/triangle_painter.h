@@ -12,14 +12,13 @@
 
 namespace octant::visuals::gl {
 
-/// Draws what lies in world axes: ground, shadows, sky. From a plan's upload on, each step is one
-/// of that plan.
+/// Draws what lies in world axes: ground, shadows, sky. From a plan's upload on, each step is one of that plan.
 class TrianglePainter {
 public:
     TrianglePainter(const Functions& gl, DrawState& state);
 
-    /// Uploads the ground's texture in place of one loaded before. Throws Error and keeps that one
-    /// when the driver has no memory for it.
+    /// Uploads the ground's texture in place of one loaded before. Throws Error and keeps that one when the driver has
+    /// no memory for it.
     void load_texture(const scene::GroundTexture& texture);
 
     bool has_texture() const { return texture_.has_value(); }
@@ -43,10 +42,10 @@ private:
     };
 
     const ProgramPair& ground_programs() const {
-        return shows_mesh_    ? *mesh_programs_
-               : is_textured_    ? texture_->programs
+        return shows_mesh_            ? *mesh_programs_
+               : is_textured_         ? texture_->programs
                : has_polygon_numbers_ ? *polygon_number_programs_
-                              : ground_programs_;
+                                      : ground_programs_;
     }
 
     void use_mesh_display(const scene::FramePlan& plan);
@@ -62,11 +61,11 @@ private:
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
     std::optional<ProgramPair> polygon_number_programs_;
-    bool shows_mesh_ = false;  ///< as the plan says
-    bool is_textured_ = false;    ///< as the plan says
+    bool shows_mesh_ = false;          ///< as the plan says
+    bool is_textured_ = false;         ///< as the plan says
     bool has_polygon_numbers_ = false; ///< as the plan says
-    StreamBuffer vertices_;    ///< ground, shadows, sky
-    StreamBuffer indices_;     ///< ground, what is painted again, sky
+    StreamBuffer vertices_;            ///< ground, shadows, sky
+    StreamBuffer indices_;             ///< ground, what is painted again, sky
     Object array_;
     Range ground_;
     Range repaint_range_;

@@ -27,14 +27,9 @@ void add_place_input(const Functions& gl, const Object& array, GLuint input, std
 
 /// Four bytes at `offset` of each element of the array's buffer `binding`, 255 read as 1.
 void add_colour_input(
-    const Functions& gl,
-    const Object& array,
-    std::size_t offset,
-    GLuint input = colour_input,
-    GLuint binding = 0);
+    const Functions& gl, const Object& array, std::size_t offset, GLuint input = colour_input, GLuint binding = 0);
 
 /// A 32-bit number at `offset` of each element of the array's buffer `binding`.
-void add_number_input(
-    const Functions& gl, const Object& array, GLuint input, GLuint binding, std::size_t offset);
+void add_number_input(const Functions& gl, const Object& array, GLuint input, GLuint binding, std::size_t offset);
 
 } // namespace octant::visuals::gl

@@ -23,8 +23,7 @@ public:
     Library() {
         if (glfwInit() != GLFW_TRUE) {
             throw Error(fmt::format(
-                "expected a display to open a window on, got none ({}); octant fly needs none",
-                fault_text()));
+                "expected a display to open a window on, got none ({}); octant fly needs none", fault_text()));
         }
     }
 
@@ -46,12 +45,10 @@ public:
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
-        window_ = glfwCreateWindow(
-            options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+        window_ = glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
         if (window_ == nullptr) {
-            throw Error(fmt::format(
-                "expected a display driver with OpenGL 4.5, got none ({}); octant fly draws "
-                "without a display's driver",
+            throw Error(fmt::format("expected a display driver with OpenGL 4.5, got none ({}); octant fly draws "
+                                    "without a display's driver",
                 fault_text()));
         }
     }

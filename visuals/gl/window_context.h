@@ -33,8 +33,7 @@ protected:
     WindowContext() = default;
 };
 
-/// Opens a window, current in this thread. Throws Error where there is no display or the driver has
-/// no OpenGL 4.5.
+/// Opens a window, current in this thread. Throws Error where there is no display or the driver has no OpenGL 4.5.
 std::unique_ptr<WindowContext> make_window_context(const WindowOptions& options);
 
 } // namespace octant::visuals::gl

@@ -1,6 +1,7 @@
-// Opens imported grounds. A file of 16385 x 16385 samples is 940 MB; mapping it makes flights over
-// it start at once, and only the tiles that a mesh looks at are read.
+// Opens imported grounds. A file of 16385 x 16385 samples is 940 MB; mapping it makes flights over it start at once,
+// and only the tiles that a mesh looks at are read.
 #include "visuals/groundfile/ground_file.h"
+
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/parallel_for.h"
@@ -32,13 +33,12 @@ namespace octant::visuals::groundfile {
 
 namespace {
 
-/// The tiles of a mapped file, each held against its checksum when it is first read. A bad one is
-/// mended in memory (tile_mender.h), never in the file, and goes into damage_tally.h.
+/// The tiles of a mapped file, each held against its checksum when it is first read. A bad one is mended in memory
+/// (tile_mender.h), never in the file, and goes into damage_tally.h.
 class ChecksumValidator final : public terrain::TileValidator {
 public:
     /// A finished file, sound before its tiles, mapped with Access::CopyOnWrite, and its header.
-    ChecksumValidator(
-        std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header);
+    ChecksumValidator(std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header);
 
 private:
     /// Whether a tile's bytes in the file are those of its checksum; of a mended one: no.
@@ -62,8 +62,8 @@ struct TileId {
 /// Whether the tile of a level is sound in the file.
 using TileCheck = std::function<bool(int level, std::size_t tile)>;
 
-using terrain::NodePart;
 using terrain::MorphMargin;
+using terrain::NodePart;
 
 constexpr std::array<NodePart, 3> parts = {NodePart::Centre, NodePart::South, NodePart::West};
 constexpr std::uint8_t greatest_code = 255;
@@ -77,30 +77,17 @@ struct GridIndex {
 
 class TileRepair {
 public:
-    TileRepair(
-        const TileCheck& is_intact,
-        const GroundTiles& ground,
-        TileId number,
-        std::span<std::byte> bytes)
-        : is_intact_(is_intact)
-        , ground_(ground)
-        , level_(number.level)
-        , at_(ground.layout().level(number.level))
-        , first_{
-              static_cast<int>(number.tile % static_cast<std::size_t>(at_.tiles_across))
-                  << at_.tile_shift,
-              static_cast<int>(number.tile / static_cast<std::size_t>(at_.tiles_across))
-                  << at_.tile_shift}
-        , end_{std::min(first_.column + side(), at_.columns), std::min(first_.row + side(), at_.rows)}
-        , bytes_(bytes) {}
+    TileRepair(const TileCheck& is_intact, const GroundTiles& ground, TileId number, std::span<std::byte> bytes)
+        : is_intact_(is_intact), ground_(ground), level_(number.level), at_(ground.layout().level(number.level)),
+          first_{static_cast<int>(number.tile % static_cast<std::size_t>(at_.tiles_across)) << at_.tile_shift,
+              static_cast<int>(number.tile / static_cast<std::size_t>(at_.tiles_across)) << at_.tile_shift},
+          end_{std::min(first_.column + side(), at_.columns), std::min(first_.row + side(), at_.rows)}, bytes_(bytes) {}
 
     void repair() {
         std::fill(bytes_.begin(), bytes_.end(), std::byte{0});
         for (int row = first_.row; row < end_.row; ++row) {
             for (int column = first_.column; column < end_.column; ++column) {
-                for (const NodePart part : parts) {
-                    write_height(part, {column, row}, height(part, {column, row}));
-                }
+                for (const NodePart part : parts) { write_height(part, {column, row}, height(part, {column, row})); }
             }
         }
         // Where both rooms share a place, the smaller errors stay.
@@ -131,50 +118,41 @@ private:
     int side() const { return 1 << at_.tile_shift; }
 
     bool is_own(GridIndex node) const {
-        return node.column >= first_.column && node.row >= first_.row &&
-               node.column < end_.column && node.row < end_.row;
+        return node.column >= first_.column && node.row >= first_.row && node.column < end_.column &&
+               node.row < end_.row;
     }
 
     std::size_t index_of(GridIndex node) const {
-        return static_cast<std::size_t>(
-            ((node.row - first_.row) << at_.tile_shift) + node.column - first_.column);
+        return static_cast<std::size_t>(((node.row - first_.row) << at_.tile_shift) + node.column - first_.column);
     }
 
     void write_height(NodePart part, GridIndex node, std::int16_t stored) {
         reinterpret_cast<std::int16_t*>(
-            bytes_.data())[static_cast<std::size_t>(part) * at_.tile_nodes + index_of(node)] =
-            stored;
+            bytes_.data())[static_cast<std::size_t>(part) * at_.tile_nodes + index_of(node)] = stored;
     }
 
     std::uint8_t& code(NodePart part, GridIndex node, MorphMargin morph_margin) {
-        const std::size_t first =
-            at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
+        const std::size_t first = at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
         return reinterpret_cast<std::uint8_t*>(bytes_.data())[first + index_of(node)];
     }
 
     /// The code of a node's centre, in this tile or another of its level.
     std::uint8_t code_of(GridIndex node, MorphMargin morph_margin) {
-        return is_own(node)
-                   ? code(NodePart::Centre, node, morph_margin)
-                   : ground_.error_code(level_, NodePart::Centre, node.column, node.row, morph_margin);
+        return is_own(node) ? code(NodePart::Centre, node, morph_margin)
+                            : ground_.error_code(level_, NodePart::Centre, node.column, node.row, morph_margin);
     }
 
     /// A centre needs the middles of the two edges of its parent that lie on its own.
     std::uint8_t centre_code(GridIndex node, MorphMargin morph_margin) const {
-        if (level_ == 0) {
-            return greatest_code;
-        }
+        if (level_ == 0) { return greatest_code; }
         const int column = node.column / 2;
         const int row = node.row / 2;
-        return std::min(
-            ground_.error_code(level_ - 1, NodePart::South, column, row + node.row % 2, morph_margin),
+        return std::min(ground_.error_code(level_ - 1, NodePart::South, column, row + node.row % 2, morph_margin),
             ground_.error_code(level_ - 1, NodePart::West, column + node.column % 2, row, morph_margin));
     }
 
     GridIndex clamped(GridIndex sample) const {
-        return {
-            std::clamp(sample.column, 0, ground_.columns() - 1),
-            std::clamp(sample.row, 0, ground_.rows() - 1)};
+        return {std::clamp(sample.column, 0, ground_.columns() - 1), std::clamp(sample.row, 0, ground_.rows() - 1)};
     }
 
     /// The height of a sample where the tile that holds it is sound.
@@ -188,9 +166,7 @@ private:
             const auto tile = static_cast<std::size_t>(
                 (node.row >> at.tile_shift) * at.tiles_across + (node.column >> at.tile_shift));
             const bool in_tile = node.column < at.columns && node.row < at.rows;
-            if (in_tile && !is_intact_(level, tile)) {
-                return std::nullopt;
-            }
+            if (in_tile && !is_intact_(level, tile)) { return std::nullopt; }
         }
         return static_cast<double>(ground_.height_m(sample.column, sample.row));
     }
@@ -206,12 +182,8 @@ private:
     std::array<GridIndex, 2> ends_of(NodePart part, GridIndex node) const {
         const GridIndex low{node.column * at_.edge, node.row * at_.edge};
         const GridIndex high{low.column + at_.edge, low.row + at_.edge};
-        if (part == NodePart::South) {
-            return {low, GridIndex{high.column, low.row}};
-        }
-        if (part == NodePart::West) {
-            return {low, GridIndex{low.column, high.row}};
-        }
+        if (part == NodePart::South) { return {low, GridIndex{high.column, low.row}}; }
+        if (part == NodePart::West) { return {low, GridIndex{low.column, high.row}}; }
         return node.column % 2 == node.row % 2
                    ? std::array{low, high}
                    : std::array{GridIndex{high.column, low.row}, GridIndex{low.column, high.row}};
@@ -220,9 +192,8 @@ private:
     double coarser_m(NodePart part, GridIndex node) const {
         const auto end_m = [&](GridIndex nominal) -> std::optional<double> {
             const GridIndex end = clamped(nominal);
-            return end == nominal
-                       ? std::optional(static_cast<double>(ground_.height_m(end.column, end.row)))
-                       : intact_height_m(end);
+            return end == nominal ? std::optional(static_cast<double>(ground_.height_m(end.column, end.row)))
+                                  : intact_height_m(end);
         };
         const auto [a, b] = ends_of(part, node);
         const auto at_a = end_m(a);
@@ -234,26 +205,17 @@ private:
 
     double height_m(NodePart part, GridIndex node) const {
         const int half = at_.edge / 2;
-        const GridIndex nominal{
-            node.column * at_.edge + (part == NodePart::West ? 0 : half),
+        const GridIndex nominal{node.column * at_.edge + (part == NodePart::West ? 0 : half),
             node.row * at_.edge + (part == NodePart::South ? 0 : half)};
         const GridIndex sample = clamped(nominal);
         if (sample != nominal) {
-            if (const auto known_m = intact_height_m(sample)) {
-                return *known_m;
-            }
+            if (const auto known_m = intact_height_m(sample)) { return *known_m; }
         }
         if (half > 1) {
-            const auto across_m =
-                mean_m({sample.column - 1, sample.row}, {sample.column + 1, sample.row});
-            const auto along_m =
-                mean_m({sample.column, sample.row - 1}, {sample.column, sample.row + 1});
-            if (across_m && along_m) {
-                return 0.5 * (*across_m + *along_m);
-            }
-            if (across_m || along_m) {
-                return across_m ? *across_m : *along_m;
-            }
+            const auto across_m = mean_m({sample.column - 1, sample.row}, {sample.column + 1, sample.row});
+            const auto along_m = mean_m({sample.column, sample.row - 1}, {sample.column, sample.row + 1});
+            if (across_m && along_m) { return 0.5 * (*across_m + *along_m); }
+            if (across_m || along_m) { return across_m ? *across_m : *along_m; }
         }
         return coarser_m(part, node);
     }
@@ -262,13 +224,10 @@ private:
         const GroundShape& shape = ground_.shape();
         const int shift = std::max(level_ - ground_.layout().range_level(), 0);
         const int level = level_ - shift;
-        const double lowest_m =
-            static_cast<double>(ground_.lowest_m(level, node.column >> shift, node.row >> shift));
-        const double highest_m =
-            static_cast<double>(ground_.highest_m(level, node.column >> shift, node.row >> shift));
+        const double lowest_m = static_cast<double>(ground_.lowest_m(level, node.column >> shift, node.row >> shift));
+        const double highest_m = static_cast<double>(ground_.highest_m(level, node.column >> shift, node.row >> shift));
         const double own_m = std::clamp(height_m(part, node), lowest_m, highest_m);
-        return static_cast<std::int16_t>(
-            std::lround((own_m - shape.height_base_m) / shape.height_unit_m));
+        return static_cast<std::int16_t>(std::lround((own_m - shape.height_base_m) / shape.height_unit_m));
     }
 
     const TileCheck& is_intact_;
@@ -280,16 +239,11 @@ private:
     std::span<std::byte> bytes_;
 };
 
-/// Writes what is known of a damaged tile into its memory. Heights of a level that has finer ones
-/// are the means of the sound samples beside them; else each lies half-way between the ends of the
-/// edge that it halves, as the coarser ground is drawn. Errors are the least of those of the
-/// samples that they need: never below the true ones, so that errors stay nested and meshes have no
-/// cracks. Reads other tiles through `ground`, but not this one.
-void repair_tile(
-    const TileCheck& is_intact,
-    const GroundTiles& ground,
-    TileId number,
-    std::span<std::byte> bytes) {
+/// Writes what is known of a damaged tile into its memory. Heights of a level that has finer ones are the means of the
+/// sound samples beside them; else each lies half-way between the ends of the edge that it halves, as the coarser
+/// ground is drawn. Errors are the least of those of the samples that they need: never below the true ones, so that
+/// errors stay nested and meshes have no cracks. Reads other tiles through `ground`, but not this one.
+void repair_tile(const TileCheck& is_intact, const GroundTiles& ground, TileId number, std::span<std::byte> bytes) {
     TileRepair(is_intact, ground, number, bytes).repair();
 }
 
@@ -300,25 +254,16 @@ std::span<const std::byte> tile_bytes(const GroundTiles& ground, int level, std:
 
 ChecksumValidator::ChecksumValidator(
     std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header)
-    : TileValidator(GroundLayout(shape_of(header)), false)
-    , path_(std::move(path))
-    , file_(std::move(file))
-    , ground_(
-          shape_of(header),
-          metadata_of(header),
-          std::as_const(*file_).bytes().subspan(
-              GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
-          nullptr,
-          std::shared_ptr<const TileValidator>(std::shared_ptr<const void>(), this))
-    , checksums_(GroundFileLayout(ground_.layout()).checksums)
-    , bad_(GroundFileLayout(ground_.layout()).tiles) {}
+    : TileValidator(GroundLayout(shape_of(header)), false), path_(std::move(path)), file_(std::move(file)),
+      ground_(shape_of(header), metadata_of(header),
+          std::as_const(*file_).bytes().subspan(GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
+          nullptr, std::shared_ptr<const TileValidator>(std::shared_ptr<const void>(), this)),
+      checksums_(GroundFileLayout(ground_.layout()).checksums), bad_(GroundFileLayout(ground_.layout()).tiles) {}
 
 bool ChecksumValidator::is_intact(int level, std::size_t tile) const {
     const std::scoped_lock lock(mutex_);
     const std::size_t index = index_of(level, tile);
-    if (bad_[index] || is_valid(index)) {
-        return !bad_[index];
-    }
+    if (bad_[index] || is_valid(index)) { return !bad_[index]; }
     std::uint64_t checksum = 0;
     const std::size_t place = checksums_ + 8 * (index + 1); // the first is of what lies before
     std::memcpy(&checksum, std::as_const(*file_).bytes().data() + place, sizeof checksum);
@@ -328,21 +273,15 @@ bool ChecksumValidator::is_intact(int level, std::size_t tile) const {
 void ChecksumValidator::validate(int level, std::size_t tile) const {
     const std::scoped_lock lock(mutex_);
     const std::size_t index = index_of(level, tile);
-    if (is_valid(index)) {
-        return;
-    }
+    if (is_valid(index)) { return; }
     if (!is_intact(level, tile)) {
         bad_[index] = true;
         const GroundLayout::Level& at = ground_.layout().level(level);
         const auto across = static_cast<std::size_t>(at.tiles_across);
         log_tile_damage(path_, {level, tile % across, tile / across});
         const std::span<const std::byte> bytes = tile_bytes(ground_, level, tile);
-        const auto offset =
-            static_cast<std::size_t>(bytes.data() - std::as_const(*file_).bytes().data());
-        repair_tile(
-            [this](int l, std::size_t t) { return is_intact(l, t); },
-            ground_,
-            {level, tile},
+        const auto offset = static_cast<std::size_t>(bytes.data() - std::as_const(*file_).bytes().data());
+        repair_tile([this](int l, std::size_t t) { return is_intact(l, t); }, ground_, {level, tile},
             file_->writable_copy(offset, bytes.size()));
     }
     set_valid(index);
@@ -368,16 +307,11 @@ void check_before_tiles(const path& path, const MappedFile& file, const GroundHe
         throw_error_in(path, "expected a finished ground, got one whose import was stopped");
     }
     if (file.bytes().size() != plan.file_bytes) {
-        throw_error_in(
-            path,
-            fmt::format(
-                "expected {} bytes, got {}: copy or import it again",
-                plan.file_bytes,
-                file.bytes().size()));
+        throw_error_in(path,
+            fmt::format("expected {} bytes, got {}: copy or import it again", plan.file_bytes, file.bytes().size()));
     }
     if (checksum_of(file.bytes().subspan(plan.checksums)) != header.checksums ||
-        checksum_of(memory_of(file, layout).first(layout.first_tile())) !=
-            checksum_at(file, plan, 0)) {
+        checksum_of(memory_of(file, layout).first(layout.first_tile())) != checksum_at(file, plan, 0)) {
         throw_error_in(path, "expected sound data before the tiles, got damage: import it again");
     }
 }
@@ -386,9 +320,7 @@ void check_before_tiles(const path& path, const MappedFile& file, const GroundHe
 
 bool is_ground_file(const path& path) {
     std::error_code code;
-    if (!std::filesystem::is_regular_file(path, code)) {
-        return false;
-    }
+    if (!std::filesystem::is_regular_file(path, code)) { return false; }
     std::array<char, GroundHeader::current_magic.size()> magic = {};
     std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
     return magic == GroundHeader::current_magic;
@@ -424,28 +356,21 @@ void verify_ground(const path& path, int threads) {
     std::size_t before = 1;
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
-        const std::size_t count =
-            static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+        const std::size_t count = static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
         std::atomic<std::size_t> first_bad = count;
         parallel_for(count, threads, [&](std::size_t tile, std::size_t /*worker*/) {
-            const auto bytes = memory_of(file, layout)
-                                   .subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
+            const auto bytes = memory_of(file, layout).subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
             if (checksum_of(bytes) != checksum_at(file, plan, before + tile)) {
                 std::size_t known = first_bad;
-                while (tile < known && !first_bad.compare_exchange_weak(known, tile)) {
-                }
+                while (tile < known && !first_bad.compare_exchange_weak(known, tile)) {}
             }
         });
         if (first_bad < count) {
             const auto across = static_cast<std::size_t>(at.tiles_across);
             throw_error_in(
-                path,
-                fmt::format(
-                    "expected sound tiles, got damage in level {}, tile column {}, row {}: import "
-                    "it again",
-                    level,
-                    first_bad % across,
-                    first_bad / across));
+                path, fmt::format("expected sound tiles, got damage in level {}, tile column {}, row {}: import "
+                                  "it again",
+                          level, first_bad % across, first_bad / across));
         }
         before += count;
     }

@@ -11,8 +11,8 @@
 
 namespace octant::visuals::groundfile {
 
-using terrain::GroundMetadata;
 using terrain::GroundLayout;
+using terrain::GroundMetadata;
 using terrain::GroundShape;
 using terrain::GroundTiles;
 
@@ -47,16 +47,15 @@ struct StoredDeviation {
     std::int64_t places = 0;
 };
 
-/// The first page of a ground's file. After it come GroundLayout memory and then the checksums
-/// (sim/base/hash.h), 8 bytes each: one of what lies before the tiles and one of every tile in
-/// memory order. Little endian.
+/// The first page of a ground's file. After it come GroundLayout memory and then the checksums (sim/base/hash.h), 8
+/// bytes each: one of what lies before the tiles and one of every tile in memory order. Little endian.
 struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> current_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
     static constexpr std::uint32_t current_version = 6;
-    /// The same as version 6, but errors and heights beyond the field's border are those of a field
-    /// that repeats its last column and row there. read_header takes a field without such samples.
+    /// The same as version 6, but errors and heights beyond the field's border are those of a field that repeats its
+    /// last column and row there. read_header takes a field without such samples.
     static constexpr std::uint32_t version_5 = 5;
     /// The same as version 5, but with the codes of all grounds (GroundShape::has_unit_codes).
     static constexpr std::uint32_t version_4 = 4;
@@ -113,16 +112,16 @@ GroundShape shape_of(const GroundHeader& header);
 /// The facts in a header. The name is UTF-8 without control characters, whatever the file holds.
 GroundMetadata metadata_of(const GroundHeader& header);
 
-/// Whether a file may have this spacing (1e-3 to 1e6 m), base (within 1e5 m) and unit (a power of
-/// two from 2^-12 to 1 m).
+/// Whether a file may have this spacing (1e-3 to 1e6 m), base (within 1e5 m) and unit (a power of two from 2^-12 to 1
+/// m).
 bool is_storable(const GroundShape& shape);
 
 /// The page to write, with its checksums.
 std::array<std::byte, GroundHeader::bytes> header_page(GroundHeader header);
 
-/// The header at the beginning of a file's bytes, of this version or an earlier one. Throws Error
-/// when there is none, when it is damaged, or when it does not fit today's layout. Throws Error also
-/// for a version below 6 where the field is not a square of 2^n + 1 samples.
+/// The header at the beginning of a file's bytes, of this version or an earlier one. Throws Error when there is none,
+/// when it is damaged, or when it does not fit today's layout. Throws Error also for a version below 6 where the field
+/// is not a square of 2^n + 1 samples.
 GroundHeader read_header(const std::filesystem::path& path, std::span<const std::byte> file);
 
 } // namespace octant::visuals::groundfile

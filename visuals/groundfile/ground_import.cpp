@@ -1,7 +1,8 @@
-// Imports large height fields. The heights are first read into the end of the file that is being
-// made, then the tiles are built in front of them, and at last the file is cut. The header tells
-// how far this has come, so that an import which was stopped can go on.
+// Imports large height fields. The heights are first read into the end of the file that is being made, then the tiles
+// are built in front of them, and at last the file is cut. The header tells how far this has come, so that an import
+// which was stopped can go on.
 #include "visuals/groundfile/ground_import.h"
+
 #include "models/heights/height_raster.h"
 #include "models/heights/height_source.h"
 #include "models/heights/height_voids.h"
@@ -35,8 +36,7 @@ namespace octant::visuals::groundfile {
 
 namespace {
 
-// Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by
-// tile with a margin.
+// Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by tile with a margin.
 
 /// Stands for a sample without data among a field's numbers.
 constexpr std::int16_t void_value = std::numeric_limits<std::int16_t>::min();
@@ -52,15 +52,13 @@ struct Field {
     int rows;
 
     std::int16_t& at(int column, int row) const {
-        return numbers
-            [static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-             static_cast<std::size_t>(column)];
+        return numbers[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(column)];
     }
 };
 
 float height_of(std::int16_t number) {
-    return number == void_value ? std::numeric_limits<float>::quiet_NaN()
-                                 : static_cast<float>(number);
+    return number == void_value ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number);
 }
 
 /// The mean of the known samples of a block; NaN when there are none.
@@ -100,23 +98,19 @@ struct SampleRectangle {
 bool has_voids(const Field& field, const SampleRectangle& piece) {
     for (int row = piece.south; row < piece.north; ++row) {
         const std::int16_t* const start = &field.at(0, row);
-        if (std::find(start + piece.west, start + piece.east, void_value) != start + piece.east) {
-            return true;
-        }
+        if (std::find(start + piece.west, start + piece.east, void_value) != start + piece.east) { return true; }
     }
     return false;
 }
 
-/// Writes the heights of a grid into the voids of a piece. `of` is the rectangle that the grid
-/// covers.
+/// Writes the heights of a grid into the voids of a piece. `of` is the rectangle that the grid covers.
 void write_filled(
     const Field& field, const SampleRectangle& piece, const models::heights::HeightGrid& grid, SampleRectangle of) {
     for (int row = piece.south; row < piece.north; ++row) {
         for (int column = piece.west; column < piece.east; ++column) {
             std::int16_t& number = field.at(column, row);
             if (number == void_value) {
-                number = static_cast<std::int16_t>(
-                    std::lround(grid.at(column - of.west, row - of.south)));
+                number = static_cast<std::int16_t>(std::lround(grid.at(column - of.west, row - of.south)));
             }
         }
     }
@@ -125,11 +119,8 @@ void write_filled(
 /// Fills the voids of one piece, starting from the coarse field.
 void fill_rectangle(
     const Field& field, const SampleRectangle& piece, const models::heights::HeightGrid& coarse, int edge) {
-    const SampleRectangle wide{
-        std::max(0, piece.west - margin),
-        std::min(field.columns, piece.east + margin),
-        std::max(0, piece.south - margin),
-        std::min(field.rows, piece.north + margin)};
+    const SampleRectangle wide{std::max(0, piece.west - margin), std::min(field.columns, piece.east + margin),
+        std::max(0, piece.south - margin), std::min(field.rows, piece.north + margin)};
     models::heights::HeightGrid grid;
     grid.columns = wide.east - wide.west;
     grid.rows = wide.north - wide.south;
@@ -145,17 +136,14 @@ void fill_rectangle(
     write_filled(field, piece, grid, wide);
 }
 
-/// Gives every void of a field (row after row) a height that runs smoothly from rim to rim, rounded
-/// to a whole number. At least one sample must be known; known samples stay as they are. Up to four
-/// million samples are filled in one piece (models/heights/height_voids.h). Of a larger field, a
-/// coarser one of block means is filled first, and from it the voids are smoothed piece by piece.
-/// Memory: at most 80 MB beside the numbers.
+/// Gives every void of a field (row after row) a height that runs smoothly from rim to rim, rounded to a whole number.
+/// At least one sample must be known; known samples stay as they are. Up to four million samples are filled in one
+/// piece (models/heights/height_voids.h). Of a larger field, a coarser one of block means is filled first, and from it
+/// the voids are smoothed piece by piece. Memory: at most 80 MB beside the numbers.
 void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) {
     const Field field{numbers, columns, rows};
     int edge = 1;
-    while (numbers.size() > max_samples_at_once * static_cast<std::size_t>(edge * edge)) {
-        edge *= 2;
-    }
+    while (numbers.size() > max_samples_at_once * static_cast<std::size_t>(edge * edge)) { edge *= 2; }
     models::heights::HeightGrid coarse = block_means(field, edge);
     models::heights::fill_voids(coarse);
     if (edge == 1) {
@@ -166,13 +154,8 @@ void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) 
     for (int south = 0; south < rows; south += rectangle_edge) {
         for (int west = 0; west < columns; west += rectangle_edge) {
             const SampleRectangle piece{
-                west,
-                std::min(west + rectangle_edge, columns),
-                south,
-                std::min(south + rectangle_edge, rows)};
-            if (has_voids(field, piece)) {
-                fill_rectangle(field, piece, coarse, edge);
-            }
+                west, std::min(west + rectangle_edge, columns), south, std::min(south + rectangle_edge, rows)};
+            if (has_voids(field, piece)) { fill_rectangle(field, piece, coarse, edge); }
         }
     }
 }
@@ -185,10 +168,7 @@ void take_range(double lowest_m, double highest_m, ImportProgress& progress) {
 }
 
 void read_integer_metres(
-    models::heights::HeightSource& source,
-    int first_row,
-    std::span<std::int16_t> numbers,
-    ImportProgress& progress) {
+    models::heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
     source.read(first_row, numbers);
     std::int16_t lowest_m = std::numeric_limits<std::int16_t>::max();
     std::int16_t highest_m = void_value;
@@ -200,20 +180,14 @@ void read_integer_metres(
         highest_m = std::max(highest_m, number);
     }
     progress.voids += voids;
-    if (static_cast<std::size_t>(voids) < numbers.size()) {
-        take_range(lowest_m, highest_m, progress);
-    }
+    if (static_cast<std::size_t>(voids) < numbers.size()) { take_range(lowest_m, highest_m, progress); }
 }
 
 void read_fractions(
-    models::heights::HeightSource& source,
-    int first_row,
-    std::span<std::int16_t> numbers,
-    ImportProgress& progress) {
+    models::heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
     std::vector<float> heights_m(numbers.size());
     source.read(first_row, heights_m);
-    const terrain::GroundShape shape =
-        terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
+    const terrain::GroundShape shape = terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const bool is_void = std::isnan(heights_m[i]);
         progress.voids += is_void ? 1 : 0;
@@ -222,27 +196,19 @@ void read_fractions(
 }
 
 /// Updates the lowest and highest height in `progress` by some rows.
-void scan_rows(
-    models::heights::HeightSource& source, int first_row, int count, ImportProgress& progress) {
-    std::vector<float> heights_m(
-        static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
+void scan_rows(models::heights::HeightSource& source, int first_row, int count, ImportProgress& progress) {
+    std::vector<float> heights_m(static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
     source.read(first_row, heights_m);
     for (const float height_m : heights_m) {
-        if (!std::isnan(height_m)) {
-            take_range(height_m, height_m, progress);
-        }
+        if (!std::isnan(height_m)) { take_range(height_m, height_m, progress); }
     }
 }
 
-/// Reads the rows that fill the span as the numbers to keep, void_value for samples without data.
-/// If the source has whole metres, these are kept, and lowest and highest in `progress` are
-/// updated; otherwise the numbers are those of shape_of the scanned heights. Counts voids. Throws
-/// Error as the source does.
+/// Reads the rows that fill the span as the numbers to keep, void_value for samples without data. If the source has
+/// whole metres, these are kept, and lowest and highest in `progress` are updated; otherwise the numbers are those of
+/// shape_of the scanned heights. Counts voids. Throws Error as the source does.
 void read_rows(
-    models::heights::HeightSource& source,
-    int first_row,
-    std::span<std::int16_t> numbers,
-    ImportProgress& progress) {
+    models::heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
     if (source.has_integer_metres()) {
         read_integer_metres(source, first_row, numbers, progress);
     } else {
@@ -250,19 +216,16 @@ void read_rows(
     }
 }
 
-// The files around an import: nothing of the user's is overwritten, and a finished file appears
-// under its name in one step.
+// The files around an import: nothing of the user's is overwritten, and a finished file appears under its name in one
+// step.
 
-/// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from
-/// another.
+/// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from another.
 std::uint64_t hash_of_inputs(
-    const std::vector<std::filesystem::path>& inputs,
-    const models::heights::ImportOptions& options);
+    const std::vector<std::filesystem::path>& inputs, const models::heights::ImportOptions& options);
 
 using std::filesystem::path;
 
-std::uint64_t
-hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOptions& options) {
+std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOptions& options) {
     Hash hash;
     hash.add_word(GroundHeader::current_version);
     hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
@@ -280,14 +243,14 @@ hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOpt
         const std::string name = std::filesystem::absolute(input, code).string();
         hash.add(std::as_bytes(std::span(name)));
         hash.add_word(std::filesystem::file_size(input, code));
-        hash.add_word(static_cast<std::uint64_t>(
-            std::filesystem::last_write_time(input, code).time_since_epoch().count()));
+        hash.add_word(
+            static_cast<std::uint64_t>(std::filesystem::last_write_time(input, code).time_since_epoch().count()));
     }
     return hash.value();
 }
 
-/// Throws Error when writing `out`, and `part` on the way, would overwrite an input or something
-/// that is no regular file.
+/// Throws Error when writing `out`, and `part` on the way, would overwrite an input or something that is no regular
+/// file.
 void check_output(const std::vector<path>& inputs, const path& out, const path& part) {
     std::error_code code;
     for (const path& written : {out, part}) {
@@ -296,8 +259,7 @@ void check_output(const std::vector<path>& inputs, const path& out, const path& 
                 throw_error_in(written, "expected a file to write, got one of the inputs");
             }
         }
-        if (std::filesystem::exists(written, code) &&
-            !std::filesystem::is_regular_file(written, code)) {
+        if (std::filesystem::exists(written, code) && !std::filesystem::is_regular_file(written, code)) {
             throw_error_in(written, "expected a file to write, got a folder, device or pipe");
         }
     }
@@ -307,10 +269,8 @@ void check_output(const std::vector<path>& inputs, const path& out, const path& 
 void check_partial_file(const path& part) {
     std::error_code code;
     if (!is_ground_file(part) && std::filesystem::file_size(part, code) > 0) {
-        throw_error_in(
-            part,
-            "expected what an earlier import left, got another kind of file: move it away or "
-            "choose another --out");
+        throw_error_in(part, "expected what an earlier import left, got another kind of file: move it away or "
+                             "choose another --out");
     }
 }
 
@@ -318,9 +278,7 @@ void check_partial_file(const path& part) {
 void rename_into_place(const path& part, const path& out) {
     std::error_code code;
     std::filesystem::rename(part, out, code);
-    if (code) {
-        throw_error_in(out, fmt::format("cannot be written: {}", code.message()));
-    }
+    if (code) { throw_error_in(out, fmt::format("cannot be written: {}", code.message())); }
     sync_folder_of(out);
 }
 
@@ -337,10 +295,7 @@ constexpr std::size_t tiles_per_batch = 256;
 class Import {
 public:
     Import(
-        const std::vector<path>& inputs,
-        path out,
-        const GroundImportOptions& options,
-        const ImportCallback& callback);
+        const std::vector<path>& inputs, path out, const GroundImportOptions& options, const ImportCallback& callback);
 
     ImportSummary run();
 
@@ -362,13 +317,12 @@ private:
     void write_header();
     void remove_part();
 
-    /// Lets `read` read the inputs. If they are at fault, the unfinished file is removed, because
-    /// there is nothing to go on from.
+    /// Lets `read` read the inputs. If they are at fault, the unfinished file is removed, because there is nothing to
+    /// go on from.
     template <typename Read>
     void read_inputs(const Read& read);
 
-    /// Calls `work(first row, rows)` for the rows that are not yet done, from the north, and
-    /// reports progress.
+    /// Calls `work(first row, rows)` for the rows that are not yet done, from the north, and reports progress.
     template <typename Work>
     void for_each_band(ImportStage stage, const Work& work);
 
@@ -377,8 +331,7 @@ private:
     }
 
     std::size_t samples() const {
-        return static_cast<std::size_t>(source_.columns()) *
-               static_cast<std::size_t>(source_.rows());
+        return static_cast<std::size_t>(source_.columns()) * static_cast<std::size_t>(source_.rows());
     }
 
     /// The field's rows, which lie behind what will be the ground.
@@ -404,36 +357,22 @@ private:
 };
 
 Import::Import(
-    const std::vector<path>& inputs,
-    path out,
-    const GroundImportOptions& options,
-    const ImportCallback& callback)
-    : out_(std::move(out))
-    , part_(out_)
-    , options_(options)
-    , callback_(callback)
-    , source_(inputs, options.source_options)
-    , layout_(source_.columns(), source_.rows())
-    , plan_(layout_)
-    , inputs_(hash_of_inputs(inputs, options.source_options)) {
+    const std::vector<path>& inputs, path out, const GroundImportOptions& options, const ImportCallback& callback)
+    : out_(std::move(out)), part_(out_), options_(options), callback_(callback),
+      source_(inputs, options.source_options), layout_(source_.columns(), source_.rows()), plan_(layout_),
+      inputs_(hash_of_inputs(inputs, options.source_options)) {
     part_ += ".part";
     check_output(inputs, out_, part_);
     if (!is_storable(terrain::shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
-        throw_error_in(
-            source_.name(),
-            fmt::format(
-                "expected samples from 1 mm to 1000 km apart, got {:g} m", source_.spacing_m()));
+        throw_error_in(source_.name(),
+            fmt::format("expected samples from 1 mm to 1000 km apart, got {:g} m", source_.spacing_m()));
     }
 }
 
 ImportSummary Import::run() {
     shape_ = {source_.columns(), source_.rows(), source_.spacing_m(), 0.0, 1.0};
-    if (!resume_unfinished()) {
-        restart();
-    }
-    if (progress_.stage == Stage::Scanning) {
-        scan();
-    }
+    if (!resume_unfinished()) { restart(); }
+    if (progress_.stage == Stage::Scanning) { scan(); }
     if (progress_.stage == Stage::Reading) {
         read();
         fill();
@@ -445,28 +384,21 @@ ImportSummary Import::run() {
 
 bool Import::resume_unfinished() {
     std::error_code code;
-    if (!std::filesystem::exists(part_, code)) {
-        return false;
-    }
+    if (!std::filesystem::exists(part_, code)) { return false; }
     file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadWrite);
     check_partial_file(part_);
     note_ = part_.string() + ": of other inputs or damaged, started anew";
     try {
         progress_ = read_header(part_, std::as_const(*file_).bytes()).progress;
-    } catch (const Error&) {
-        return false;
-    }
+    } catch (const Error&) { return false; }
     if (progress_.inputs != inputs_ || file_->bytes().size() != plan_.numbers + 2 * samples() ||
         progress_.stage == Stage::Filling || progress_.stage == Stage::Complete) {
         return false;
     }
     const bool builds = progress_.stage == Stage::Building;
-    note_ = fmt::format(
-        "{}: goes on after {} of {} {}",
-        part_.string(),
+    note_ = fmt::format("{}: goes on after {} of {} {}", part_.string(),
         builds ? progress_.tiles_done : progress_.rows_done,
-        builds ? plan_.tiles : static_cast<std::size_t>(source_.rows()),
-        builds ? "tiles" : "rows");
+        builds ? plan_.tiles : static_cast<std::size_t>(source_.rows()), builds ? "tiles" : "rows");
     return true;
 }
 
@@ -482,9 +414,7 @@ void Import::restart() {
 }
 
 void Import::report_progress(ImportStage stage, double done) {
-    if (callback_(stage, done)) {
-        save();
-    }
+    if (callback_(stage, done)) { save(); }
 }
 
 void Import::save() {
@@ -531,9 +461,8 @@ void Import::for_each_band(ImportStage stage, const Work& work) {
 }
 
 void Import::scan() {
-    for_each_band(ImportStage::Scanning, [&](int first_row, int count) {
-        read_inputs([&] { scan_rows(source_, first_row, count, progress_); });
-    });
+    for_each_band(ImportStage::Scanning,
+        [&](int first_row, int count) { read_inputs([&] { scan_rows(source_, first_row, count, progress_); }); });
     progress_.stage = Stage::Reading;
     progress_.rows_done = 0;
 }
@@ -544,8 +473,7 @@ void Import::read() {
     for_each_band(ImportStage::Reading, [&](int first_row, int count) {
         band.resize(static_cast<std::size_t>(count) * columns);
         read_inputs([&] { read_rows(source_, first_row, band, progress_); });
-        const std::size_t offset =
-            plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
+        const std::size_t offset = plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
         file_->write(offset, std::as_bytes(std::span(band)));
     });
     if (static_cast<std::size_t>(progress_.voids) == samples()) {
@@ -554,8 +482,8 @@ void Import::read() {
     }
 }
 
-/// Fills the voids. From here until they are filled a stop must start anew, because half-filled
-/// voids would not be found again.
+/// Fills the voids. From here until they are filled a stop must start anew, because half-filled voids would not be
+/// found again.
 void Import::fill() {
     if (progress_.voids > 0) {
         report_progress(ImportStage::Filling, 0.0);
@@ -570,26 +498,15 @@ void Import::fill() {
 
 void Import::build() {
     shape_ = terrain::shape_of(
-        source_.columns(),
-        source_.rows(),
-        source_.spacing_m(),
-        progress_.lowest_m,
-        progress_.highest_m);
-    const StoredHeights heights =
-        terrain::stored_heights(numbers(), shape_, source_.has_integer_metres());
+        source_.columns(), source_.rows(), source_.spacing_m(), progress_.lowest_m, progress_.highest_m);
+    const StoredHeights heights = terrain::stored_heights(numbers(), shape_, source_.has_integer_metres());
     const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
     const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
     GroundAssembler assembly(shape_, layout_, heights, memory, options_.threads);
     report_progress(ImportStage::Building, 0.0);
     const HeightStatistics figures = assembly.write_overview();
-    metadata_ = {
-        source_.name(),
-        source_.place(),
-        source_.system(),
-        progress_.voids,
-        figures.lowest_m,
-        figures.highest_m,
-        figures.mean_m};
+    metadata_ = {source_.name(), source_.place(), source_.system(), progress_.voids, figures.lowest_m,
+        figures.highest_m, figures.mean_m};
     const auto put = [&](std::size_t index, std::size_t offset, std::span<const std::byte> tile) {
         const std::uint64_t checksum = checksum_of(tile);
         std::memcpy(table.data() + 8 * (index + 1), &checksum, 8);
@@ -598,16 +515,15 @@ void Import::build() {
     while (progress_.tiles_done < plan_.tiles) {
         progress_.tiles_done = assembly.build(progress_.tiles_done, tiles_per_batch, put);
         report_progress(
-            ImportStage::Building,
-            static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
+            ImportStage::Building, static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
     }
     const std::uint64_t checksum = checksum_of(memory.first(layout_.first_tile()));
     std::memcpy(table.data(), &checksum, 8);
     checksums_ = checksum_of(table);
     const GroundTiles made(shape_, metadata_, memory, nullptr);
     read_inputs([&] {
-        metadata_.deviation = source_.deviation_of(
-            [&made](double x_m, double y_m) { return made.height_at(x_m, y_m); });
+        metadata_.deviation =
+            source_.deviation_of([&made](double x_m, double y_m) { return made.height_at(x_m, y_m); });
     });
 }
 
@@ -631,18 +547,13 @@ void Import::verify_written() {
         verify_ground(part_, options_.threads);
     } catch (const Error& fault) {
         remove_part();
-        throw_error_in(
-            out_,
-            fmt::format("cannot be read back as it was written, try again: {}", fault.what()));
+        throw_error_in(out_, fmt::format("cannot be read back as it was written, try again: {}", fault.what()));
     }
 }
 
 } // namespace
 
-ImportSummary import_ground(
-    const std::vector<path>& inputs,
-    const path& out,
-    const GroundImportOptions& options,
+ImportSummary import_ground(const std::vector<path>& inputs, const path& out, const GroundImportOptions& options,
     const ImportCallback& callback) {
     return Import(inputs, out, options, callback).run();
 }

@@ -24,13 +24,10 @@ namespace {
 /// Closes a descriptor unless it is released, so that nothing leaks when a constructor throws.
 class OpenedGround {
 public:
-    explicit OpenedGround(int descriptor)
-        : descriptor_(descriptor) {}
+    explicit OpenedGround(int descriptor) : descriptor_(descriptor) {}
 
     ~OpenedGround() {
-        if (descriptor_ >= 0) {
-            ::close(descriptor_);
-        }
+        if (descriptor_ >= 0) { ::close(descriptor_); }
     }
 
     OpenedGround(const OpenedGround&) = delete;
@@ -55,11 +52,9 @@ std::size_t size_of_regular(const std::filesystem::path& path, int descriptor) {
     return static_cast<std::size_t>(status.st_size);
 }
 
-/// Locks a file against other writers. Also refuses a file that the import which held the lock
-/// until now has renamed.
+/// Locks a file against other writers. Also refuses a file that the import which held the lock until now has renamed.
 void lock(const std::filesystem::path& path, int descriptor) {
-    const bool is_held =
-        ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
+    const bool is_held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
 
     struct stat ours {};
 
@@ -67,62 +62,41 @@ void lock(const std::filesystem::path& path, int descriptor) {
 
     const bool is_there = ::fstat(descriptor, &ours) == 0 && ::stat(path.c_str(), &named) == 0 &&
                           ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
-    if (is_held || !is_there) {
-        throw_error_in(path, "expected a file to write, but another import is writing it");
-    }
+    if (is_held || !is_there) { throw_error_in(path, "expected a file to write, but another import is writing it"); }
 }
 
 /// Allocates the space of an empty file. Returns 0 or the error number.
 int allocate_space(int descriptor, off_t length) {
     while (::fallocate(descriptor, 0, 0, length) != 0) {
-        if (errno == EOPNOTSUPP) {
-            return ::ftruncate(descriptor, length) == 0 ? 0 : errno;
-        }
-        if (errno != EINTR) {
-            return errno;
-        }
+        if (errno == EOPNOTSUPP) { return ::ftruncate(descriptor, length) == 0 ? 0 : errno; }
+        if (errno != EINTR) { return errno; }
     }
     return 0;
 }
 
 } // namespace
 
-MappedFile::MappedFile(std::filesystem::path path, Access access)
-    : path_(std::move(path)) {
+MappedFile::MappedFile(std::filesystem::path path, Access access) : path_(std::move(path)) {
     const bool writes = access == Access::ReadWrite;
     OpenedGround file(::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK));
-    if (file.get() < 0) {
-        throw_system_error(path_, writes ? "opened for writing" : "opened for reading");
-    }
+    if (file.get() < 0) { throw_system_error(path_, writes ? "opened for writing" : "opened for reading"); }
     size_ = size_of_regular(path_, file.get());
-    if (writes) {
-        lock(path_, file.get());
-    }
+    if (writes) { lock(path_, file.get()); }
     descriptor_ = file.get();
     map(writes ? PROT_READ | PROT_WRITE : PROT_READ, access != Access::CopyOnWrite);
     file.release();
 }
 
-MappedFile::MappedFile(std::filesystem::path path, std::size_t size)
-    : path_(std::move(path))
-    , size_(size) {
+MappedFile::MappedFile(std::filesystem::path path, std::size_t size) : path_(std::move(path)), size_(size) {
     OpenedGround file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644));
-    if (file.get() < 0) {
-        throw_system_error(path_, "written");
-    }
+    if (file.get() < 0) { throw_system_error(path_, "written"); }
     size_of_regular(path_, file.get());
     lock(path_, file.get());
-    if (::ftruncate(file.get(), 0) != 0) {
-        throw_system_error(path_, "written");
-    }
+    if (::ftruncate(file.get(), 0) != 0) { throw_system_error(path_, "written"); }
     if (const int fault = allocate_space(file.get(), static_cast<off_t>(size)); fault != 0) {
         ::unlink(path_.c_str());
         throw_error_in(
-            path_,
-            fmt::format(
-                "expected room for {} MB on the disk: {}",
-                size / 1000000 + 1,
-                std::strerror(fault)));
+            path_, fmt::format("expected room for {} MB on the disk: {}", size / 1000000 + 1, std::strerror(fault)));
     }
     descriptor_ = file.get();
     map(PROT_READ | PROT_WRITE, true);
@@ -130,32 +104,22 @@ MappedFile::MappedFile(std::filesystem::path path, std::size_t size)
 }
 
 void MappedFile::map(int protection, bool shared) {
-    if (size_ == 0) {
-        return;
-    }
-    void* const start =
-        ::mmap(nullptr, size_, protection, shared ? MAP_SHARED : MAP_PRIVATE, descriptor_, 0);
-    if (start == MAP_FAILED) {
-        throw_system_error(path_, "mapped");
-    }
+    if (size_ == 0) { return; }
+    void* const start = ::mmap(nullptr, size_, protection, shared ? MAP_SHARED : MAP_PRIVATE, descriptor_, 0);
+    if (start == MAP_FAILED) { throw_system_error(path_, "mapped"); }
     start_ = static_cast<std::byte*>(start);
 }
 
 MappedFile::~MappedFile() {
-    if (start_ != nullptr) {
-        ::munmap(start_, size_);
-    }
+    if (start_ != nullptr) { ::munmap(start_, size_); }
     ::close(descriptor_);
 }
 
 void MappedFile::write(std::size_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written =
-            ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (written < 0) {
-            if (errno == EINTR) {
-                continue;
-            }
+            if (errno == EINTR) { continue; }
             throw_system_error(path_, "written");
         }
         bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -178,23 +142,17 @@ void MappedFile::drop_cached_pages() {
 }
 
 void MappedFile::sync() {
-    if (::fsync(descriptor_) != 0) {
-        throw_system_error(path_, "written");
-    }
+    if (::fsync(descriptor_) != 0) { throw_system_error(path_, "written"); }
 }
 
 void MappedFile::truncate(std::size_t size) {
-    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
-        throw_system_error(path_, "written");
-    }
+    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) { throw_system_error(path_, "written"); }
 }
 
 void sync_folder_of(const std::filesystem::path& path) {
     const std::filesystem::path parent = path.parent_path();
     const OpenedGround folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC));
-    if (folder.get() >= 0 && ::fsync(folder.get()) != 0 && errno != EINVAL) {
-        throw_system_error(path, "written");
-    }
+    if (folder.get() >= 0 && ::fsync(folder.get()) != 0 && errno != EINVAL) { throw_system_error(path, "written"); }
 }
 
 } // namespace octant::visuals::groundfile

@@ -16,13 +16,13 @@ public:
         ReadWrite
     };
 
-    /// Maps a whole regular file. For writing it locks the file against other writers (not
-    /// readers), where the file system can. Throws Error when that is not possible.
+    /// Maps a whole regular file. For writing it locks the file against other writers (not readers), where the file
+    /// system can. Throws Error when that is not possible.
     MappedFile(std::filesystem::path path, Access access);
 
-    /// Creates or empties a file of `size` bytes, allocates its space on the disk where the file
-    /// system can, and maps it for reading and writing, locked as above. Throws Error (no
-    /// permission, disk full, or locked by another; then the file stays as it is).
+    /// Creates or empties a file of `size` bytes, allocates its space on the disk where the file system can, and maps
+    /// it for reading and writing, locked as above. Throws Error (no permission, disk full, or locked by another; then
+    /// the file stays as it is).
     MappedFile(std::filesystem::path path, std::size_t size);
 
     ~MappedFile();
@@ -36,12 +36,11 @@ public:
     /// The content of a file that may be written.
     std::span<std::byte> bytes() { return {start_, size_}; }
 
-    /// Writes without faulting pages in one by one; bytes() shows it at once. Several threads may
-    /// write. Throws Error (disk full).
+    /// Writes without faulting pages in one by one; bytes() shows it at once. Several threads may write. Throws Error
+    /// (disk full).
     void write(std::size_t offset, std::span<const std::byte> bytes);
 
-    /// Some bytes of a file that was mapped with CopyOnWrite, to be changed in memory alone.
-    /// Throws Error (no memory).
+    /// Some bytes of a file that was mapped with CopyOnWrite, to be changed in memory alone. Throws Error (no memory).
     std::span<std::byte> writable_copy(std::size_t offset, std::size_t size);
 
     /// Brings everything that was written to the disk. Throws Error.

@@ -36,17 +36,12 @@ std::vector<std::string> tile_damage_messages() {
     std::vector<std::string> lines;
     for (const auto& [file, tiles] : all.tiles) {
         const auto& [level, row, column] = *tiles.begin();
-        lines.push_back(fmt::format(
-            "{}: expected sound tiles, got damage in {} tile{} (the coarsest in level {}, column "
-            "{}, "
-            "row {}), "
-            "where a coarser ground was shown: import it again",
-            file.string(),
-            tiles.size(),
-            tiles.size() == 1 ? "" : "s",
-            level,
-            column,
-            row));
+        lines.push_back(
+            fmt::format("{}: expected sound tiles, got damage in {} tile{} (the coarsest in level {}, column "
+                        "{}, "
+                        "row {}), "
+                        "where a coarser ground was shown: import it again",
+                file.string(), tiles.size(), tiles.size() == 1 ? "" : "s", level, column, row));
     }
     return lines;
 }

@@ -17,8 +17,8 @@ struct DamagedTile {
 /// Counts a damaged tile that this program met. Any thread may call it.
 void log_tile_damage(const std::filesystem::path& file, const DamagedTile& tile);
 
-/// One line for each ground file in which this program met damage so far: how many tiles, and the
-/// first of them by level and place. Empty when there was none.
+/// One line for each ground file in which this program met damage so far: how many tiles, and the first of them by
+/// level and place. Empty when there was none.
 std::vector<std::string> tile_damage_messages();
 
 } // namespace octant::visuals::groundfile

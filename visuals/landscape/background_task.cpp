@@ -16,9 +16,7 @@ void BackgroundTask::begin(std::function<void()> work, const IdleThreadRunner& o
         work_ = std::move(work);
         runs_on_pool_thread_ = true;
     }
-    if (on_idle_thread && on_idle_thread([this] { run_work(); })) {
-        return;
-    }
+    if (on_idle_thread && on_idle_thread([this] { run_work(); })) { return; }
     if (!thread_.joinable()) {
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
@@ -32,9 +30,7 @@ void BackgroundTask::begin(std::function<void()> work, const IdleThreadRunner& o
 void BackgroundTask::wait() {
     std::unique_lock lock(mutex_);
     state_changed_.wait(lock, [this] { return !work_; });
-    if (exception_) {
-        std::rethrow_exception(std::exchange(exception_, nullptr));
-    }
+    if (exception_) { std::rethrow_exception(std::exchange(exception_, nullptr)); }
 }
 
 void BackgroundTask::run(const std::stop_token& stop) {
@@ -50,9 +46,7 @@ void BackgroundTask::run_work() {
     std::exception_ptr exception;
     try {
         work_();
-    } catch (...) {
-        exception = std::current_exception();
-    }
+    } catch (...) { exception = std::current_exception(); }
     // Notified under the lock: whoever waits may destroy this one next.
     const std::scoped_lock lock(mutex_);
     exception_ = exception;

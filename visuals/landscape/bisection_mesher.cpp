@@ -1,3 +1,5 @@
+#include "visuals/terrain/bisection_mesher.h"
+
 #include "models/colour_vertex.h"
 #include "models/heights/runway_strip.h"
 #include "visuals/landscape/background_task.h"
@@ -10,7 +12,6 @@
 #include "visuals/nature/water_reflection.h"
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/land_cover_contrast.h"
-#include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_prefetcher.h"
 #include "visuals/terrain/ground_tiles.h"
@@ -38,30 +39,26 @@ namespace octant::visuals::landscape {
 
 namespace {
 
-/// Colours the vertices of meshes with geomorphs so that no change of detail changes a colour in a
-/// step. What a vertex shows depends on its sample and its distance from the eye alone: slope and
-/// cover are filtered to a footprint that grows steadily with the distance. A vertex that comes or
-/// goes moves in colour as it does in height, from the mean of its ends to its own. Near the eye
-/// the footprint is smaller than the distance of samples, and places between them have colours,
-/// too. Water takes part of what it shows from the sky and the sun, by the eye's place.
+/// Colours the vertices of meshes with geomorphs so that no change of detail changes a colour in a step. What a vertex
+/// shows depends on its sample and its distance from the eye alone: slope and cover are filtered to a footprint that
+/// grows steadily with the distance. A vertex that comes or goes moves in colour as it does in height, from the mean of
+/// its ends to its own. Near the eye the footprint is smaller than the distance of samples, and places between them
+/// have colours, too. Water takes part of what it shows from the sky and the sun, by the eye's place.
 ///
-/// Colours are worked out when first asked for, so that the size of the ground does not matter, and
-/// remembered; memory follows the number of vertices.
+/// Colours are worked out when first asked for, so that the size of the ground does not matter, and remembered; memory
+/// follows the number of vertices.
 class VertexColours {
 public:
     /// The ground must outlive the colours.
-    VertexColours(
-        const terrain::GroundTiles& ground,
-        const scene::AirSettings& settings,
+    VertexColours(const terrain::GroundTiles& ground, const scene::AirSettings& settings,
         std::shared_ptr<const nature::ReliefShadows> terrain_shadows);
 
     /// Gives other colours from now on.
-    void
-    apply_settings(const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefShadows> terrain_shadows);
+    void apply_settings(
+        const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefShadows> terrain_shadows);
 
     /// Fills in ColourVertex::colour; `morphs` as GroundMesh::origins.
-    void
-    fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs);
+    void fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs);
 
     /// Colour of a place of the world, packed, with the number of its covers for alpha.
     std::uint32_t at(const glm::dvec2& place_m, const glm::vec3& from_eye_m);
@@ -111,13 +108,12 @@ private:
     float footprints_per_m_; ///< of the distance, in footprints of octave 0
     unsigned last_octave_;
     std::vector<CachedColours> recent_; ///< asked for lately; a power of two of places
-    std::vector<CachedColours> older_; ///< those asked for before
+    std::vector<CachedColours> older_;  ///< those asked for before
     std::size_t recent_count_ = 0;
 };
 
-/// Footprint as a share of the distance: about the distance of neighbouring vertices where the
-/// ground is rough, 14 pixels of 720 lines over 45 degrees; nearer than the distance of samples
-/// about half of what edges look like there.
+/// Footprint as a share of the distance: about the distance of neighbouring vertices where the ground is rough, 14
+/// pixels of 720 lines over 45 degrees; nearer than the distance of samples about half of what edges look like there.
 constexpr float footprint_share = 1.0F / 192.0F;
 constexpr float near_footprint_share = 1.0F / 40.0F;
 constexpr std::size_t min_places = 1U << 14U;
@@ -130,8 +126,7 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b, std::uint32_t share_of_b) 
     constexpr std::uint32_t half = 0x00800080U;
     const std::uint32_t share_of_a = 256U - share_of_b;
     const std::uint32_t low = ((a & even) * share_of_a + (b & even) * share_of_b + half) >> 8U;
-    const std::uint32_t high =
-        ((a >> 8U) & even) * share_of_a + ((b >> 8U) & even) * share_of_b + half;
+    const std::uint32_t high = ((a >> 8U) & even) * share_of_a + ((b >> 8U) & even) * share_of_b + half;
     return (low & even) | (high & ~even);
 }
 
@@ -151,16 +146,12 @@ std::size_t hashed(std::uint32_t column, std::uint32_t row) {
     return h ^ (h >> 15U);
 }
 
-VertexColours::VertexColours(
-    const terrain::GroundTiles& ground,
-    const scene::AirSettings& settings,
+VertexColours::VertexColours(const terrain::GroundTiles& ground, const scene::AirSettings& settings,
     std::shared_ptr<const nature::ReliefShadows> terrain_shadows)
-    : ground_(ground)
-    , palette_(settings, climate_at(ground.metadata().place), std::move(terrain_shadows))
-    , water_(daylight_of(settings))
-    , footprints_per_m_(
-          static_cast<float>(1U << finer_octaves) / static_cast<float>(ground.spacing_m()))
-    , last_octave_(static_cast<unsigned>(ground.levels() - 1) + finer_octaves) {
+    : ground_(ground), palette_(settings, climate_at(ground.metadata().place), std::move(terrain_shadows)),
+      water_(daylight_of(settings)),
+      footprints_per_m_(static_cast<float>(1U << finer_octaves) / static_cast<float>(ground.spacing_m())),
+      last_octave_(static_cast<unsigned>(ground.levels() - 1) + finer_octaves) {
     recent_.resize(min_places);
     older_.resize(min_places);
 }
@@ -174,8 +165,7 @@ void VertexColours::apply_settings(
     recent_count_ = 0;
 }
 
-void VertexColours::fill(
-    std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs) {
+void VertexColours::fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs) {
     assert(vertices.size() == morphs.size());
     reserve(vertices.size());
     const std::size_t mask = recent_.size() - 1;
@@ -195,9 +185,7 @@ void VertexColours::fill(
         vertices[i].colour = colour;
     }
     for (models::ColourVertex& vertex : vertices) {
-        if (vertex.colour >> 24U == 0) {
-            vertex.colour = seen_water(vertex.colour, vertex.position_m);
-        }
+        if (vertex.colour >> 24U == 0) { vertex.colour = seen_water(vertex.colour, vertex.position_m); }
     }
 }
 
@@ -208,36 +196,29 @@ std::uint32_t VertexColours::at(const glm::dvec2& place_m, const glm::vec3& from
         const auto last = static_cast<double>(samples - 1) * subdivisions;
         return static_cast<std::uint32_t>(std::lround(std::clamp(at, 0.0, last)));
     };
-    if (4 * recent_count_ > 3 * recent_.size()) {
-        reserve(0);
-    }
+    if (4 * recent_count_ > 3 * recent_.size()) { reserve(0); }
     const std::uint32_t colour = colour_at_distance(
-        {place_of(grid.x, ground_.columns()), place_of(grid.y, ground_.rows())},
-        glm::length(from_eye_m));
+        {place_of(grid.x, ground_.columns()), place_of(grid.y, ground_.rows())}, glm::length(from_eye_m));
     return colour >> 24U == 0 ? seen_water(colour, from_eye_m) : colour;
 }
 
 /// Without what water mirrors.
 std::uint32_t VertexColours::colour_at_distance(const SubgridPoint& place, float distance_m) {
-    const float near = std::min(
-        distance_m * near_footprint_share * footprints_per_m_,
-        static_cast<float>(1U << finer_octaves));
-    const Octave octave =
-        octave_of(std::max(near, distance_m * footprint_share * footprints_per_m_));
+    const float near =
+        std::min(distance_m * near_footprint_share * footprints_per_m_, static_cast<float>(1U << finer_octaves));
+    const Octave octave = octave_of(std::max(near, distance_m * footprint_share * footprints_per_m_));
     const CachedColours& entry = cached_entry(place, std::min(octave.whole, last_octave_));
     return mixed(entry.fine, entry.coarse, octave.whole < last_octave_ ? octave.part : 256U);
 }
 
 std::uint32_t VertexColours::seen_water(std::uint32_t own, const glm::vec3& from_eye_m) const {
-    const auto part = [&](unsigned shift) {
-        return static_cast<float>(own >> shift & 0xffU) * (1.0F / 255.0F);
-    };
+    const auto part = [&](unsigned shift) { return static_cast<float>(own >> shift & 0xffU) * (1.0F / 255.0F); };
     const glm::vec3 shaded_colour = water_.shaded_colour({part(0), part(8), part(16)}, from_eye_m);
     return models::packed_colour(shaded_colour) & 0x00ffffffU;
 }
 
-/// Places for all vertices of a mesh; what was not asked for since the last but one time that the
-/// table filled is forgotten.
+/// Places for all vertices of a mesh; what was not asked for since the last but one time that the table filled is
+/// forgotten.
 void VertexColours::reserve(std::size_t vertices) {
     const std::size_t places = std::max(min_places, std::bit_ceil(4 * vertices));
     if (places > recent_.size()) {
@@ -258,32 +239,24 @@ void VertexColours::reserve(std::size_t vertices) {
     }
 }
 
-VertexColours::CachedColours&
-VertexColours::slot_in(std::vector<CachedColours>& table, const SubgridPoint& place) const {
+VertexColours::CachedColours& VertexColours::slot_in(
+    std::vector<CachedColours>& table, const SubgridPoint& place) const {
     const std::size_t mask = table.size() - 1;
     std::size_t at = hashed(place.column, place.row) & mask;
-    while (table[at].octave != unused && table[at].place != place) {
-        at = (at + 1) & mask;
-    }
+    while (table[at].octave != unused && table[at].place != place) { at = (at + 1) & mask; }
     return table[at];
 }
 
 const VertexColours::CachedColours& VertexColours::cached_entry(const SubgridPoint& place, unsigned octave) {
     CachedColours& entry = slot_in(recent_, place);
-    if (entry.octave == octave) {
-        return entry;
-    }
+    if (entry.octave == octave) { return entry; }
     if (entry.octave == unused) {
         ++recent_count_;
         const CachedColours& before = slot_in(older_, place);
-        if (before.octave != unused) {
-            entry = before;
-        }
+        if (before.octave != unused) { entry = before; }
         entry.place = place;
     }
-    if (entry.octave != octave) {
-        compute(entry, octave);
-    }
+    if (entry.octave != octave) { compute(entry, octave); }
     return entry;
 }
 
@@ -291,9 +264,8 @@ void VertexColours::compute(CachedColours& entry, unsigned octave) const {
     const CachedColours before = entry;
     const unsigned coarser = std::min(octave + 1, last_octave_);
     entry.octave = octave;
-    entry.fine = before.octave != unused && before.octave + 1 == octave
-                     ? before.coarse
-                     : colour_of(entry.place, octave);
+    entry.fine =
+        before.octave != unused && before.octave + 1 == octave ? before.coarse : colour_of(entry.place, octave);
     entry.coarse = before.octave == octave + 1 ? before.fine
                    : coarser == octave         ? entry.fine
                                                : colour_of(entry.place, coarser);
@@ -304,14 +276,11 @@ std::uint32_t VertexColours::colour_of(const SubgridPoint& place, unsigned octav
     const bool is_sample = place.column % subdivisions == 0 && place.row % subdivisions == 0;
     TerrainPoint point = is_sample ? sample_point(place, step) : point_between(place);
     point.land_share = palette_.is_water(point) ? land_share_at(point) : 0.0F;
-    return palette_.packed(
-        point,
-        static_cast<float>(ground_.spacing_m()) *
-            std::exp2(static_cast<float>(octave) - static_cast<float>(finer_octaves)));
+    return palette_.packed(point, static_cast<float>(ground_.spacing_m()) *
+                                      std::exp2(static_cast<float>(octave) - static_cast<float>(finer_octaves)));
 }
 
-/// A sample with the mean slope of so wide a surrounding; of a place between samples, the one
-/// south-west of it.
+/// A sample with the mean slope of so wide a surrounding; of a place between samples, the one south-west of it.
 TerrainPoint VertexColours::sample_point(const SubgridPoint& place, int step) const {
     const auto column = static_cast<int>(place.column / subdivisions);
     const auto row = static_cast<int>(place.row / subdivisions);
@@ -320,14 +289,11 @@ TerrainPoint VertexColours::sample_point(const SubgridPoint& place, int step) co
     const int south = std::max(row - step, 0);
     const int north = std::min(row + step, ground_.rows() - 1);
     const auto spacing_m = static_cast<float>(ground_.spacing_m());
-    const float rise_east = (ground_.height_m(east, row) - ground_.height_m(west, row)) /
-                            (spacing_m * static_cast<float>(east - west));
+    const float rise_east =
+        (ground_.height_m(east, row) - ground_.height_m(west, row)) / (spacing_m * static_cast<float>(east - west));
     const float rise_north = (ground_.height_m(column, north) - ground_.height_m(column, south)) /
                              (spacing_m * static_cast<float>(north - south));
-    return {
-        spacing_m * static_cast<float>(column),
-        spacing_m * static_cast<float>(row),
-        ground_.height_m(column, row),
+    return {spacing_m * static_cast<float>(column), spacing_m * static_cast<float>(row), ground_.height_m(column, row),
         glm::normalize(glm::vec3(-rise_east, -rise_north, 1.0F))};
 }
 
@@ -348,10 +314,7 @@ TerrainPoint VertexColours::point_between(const SubgridPoint& place) const {
     const auto between = [&](auto low, auto low_right, auto high, auto high_right) {
         return glm::mix(glm::mix(low, low_right, right), glm::mix(high, high_right, right), up);
     };
-    return {
-        east_m,
-        north_m,
-        between(a.height_m, b.height_m, c.height_m, d.height_m),
+    return {east_m, north_m, between(a.height_m, b.height_m, c.height_m, d.height_m),
         glm::normalize(between(a.normal, b.normal, c.normal, d.normal))};
 }
 
@@ -383,10 +346,8 @@ glm::vec3 VertexColours::mean() const {
     glm::vec3 sum(0.0F);
     for (int j = 0; j < mean_samples; ++j) {
         for (int i = 0; i < mean_samples; ++i) {
-            const auto column =
-                static_cast<std::uint32_t>((2 * i + 1) * ground_.columns() / (2 * mean_samples));
-            const auto row =
-                static_cast<std::uint32_t>((2 * j + 1) * ground_.rows() / (2 * mean_samples));
+            const auto column = static_cast<std::uint32_t>((2 * i + 1) * ground_.columns() / (2 * mean_samples));
+            const auto row = static_cast<std::uint32_t>((2 * j + 1) * ground_.rows() / (2 * mean_samples));
             const std::uint32_t colour = colour_of({column * subdivisions, row * subdivisions}, finer_octaves);
             sum += glm::vec3(colour & 0xffU, colour >> 8U & 0xffU, colour >> 16U & 0xffU);
         }
@@ -394,19 +355,17 @@ glm::vec3 VertexColours::mean() const {
     return sum / (255.0F * static_cast<float>(mean_samples * mean_samples));
 }
 
-/// The roads of a ground, found when they are first asked for, which is loading work, and shared by
-/// all grounds of the same heights and water.
+/// The roads of a ground, found when they are first asked for, which is loading work, and shared by all grounds of the
+/// same heights and water.
 class SharedRoads {
 public:
-    explicit SharedRoads(double water_level_m)
-        : water_level_m_(water_level_m) {}
+    explicit SharedRoads(double water_level_m) : water_level_m_(water_level_m) {}
 
     double water_level_m() const { return water_level_m_; }
 
-    /// On this ground, the same in each call. `runway`: which roads keep off; null where there is
-    /// none.
-    std::shared_ptr<const roads::RoadNetwork>
-    network(const terrain::GroundTiles& tiles, const models::heights::RunwayStrip* runway);
+    /// On this ground, the same in each call. `runway`: which roads keep off; null where there is none.
+    std::shared_ptr<const roads::RoadNetwork> network(
+        const terrain::GroundTiles& tiles, const models::heights::RunwayStrip* runway);
 
 private:
     double water_level_m_;
@@ -418,11 +377,8 @@ private:
 class BisectionGround final : public Ground {
 public:
     /// `roads`: of a ground of the same heights; null where there is none.
-    BisectionGround(
-        std::shared_ptr<const terrain::GroundTiles> tiles,
-        const scene::AirSettings& air,
-        std::shared_ptr<const models::heights::RunwayStrip> runway,
-        std::shared_ptr<SharedRoads> roads = nullptr);
+    BisectionGround(std::shared_ptr<const terrain::GroundTiles> tiles, const scene::AirSettings& air,
+        std::shared_ptr<const models::heights::RunwayStrip> runway, std::shared_ptr<SharedRoads> roads = nullptr);
 
     const terrain::GroundTiles& tiles() const { return *tiles_; }
 
@@ -433,9 +389,7 @@ public:
     /// Whether things may stand in the cell beyond a sample.
     bool allows_scenery(int column, int row) const;
 
-    std::optional<double> height_at(double x_m, double y_m) const override {
-        return tiles_->height_at(x_m, y_m);
-    }
+    std::optional<double> height_at(double x_m, double y_m) const override { return tiles_->height_at(x_m, y_m); }
 
     double spacing_m() const override { return tiles_->spacing_m(); }
 
@@ -445,9 +399,7 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const override {
-        return contrast_;
-    }
+    std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const override { return contrast_; }
 
     glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override;
     float cover_code_at(double x_m, double y_m, double footprint_m) const override;
@@ -456,8 +408,8 @@ public:
     std::optional<GroundTextureSource> source() const override;
     bool has_mesh_settings(const scene::GroundSettings& settings) const override;
     bool has_colour_settings(const scene::AirSettings& settings) const override;
-    std::shared_ptr<const Ground>
-    with_settings(const scene::GroundSettings& ground, const scene::AirSettings& air) const override;
+    std::shared_ptr<const Ground> with_settings(
+        const scene::GroundSettings& ground, const scene::AirSettings& air) const override;
 
 private:
     std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
@@ -472,14 +424,13 @@ private:
 
 constexpr double highest_desert_town_m = 3000.0; ///< the trees of deserts say nothing of people
 
-std::shared_ptr<const roads::RoadNetwork>
-SharedRoads::network(const terrain::GroundTiles& tiles, const models::heights::RunwayStrip* runway) {
+std::shared_ptr<const roads::RoadNetwork> SharedRoads::network(
+    const terrain::GroundTiles& tiles, const models::heights::RunwayStrip* runway) {
     std::call_once(once_, [&] {
         const nature::Climate climate = climate_at(tiles.metadata().place);
         roads::RoadConstraints constraints;
         constraints.water_m = water_level_m_;
-        constraints.max_town_height_m =
-            climate.arid ? highest_desert_town_m : static_cast<double>(climate.tree_line_m);
+        constraints.max_town_height_m = climate.arid ? highest_desert_town_m : static_cast<double>(climate.tree_line_m);
         if (runway != nullptr) {
             constraints.is_blocked = [runway](const glm::dvec2& at_m) {
                 return runway->distance_m(at_m) < models::heights::side_slope_end_m;
@@ -490,22 +441,15 @@ SharedRoads::network(const terrain::GroundTiles& tiles, const models::heights::R
     return roads_;
 }
 
-BisectionGround::BisectionGround(
-    std::shared_ptr<const terrain::GroundTiles> tiles,
-    const scene::AirSettings& air,
-    std::shared_ptr<const models::heights::RunwayStrip> runway,
-    std::shared_ptr<SharedRoads> roads)
-    : Ground(std::move(runway))
-    , tiles_(std::move(tiles))
-    , air_(air)
-    , roads_(
-          roads && roads->water_level_m() == air.water_level_m
-              ? std::move(roads)
-              : std::make_shared<SharedRoads>(air.water_level_m))
-    , terrain_shadows_(make_relief_shadows(terrain::GroundSamples(*tiles_), air))
-    , contrast_(std::make_shared<const scene::LandCoverContrast>(
-          GroundPalette(air, climate_at(tiles_->metadata().place)).contrast()))
-    , mean_colour_(VertexColours(*tiles_, air, terrain_shadows_).mean()) {}
+BisectionGround::BisectionGround(std::shared_ptr<const terrain::GroundTiles> tiles, const scene::AirSettings& air,
+    std::shared_ptr<const models::heights::RunwayStrip> runway, std::shared_ptr<SharedRoads> roads)
+    : Ground(std::move(runway)), tiles_(std::move(tiles)), air_(air),
+      roads_(roads && roads->water_level_m() == air.water_level_m ? std::move(roads)
+                                                                  : std::make_shared<SharedRoads>(air.water_level_m)),
+      terrain_shadows_(make_relief_shadows(terrain::GroundSamples(*tiles_), air)),
+      contrast_(std::make_shared<const scene::LandCoverContrast>(
+          GroundPalette(air, climate_at(tiles_->metadata().place)).contrast())),
+      mean_colour_(VertexColours(*tiles_, air, terrain_shadows_).mean()) {}
 
 bool BisectionGround::allows_scenery(int column, int row) const {
     constexpr double clear_m = models::heights::level_margin_m;
@@ -522,14 +466,13 @@ glm::vec3 BisectionGround::colour_at(double x_m, double y_m, double footprint_m)
 float BisectionGround::cover_code_at(double x_m, double y_m, double footprint_m) const {
     const GroundPalette palette(air_, climate_at(tiles_->metadata().place));
     return palette.cover_code(
-        nearest_point(terrain::GroundSamples(*tiles_), {x_m, y_m}, footprint_m),
-        static_cast<float>(footprint_m));
+        nearest_point(terrain::GroundSamples(*tiles_), {x_m, y_m}, footprint_m), static_cast<float>(footprint_m));
 }
 
 nature::LightVisibility BisectionGround::light_visibility(double x_m, double y_m) const {
     const glm::vec2 at_m(glm::dvec2(x_m, y_m) + half_extent_m());
     return terrain_shadows_ ? terrain_shadows_->at(at_m.x, at_m.y, static_cast<float>(spacing_m()))
-                   : nature::LightVisibility();
+                            : nature::LightVisibility();
 }
 
 std::shared_ptr<const roads::RoadNetwork> BisectionGround::road_network() const {
@@ -539,10 +482,8 @@ std::shared_ptr<const roads::RoadNetwork> BisectionGround::road_network() const 
 
 std::optional<GroundTextureSource> BisectionGround::source() const {
     const terrain::GroundMetadata& metadata = tiles_->metadata();
-    return GroundTextureSource{
-        terrain::GroundSamples(*tiles_),
-        {metadata.name, tiles_->half_extent_m(), tiles_->spacing_m(), metadata.system},
-        metadata.place};
+    return GroundTextureSource{terrain::GroundSamples(*tiles_),
+        {metadata.name, tiles_->half_extent_m(), tiles_->spacing_m(), metadata.system}, metadata.place};
 }
 
 bool BisectionGround::has_mesh_settings(const scene::GroundSettings& settings) const {
@@ -553,29 +494,25 @@ bool BisectionGround::has_colour_settings(const scene::AirSettings& settings) co
     return same_colours(settings, air_);
 }
 
-std::shared_ptr<const Ground>
-BisectionGround::with_settings(const scene::GroundSettings& ground, const scene::AirSettings& air) const {
-    return has_mesh_settings(ground) ? std::make_shared<BisectionGround>(tiles_, air, runway(), roads_)
-                                : nullptr;
+std::shared_ptr<const Ground> BisectionGround::with_settings(
+    const scene::GroundSettings& ground, const scene::AirSettings& air) const {
+    return has_mesh_settings(ground) ? std::make_shared<BisectionGround>(tiles_, air, runway(), roads_) : nullptr;
 }
 
-constexpr double prefetch_frames = 120.0;  ///< how far along the eye's way pages are asked for
-constexpr double min_error_px = 0.25; ///< what is finer than this nobody sees
+constexpr double prefetch_frames = 120.0; ///< how far along the eye's way pages are asked for
+constexpr double min_error_px = 0.25;     ///< what is finer than this nobody sees
 constexpr double default_triangles = 20000.0;
 
 /// Meshes by screen-space error with geomorphs, made ahead on a thread where that is asked for.
 class BisectionGroundMesher final : public GroundMesher {
 public:
     BisectionGroundMesher(std::shared_ptr<const BisectionGround> ground, const MeshSettings& settings)
-        : ground_(std::move(ground))
-        , mesher_(ground_->tiles())
-        , colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows())
-        , detailed_ground_(nature::Scenery(
-              -ground_->tiles().half_extent_m(),
-              {ground_->tiles().columns(), ground_->tiles().rows()},
-              ground_->tiles().spacing_m(),
-              [this](int column, int row) { return scenery_density_at(column, row); }))
-        , prefetcher_(ground_->tiles()) {
+        : ground_(std::move(ground)), mesher_(ground_->tiles()),
+          colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows()),
+          detailed_ground_(nature::Scenery(-ground_->tiles().half_extent_m(),
+              {ground_->tiles().columns(), ground_->tiles().rows()}, ground_->tiles().spacing_m(),
+              [this](int column, int row) { return scenery_density_at(column, row); })),
+          prefetcher_(ground_->tiles()) {
         detailed_ground_.scenery().set_daylight(daylight_of(ground_->air()));
         apply_settings(settings);
     }
@@ -584,8 +521,7 @@ public:
 
     void apply_settings(const MeshSettings& settings) override {
         background_task_.wait();
-        order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack
-                                        : terrain::PaintOrder::BackToFront;
+        order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack : terrain::PaintOrder::BackToFront;
         picture_height_px_ = settings.picture_height_px;
         target_.error_px = settings.ground.error_px.value_or(min_error_px);
         target_.geomorphs = settings.ground.geomorphs;
@@ -593,16 +529,13 @@ public:
         has_texture_ = settings.has_texture;
         use_roads(settings.ground.roads && !settings.has_texture);
         is_coloured_ = false;
-        earth_radius_m_ = settings.ground.earth_curvature
-                              ? ellipsoid_below(ground_->tiles().metadata().place).mean_radius_m()
-                              : 0.0;
+        earth_radius_m_ =
+            settings.ground.earth_curvature ? ellipsoid_below(ground_->tiles().metadata().place).mean_radius_m() : 0.0;
     }
 
     bool switch_ground(const std::shared_ptr<const Ground>& ground) override {
         auto moved = std::dynamic_pointer_cast<const BisectionGround>(ground);
-        if (!moved || &moved->tiles() != &ground_->tiles()) {
-            return false;
-        }
+        if (!moved || &moved->tiles() != &ground_->tiles()) { return false; }
         background_task_.wait();
         ground_ = std::move(moved);
         colours_.apply_settings(ground_->air(), ground_->terrain_shadows());
@@ -618,9 +551,7 @@ public:
     /// A second mesh ahead would take the memory of the one that is being drawn.
     void begin_next_mesh(const MeshRequest& request, const IdleThreadRunner& on_idle_thread) override {
         background_task_.wait();
-        if (std::exchange(has_mesh_begun_, true)) {
-            return;
-        }
+        if (std::exchange(has_mesh_begun_, true)) { return; }
         set_target(request);
         next_mesh_view_ = view_of(request);
         background_task_.begin([this] { make(next_mesh_view_); }, on_idle_thread);
@@ -637,13 +568,8 @@ public:
         const glm::dvec3 way_m = eye_m - last_eye_m_.value_or(eye_m);
         prefetcher_.prefetch_around(glm::dvec2(eye_m + prefetch_frames * way_m));
         last_eye_m_ = eye_m;
-        counts = {
-            static_cast<int>(drawn_mesh_.indices.size() / 3),
-            mesh_.counters.fans,
-            0.0,
-            mesh_.error_px,
-            static_cast<int>(drawn_mesh_.detail_triangles),
-            static_cast<int>(drawn_mesh_.scenery_triangles)};
+        counts = {static_cast<int>(drawn_mesh_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px,
+            static_cast<int>(drawn_mesh_.detail_triangles), static_cast<int>(drawn_mesh_.scenery_triangles)};
         return {drawn_mesh_.vertices, drawn_mesh_.indices};
     }
 
@@ -657,9 +583,7 @@ public:
         const glm::dvec3 below_m(0.0, 0.0, moved_m);
         const glm::dvec3 above_m(0.0, 0.0, moved_m + nature::Scenery::highest_m);
         mesher_.triangles_in(
-            [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
-                return wanted(min_m - below_m, max_m + above_m);
-            },
+            [&](const glm::dvec3& min_m, const glm::dvec3& max_m) { return wanted(min_m - below_m, max_m + above_m); },
             triangles);
         detailed_ground_.replace(triangles, first);
     }
@@ -667,8 +591,7 @@ public:
 private:
     /// Where things stand follows from where roads are.
     void use_roads(bool wanted) {
-        std::shared_ptr<const roads::RoadNetwork> roads =
-            wanted ? ground_->road_network() : nullptr;
+        std::shared_ptr<const roads::RoadNetwork> roads = wanted ? ground_->road_network() : nullptr;
         if (roads != roads_) {
             roads_ = std::move(roads);
             detailed_ground_.scenery().clear_cache();
@@ -679,19 +602,12 @@ private:
     nature::SceneryDensity scenery_density_at(int column, int row) const {
         constexpr double along_road_m = 90.0;
         constexpr float houses_along_road = 8.0F; ///< times as many
-        if (!ground_->allows_scenery(column, row)) {
-            return {};
-        }
+        if (!ground_->allows_scenery(column, row)) { return {}; }
         nature::SceneryDensity scenery_density = colours_.scenery_density_of(column, row);
         const double spacing_m = ground_->spacing_m();
-        const glm::dvec2 middle_m =
-            (glm::dvec2(column, row) + 0.5) * spacing_m - ground_->half_extent_m();
-        if (!roads_) {
-            return scenery_density;
-        }
-        if (roads_->is_near(middle_m, spacing_m * 0.75 + roads::half_width_m)) {
-            return {};
-        }
+        const glm::dvec2 middle_m = (glm::dvec2(column, row) + 0.5) * spacing_m - ground_->half_extent_m();
+        if (!roads_) { return scenery_density; }
+        if (roads_->is_near(middle_m, spacing_m * 0.75 + roads::half_width_m)) { return {}; }
         if (scenery_density.houses > 0.0F && roads_->is_near(middle_m, along_road_m + spacing_m)) {
             scenery_density.houses = std::min(houses_along_road * scenery_density.houses, 0.3F);
         }
@@ -706,9 +622,7 @@ private:
         near_view_.eye_m = eye_m;
         near_view_.spacing_m = ground_->spacing_m();
         near_view_.order = order_;
-        std::ranges::transform(
-            frustum_normals(request.camera, request.aspect),
-            near_view_.frustum_normals.begin(),
+        std::ranges::transform(frustum_normals(request.camera, request.aspect), near_view_.frustum_normals.begin(),
             [](const glm::dvec3& normal) { return glm::vec3(normal); });
         const int triangles = request.triangle_target;
         const bool unlimited = triangles >= scene::unlimited_triangles;
@@ -716,14 +630,11 @@ private:
             const double height_above_ground_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
             nature::apply_detail_budget(
                 {unlimited ? std::nullopt : std::optional(triangles / default_triangles),
-                 request.camera.vertical_fov_rad * request.aspect,
-                 focal_px(request.camera, picture_height_px_),
-                 std::max(height_above_ground_m, 0.0)},
-                detail_,
-                near_view_);
+                    request.camera.vertical_fov_rad * request.aspect, focal_px(request.camera, picture_height_px_),
+                    std::max(height_above_ground_m, 0.0)},
+                detail_, near_view_);
         }
-        const int kept =
-            adds_detail() ? static_cast<int>(near_view_.max_splits + near_view_.max_scenery_triangles) : 0;
+        const int kept = adds_detail() ? static_cast<int>(near_view_.max_splits + near_view_.max_scenery_triangles) : 0;
         target_.max_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
     }
 
@@ -748,13 +659,13 @@ private:
     void show(const terrain::GroundMesh& mesh) {
         drawn_mesh_ = {mesh.vertices, mesh.indices, 0, 0};
         if (adds_detail()) {
-            drawn_mesh_ = detailed_ground_.detailed_mesh(mesh, near_view_, detail_, has_texture_ ? nullptr : &colour_at_point_);
+            drawn_mesh_ =
+                detailed_ground_.detailed_mesh(mesh, near_view_, detail_, has_texture_ ? nullptr : &colour_at_point_);
         }
     }
 
     terrain::MeshView view_of(const MeshRequest& request) const {
-        return {
-            .eye_m = request.camera.eye_m,
+        return {.eye_m = request.camera.eye_m,
             .frustum_normals = frustum_normals(request.camera, request.aspect),
             .order = order_,
             .focal_px = focal_px(request.camera, picture_height_px_),
@@ -770,10 +681,9 @@ private:
     nature::NearDetailOptions detail_;
     std::shared_ptr<const roads::RoadNetwork> roads_; ///< null: none are shown
     bool has_texture_ = false;
-    nature::ColourAtPoint colour_at_point_ =
-        [this](const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
-            return colours_.at(place_m, from_eye_m);
-        };
+    nature::ColourAtPoint colour_at_point_ = [this](const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
+        return colours_.at(place_m, from_eye_m);
+    };
     nature::NearDetailView near_view_;
     nature::DetailedGround::Triangles drawn_mesh_; ///< mesh_ with its detail
     terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
@@ -781,9 +691,9 @@ private:
     terrain::ErrorTarget target_;
     double earth_radius_m_ = 0.0;
     terrain::GroundMesh mesh_;
-    bool is_coloured_ = false;    ///< mesh_, in the ground's colours
+    bool is_coloured_ = false;         ///< mesh_, in the ground's colours
     terrain::MeshView next_mesh_view_; ///< of the mesh that is made ahead
-    bool has_mesh_begun_ = false;       ///< a mesh has been begun that nobody has asked for yet
+    bool has_mesh_begun_ = false;      ///< a mesh has been begun that nobody has asked for yet
     std::optional<glm::dvec3> last_eye_m_;
     terrain::GroundPrefetcher prefetcher_;
     BackgroundTask background_task_; ///< goes first: it uses the others
@@ -796,9 +706,7 @@ std::unique_ptr<GroundMesher> BisectionGround::make_mesher(const MeshSettings& s
     return std::make_unique<BisectionGroundMesher>(std::move(ground), settings);
 }
 
-std::shared_ptr<const Ground> make_bisection_ground(
-    terrain::GroundTiles ground,
-    const scene::AirSettings& air,
+std::shared_ptr<const Ground> make_bisection_ground(terrain::GroundTiles ground, const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway) {
     return std::make_shared<BisectionGround>(
         std::make_shared<const terrain::GroundTiles>(std::move(ground)), air, std::move(runway));

@@ -11,9 +11,7 @@ double highest_m(const Ground& ground) {
     constexpr int max_steps = 512;
     const glm::dvec2 half_m = ground.half_extent_m();
     const double spacing_m = ground.spacing_m();
-    if (spacing_m <= 0.0) {
-        return std::isfinite(ground.mean_height_m()) ? ground.mean_height_m() : 0.0;
-    }
+    if (spacing_m <= 0.0) { return std::isfinite(ground.mean_height_m()) ? ground.mean_height_m() : 0.0; }
     const auto steps_over = [&](double half) {
         return std::clamp(static_cast<int>(std::lround(2.0 * half / spacing_m)), 1, max_steps);
     };
@@ -30,29 +28,19 @@ double highest_m(const Ground& ground) {
 }
 
 MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture) {
-    return {
-        settings.ground,
-        settings.view.size_px.y,
-        settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
-        has_texture};
+    return {settings.ground, settings.view.size_px.y,
+        settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer, has_texture};
 }
 
 const nature::Backdrop& Ground::backdrop() const {
     std::call_once(backdrop_once_, [this] {
         if (spacing_m() > 0.0) {
-            backdrop_ = nature::make_backdrop(
-                {half_extent_m(),
-                 mean_height_m(),
-                 mean_colour(),
-                 [this](const glm::dvec2& at_m) {
-                     return height_at(at_m.x, at_m.y).value_or(mean_height_m());
-                 },
-                 [this](const glm::dvec2& at_m, double footprint_m) {
-                     return colour_at(at_m.x, at_m.y, footprint_m);
-                 },
-                 [this](const glm::dvec2& at_m, double footprint_m) {
-                     return cover_code_at(at_m.x, at_m.y, footprint_m);
-                 }});
+            backdrop_ = nature::make_backdrop({half_extent_m(), mean_height_m(), mean_colour(),
+                [this](const glm::dvec2& at_m) { return height_at(at_m.x, at_m.y).value_or(mean_height_m()); },
+                [this](const glm::dvec2& at_m, double footprint_m) { return colour_at(at_m.x, at_m.y, footprint_m); },
+                [this](const glm::dvec2& at_m, double footprint_m) {
+                    return cover_code_at(at_m.x, at_m.y, footprint_m);
+                }});
         }
     });
     return backdrop_;

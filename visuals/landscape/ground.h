@@ -31,10 +31,9 @@ struct GroundTextureSource {
     std::optional<GeoPosition> place;
 };
 
-/// What stands below the aircraft: a height field under a quadtree, ground under a mesh by
-/// screen-space error, or polygons painted in one fixed order. Made once at loading, never changed
-/// and shared by all views: what a view needs of its own is in its mesher. Always owned by a
-/// shared_ptr.
+/// What stands below the aircraft: a height field under a quadtree, ground under a mesh by screen-space error, or
+/// polygons painted in one fixed order. Made once at loading, never changed and shared by all views: what a view needs
+/// of its own is in its mesher. Always owned by a shared_ptr.
 class Ground : public std::enable_shared_from_this<Ground> {
 public:
     virtual ~Ground() = default;
@@ -52,34 +51,28 @@ public:
     /// Distance of neighbouring samples at full resolution, metres; 0 where there are none.
     virtual double spacing_m() const { return 0.0; }
 
-    /// Mean height above datum, metres, infinite where there is no ground at all, and mean colour
-    /// of what is drawn.
+    /// Mean height above datum, metres, infinite where there is no ground at all, and mean colour of what is drawn.
     virtual double mean_height_m() const = 0;
     virtual glm::vec3 mean_colour() const = 0;
 
-    /// How pixels differ from the colours of its vertices, whose alpha says of which covers they
-    /// are mixed; null where it says nothing.
+    /// How pixels differ from the colours of its vertices, whose alpha says of which covers they are mixed; null where
+    /// it says nothing.
     virtual std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const { return nullptr; }
 
     /// Colour of a place on the map as the mean over about `footprint_m`, display values.
-    virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
-        return mean_colour();
-    }
+    virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const { return mean_colour(); }
 
     /// The number of the covers of that colour, 0..255; 0 where it says nothing.
-    virtual float cover_code_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
-        return 0.0F;
-    }
+    virtual float cover_code_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const { return 0.0F; }
 
     /// What the relief leaves of the light at a place.
     virtual nature::LightVisibility light_visibility(double /*x_m*/, double /*y_m*/) const { return {}; }
 
-    /// The roads on it; null for ground that has none. Made when they are first asked for, which is
-    /// loading work.
+    /// The roads on it; null for ground that has none. Made when they are first asked for, which is loading work.
     virtual std::shared_ptr<const roads::RoadNetwork> road_network() const { return nullptr; }
 
-    /// The land around the map; nothing for ground without samples. Made when it is first asked
-    /// for, which is loading work.
+    /// The land around the map; nothing for ground without samples. Made when it is first asked for, which is loading
+    /// work.
     const nature::Backdrop& backdrop() const;
 
     /// The samples as they are drawn; nothing for ground that has none.
@@ -88,8 +81,8 @@ public:
     /// Whether meshes of this ground are refined by what these settings say.
     virtual bool has_mesh_settings(const scene::GroundSettings& /*settings*/) const { return true; }
 
-    /// Whether it has the colours that these settings give it. Their palette is that of the ground:
-    /// where none is named, temperate.
+    /// Whether it has the colours that these settings give it. Their palette is that of the ground: where none is
+    /// named, temperate.
     virtual bool has_colour_settings(const scene::AirSettings& /*settings*/) const { return true; }
 
     /// Whether loading the same heights by these settings would give this ground.
@@ -97,10 +90,10 @@ public:
         return has_mesh_settings(ground) && has_colour_settings(air);
     }
 
-    /// Ground of the same heights as these settings want it, made of what is in memory; null where
-    /// it must be loaded. Loading work.
-    virtual std::shared_ptr<const Ground>
-    with_settings(const scene::GroundSettings& /*ground*/, const scene::AirSettings& /*air*/) const {
+    /// Ground of the same heights as these settings want it, made of what is in memory; null where it must be loaded.
+    /// Loading work.
+    virtual std::shared_ptr<const Ground> with_settings(
+        const scene::GroundSettings& /*ground*/, const scene::AirSettings& /*air*/) const {
         return nullptr;
     }
 
@@ -122,32 +115,27 @@ private:
     mutable nature::Backdrop backdrop_;
 };
 
-/// The highest of the ground's samples, at most every 1/512 of its extent; 0 where there is none.
-/// Loading work.
+/// The highest of the ground's samples, at most every 1/512 of its extent; 0 where there is none. Loading work.
 double highest_m(const Ground& ground);
 
-/// The mesher by which a view goes on under other settings: `before` where it meshes this very
-/// ground or the same one in other colours, else a new one. As Ground::mesher.
+/// The mesher by which a view goes on under other settings: `before` where it meshes this very ground or the same one
+/// in other colours, else a new one. As Ground::mesher.
 std::unique_ptr<GroundMesher> reuse_or_make_mesher(
     std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings);
 
-/// A height field under a quadtree whose triangle count is held. Takes the field over.
-/// `runway`: for which it has been levelled.
-std::shared_ptr<const Ground> make_quadtree_ground(
-    models::heights::HeightField field,
-    const scene::GroundSettings& ground,
-    const scene::AirSettings& air,
+/// A height field under a quadtree whose triangle count is held. Takes the field over. `runway`: for which it has been
+/// levelled.
+std::shared_ptr<const Ground> make_quadtree_ground(models::heights::HeightField field,
+    const scene::GroundSettings& ground, const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
 
 /// Ground under a mesh by screen-space error. `runway`: for which it has been levelled.
-std::shared_ptr<const Ground> make_bisection_ground(
-    terrain::GroundTiles ground,
-    const scene::AirSettings& air,
+std::shared_ptr<const Ground> make_bisection_ground(terrain::GroundTiles ground, const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
 
-/// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
-/// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.
-std::shared_ptr<const Ground>
-make_polygon_ground(models::polygons::PolygonModel polygons, const scene::AirSettings& air);
+/// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z down. Without
+/// polygons: nothing to see and a map of 2,000 km, for aircraft alone.
+std::shared_ptr<const Ground> make_polygon_ground(
+    models::polygons::PolygonModel polygons, const scene::AirSettings& air);
 
 } // namespace octant::visuals::landscape

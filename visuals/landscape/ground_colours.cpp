@@ -19,25 +19,19 @@ TerrainPoint ground_point(const terrain::GroundSamples& ground, int column, int 
     const double rise_east = ground.height_m(east, row) - ground.height_m(west, row);
     const double rise_north = ground.height_m(column, north) - ground.height_m(column, south);
     const glm::dvec3 normal(
-        -rise_east / ((east - west) * ground.spacing_m()),
-        -rise_north / ((north - south) * ground.spacing_m()),
-        1.0);
+        -rise_east / ((east - west) * ground.spacing_m()), -rise_north / ((north - south) * ground.spacing_m()), 1.0);
     const auto spacing_m = static_cast<float>(ground.spacing_m());
-    return {
-        spacing_m * static_cast<float>(column),
-        spacing_m * static_cast<float>(row),
-        static_cast<float>(ground.height_m(column, row)),
-        glm::vec3(glm::normalize(normal))};
+    return {spacing_m * static_cast<float>(column), spacing_m * static_cast<float>(row),
+        static_cast<float>(ground.height_m(column, row)), glm::vec3(glm::normalize(normal))};
 }
 
-std::vector<std::uint32_t>
-ground_colours(const models::heights::HeightField& field, const scene::AirSettings& settings) {
+std::vector<std::uint32_t> ground_colours(
+    const models::heights::HeightField& field, const scene::AirSettings& settings) {
     const terrain::GroundSamples ground(field);
     const GroundPalette palette(settings, climate_at(field.place), make_relief_shadows(ground, settings));
     const auto spacing_m = static_cast<float>(field.spacing_m());
     std::vector<std::uint32_t> colours;
-    colours.reserve(
-        static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
+    colours.reserve(static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
             const TerrainPoint point = ground_point(ground, column, row, 1);
@@ -47,8 +41,7 @@ ground_colours(const models::heights::HeightField& field, const scene::AirSettin
     return colours;
 }
 
-TerrainPoint
-nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m) {
+TerrainPoint nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m) {
     const glm::dvec2 place = ground.grid_from_world(at_m.x, at_m.y);
     const int column = std::clamp(static_cast<int>(std::lround(place.x)), 0, ground.columns() - 1);
     const int row = std::clamp(static_cast<int>(std::lround(place.y)), 0, ground.rows() - 1);
@@ -57,10 +50,7 @@ nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, doub
 }
 
 glm::vec3 nearest_colour(
-    const terrain::GroundSamples& ground,
-    const GroundPalette& palette,
-    const glm::dvec2& at_m,
-    double footprint_m) {
+    const terrain::GroundSamples& ground, const GroundPalette& palette, const glm::dvec2& at_m, double footprint_m) {
     return palette.lit_colour(nearest_point(ground, at_m, footprint_m), static_cast<float>(footprint_m));
 }
 
@@ -71,11 +61,8 @@ glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours) {
         sums[1] += (colour >> 8U) & 0xffU;
         sums[2] += (colour >> 16U) & 0xffU;
     }
-    const double scale =
-        colours.empty() ? 0.0 : 1.0 / (255.0 * static_cast<double>(colours.size()));
-    return glm::vec3(glm::dvec3(
-        static_cast<double>(sums[0]) * scale,
-        static_cast<double>(sums[1]) * scale,
+    const double scale = colours.empty() ? 0.0 : 1.0 / (255.0 * static_cast<double>(colours.size()));
+    return glm::vec3(glm::dvec3(static_cast<double>(sums[0]) * scale, static_cast<double>(sums[1]) * scale,
         static_cast<double>(sums[2]) * scale));
 }
 

@@ -1,4 +1,5 @@
 #include "visuals/landscape/ground_palette.h"
+
 #include "models/colour_vertex.h"
 #include "sim/base/units.h"
 #include "visuals/nature/climate.h"
@@ -48,21 +49,20 @@ struct LandCover {
 /// The height at which temperate ground has what grows at a place's height in its climate.
 float temperate_height_m(float height_m, const nature::Climate& climate);
 
-/// The colour of temperate ground before light falls on it, display values. The height of the place
-/// is what temperate_height_m() gives.
+/// The colour of temperate ground before light falls on it, display values. The height of the place is what
+/// temperate_height_m() gives.
 glm::vec3 temperate_colour(const SiteConditions& site);
 
 /// Own colour of desert ground, display values.
 glm::vec3 arid_colour(const SiteConditions& site);
 
-/// Own colour of ground on which nothing but this dust lies, display values: bare where it is
-/// steep.
+/// Own colour of ground on which nothing but this dust lies, display values: bare where it is steep.
 glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust);
 
 constexpr glm::vec3 snow_colour(0.93F, 0.94F, 0.96F);
 
-/// The covers of ground for scene::LandCoverContrast, by their numbers: woods or shrubs, meadows or
-/// bare soil, rock and snow.
+/// The covers of ground for scene::LandCoverContrast, by their numbers: woods or shrubs, meadows or bare soil, rock and
+/// snow.
 constexpr float woods_code = 64.0F;
 constexpr float meadow_code = 128.0F;
 constexpr float rock_code = 192.0F;
@@ -82,30 +82,20 @@ struct ColourStop {
 };
 
 // Cover of level ground by height above the water, and what shows where it is steep.
-constexpr std::array meadow_stops = {
-    ColourStop{0.0F, {0.46F, 0.50F, 0.28F}},
-    ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
-    ColourStop{1100.0F, {0.36F, 0.43F, 0.23F}},
-    ColourStop{1600.0F, {0.46F, 0.46F, 0.31F}},
+constexpr std::array meadow_stops = {ColourStop{0.0F, {0.46F, 0.50F, 0.28F}}, ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
+    ColourStop{1100.0F, {0.36F, 0.43F, 0.23F}}, ColourStop{1600.0F, {0.46F, 0.46F, 0.31F}},
     ColourStop{2000.0F, {0.52F, 0.50F, 0.45F}}};
 constexpr glm::vec3 heath(0.40F, 0.38F, 0.24F);
 constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
 constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...
 constexpr float snow_line_m = 2350.0F; ///< ... and the line of lasting snow
-constexpr std::array crops = {
-    glm::vec3(0.66F, 0.58F, 0.33F),
-    glm::vec3(0.33F, 0.46F, 0.19F),
-    glm::vec3(0.45F, 0.52F, 0.25F),
-    glm::vec3(0.47F, 0.37F, 0.25F)};
+constexpr std::array crops = {glm::vec3(0.66F, 0.58F, 0.33F), glm::vec3(0.33F, 0.46F, 0.19F),
+    glm::vec3(0.45F, 0.52F, 0.25F), glm::vec3(0.47F, 0.37F, 0.25F)};
 const glm::vec3 mean_crop = 0.25F * (crops[0] + crops[1] + crops[2] + crops[3]);
-constexpr std::array arid_stops = {
-    ColourStop{0.0F, {0.45F, 0.33F, 0.24F}},
-    ColourStop{900.0F, {0.58F, 0.38F, 0.26F}},
-    ColourStop{1300.0F, {0.66F, 0.44F, 0.30F}},
-    ColourStop{1700.0F, {0.68F, 0.52F, 0.36F}},
-    ColourStop{2050.0F, {0.60F, 0.54F, 0.36F}},
-    ColourStop{2400.0F, {0.42F, 0.45F, 0.28F}}};
+constexpr std::array arid_stops = {ColourStop{0.0F, {0.45F, 0.33F, 0.24F}}, ColourStop{900.0F, {0.58F, 0.38F, 0.26F}},
+    ColourStop{1300.0F, {0.66F, 0.44F, 0.30F}}, ColourStop{1700.0F, {0.68F, 0.52F, 0.36F}},
+    ColourStop{2050.0F, {0.60F, 0.54F, 0.36F}}, ColourStop{2400.0F, {0.42F, 0.45F, 0.28F}}};
 constexpr glm::vec3 temperate_rock(0.47F, 0.44F, 0.41F);
 constexpr glm::vec3 scree(0.54F, 0.51F, 0.46F);
 constexpr glm::vec3 shrubs(0.36F, 0.36F, 0.22F);
@@ -121,16 +111,13 @@ constexpr float row_m = 180.0F;          ///< ... and south to north
 
 /// Whole-number noise in [0, 1): the same bits on every machine.
 float lattice_noise(int column, int row) {
-    auto h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^
-             static_cast<std::uint32_t>(row) * 0x85ebca77U;
+    auto h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^ static_cast<std::uint32_t>(row) * 0x85ebca77U;
     h = (h ^ (h >> 15U)) * 0x2c1b3c6dU;
     h = (h ^ (h >> 12U)) * 0x297a2d39U;
     return static_cast<float>((h ^ (h >> 15U)) >> 8U) * (1.0F / 16777216.0F);
 }
 
-int cell_of(float at_m, float cell_m) {
-    return static_cast<int>(std::floor(at_m / cell_m));
-}
+int cell_of(float at_m, float cell_m) { return static_cast<int>(std::floor(at_m / cell_m)); }
 
 /// Smooth noise in [-1, 1] whose features are `cell_m` wide.
 float patch_noise(float east_m, float north_m, float cell_m) {
@@ -148,16 +135,15 @@ float patch_noise(float east_m, float north_m, float cell_m) {
 glm::vec3 stop_colour(std::span<const ColourStop> stops, float height_m) {
     for (std::size_t i = 1; i < stops.size(); ++i) {
         if (height_m < stops[i].height_m) {
-            const float t =
-                (height_m - stops[i - 1].height_m) / (stops[i].height_m - stops[i - 1].height_m);
+            const float t = (height_m - stops[i - 1].height_m) / (stops[i].height_m - stops[i - 1].height_m);
             return glm::mix(stops[i - 1].colour, stops[i].colour, glm::clamp(t, 0.0F, 1.0F));
         }
     }
     return stops.back().colour;
 }
 
-/// How much is left of features `size_m` wide when seen through the footprint: all up to half
-/// their size, nothing from their size on.
+/// How much is left of features `size_m` wide when seen through the footprint: all up to half their size, nothing from
+/// their size on.
 float visible_contrast(float size_m, float footprint_m) {
     return glm::clamp(2.0F - 2.0F * footprint_m / size_m, 0.0F, 1.0F);
 }
@@ -167,12 +153,7 @@ SiteConditions site_conditions(const TerrainPoint& point, float footprint_m, flo
         const float left = visible_contrast(size_m, footprint_m);
         return left > 0.0F ? left * patch_noise(point.east_m, point.north_m, size_m) : 0.0F;
     };
-    return {
-        point.east_m,
-        point.north_m,
-        point.height_m - water_m,
-        1.0F - point.normal.z,
-        footprint_m,
+    return {point.east_m, point.north_m, point.height_m - water_m, 1.0F - point.normal.z, footprint_m,
         0.6F * patchiness(740.0F) + 0.4F * patchiness(220.0F)};
 }
 
@@ -190,16 +171,16 @@ glm::vec3 field_crop(const SiteConditions& site) {
     const float pick = lattice_noise(column, row);
     const glm::vec3 own = crops[static_cast<std::size_t>(pick * static_cast<float>(crops.size()))];
     const float ripeness = 0.88F + 0.24F * lattice_noise(row, column);
-    const float drills = visible_contrast(24.0F, site.footprint_m) *
-                         (2.0F * distance_from_border(site.north_m, 12.0F) * 2.0F - 1.0F);
-    glm::vec3 colour = glm::mix(
-        mean_crop, own * (ripeness + 0.07F * drills), visible_contrast(360.0F, site.footprint_m));
+    const float drills =
+        visible_contrast(24.0F, site.footprint_m) * (2.0F * distance_from_border(site.north_m, 12.0F) * 2.0F - 1.0F);
+    glm::vec3 colour =
+        glm::mix(mean_crop, own * (ripeness + 0.07F * drills), visible_contrast(360.0F, site.footprint_m));
     const float border_m =
         std::min(distance_from_border(east_m, field_m) * field_m, distance_from_border(site.north_m, row_m) * row_m);
     // As wide as can be seen, and as much fainter.
     const float half_width_m = std::max(3.0F, site.footprint_m);
     const float vegetated = (1.0F - glm::smoothstep(half_width_m, 2.0F * half_width_m, border_m)) *
-                        (3.0F / half_width_m) * visible_contrast(40.0F, site.footprint_m);
+                            (3.0F / half_width_m) * visible_contrast(40.0F, site.footprint_m);
     return glm::mix(colour, hedge, vegetated);
 }
 
@@ -214,24 +195,17 @@ float tree_speckle(const SiteConditions& site) {
     return visible_contrast(80.0F, site.footprint_m) * (2.0F * noise - 1.0F);
 }
 
-/// Site::summer of low ground in a climate.
-/// By the tree line: Koeppen's polar climates, whose summers are too cool for trees, have it at the
-/// sea; fields are hardly seen where it is below some 800 m.
-float summer_share_of(const nature::Climate& climate) {
-    return glm::smoothstep(500.0F, 1100.0F, climate.tree_line_m);
-}
+/// Site::summer of low ground in a climate. By the tree line: Koeppen's polar climates, whose summers are too cool for
+/// trees, have it at the sea; fields are hardly seen where it is below some 800 m.
+float summer_share_of(const nature::Climate& climate) { return glm::smoothstep(500.0F, 1100.0F, climate.tree_line_m); }
 
 float temperate_height_m(float height_m, const nature::Climate& climate) {
-    if (height_m < climate.tree_line_m) {
-        return height_m * tree_line_m / std::max(climate.tree_line_m, 1.0F);
-    }
-    const float above = (height_m - climate.tree_line_m) /
-                        std::max(climate.snow_line_m - climate.tree_line_m, 50.0F);
+    if (height_m < climate.tree_line_m) { return height_m * tree_line_m / std::max(climate.tree_line_m, 1.0F); }
+    const float above = (height_m - climate.tree_line_m) / std::max(climate.snow_line_m - climate.tree_line_m, 50.0F);
     return tree_line_m + above * (snow_line_m - tree_line_m);
 }
 
-/// How much of a place lies under snow: more on the shaded side, none where it is too steep to
-/// hold.
+/// How much of a place lies under snow: more on the shaded side, none where it is too steep to hold.
 float snow_share(const SiteConditions& site, const glm::vec3& normal, const nature::Climate& climate) {
     const float shaded_m = 400.0F * normal.y * climate.shaded_side;
     const float above_m = site.height_m + 150.0F * site.patchiness + shaded_m - climate.snow_line_m;
@@ -250,11 +224,10 @@ LandCover land_cover(const SiteConditions& site) {
     cover.below_tree_line =
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, tree_line_height_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
-    cover.farmland =
-        site.summer_share * cover.below_tree_line * level *
-        glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
-    const float growth = site.patchiness + 0.5F * patch_value(site, 100.0F) + 5.0F * site.steepness -
-                         0.12F - 0.55F * (1.0F - site.summer_share);
+    cover.farmland = site.summer_share * cover.below_tree_line * level *
+                     glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
+    const float growth = site.patchiness + 0.5F * patch_value(site, 100.0F) + 5.0F * site.steepness - 0.12F -
+                         0.55F * (1.0F - site.summer_share);
     cover.forest_share = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_tree_line * (1.0F - cover.farmland);
     cover.rock_share = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patchiness);
     return cover;
@@ -263,17 +236,14 @@ LandCover land_cover(const SiteConditions& site) {
 /// Brighter and darker patches of several sizes, each as far as the footprint leaves it: about 1.
 float mottling(const SiteConditions& site, float coarsest_m, float strength) {
     float sum = 0.0F;
-    for (float size_m = coarsest_m; size_m > 2.0F; size_m *= 0.31F) {
-        sum += patch_value(site, size_m);
-    }
+    for (float size_m = coarsest_m; size_m > 2.0F; size_m *= 0.31F) { sum += patch_value(site, size_m); }
     return 1.0F + strength * sum;
 }
 
 /// How much of a place at the foot of steep ground is covered by loose stones, in streaks.
 float scree_cover(const SiteConditions& site) {
     const float steep = glm::smoothstep(0.06F, 0.13F, site.steepness);
-    const float streaks =
-        0.5F * site.patchiness + 0.6F * patch_value(site, 45.0F) + 0.4F * patch_value(site, 14.0F);
+    const float streaks = 0.5F * site.patchiness + 0.6F * patch_value(site, 45.0F) + 0.4F * patch_value(site, 14.0F);
     return steep * glm::smoothstep(-0.1F, 0.35F, streaks);
 }
 
@@ -281,13 +251,10 @@ glm::vec3 temperate_colour(const SiteConditions& site) {
     const LandCover cover = land_cover(site);
     const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
     glm::vec3 colour = glm::mix(
-        stop_colour(meadow_stops, tree_line_height_m(site)),
-        dry_grass,
-        0.45F * dryness * cover.below_tree_line);
+        stop_colour(meadow_stops, tree_line_height_m(site)), dry_grass, 0.45F * dryness * cover.below_tree_line);
     colour = glm::mix(colour, heath, 0.6F * (1.0F - site.summer_share)) * mottling(site, 75.0F, 0.10F);
     colour = glm::mix(colour, field_crop(site), cover.farmland);
-    const glm::vec3 canopy =
-        forest * (1.0F + 0.15F * tree_speckle(site)) * mottling(site, 110.0F, 0.14F);
+    const glm::vec3 canopy = forest * (1.0F + 0.15F * tree_speckle(site)) * mottling(site, 110.0F, 0.14F);
     colour = glm::mix(colour, canopy, 0.9F * cover.forest_share);
     colour = glm::mix(colour, scree * mottling(site, 20.0F, 0.10F), 0.6F * scree_cover(site));
     const glm::vec3 rock = temperate_rock * (1.0F + 0.10F * site.patchiness);
@@ -299,9 +266,7 @@ float shrub_cover(const SiteConditions& site) {
     return glm::smoothstep(0.1F, 0.5F, site.patchiness + 0.6F * patch_value(site, 60.0F));
 }
 
-float arid_rock(const SiteConditions& site) {
-    return glm::smoothstep(0.05F, 0.25F, site.steepness);
-}
+float arid_rock(const SiteConditions& site) { return glm::smoothstep(0.05F, 0.25F, site.steepness); }
 
 glm::vec3 arid_colour(const SiteConditions& site) {
     const glm::vec3 level = stop_colour(arid_stops, site.height_m + 60.0F * site.patchiness);
@@ -313,11 +278,9 @@ glm::vec3 arid_colour(const SiteConditions& site) {
     const float down_m = site.footprint_m * std::min(std::sqrt(2.0F * site.steepness), 1.0F);
     const float ledges = visible_contrast(2.0F * ledge_m, down_m) * (layer(ledge_m, 11) - 0.5F) +
                          visible_contrast(2.0F * bed_m, down_m) * (layer(bed_m, 13) - 0.5F);
-    const glm::vec3 rock =
-        glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer(band_m, 7)) *
-        (1.0F + 0.22F * ledges) * mottling(site, 40.0F, 0.07F);
-    const glm::vec3 vegetated =
-        glm::mix(level, shrubs, shrub_share * shrub_cover(site)) * mottling(site, 90.0F, 0.09F);
+    const glm::vec3 rock = glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer(band_m, 7)) *
+                           (1.0F + 0.22F * ledges) * mottling(site, 40.0F, 0.07F);
+    const glm::vec3 vegetated = glm::mix(level, shrubs, shrub_share * shrub_cover(site)) * mottling(site, 90.0F, 0.09F);
     return glm::mix(vegetated, rock, arid_rock(site)) * (1.0F + 0.10F * site.patchiness);
 }
 
@@ -328,27 +291,18 @@ glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust) {
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers() {
-    return {
-        scene::LandCover{forest, 0.17F},
-        scene::LandCover{meadow_stops[1].colour, 0.08F},
-        scene::LandCover{{0.45F, 0.44F, 0.39F}, 0.15F},
-        snow_on_ground};
+    return {scene::LandCover{forest, 0.17F}, scene::LandCover{meadow_stops[1].colour, 0.08F},
+        scene::LandCover{{0.45F, 0.44F, 0.39F}, 0.15F}, snow_on_ground};
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers() {
-    return {
-        scene::LandCover{shrubs, 0.15F},
-        scene::LandCover{arid_stops[1].colour, 0.09F},
-        scene::LandCover{arid_stops[2].colour, 0.15F},
-        snow_on_ground};
+    return {scene::LandCover{shrubs, 0.15F}, scene::LandCover{arid_stops[1].colour, 0.09F},
+        scene::LandCover{arid_stops[2].colour, 0.15F}, snow_on_ground};
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const glm::vec3& dust) {
-    return {
-        scene::LandCover{dust, 0.05F},
-        scene::LandCover{dust, 0.09F},
-        scene::LandCover{bare_rock_share * dust, 0.15F},
-        snow_on_ground};
+    return {scene::LandCover{dust, 0.05F}, scene::LandCover{dust, 0.09F},
+        scene::LandCover{bare_rock_share * dust, 0.15F}, snow_on_ground};
 }
 
 float temperate_cover_code(const SiteConditions& site) {
@@ -362,9 +316,7 @@ float arid_cover_code(const SiteConditions& site) {
     return glm::mix(vegetated, rock_code, arid_rock(site));
 }
 
-float dust_cover_code(const SiteConditions& site) {
-    return glm::mix(meadow_code, rock_code, arid_rock(site));
-}
+float dust_cover_code(const SiteConditions& site) { return glm::mix(meadow_code, rock_code, arid_rock(site)); }
 
 constexpr glm::vec3 water_colour(0.10F, 0.21F, 0.28F);
 constexpr glm::vec3 shallow_water(0.27F, 0.40F, 0.36F);
@@ -374,17 +326,13 @@ constexpr glm::vec3 shallow_water(0.27F, 0.40F, 0.36F);
 glm::vec3 direction_to_sun(const scene::AirSettings& settings) {
     const double azimuth_rad = rad_from_deg(settings.sun_azimuth_deg);
     const double elevation_rad = rad_from_deg(settings.sun_elevation_deg);
-    return glm::vec3(glm::dvec3(
-        std::cos(elevation_rad) * std::sin(azimuth_rad),
-        std::cos(elevation_rad) * std::cos(azimuth_rad),
-        std::sin(elevation_rad)));
+    return glm::vec3(glm::dvec3(std::cos(elevation_rad) * std::sin(azimuth_rad),
+        std::cos(elevation_rad) * std::cos(azimuth_rad), std::sin(elevation_rad)));
 }
 
 nature::Daylight daylight_of(const scene::AirSettings& settings) {
     return nature::Daylight(
-        {rad_from_deg(settings.sun_azimuth_deg),
-         rad_from_deg(settings.sun_elevation_deg),
-         settings.background});
+        {rad_from_deg(settings.sun_azimuth_deg), rad_from_deg(settings.sun_elevation_deg), settings.background});
 }
 
 glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day) {
@@ -394,51 +342,35 @@ glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day) {
 
 bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b) {
     return a.sun_azimuth_deg == b.sun_azimuth_deg && a.sun_elevation_deg == b.sun_elevation_deg &&
-           a.relief_shadows == b.relief_shadows && a.water_level_m == b.water_level_m &&
-           a.palette == b.palette;
+           a.relief_shadows == b.relief_shadows && a.water_level_m == b.water_level_m && a.palette == b.palette;
 }
 
-std::shared_ptr<const nature::ReliefShadows>
-make_relief_shadows(const terrain::GroundSamples& ground, const scene::AirSettings& settings) {
-    return settings.relief_shadows ? std::make_shared<const nature::ReliefShadows>(
-                                         ground, glm::dvec3(direction_to_sun(settings)))
-                                   : nullptr;
+std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(
+    const terrain::GroundSamples& ground, const scene::AirSettings& settings) {
+    return settings.relief_shadows
+               ? std::make_shared<const nature::ReliefShadows>(ground, glm::dvec3(direction_to_sun(settings)))
+               : nullptr;
 }
 
 nature::Climate climate_at(const std::optional<GeoPosition>& place) {
-    if (!place) {
-        return {};
-    }
-    return place->ellipsoid.is_earth()
-               ? nature::climate_of(place->latitude_deg, place->longitude_deg)
-               : nature::extraterrestrial_climate(place->ellipsoid);
+    if (!place) { return {}; }
+    return place->ellipsoid.is_earth() ? nature::climate_of(place->latitude_deg, place->longitude_deg)
+                                       : nature::extraterrestrial_climate(place->ellipsoid);
 }
 
-GroundPalette::GroundPalette(
-    const scene::AirSettings& settings,
-    const nature::Climate& climate,
+GroundPalette::GroundPalette(const scene::AirSettings& settings, const nature::Climate& climate,
     std::shared_ptr<const nature::ReliefShadows> terrain_shadows)
-    : daylight_(daylight_of(settings))
-    , climate_(climate)
-    , terrain_shadows_(std::move(terrain_shadows))
-    , water_m_(static_cast<float>(settings.water_level_m)) {
-    if (settings.palette) {
-        climate_.arid = settings.palette == scene::Palette::Arid;
-    }
+    : daylight_(daylight_of(settings)), climate_(climate), terrain_shadows_(std::move(terrain_shadows)),
+      water_m_(static_cast<float>(settings.water_level_m)) {
+    if (settings.palette) { climate_.arid = settings.palette == scene::Palette::Arid; }
 }
 
 glm::vec3 GroundPalette::albedo(const TerrainPoint& point, float footprint_m) const {
     SiteConditions site = site_conditions(point, footprint_m, water_m_);
-    if (is_water(point)) {
-        return glm::mix(water_colour, shallow_water, point.land_share);
-    }
-    if (climate_.dust) {
-        return dust_colour(site, *climate_.dust);
-    }
+    if (is_water(point)) { return glm::mix(water_colour, shallow_water, point.land_share); }
+    if (climate_.dust) { return dust_colour(site, *climate_.dust); }
     const float white = snow_share(site, point.normal, climate_);
-    if (climate_.arid) {
-        return glm::mix(arid_colour(site), snow_colour, white);
-    }
+    if (climate_.arid) { return glm::mix(arid_colour(site), snow_colour, white); }
     site.height_m = temperate_height_m(site.height_m, climate_);
     site.summer_share = summer_share_of(climate_);
     return glm::mix(temperate_colour(site), snow_colour, white);
@@ -447,8 +379,7 @@ glm::vec3 GroundPalette::albedo(const TerrainPoint& point, float footprint_m) co
 glm::vec3 GroundPalette::lit_colour(const TerrainPoint& point, float footprint_m) const {
     const nature::LightVisibility left = visibility_at(point, footprint_m);
     const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
-    return albedo(point, footprint_m) *
-           (daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun));
+    return albedo(point, footprint_m) * (daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun));
 }
 
 std::uint32_t GroundPalette::packed(const TerrainPoint& point, float footprint_m) const {
@@ -457,26 +388,18 @@ std::uint32_t GroundPalette::packed(const TerrainPoint& point, float footprint_m
 }
 
 float GroundPalette::cover_code(const TerrainPoint& point, float footprint_m) const {
-    if (is_water(point)) {
-        return 0.0F;
-    }
+    if (is_water(point)) { return 0.0F; }
     SiteConditions site = site_conditions(point, footprint_m, water_m_);
-    if (climate_.dust) {
-        return dust_cover_code(site);
-    }
+    if (climate_.dust) { return dust_cover_code(site); }
     const float white = snow_share(site, point.normal, climate_);
-    if (climate_.arid) {
-        return glm::mix(arid_cover_code(site), snow_code, white);
-    }
+    if (climate_.arid) { return glm::mix(arid_cover_code(site), snow_code, white); }
     site.height_m = temperate_height_m(site.height_m, climate_);
     site.summer_share = summer_share_of(climate_);
     return glm::mix(temperate_cover_code(site), snow_code, white);
 }
 
 scene::LandCoverContrast GroundPalette::contrast() const {
-    if (climate_.dust) {
-        return scene::LandCoverContrast(dust_covers(*climate_.dust));
-    }
+    if (climate_.dust) { return scene::LandCoverContrast(dust_covers(*climate_.dust)); }
     return scene::LandCoverContrast(climate_.arid ? arid_covers() : temperate_covers());
 }
 
@@ -489,9 +412,7 @@ nature::SceneryDensity GroundPalette::scenery_density(const TerrainPoint& point,
     scenery_density.sun = visibility_at(point, footprint_m).sun;
     SiteConditions site = site_conditions(point, footprint_m, water_m_);
     const float white = snow_share(site, point.normal, climate_);
-    if (climate_.dust || is_water(point) || site.steepness > 0.16F || white > 0.5F) {
-        return scenery_density;
-    }
+    if (climate_.dust || is_water(point) || site.steepness > 0.16F || white > 0.5F) { return scenery_density; }
     if (climate_.arid) {
         scenery_density.shrubs = 0.12F + 0.35F * shrub_cover(site);
         return scenery_density;
@@ -517,7 +438,8 @@ glm::vec3 GroundPalette::light_visibility(const TerrainPoint& point, float footp
 }
 
 nature::LightVisibility GroundPalette::visibility_at(const TerrainPoint& point, float footprint_m) const {
-    return terrain_shadows_ ? terrain_shadows_->at(point.east_m, point.north_m, footprint_m) : nature::LightVisibility();
+    return terrain_shadows_ ? terrain_shadows_->at(point.east_m, point.north_m, footprint_m)
+                            : nature::LightVisibility();
 }
 
 } // namespace octant::visuals::landscape

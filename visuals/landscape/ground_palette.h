@@ -39,8 +39,8 @@ nature::Daylight daylight_of(const scene::AirSettings& settings);
 glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day);
 
 /// The shadows of the ground on itself under the settings' sun; null where they want none.
-std::shared_ptr<const nature::ReliefShadows>
-make_relief_shadows(const terrain::GroundSamples& ground, const scene::AirSettings& settings);
+std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(
+    const terrain::GroundSamples& ground, const scene::AirSettings& settings);
 
 /// What grows at a place; of made ground where there is none. Nothing grows off the earth.
 nature::Climate climate_at(const std::optional<GeoPosition>& place);
@@ -52,13 +52,11 @@ bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
 class GroundPalette {
 public:
     /// Without `terrain_shadows`, all light reaches every place.
-    explicit GroundPalette(
-        const scene::AirSettings& settings,
-        const nature::Climate& climate = {},
+    explicit GroundPalette(const scene::AirSettings& settings, const nature::Climate& climate = {},
         std::shared_ptr<const nature::ReliefShadows> terrain_shadows = nullptr);
 
-    /// Own colour, display values 0..1. Features smaller than `footprint_m` are seen as their mean:
-    /// the size of what one colour stands for, metres.
+    /// Own colour, display values 0..1. Features smaller than `footprint_m` are seen as their mean: the size of what
+    /// one colour stands for, metres.
     glm::vec3 albedo(const TerrainPoint& point, float footprint_m) const;
 
     /// The colour as albedo() gives it under the light that reaches the place, display values.

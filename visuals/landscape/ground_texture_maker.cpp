@@ -28,9 +28,7 @@ std::uint8_t byte_of_slope(float part) {
 /// Samples from one texel to the next: a power of two.
 int stride_of(const terrain::GroundSamples& ground) {
     int stride = 1;
-    while ((std::max(ground.columns(), ground.rows()) - 1) / stride >= max_sampled_size_texels) {
-        stride *= 2;
-    }
+    while ((std::max(ground.columns(), ground.rows()) - 1) / stride >= max_sampled_size_texels) { stride *= 2; }
     return stride;
 }
 
@@ -41,27 +39,19 @@ scene::GroundImage sampled(const terrain::GroundSamples& ground, int stride, std
     image.height = (ground.rows() - 1) / stride + 1;
     image.first_m = -ground.half_extent_m();
     image.step_m = glm::dvec2(stride * ground.spacing_m());
-    image.texels.resize(
-        parts * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    image.texels.resize(parts * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     return image;
 }
 
 /// Number of a texel.
 std::size_t index_of(const scene::GroundImage& image, int column, int row) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-           static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(column);
 }
 
 /// The drape's colour there over the ground's nearest one.
-void mix(
-    const std::uint8_t* own,
-    const scene::GroundImage& ground,
-    const glm::dvec2& at_m,
-    std::uint8_t* to) {
-    const glm::ivec2 nearest = glm::clamp(
-        glm::ivec2(glm::round((at_m - ground.first_m) / ground.step_m)),
-        glm::ivec2(0),
-        glm::ivec2(ground.width - 1, ground.height - 1));
+void mix(const std::uint8_t* own, const scene::GroundImage& ground, const glm::dvec2& at_m, std::uint8_t* to) {
+    const glm::ivec2 nearest = glm::clamp(glm::ivec2(glm::round((at_m - ground.first_m) / ground.step_m)),
+        glm::ivec2(0), glm::ivec2(ground.width - 1, ground.height - 1));
     const std::uint8_t* const below = &ground.texels[3 * index_of(ground, nearest.x, nearest.y)];
     for (std::size_t part = 0; part < 3; ++part) {
         const int mixed = own[part] * own[3] + below[part] * (255 - own[3]);
@@ -71,17 +61,14 @@ void mix(
 
 /// Mixes the drape into the colours of the ground, both over all of it.
 scene::GroundImage draped(
-    const scene::GroundImage& ground,
-    const models::heights::Image& drape,
-    const glm::dvec2& half_extent_m) {
+    const scene::GroundImage& ground, const models::heights::Image& drape, const glm::dvec2& half_extent_m) {
     scene::GroundImage image;
     image.width = drape.width;
     image.height = drape.height;
     image.step_m = 2.0 * half_extent_m / glm::dvec2(image.width, image.height);
     image.first_m = 0.5 * image.step_m - half_extent_m;
     image.texels.resize(
-        std::size_t{3} * static_cast<std::size_t>(image.width) *
-        static_cast<std::size_t>(image.height));
+        std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     by_rows(image.height, [&](int row) {
         std::uint8_t* to = &image.texels[3 * index_of(image, 0, row)];
         for (int column = 0; column < image.width; ++column, to += 3) {
@@ -97,24 +84,20 @@ scene::GroundImage draped(
 }
 
 /// Sum over a row of normals of the colours nearest to each, under light.
-glm::dvec3
-sum_of_lit_row(const scene::GroundTexture& texture, const nature::Daylight& day, int row) {
+glm::dvec3 sum_of_lit_row(const scene::GroundTexture& texture, const nature::Daylight& day, int row) {
     const scene::GroundImage& albedo = texture.albedo;
     const scene::GroundImage& normal = texture.normal;
     const int albedo_row = row * albedo.height / normal.height;
     glm::dvec3 sum(0.0);
     for (int column = 0; column < normal.width; ++column) {
         const std::size_t at = index_of(normal, column, row);
-        const glm::vec2 slope(
-            static_cast<float>(normal.texels[2 * at] - 128) / 127.0F,
+        const glm::vec2 slope(static_cast<float>(normal.texels[2 * at] - 128) / 127.0F,
             static_cast<float>(normal.texels[2 * at + 1] - 128) / 127.0F);
         const float up = std::sqrt(std::max(1.0F - glm::dot(slope, slope), 0.0F));
         const glm::vec3 light = illumination(glm::vec3(slope, up), day);
-        const std::size_t under =
-            index_of(albedo, column * albedo.width / normal.width, albedo_row);
+        const std::size_t under = index_of(albedo, column * albedo.width / normal.width, albedo_row);
         for (int part = 0; part < 3; ++part) {
-            const auto own =
-                static_cast<float>(albedo.texels[3 * under + static_cast<std::size_t>(part)]);
+            const auto own = static_cast<float>(albedo.texels[3 * under + static_cast<std::size_t>(part)]);
             sum[part] += static_cast<double>(std::min(light[part] * own, 255.0F));
         }
     }
@@ -125,9 +108,7 @@ sum_of_lit_row(const scene::GroundTexture& texture, const nature::Daylight& day,
 glm::vec3 mean_lit(const scene::GroundTexture& texture, const nature::Daylight& day) {
     const scene::GroundImage& normal = texture.normal;
     std::vector<glm::dvec3> rows(static_cast<std::size_t>(normal.height));
-    by_rows(normal.height, [&](int row) {
-        rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, day, row);
-    });
+    by_rows(normal.height, [&](int row) { rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, day, row); });
     const glm::dvec3 sum = std::accumulate(rows.begin(), rows.end(), glm::dvec3(0.0));
     return glm::vec3(sum / (255.0 * normal.width * normal.height));
 }
@@ -135,18 +116,13 @@ glm::vec3 mean_lit(const scene::GroundTexture& texture, const nature::Daylight& 
 scene::TextureTransform place_in(const scene::GroundImage& image, const glm::dvec3& eye_m) {
     const glm::dvec2 extent_m = image.step_m * glm::dvec2(image.width, image.height);
     const glm::dvec2 corner_m = image.first_m - 0.5 * image.step_m;
-    return {
-        glm::vec2((glm::dvec2(eye_m) - corner_m) / extent_m),
-        glm::vec2(glm::dvec2(1.0) / extent_m)};
+    return {glm::vec2((glm::dvec2(eye_m) - corner_m) / extent_m), glm::vec2(glm::dvec2(1.0) / extent_m)};
 }
 
 } // namespace
 
-scene::GroundTexture ground_texture(
-    const terrain::GroundSamples& ground,
-    const scene::AirSettings& settings,
-    const models::heights::Image* drape,
-    const nature::Climate& climate) {
+scene::GroundTexture ground_texture(const terrain::GroundSamples& ground, const scene::AirSettings& settings,
+    const models::heights::Image* drape, const nature::Climate& climate) {
     assert(drape == nullptr || std::max(drape->width, drape->height) <= max_texture_size_px);
     const int stride = stride_of(ground);
     scene::GroundTexture texture;
@@ -157,8 +133,7 @@ scene::GroundTexture ground_texture(
     by_rows(texture.normal.height, [&](int row) {
         for (int column = 0; column < texture.normal.width; ++column) {
             const TerrainPoint point = ground_point(ground, column * stride, row * stride, stride);
-            const glm::vec3 own =
-                palette.albedo(point, footprint_m) * palette.light_visibility(point, footprint_m);
+            const glm::vec3 own = palette.albedo(point, footprint_m) * palette.light_visibility(point, footprint_m);
             const std::size_t at = index_of(texture.normal, column, row);
             texture.normal.texels[2 * at] = byte_of_slope(point.normal.x);
             texture.normal.texels[2 * at + 1] = byte_of_slope(point.normal.y);
@@ -167,9 +142,7 @@ scene::GroundTexture ground_texture(
             }
         }
     });
-    if (drape != nullptr) {
-        texture.albedo = draped(texture.albedo, *drape, ground.half_extent_m());
-    }
+    if (drape != nullptr) { texture.albedo = draped(texture.albedo, *drape, ground.half_extent_m()); }
     texture.mean_colour = mean_lit(texture, daylight_of(settings));
     return texture;
 }

@@ -29,13 +29,11 @@ public:
         glm::dvec3 max_m;
     };
 
-    PolygonGround(const models::polygons::PolygonModel& model, const scene::AirSettings& air)
-        : air_(air) {
+    PolygonGround(const models::polygons::PolygonModel& model, const scene::AirSettings& air) : air_(air) {
         const nature::Daylight day = daylight_of(air);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             const glm::vec3 normal(world_from_body(models::polygons::normal_of(model, i)));
-            const glm::vec3 colour =
-                model.materials[model.polygons[i].material].colour * illumination(normal, day);
+            const glm::vec3 colour = model.materials[model.polygons[i].material].colour * illumination(normal, day);
             const auto first = static_cast<std::uint32_t>(corners_m_.size());
             for (const std::uint32_t vertex : model.corners(i)) {
                 corners_m_.push_back(world_from_body(model.vertices_m[vertex]));
@@ -48,9 +46,7 @@ public:
             mean_colour_ += colour / static_cast<float>(model.polygons.size());
         }
         polygons_ = static_cast<int>(model.polygons.size());
-        if (model.polygons.empty()) {
-            half_extent_m_ = glm::dvec2(1e6);
-        }
+        if (model.polygons.empty()) { half_extent_m_ = glm::dvec2(1e6); }
     }
 
     std::span<const glm::dvec3> corners_m() const { return corners_m_; }
@@ -65,9 +61,7 @@ public:
 
     int polygons() const { return polygons_; }
 
-    bool has_colour_settings(const scene::AirSettings& settings) const override {
-        return same_colours(settings, air_);
-    }
+    bool has_colour_settings(const scene::AirSettings& settings) const override { return same_colours(settings, air_); }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
         const bool inside = std::abs(x_m) <= half_extent_m_.x && std::abs(y_m) <= half_extent_m_.y;
@@ -76,9 +70,7 @@ public:
 
     glm::dvec2 half_extent_m() const override { return half_extent_m_; }
 
-    double mean_height_m() const override {
-        return polygons_ > 0 ? 0.0 : std::numeric_limits<double>::infinity();
-    }
+    double mean_height_m() const override { return polygons_ > 0 ? 0.0 : std::numeric_limits<double>::infinity(); }
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
@@ -108,11 +100,8 @@ private:
 /// All polygons in every frame, with the eye subtracted.
 class PolygonGroundMesher final : public GroundMesher {
 public:
-    explicit PolygonGroundMesher(std::shared_ptr<const PolygonGround> ground)
-        : ground_(std::move(ground)) {
-        for (const std::uint32_t colour : ground_->colours()) {
-            vertices_.push_back({glm::vec3(0.0F), colour});
-        }
+    explicit PolygonGroundMesher(std::shared_ptr<const PolygonGround> ground) : ground_(std::move(ground)) {
+        for (const std::uint32_t colour : ground_->colours()) { vertices_.push_back({glm::vec3(0.0F), colour}); }
     }
 
     const Ground& ground() const override { return *ground_; }
@@ -128,9 +117,7 @@ public:
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
         const std::span<const PolygonGround::Box> boxes = ground_->boxes();
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            if (wanted(boxes[i].min_m, boxes[i].max_m)) {
-                triangles.push_back(i);
-            }
+            if (wanted(boxes[i].min_m, boxes[i].max_m)) { triangles.push_back(i); }
         }
     }
 
@@ -140,14 +127,13 @@ private:
 };
 
 std::unique_ptr<GroundMesher> PolygonGround::make_mesher(const MeshSettings& /*settings*/) const {
-    return std::make_unique<PolygonGroundMesher>(
-        std::static_pointer_cast<const PolygonGround>(shared_from_this()));
+    return std::make_unique<PolygonGroundMesher>(std::static_pointer_cast<const PolygonGround>(shared_from_this()));
 }
 
 } // namespace
 
-std::shared_ptr<const Ground>
-make_polygon_ground(models::polygons::PolygonModel polygons, const scene::AirSettings& air) {
+std::shared_ptr<const Ground> make_polygon_ground(
+    models::polygons::PolygonModel polygons, const scene::AirSettings& air) {
     return std::make_shared<PolygonGround>(polygons, air);
 }
 

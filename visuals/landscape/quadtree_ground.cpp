@@ -5,8 +5,8 @@
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/terrain/detail_controller.h"
 #include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/quadtree_mesher.h"
 #include "visuals/terrain/quadtree.h"
+#include "visuals/terrain/quadtree_mesher.h"
 #include "visuals/terrain/resolution_for_target.h"
 
 #include <algorithm>
@@ -22,20 +22,17 @@ namespace octant::visuals::landscape {
 
 namespace {
 
-/// c at which 20,000 triangles show the least error on real maps: 99.9th percentile 2.4-2.8 px at
-/// 720 lines by the mid-point measure, 3.0 px by the printed one, 4.3-5.1 px for c = 0.
+/// c at which 20,000 triangles show the least error on real maps: 99.9th percentile 2.4-2.8 px at 720 lines by the
+/// mid-point measure, 3.0 px by the printed one, 4.3-5.1 px for c = 0.
 constexpr double midpoint_weight = 20.0;
 constexpr double printed_weight = 5.0;
 constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for which C is meant
 
 terrain::QuadtreeOptions quadtree_options(const scene::GroundSettings& settings) {
-    return {
-        .roughness = ground_metric(settings) == scene::GroundMetric::Printed
-                         ? terrain::Roughness::Printed
-                         : terrain::Roughness::Midpoint,
-        .propagation = settings.propagation == scene::Propagation::Printed
-                           ? terrain::RoughnessPropagation::Printed
-                           : terrain::RoughnessPropagation::CrackFree};
+    return {.roughness = ground_metric(settings) == scene::GroundMetric::Printed ? terrain::Roughness::Printed
+                                                                                 : terrain::Roughness::Midpoint,
+        .propagation = settings.propagation == scene::Propagation::Printed ? terrain::RoughnessPropagation::Printed
+                                                                           : terrain::RoughnessPropagation::CrackFree};
 }
 
 /// Without the target, which comes with each request.
@@ -51,8 +48,7 @@ terrain::ControlSettings control_settings(const scene::GroundSettings& settings)
         control.method = terrain::ControlMethod::Printed;
         break;
     case scene::DetailControl::Damped: // as printed where its a is given
-        control.method = settings.control_a > 0.0 ? terrain::ControlMethod::Damped
-                                                  : terrain::ControlMethod::Tuned;
+        control.method = settings.control_a > 0.0 ? terrain::ControlMethod::Damped : terrain::ControlMethod::Tuned;
         break;
     case scene::DetailControl::Exact:
     case scene::DetailControl::Fixed:
@@ -63,25 +59,18 @@ terrain::ControlSettings control_settings(const scene::GroundSettings& settings)
 }
 
 bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
-    return a.eye_m == b.eye_m && a.frustum_normals == b.frustum_normals &&
-           a.magnification == b.magnification;
+    return a.eye_m == b.eye_m && a.frustum_normals == b.frustum_normals && a.magnification == b.magnification;
 }
 
 /// Heights, their quadtree and their colours.
 class QuadtreeGround final : public Ground {
 public:
     /// The tree is one of the field.
-    QuadtreeGround(
-        std::shared_ptr<const models::heights::HeightField> field,
-        std::shared_ptr<const terrain::Quadtree> tree,
-        const scene::AirSettings& air,
+    QuadtreeGround(std::shared_ptr<const models::heights::HeightField> field,
+        std::shared_ptr<const terrain::Quadtree> tree, const scene::AirSettings& air,
         std::shared_ptr<const models::heights::RunwayStrip> runway)
-        : Ground(std::move(runway))
-        , field_(std::move(field))
-        , tree_(std::move(tree))
-        , air_(air)
-        , colours_(ground_colours(*field_, air))
-        , mean_colour_(landscape::mean_colour(colours_)) {
+        : Ground(std::move(runway)), field_(std::move(field)), tree_(std::move(tree)), air_(air),
+          colours_(ground_colours(*field_, air)), mean_colour_(landscape::mean_colour(colours_)) {
         for (int row = 0; row < field_->rows(); ++row) {
             double sum_m = 0.0;
             for (int column = 0; column < field_->columns(); ++column) {
@@ -95,9 +84,7 @@ public:
 
     std::span<const std::uint32_t> colours() const { return colours_; }
 
-    std::optional<double> height_at(double x_m, double y_m) const override {
-        return field_->height_at(x_m, y_m);
-    }
+    std::optional<double> height_at(double x_m, double y_m) const override { return field_->height_at(x_m, y_m); }
 
     double spacing_m() const override { return field_->spacing_m(); }
 
@@ -113,33 +100,26 @@ public:
     }
 
     std::optional<GroundTextureSource> source() const override {
-        return GroundTextureSource{
-            terrain::GroundSamples(*field_), models::heights::area_of(*field_), field_->place};
+        return GroundTextureSource{terrain::GroundSamples(*field_), models::heights::area_of(*field_), field_->place};
     }
 
     bool has_mesh_settings(const scene::GroundSettings& settings) const override {
         const terrain::QuadtreeOptions wanted = quadtree_options(settings);
         return ground_metric(settings) != scene::GroundMetric::ScreenError &&
-               wanted.roughness == tree_->options().roughness &&
-               wanted.propagation == tree_->options().propagation;
+               wanted.roughness == tree_->options().roughness && wanted.propagation == tree_->options().propagation;
     }
 
-    bool has_colour_settings(const scene::AirSettings& settings) const override {
-        return same_colours(settings, air_);
-    }
+    bool has_colour_settings(const scene::AirSettings& settings) const override { return same_colours(settings, air_); }
 
-    std::shared_ptr<const Ground>
-    with_settings(const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
+    std::shared_ptr<const Ground> with_settings(
+        const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
         if (ground_metric(ground) == scene::GroundMetric::ScreenError) {
             return make_bisection_ground(terrain::make_ground_tiles(*field_), air, runway());
         }
-        return std::make_shared<QuadtreeGround>(
-            field_,
-            has_mesh_settings(ground)
-                ? tree_
-                : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground)),
-            air,
-            runway());
+        return std::make_shared<QuadtreeGround>(field_,
+            has_mesh_settings(ground) ? tree_
+                                      : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground)),
+            air, runway());
     }
 
 private:
@@ -157,8 +137,7 @@ private:
 class QuadtreeGroundMesher final : public GroundMesher {
 public:
     QuadtreeGroundMesher(std::shared_ptr<const QuadtreeGround> ground, const MeshSettings& settings)
-        : ground_(std::move(ground))
-        , mesher_(ground_->tree(), ground_->colours()) {
+        : ground_(std::move(ground)), mesher_(ground_->tree(), ground_->colours()) {
         apply_settings(settings);
     }
 
@@ -170,13 +149,10 @@ public:
         exact_ = ground.detail == scene::DetailControl::Exact;
         fixed_resolution_ = ground.detail == scene::DetailControl::Fixed;
         first_resolution_ = ground.resolution_c;
-        order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack
-                                        : terrain::PaintOrder::BackToFront;
+        order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack : terrain::PaintOrder::BackToFront;
         detail_.roughness_weight = ground.roughness_c.value_or(
-            ground_metric(ground) == scene::GroundMetric::Printed ? printed_weight
-                                                                  : midpoint_weight);
-        detail_.fans = ground.fans == scene::GroundFans::Full ? terrain::FanKind::Full
-                                                              : terrain::FanKind::Partial;
+            ground_metric(ground) == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
+        detail_.fans = ground.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
         if (fixed_resolution_ && first_resolution_ > 0.0) {
             state_ = terrain::initial_state(first_resolution_, control_);
         }
@@ -184,26 +160,19 @@ public:
 
     bool switch_ground(const std::shared_ptr<const Ground>& ground) override {
         auto moved = std::dynamic_pointer_cast<const QuadtreeGround>(ground);
-        if (!moved || &moved->tree() != &ground_->tree()) {
-            return false;
-        }
+        if (!moved || &moved->tree() != &ground_->tree()) { return false; }
         ground_ = std::move(moved);
         mesher_.set_colours(ground_->colours());
         return true;
     }
 
     void reset_detail(const MeshRequest& request) override {
-        if (exact_) {
-            return;
-        }
+        if (exact_) { return; }
         control_.target_triangles = request.triangle_target;
-        const double resolution = first_resolution_ > 0.0 ? first_resolution_
-                                                          : terrain::resolution_for_target(
-                                                                mesher_,
-                                                                view_of(request),
-                                                                detail_,
-                                                                control_.target_triangles,
-                                                                control_.max_resolution);
+        const double resolution = first_resolution_ > 0.0
+                                      ? first_resolution_
+                                      : terrain::resolution_for_target(mesher_, view_of(request), detail_,
+                                            control_.target_triangles, control_.max_resolution);
         state_ = terrain::initial_state(resolution, control_);
         last_view_.reset();
     }
@@ -222,9 +191,7 @@ public:
 
 private:
     terrain::GroundMesh next_mesh(const terrain::MeshView& view) {
-        if (exact_) {
-            return mesher_.mesh_within(view, detail_, budget_);
-        }
+        if (exact_) { return mesher_.mesh_within(view, detail_, budget_); }
         if (fixed_resolution_) {
             detail_.resolution = state_.resolution;
             return mesher_.mesh(view, detail_);
@@ -240,8 +207,7 @@ private:
 
     terrain::MeshView view_of(const MeshRequest& request) const {
         const scene::Camera& camera = request.camera;
-        const double zoom =
-            std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0);
+        const double zoom = std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0);
         return {camera.eye_m, frustum_normals(camera, request.aspect), std::max(zoom, 1.0), order_};
     }
 
@@ -265,15 +231,12 @@ std::unique_ptr<GroundMesher> QuadtreeGround::make_mesher(const MeshSettings& se
 
 } // namespace
 
-std::shared_ptr<const Ground> make_quadtree_ground(
-    models::heights::HeightField field,
-    const scene::GroundSettings& ground,
-    const scene::AirSettings& air,
+std::shared_ptr<const Ground> make_quadtree_ground(models::heights::HeightField field,
+    const scene::GroundSettings& ground, const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway) {
     auto shared = std::make_shared<const models::heights::HeightField>(std::move(field));
     auto tree = std::make_shared<const terrain::Quadtree>(*shared, quadtree_options(ground));
-    return std::make_shared<QuadtreeGround>(
-        std::move(shared), std::move(tree), air, std::move(runway));
+    return std::make_shared<QuadtreeGround>(std::move(shared), std::move(tree), air, std::move(runway));
 }
 
 } // namespace octant::visuals::landscape

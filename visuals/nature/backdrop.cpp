@@ -10,8 +10,8 @@ namespace octant::visuals::nature {
 
 namespace {
 
-/// Distances of the rings from the map's edge over its mean half extent, from outside in. The last
-/// lies under the map's own border.
+/// Distances of the rings from the map's edge over its mean half extent, from outside in. The last lies under the map's
+/// own border.
 constexpr std::array ring_distance_ratios = {
     2.5, 1.8, 1.3, 1.0, 0.78, 0.62, 0.50, 0.40, 0.32, 0.25, 0.19, 0.135, 0.09, 0.05, 0.02, -0.01};
 constexpr int vertices_per_side = 48;
@@ -45,15 +45,12 @@ Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int 
     const glm::dvec2 at_m = square_outline_point(number) * (map.half_extent_m + share * size_m);
     constexpr double inside = 0.999;
     const glm::dvec2 mirrored_m(
-        inside * mirrored(at_m.x, map.half_extent_m.x),
-        inside * mirrored(at_m.y, map.half_extent_m.y));
+        inside * mirrored(at_m.x, map.half_extent_m.x), inside * mirrored(at_m.y, map.half_extent_m.y));
     const double left = 1.0 - glm::smoothstep(0.0, 1.0, std::max(share, 0.0) / ring_distance_ratios.front());
     const double height_m = glm::mix(map.mean_height_m, map.height_m(mirrored_m), left) -
                             (share < 0.0 ? overlap_depth_ratio * size_m : 0.0);
     const double footprint_m = std::max(1.2 * size_m / vertices_per_side, 0.12 * share * size_m);
-    return {
-        {at_m, height_m},
-        glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(left)),
+    return {{at_m, height_m}, glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(left)),
         map.cover_code ? map.cover_code(mirrored_m, footprint_m) : 0.0F};
 }
 
@@ -73,8 +70,7 @@ Backdrop make_backdrop(const BackdropSource& map) {
             const std::uint32_t outer_next = ring * vertices_per_ring + (number + 1) % vertices_per_ring;
             const std::uint32_t inner = outer + vertices_per_ring;
             const std::uint32_t inner_next = outer_next + vertices_per_ring;
-            backdrop.indices.insert(
-                backdrop.indices.end(), {outer, outer_next, inner_next, outer, inner_next, inner});
+            backdrop.indices.insert(backdrop.indices.end(), {outer, outer_next, inner_next, outer, inner_next, inner});
         }
     }
     return backdrop;

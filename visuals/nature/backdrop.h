@@ -21,8 +21,8 @@ struct BackdropSource {
     std::function<float(const glm::dvec2& at_m, double footprint_m)> cover_code = nullptr;
 };
 
-/// Land around a map that goes on as the map's own mirror image and flattens towards the mean
-/// height and colour, so that no edge shows from above.
+/// Land around a map that goes on as the map's own mirror image and flattens towards the mean height and colour, so
+/// that no edge shows from above.
 struct Backdrop {
     struct BackdropVertex {
         glm::dvec3 at_m{0.0}; ///< world axes

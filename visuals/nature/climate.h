@@ -14,8 +14,8 @@ struct Climate {
     float snow_line_m = 2350.0F;
     bool arid = false;
     float shaded_side = 0.0F; ///< 1 where north is the shaded side, -1 where south is; 0 = no side
-    /// Display colour of the dust on another planet or moon, where there is nothing else: no water,
-    /// plants, snow or people. Nothing on the earth.
+    /// Display colour of the dust on another planet or moon, where there is nothing else: no water, plants, snow or
+    /// people. Nothing on the earth.
     std::optional<glm::vec3> dust = {};
 };
 

@@ -14,9 +14,8 @@
 
 namespace octant::visuals::nature {
 
-/// One thin layer of clouds: a level sheet of triangles around the eye, finer near it, with
-/// density and light at its corners. Where clouds are follows from the place alone, so that they
-/// stand still over the ground.
+/// One thin layer of clouds: a level sheet of triangles around the eye, finer near it, with density and light at its
+/// corners. Where clouds are follows from the place alone, so that they stand still over the ground.
 class CloudLayer {
 public:
     /// `cover`: share of the sky that has clouds, 0..1. Makes the density of all places.
@@ -25,16 +24,15 @@ public:
     /// Colours of the clouds by a daylight.
     void set_daylight(const Daylight& day);
 
-    /// Clear triangles in world axes with the eye subtracted, their alpha the density. None lies
-    /// before another.
+    /// Clear triangles in world axes with the eye subtracted, their alpha the density. None lies before another.
     struct Triangles {
         std::span<const models::ColourVertex> vertices;
         std::span<const std::uint32_t> indices;
     };
 
-    /// The layer at `height_m` as seen from an eye; it sinks with the square of the distance over a
-    /// round earth (radius 0: flat). Near the layer's height it thins out, so that an eye passes
-    /// through. Valid until the next call, in the same memory.
+    /// The layer at `height_m` as seen from an eye; it sinks with the square of the distance over a round earth (radius
+    /// 0: flat). Near the layer's height it thins out, so that an eye passes through. Valid until the next call, in the
+    /// same memory.
     Triangles seen_from(const glm::dvec3& eye_m, double height_m, double earth_radius_m);
 
     /// Farther off there are no clouds.
@@ -52,8 +50,7 @@ private:
 
     Node node(int level, std::int64_t column, std::int64_t row) const;
     Node blended_node(int level, std::int64_t column, std::int64_t row, float coarser) const;
-    models::ColourVertex
-    vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinning) const;
+    models::ColourVertex vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinning) const;
     void add_level(int level, const glm::dvec3& eye_m, double height_m, double earth_radius_m);
 
     std::array<std::vector<float>, levels + 1> density_; ///< periodic; 0 = none, 1 = full

@@ -13,9 +13,9 @@ public:
     /// `sun_elevation_rad` from 0 to half pi; turbidity from 2 (clear) to 10 (hazy).
     PerezSky(double sun_elevation_rad, double turbidity);
 
-    /// Linear light in sRGB's primaries, parts at least 0, thousands of candela a square metre for
-    /// the luminance. `elevation_rad` is that of the look (taken as slightly above the horizon
-    /// where it is lower), `azimuth_rad` its angle from the sun along the horizon.
+    /// Linear light in sRGB's primaries, parts at least 0, thousands of candela a square metre for the luminance.
+    /// `elevation_rad` is that of the look (taken as slightly above the horizon where it is lower), `azimuth_rad` its
+    /// angle from the sun along the horizon.
     glm::dvec3 light(double elevation_rad, double azimuth_rad) const;
 
 private:
@@ -41,8 +41,8 @@ struct DaylightOptions {
     glm::vec3 horizon{0.62F, 0.72F, 0.84F}; ///< display values
 };
 
-/// Colours of the sky, of the haze and of the light for one place of the sun, display values. Under
-/// a low sun sky and light are darker and warmer, but less so than in nature: the eye adapts.
+/// Colours of the sky, of the haze and of the light for one place of the sun, display values. Under a low sun sky and
+/// light are darker and warmer, but less so than in nature: the eye adapts.
 class Daylight {
 public:
     explicit Daylight(const DaylightOptions& options);
@@ -53,14 +53,12 @@ public:
     /// Unit vector along the ground towards the sun; 0 where it stands overhead.
     const glm::dvec2& horizontal_to_sun() const { return horizontal_to_sun_; }
 
-    /// What a surface's own colour is multiplied by: light from everywhere, and from the sun times
-    /// the cosine to it.
+    /// What a surface's own colour is multiplied by: light from everywhere, and from the sun times the cosine to it.
     const glm::vec3& ambient() const { return ambient_; }
 
     const glm::vec3& sunlight() const { return sunlight_; }
 
-    /// The horizon and the haze before it, away from the sun and towards it; horizon() is in
-    /// between.
+    /// The horizon and the haze before it, away from the sun and towards it; horizon() is in between.
     const glm::vec3& haze_away() const { return haze_away_; }
 
     const glm::vec3& haze_sunward() const { return haze_sunward_; }

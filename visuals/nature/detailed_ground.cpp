@@ -1,4 +1,5 @@
 #include "visuals/nature/detailed_ground.h"
+
 #include "sim/base/geometry2d.h"
 #include "sim/base/hash.h"
 #include "visuals/nature/near_detail_view.h"
@@ -29,9 +30,7 @@ constexpr float min_detail_distance_m = 3.0F;
 
 constexpr int max_split_depth = 14; ///< of a triangle and its parts, one after the other
 
-float squared_length(const glm::vec3& v) {
-    return v.x * v.x + v.y * v.y + v.z * v.z;
-}
+float squared_length(const glm::vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
 /// Of an edge as seen from straight above.
 float squared_plan_length_m2(const glm::vec3& a, const glm::vec3& b) {
@@ -91,10 +90,7 @@ std::uint32_t blended(std::uint32_t a, std::uint32_t b, float share_of_b, float 
 
 } // namespace
 
-void NearDetailMesh::begin(
-    const NearDetailView& view,
-    std::span<const models::ColourVertex> vertices,
-    Scenery* scenery,
+void NearDetailMesh::begin(const NearDetailView& view, std::span<const models::ColourVertex> vertices, Scenery* scenery,
     const ColourAtPoint* colour) {
     view_ = view;
     scenery_ = scenery;
@@ -113,42 +109,30 @@ bool NearDetailMesh::exceeds_min_edge(std::uint32_t a, std::uint32_t b) const {
 
 /// The vertex in the middle of an edge that is halved; the edge's first end where it stays whole.
 std::uint32_t NearDetailMesh::midpoint_of(std::uint32_t a, std::uint32_t b) {
-    if (a > b) {
-        std::swap(a, b);
-    }
-    if (!exceeds_min_edge(a, b)) {
-        return a;
-    }
+    if (a > b) { std::swap(a, b); }
+    if (!exceeds_min_edge(a, b)) { return a; }
     const std::uint64_t edge = (std::uint64_t{a} << 32U | b) + 1;
     const std::size_t mask = midpoints_.size() - 1;
     std::size_t at = scrambled(a * 0x9e3779b1U ^ b) & mask;
-    while (midpoints_[at].frame == frame_ && midpoints_[at].edge != edge) {
-        at = (at + 1) & mask;
-    }
+    while (midpoints_[at].frame == frame_ && midpoints_[at].edge != edge) { at = (at + 1) & mask; }
     EdgeMidpoint& middle = midpoints_[at];
     if (middle.frame != frame_) {
-        if (added_ >= view_.max_splits) {
-            return a;
-        }
+        if (added_ >= view_.max_splits) { return a; }
         middle = {edge, add_midpoint(a, b), frame_};
     }
     return middle.vertex;
 }
 
-/// How far the middle of an edge between neighbouring samples, or shorter, lies above it when it
-/// has wholly come; nothing under what stands on the ground, which stays even.
+/// How far the middle of an edge between neighbouring samples, or shorter, lies above it when it has wholly come;
+/// nothing under what stands on the ground, which stays even.
 float NearDetailMesh::vertical_offset_m(
     const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const {
-    if (scenery_ != nullptr && scenery_->has_scenery_at(place_m)) {
-        return 0.0F;
-    }
+    if (scenery_ != nullptr && scenery_->has_scenery_at(place_m)) { return 0.0F; }
     const auto spacing_m = static_cast<float>(view_.spacing_m);
-    const float max_m = std::min(
-        offset_per_slope * std::abs(to_m.z - from_m.z),
-        static_cast<float>(max_offset_ratio) * spacing_m);
+    const float max_m =
+        std::min(offset_per_slope * std::abs(to_m.z - from_m.z), static_cast<float>(max_offset_ratio) * spacing_m);
     const double cell_m = view_.spacing_m / 64.0;
-    return 0.5F * max_m *
-           noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
+    return 0.5F * max_m * noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
 }
 
 std::uint32_t NearDetailMesh::add_midpoint(std::uint32_t a, std::uint32_t b) {
@@ -158,18 +142,15 @@ std::uint32_t NearDetailMesh::add_midpoint(std::uint32_t a, std::uint32_t b) {
     const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
     const float length_m = std::sqrt(squared_plan_length_m2(from.position_m, to.position_m));
     const float distance_m = std::max(std::sqrt(squared_length(at_m)), min_detail_distance_m);
-    const float grown = std::clamp(
-        (length_m / (view_.min_edge_rad * distance_m) - 1.0F) / (full_offset_ratio - 1.0F), 0.0F, 1.0F);
+    const float grown =
+        std::clamp((length_m / (view_.min_edge_rad * distance_m) - 1.0F) / (full_offset_ratio - 1.0F), 0.0F, 1.0F);
     std::uint32_t colour = blended(from.colour, to.colour, 0.5F, 1.0F);
-    if (colour_ != nullptr) {
-        colour = blended(colour, (*colour_)(place_m, at_m), grown, 1.0F);
-    }
+    if (colour_ != nullptr) { colour = blended(colour, (*colour_)(place_m, at_m), grown, 1.0F); }
     if (length_m < 1.45F * static_cast<float>(view_.spacing_m) && colour >> 24U != 0) {
         const float slope = std::abs(to.position_m.z - from.position_m.z) / length_m;
         const float rough = std::min(slope / level_slope, 1.0F);
         const double cell_m = view_.spacing_m / 64.0;
-        const float shades =
-            noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 2);
+        const float shades = noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 2);
         at_m.z += grown * vertical_offset_m(from.position_m, to.position_m, place_m);
         colour = blended(colour, colour, 0.0F, 1.0F + shade * grown * rough * shades);
     }
@@ -177,17 +158,13 @@ std::uint32_t NearDetailMesh::add_midpoint(std::uint32_t a, std::uint32_t b) {
     return static_cast<std::uint32_t>(vertices_.size() - 1);
 }
 
-void NearDetailMesh::add(
-    const std::uint32_t* corners, bool has_scenery, std::vector<std::uint32_t>& indices) {
+void NearDetailMesh::add(const std::uint32_t* corners, bool has_scenery, std::vector<std::uint32_t>& indices) {
     add_subdivided({corners[0], corners[1], corners[2]}, 0, has_scenery, indices);
 }
 
 bool NearDetailMesh::is_outside(const TriangleIndices& triangle) const {
     return octant::visuals::nature::is_outside(
-        view_,
-        {vertices_[triangle.a].position_m,
-         vertices_[triangle.b].position_m,
-         vertices_[triangle.c].position_m});
+        view_, {vertices_[triangle.a].position_m, vertices_[triangle.b].position_m, vertices_[triangle.c].position_m});
 }
 
 /// Things stand within quarters of cells, which are even where anything stands.
@@ -202,17 +179,13 @@ bool NearDetailMesh::is_quarter_cell(const TriangleIndices& triangle) const {
 
 void NearDetailMesh::add_scenery(const TriangleIndices& triangle, std::vector<std::uint32_t>& indices) {
     scenery_->add(
-        {vertices_[triangle.a].position_m,
-         vertices_[triangle.b].position_m,
-         vertices_[triangle.c].position_m},
-        vertices_,
-        indices);
+        {vertices_[triangle.a].position_m, vertices_[triangle.b].position_m, vertices_[triangle.c].position_m},
+        vertices_, indices);
 }
 
-/// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through
-/// the cut stands upright, so that the part on the eye's side hides nothing of the other. What
-/// stands on the triangle goes with its parts down to quarters of cells, unless a cut goes through
-/// quarters, as it does where a longer edge stays whole.
+/// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through the cut stands
+/// upright, so that the part on the eye's side hides nothing of the other. What stands on the triangle goes with its
+/// parts down to quarters of cells, unless a cut goes through quarters, as it does where a longer edge stays whole.
 void NearDetailMesh::add_subdivided(
     const TriangleIndices& triangle, int depth, bool has_scenery, std::vector<std::uint32_t>& indices) {
     const TriangleIndices turns[3] = {
@@ -223,12 +196,9 @@ void NearDetailMesh::add_subdivided(
     float most2 = 0.0F;
     const bool whole = depth >= max_split_depth || (depth > 0 && is_outside(triangle));
     for (const TriangleIndices& turn : turns) {
-        const float own2 =
-            squared_plan_length_m2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);
+        const float own2 = squared_plan_length_m2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);
         most2 = std::max(most2, own2);
-        if (own2 <= length2 || whole) {
-            continue;
-        }
+        if (own2 <= length2 || whole) { continue; }
         const std::uint32_t own = midpoint_of(turn.a, turn.b);
         if (own != std::min(turn.a, turn.b)) {
             longest = &turn;
@@ -242,9 +212,7 @@ void NearDetailMesh::add_subdivided(
         has_scenery = false;
     }
     if (longest == nullptr) {
-        for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) {
-            indices.push_back(corner);
-        }
+        for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) { indices.push_back(corner); }
         return;
     }
     ++added_;
@@ -252,9 +220,8 @@ void NearDetailMesh::add_subdivided(
     const TriangleIndices second{middle, longest->b, longest->c};
     const glm::vec3& cut_from = vertices_[longest->c].position_m;
     const glm::vec3& cut_to = vertices_[middle].position_m;
-    const bool eye_by_first =
-        (signed_area2(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
-        (signed_area2(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
+    const bool eye_by_first = (signed_area2(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
+                              (signed_area2(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
     add_subdivided(eye_by_first ? first : second, depth + 1, has_scenery, indices);
     add_subdivided(eye_by_first ? second : first, depth + 1, has_scenery, indices);
 }
@@ -283,10 +250,8 @@ float NearDetailHistogram::min_edge_rad_for_budget(const terrain::GroundMesh& me
     counted_ = 0;
     is_near_.resize(mesh.indices.size() / 3);
     for (std::size_t i = 0; i < is_near_.size(); ++i) {
-        const Triangle triangle{
-            mesh.vertices[mesh.indices[3 * i]].position_m,
-            mesh.vertices[mesh.indices[3 * i + 1]].position_m,
-            mesh.vertices[mesh.indices[3 * i + 2]].position_m};
+        const Triangle triangle{mesh.vertices[mesh.indices[3 * i]].position_m,
+            mesh.vertices[mesh.indices[3 * i + 1]].position_m, mesh.vertices[mesh.indices[3 * i + 2]].position_m};
         is_near_[i] = is_far(triangle, view.min_edge_rad) ? 0 : 1;
         if (is_near_[i] != 0) {
             count(triangle, min_angular_size2_ * static_cast<float>(1U << (bins / bins_an_octave)), 0);
@@ -308,9 +273,7 @@ float NearDetailHistogram::min_edge_rad_for_budget(const terrain::GroundMesh& me
 
 /// As NearDetailMesh halves it, by the longest edge. Parts are halved no sooner than the whole.
 void NearDetailHistogram::count(const Triangle& triangle, float max_look2, int depth) {
-    if (depth >= max_split_depth || (depth > 0 && is_outside(view_, triangle))) {
-        return;
-    }
+    if (depth >= max_split_depth || (depth > 0 && is_outside(view_, triangle))) { return; }
     std::size_t longest = 0;
     float length2 = 0.0F;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -324,9 +287,7 @@ void NearDetailHistogram::count(const Triangle& triangle, float max_look2, int d
     const glm::vec3& b = triangle[(longest + 1) % 3];
     const glm::vec3& c = triangle[(longest + 2) % 3];
     const float seen2 = std::min(squared_angular_size(a, b), max_look2);
-    if (seen2 <= min_angular_size2_ || !is_splittable(view_, a, b)) {
-        return;
-    }
+    if (seen2 <= min_angular_size2_ || !is_splittable(view_, a, b)) { return; }
     const std::uint32_t doublings = std::bit_cast<std::uint32_t>(seen2 / min_angular_size2_);
     const std::size_t bin = (doublings - bits_of_one) >> bin_shift;
     ++split_counts_[std::min(bin, bins - 1)];
@@ -359,10 +320,7 @@ struct NearToFar {
 
     /// Appends those of some steps as they are.
     void append(
-        std::size_t step,
-        std::size_t end,
-        std::vector<std::uint32_t>& to,
-        std::vector<std::uint32_t>& first_of) const {
+        std::size_t step, std::size_t end, std::vector<std::uint32_t>& to, std::vector<std::uint32_t>& first_of) const {
         std::size_t detailed_mesh = to.size() / 3;
         to.resize(to.size() + 3 * (end - step));
         for (; step < end; ++step, ++detailed_mesh) {
@@ -375,8 +333,7 @@ struct NearToFar {
 void reverse_triangles(std::vector<std::uint32_t>& indices) {
     for (std::size_t low = 0, high = indices.size(); low + 3 < high; low += 3) {
         high -= 3;
-        std::swap_ranges(
-            indices.begin() + static_cast<std::ptrdiff_t>(low),
+        std::swap_ranges(indices.begin() + static_cast<std::ptrdiff_t>(low),
             indices.begin() + static_cast<std::ptrdiff_t>(low + 3),
             indices.begin() + static_cast<std::ptrdiff_t>(high));
     }
@@ -385,15 +342,10 @@ void reverse_triangles(std::vector<std::uint32_t>& indices) {
 } // namespace
 
 /// Goes from near to far, so that what there is no room for is far off.
-DetailedGround::Triangles DetailedGround::detailed_mesh(
-    const terrain::GroundMesh& mesh,
-    const NearDetailView& wanted,
-    const NearDetailOptions& detail,
-    const ColourAtPoint* colour) {
+DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMesh& mesh, const NearDetailView& wanted,
+    const NearDetailOptions& detail, const ColourAtPoint* colour) {
     NearDetailView view = wanted;
-    if (detail.has_subdivision) {
-        view.min_edge_rad = histogram_.min_edge_rad_for_budget(mesh, wanted);
-    }
+    if (detail.has_subdivision) { view.min_edge_rad = histogram_.min_edge_rad_for_budget(mesh, wanted); }
     frame_ = 1 - frame_;
     Frame& frame = frames_[frame_];
     std::swap(mesh_builder_.vertices(), frame.vertices); // memory of the frame before the last
@@ -408,27 +360,19 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(
     first_index_of_.resize(count + 1);
     const auto corners_m = [&](std::size_t triangle) {
         const std::uint32_t* const corners = &mesh.indices[3 * triangle];
-        return std::array{
-            mesh.vertices[corners[0]].position_m,
-            mesh.vertices[corners[1]].position_m,
+        return std::array{mesh.vertices[corners[0]].position_m, mesh.vertices[corners[1]].position_m,
             mesh.vertices[corners[2]].position_m};
     };
     const auto has_scenery = [&](std::size_t triangle) {
         return reach_m > 0.0F && is_nearer(corners_m(triangle), reach_m);
     };
-    const auto is_near = [&](std::size_t triangle) {
-        return detail.has_subdivision && histogram_.is_near(triangle);
-    };
+    const auto is_near = [&](std::size_t triangle) { return detail.has_subdivision && histogram_.is_near(triangle); };
     for (std::size_t step = 0; step < count; ++step) {
         // Most triangles stay as they are.
         const std::size_t first = step;
-        while (step < count && !is_near(walk.triangle(step)) && !has_scenery(walk.triangle(step))) {
-            ++step;
-        }
+        while (step < count && !is_near(walk.triangle(step)) && !has_scenery(walk.triangle(step))) { ++step; }
         walk.append(first, step, frame.indices, first_index_of_);
-        if (step == count) {
-            break;
-        }
+        if (step == count) { break; }
         const std::size_t triangle = walk.triangle(step);
         if (is_near(triangle)) {
             first_index_of_[walk.place(step)] = static_cast<std::uint32_t>(frame.indices.size() / 3);
@@ -444,9 +388,7 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(
     first_index_of_[far_first ? 0 : count] = all;
     if (far_first) {
         reverse_triangles(frame.indices);
-        for (std::uint32_t& first : first_index_of_) {
-            first = all - first;
-        }
+        for (std::uint32_t& first : first_index_of_) { first = all - first; }
     }
     std::swap(mesh_builder_.vertices(), frame.vertices);
     const std::size_t scenery_triangles = scenery_.triangles_added();
@@ -456,8 +398,8 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(
 void DetailedGround::replace(std::vector<std::uint32_t>& triangles, std::size_t first) const {
     replaced_.clear();
     for (std::size_t i = first; i < triangles.size(); ++i) {
-        for (std::uint32_t detailed_mesh = first_index_of_[triangles[i]]; detailed_mesh < first_index_of_[triangles[i] + 1];
-             ++detailed_mesh) {
+        for (std::uint32_t detailed_mesh = first_index_of_[triangles[i]];
+             detailed_mesh < first_index_of_[triangles[i] + 1]; ++detailed_mesh) {
             replaced_.push_back(detailed_mesh);
         }
     }

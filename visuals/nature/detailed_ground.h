@@ -21,29 +21,23 @@ namespace octant::visuals::nature {
 class Scenery;
 
 /// Own colour of a place of the world with its alpha, packed; where it lies from the eye.
-using ColourAtPoint =
-    std::function<std::uint32_t(const glm::dvec2& place_m, const glm::vec3& from_eye_m)>;
+using ColourAtPoint = std::function<std::uint32_t(const glm::dvec2& place_m, const glm::vec3& from_eye_m)>;
 
-/// Adds detail below the distance of samples to ground near the eye: edges that look long are
-/// halved, and the halves' middles are moved up or down and take the colours of their places, in
-/// other shades where it is steep. All follow from the middle's place in the world, the steepness
-/// of its edge and how long that looks, growing from nothing. What lies at samples stays where it
-/// is. Triangles that share an edge halve it alike, so that there are no cracks, and the parts of a
-/// triangle come from near to far. Under what stands on the ground, the ground stays even, and each
-/// thing goes with the part in which it stands.
+/// Adds detail below the distance of samples to ground near the eye: edges that look long are halved, and the halves'
+/// middles are moved up or down and take the colours of their places, in other shades where it is steep. All follow
+/// from the middle's place in the world, the steepness of its edge and how long that looks, growing from nothing. What
+/// lies at samples stays where it is. Triangles that share an edge halve it alike, so that there are no cracks, and the
+/// parts of a triangle come from near to far. Under what stands on the ground, the ground stays even, and each thing
+/// goes with the part in which it stands.
 class NearDetailMesh {
 public:
-    /// Begins a frame: vertices of the mesh, with the eye subtracted, to which more are added.
-    /// `scenery`: what stands on the ground; null = nothing. `colour`: of middles; null = between
-    /// those of the ends.
-    void begin(
-        const NearDetailView& view,
-        std::span<const models::ColourVertex> vertices,
-        Scenery* scenery,
+    /// Begins a frame: vertices of the mesh, with the eye subtracted, to which more are added. `scenery`: what stands
+    /// on the ground; null = nothing. `colour`: of middles; null = between those of the ends.
+    void begin(const NearDetailView& view, std::span<const models::ColourVertex> vertices, Scenery* scenery,
         const ColourAtPoint* colour);
 
-    /// Appends a triangle in its parts to `indices`, nearest first; each part after what stands on
-    /// it where `has_scenery` says that anything does.
+    /// Appends a triangle in its parts to `indices`, nearest first; each part after what stands on it where
+    /// `has_scenery` says that anything does.
     void add(const std::uint32_t* corners, bool has_scenery, std::vector<std::uint32_t>& indices);
 
     /// Those of the mesh, then new ones.
@@ -69,8 +63,8 @@ private:
     bool is_outside(const TriangleIndices& triangle) const;
     bool is_quarter_cell(const TriangleIndices& triangle) const;
     void add_scenery(const TriangleIndices& triangle, std::vector<std::uint32_t>& indices);
-    void
-    add_subdivided(const TriangleIndices& triangle, int depth, bool has_scenery, std::vector<std::uint32_t>& indices);
+    void add_subdivided(
+        const TriangleIndices& triangle, int depth, bool has_scenery, std::vector<std::uint32_t>& indices);
 
     NearDetailView view_;
     Scenery* scenery_ = nullptr;
@@ -81,12 +75,12 @@ private:
     std::vector<EdgeMidpoint> midpoints_; ///< a table by edge
 };
 
-/// Counts how many halvings the near triangles of a mesh take, by how long edges must look to be
-/// halved, so that a number of them can be held without cutting any off.
+/// Counts how many halvings the near triangles of a mesh take, by how long edges must look to be halved, so that a
+/// number of them can be held without cutting any off.
 class NearDetailHistogram {
 public:
-    /// Returns how long edges must look, no less than `view.min_edge_rad`, for a little less than
-    /// `view.max_splits` halvings. It changes steadily with the view.
+    /// Returns how long edges must look, no less than `view.min_edge_rad`, for a little less than `view.max_splits`
+    /// halvings. It changes steadily with the view.
     float min_edge_rad_for_budget(const terrain::GroundMesh& mesh, const NearDetailView& view);
 
     /// Whether a triangle of the last mesh has edges that may look long: most are too far off.
@@ -111,28 +105,24 @@ private:
 /// The mesh of a frame with what stands on it and detail below its samples.
 class DetailedGround {
 public:
-    explicit DetailedGround(Scenery scenery)
-        : scenery_(std::move(scenery)) {}
+    explicit DetailedGround(Scenery scenery) : scenery_(std::move(scenery)) {}
 
     Scenery& scenery() { return scenery_; }
 
     struct Triangles {
         std::span<const models::ColourVertex> vertices;
         std::span<const std::uint32_t> indices; ///< in the order of the mesh
-        std::size_t detail_triangles = 0;                   ///< triangles that halving has added
-        std::size_t scenery_triangles = 0;                 ///< triangles of what stands on the ground
+        std::size_t detail_triangles = 0;       ///< triangles that halving has added
+        std::size_t scenery_triangles = 0;      ///< triangles of what stands on the ground
     };
 
-    /// The mesh comes coloured; `colour` as NearDetailMesh::begin() has it. The triangles stay valid
-    /// until the next call but one.
-    Triangles detailed_mesh(
-        const terrain::GroundMesh& mesh,
-        const NearDetailView& view,
-        const NearDetailOptions& detail,
-        const ColourAtPoint* colour = nullptr);
+    /// The mesh comes coloured; `colour` as NearDetailMesh::begin() has it. The triangles stay valid until the next
+    /// call but one.
+    Triangles detailed_mesh(const terrain::GroundMesh& mesh, const NearDetailView& view,
+        const NearDetailOptions& detail, const ColourAtPoint* colour = nullptr);
 
-    /// Replaces numbers of triangles of the last mesh, ascending, by those of the triangles that
-    /// were made in their places.
+    /// Replaces numbers of triangles of the last mesh, ascending, by those of the triangles that were made in their
+    /// places.
     void replace(std::vector<std::uint32_t>& triangles, std::size_t first) const;
 
 private:

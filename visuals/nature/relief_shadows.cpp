@@ -1,6 +1,6 @@
-// Shadows by a sweep away from the sun: the height below which a place is in shadow is that of the
-// place a step nearer to the sun, or of its shadow, less what the sun's rays fall on the way. The
-// light in hollows by how far a place lies below the mean of ever wider surroundings.
+// Shadows by a sweep away from the sun: the height below which a place is in shadow is that of the place a step nearer
+// to the sun, or of its shadow, less what the sun's rays fall on the way. The light in hollows by how far a place lies
+// below the mean of ever wider surroundings.
 #include "visuals/nature/relief_shadows.h"
 
 #include "sim/base/parallel_for.h"
@@ -14,7 +14,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr int max_steps = 1024;    ///< along a side
+constexpr int max_steps = 1024;   ///< along a side
 constexpr double min_fall = 0.01; ///< of the sun's rays, metres a metre: a sun of half a degree
 constexpr double softness_m = 2.0;
 constexpr int min_surrounding = 2; ///< half its width, in steps; each next is twice as wide
@@ -30,28 +30,19 @@ struct Grid {
     std::vector<float> height_m;
 
     float at(int column, int row) const {
-        return height_m
-            [static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-             static_cast<std::size_t>(column)];
+        return height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                        static_cast<std::size_t>(column)];
     }
 };
 
 Grid reduced(const terrain::GroundSamples& ground) {
     int stride = 1;
-    while ((std::max(ground.columns(), ground.rows()) - 1) / stride > max_steps) {
-        stride *= 2;
-    }
-    Grid grid{
-        (ground.columns() - 1) / stride + 1,
-        (ground.rows() - 1) / stride + 1,
-        stride * ground.spacing_m(),
-        {}};
-    grid.height_m.reserve(
-        static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+    while ((std::max(ground.columns(), ground.rows()) - 1) / stride > max_steps) { stride *= 2; }
+    Grid grid{(ground.columns() - 1) / stride + 1, (ground.rows() - 1) / stride + 1, stride * ground.spacing_m(), {}};
+    grid.height_m.reserve(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
     for (int row = 0; row < grid.rows; ++row) {
         for (int column = 0; column < grid.columns; ++column) {
-            grid.height_m.push_back(
-                static_cast<float>(ground.height_m(column * stride, row * stride)));
+            grid.height_m.push_back(static_cast<float>(ground.height_m(column * stride, row * stride)));
         }
     }
     return grid;
@@ -61,10 +52,8 @@ Grid reduced(const terrain::GroundSamples& ground) {
 class Sweep {
 public:
     Sweep(const Grid& grid, const glm::dvec3& to_sun)
-        : grid_(grid)
-        , by_columns_(std::abs(to_sun.x) >= std::abs(to_sun.y))
-        , lines_(by_columns_ ? grid.columns : grid.rows)
-        , places_(by_columns_ ? grid.rows : grid.columns) {
+        : grid_(grid), by_columns_(std::abs(to_sun.x) >= std::abs(to_sun.y)),
+          lines_(by_columns_ ? grid.columns : grid.rows), places_(by_columns_ ? grid.rows : grid.columns) {
         const double along = by_columns_ ? to_sun.x : to_sun.y;
         const double across = by_columns_ ? to_sun.y : to_sun.x;
         const double level = std::hypot(to_sun.x, to_sun.y);
@@ -76,8 +65,8 @@ public:
         now_m_ = before_m_;
     }
 
-    /// Calls shade(column, row, metres by which the shadow lies above the ground, metres over which
-    /// its edge is soft) for each place.
+    /// Calls shade(column, row, metres by which the shadow lies above the ground, metres over which its edge is soft)
+    /// for each place.
     template <class Shade>
     void run(const Shade& shade) {
         for (int i = 0; i < lines_; ++i) {
@@ -85,13 +74,9 @@ public:
             for (int place = 0; place < places_; ++place) {
                 const float own_m = height_m(line, place);
                 const double shadow_m = shadow_at(place + drift_) - fall_m_;
-                shade(
-                    by_columns_ ? line : place,
-                    by_columns_ ? place : line,
-                    shadow_m - static_cast<double>(own_m),
+                shade(by_columns_ ? line : place, by_columns_ ? place : line, shadow_m - static_cast<double>(own_m),
                     fall_m_ + softness_m);
-                now_m_[static_cast<std::size_t>(place)] =
-                    std::max(own_m, static_cast<float>(shadow_m));
+                now_m_[static_cast<std::size_t>(place)] = std::max(own_m, static_cast<float>(shadow_m));
             }
             std::swap(before_m_, now_m_);
         }
@@ -100,21 +85,16 @@ public:
 private:
     static constexpr float nothing_m = -1e9F;
 
-    float height_m(int line, int place) const {
-        return by_columns_ ? grid_.at(line, place) : grid_.at(place, line);
-    }
+    float height_m(int line, int place) const { return by_columns_ ? grid_.at(line, place) : grid_.at(place, line); }
 
     /// Ground or shadow on the line before, between places.
     double shadow_at(double place) const {
         const double below = std::floor(place);
         const auto first = static_cast<std::ptrdiff_t>(below);
-        if (first < 0 || first + 1 >= places_) {
-            return static_cast<double>(nothing_m);
-        }
+        if (first < 0 || first + 1 >= places_) { return static_cast<double>(nothing_m); }
         const double share = place - below;
         const auto at = static_cast<std::size_t>(first);
-        return static_cast<double>(before_m_[at]) * (1.0 - share) +
-               static_cast<double>(before_m_[at + 1]) * share;
+        return static_cast<double>(before_m_[at]) * (1.0 - share) + static_cast<double>(before_m_[at + 1]) * share;
     }
 
     const Grid& grid_;
@@ -132,9 +112,8 @@ private:
 class Sums {
 public:
     explicit Sums(const Grid& grid)
-        : grid_(grid)
-        , width_(static_cast<std::size_t>(grid.columns) + 1)
-        , sums_(width_ * (static_cast<std::size_t>(grid.rows) + 1)) {
+        : grid_(grid), width_(static_cast<std::size_t>(grid.columns) + 1),
+          sums_(width_ * (static_cast<std::size_t>(grid.rows) + 1)) {
         for (int row = 0; row < grid.rows; ++row) {
             double sum = 0.0;
             for (int column = 0; column < grid.columns; ++column) {
@@ -149,8 +128,8 @@ public:
         const int east = std::min(column + half + 1, grid_.columns);
         const int south = std::max(row - half, 0);
         const int north = std::min(row + half + 1, grid_.rows);
-        const double sum = sums_[index(east, north)] - sums_[index(west, north)] -
-                           sums_[index(east, south)] + sums_[index(west, south)];
+        const double sum = sums_[index(east, north)] - sums_[index(west, north)] - sums_[index(east, south)] +
+                           sums_[index(west, south)];
         return sum / (static_cast<double>(east - west) * (north - south));
     }
 
@@ -188,9 +167,8 @@ ReliefShadows::ReliefShadows(const terrain::GroundSamples& ground, const glm::dv
     level.rows = grid.rows;
     level.cells.resize(grid.height_m.size());
     const auto cell = [&](int column, int row) -> Cell& {
-        return level.cells
-            [static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-             static_cast<std::size_t>(column)];
+        return level.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+                           static_cast<std::size_t>(column)];
     };
     const Sums sums(grid);
     const int threads = core_count();
@@ -208,9 +186,7 @@ ReliefShadows::ReliefShadows(const terrain::GroundSamples& ground, const glm::dv
             });
         }
     });
-    while (levels_.back().columns > 2 && levels_.back().rows > 2) {
-        add_coarser_level();
-    }
+    while (levels_.back().columns > 2 && levels_.back().rows > 2) { add_coarser_level(); }
 }
 
 void ReliefShadows::add_coarser_level() {
@@ -226,17 +202,14 @@ void ReliefShadows::add_coarser_level() {
                 for (int i = -1; i <= 1; ++i) {
                     const int c = std::clamp(2 * column + i, 0, fine.columns - 1);
                     const int r = std::clamp(2 * row + j, 0, fine.rows - 1);
-                    const Cell& cell =
-                        fine.cells
-                            [static_cast<std::size_t>(r) * static_cast<std::size_t>(fine.columns) +
-                             static_cast<std::size_t>(c)];
+                    const Cell& cell = fine.cells[static_cast<std::size_t>(r) * static_cast<std::size_t>(fine.columns) +
+                                                  static_cast<std::size_t>(c)];
                     const unsigned weight = (i == 0 ? 2U : 1U) * (j == 0 ? 2U : 1U);
                     sun += weight * cell.sun;
                     sky += weight * cell.sky;
                 }
             }
-            coarse.cells.push_back(
-                {static_cast<std::uint8_t>(sun / 16), static_cast<std::uint8_t>(sky / 16)});
+            coarse.cells.push_back({static_cast<std::uint8_t>(sun / 16), static_cast<std::uint8_t>(sky / 16)});
         }
     }
     levels_.push_back(std::move(coarse));
@@ -259,14 +232,11 @@ LightVisibility ReliefShadows::at(float east_m, float north_m, float footprint_m
     const float u = x - static_cast<float>(column);
     const float v = y - static_cast<float>(row);
     const auto width = static_cast<std::size_t>(level.columns);
-    const Cell* const south =
-        &level.cells[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
+    const Cell* const south = &level.cells[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
     const Cell* const north = level.rows > 1 ? south + width : south;
     const auto between = [&](std::uint8_t Cell::*part) {
-        const float below = static_cast<float>(south[0].*part) * (1.0F - u) +
-                            static_cast<float>(south[east].*part) * u;
-        const float above = static_cast<float>(north[0].*part) * (1.0F - u) +
-                            static_cast<float>(north[east].*part) * u;
+        const float below = static_cast<float>(south[0].*part) * (1.0F - u) + static_cast<float>(south[east].*part) * u;
+        const float above = static_cast<float>(north[0].*part) * (1.0F - u) + static_cast<float>(north[east].*part) * u;
         return (below * (1.0F - v) + above * v) * (1.0F / 255.0F);
     };
     return {between(&Cell::sun), between(&Cell::sky)};

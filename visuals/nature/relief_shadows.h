@@ -16,15 +16,14 @@ struct LightVisibility {
     float sky = 1.0F; ///< of the light from everywhere; less in hollows
 };
 
-/// Shadows of the ground on itself and the light in its hollows, worked out once for a place of the
-/// sun, on at most 1,025 x 1,025 places.
+/// Shadows of the ground on itself and the light in its hollows, worked out once for a place of the sun, on at most
+/// 1,025 x 1,025 places.
 class ReliefShadows {
 public:
     /// `to_sun` is a unit vector in world axes. The ground is needed by the constructor alone.
     ReliefShadows(const terrain::GroundSamples& ground, const glm::dvec3& to_sun);
 
-    /// At a place in metres east and north of the ground's first sample, as the mean over about
-    /// `footprint_m`.
+    /// At a place in metres east and north of the ground's first sample, as the mean over about `footprint_m`.
     LightVisibility at(float east_m, float north_m, float footprint_m) const;
 
 private:

@@ -49,9 +49,7 @@ constexpr std::array touchdown_zone = {Bars{150.0F, 3}, Bars{450.0F, 2}, Bars{60
 class End {
 public:
     End(std::vector<RunwayRectangle>& patches, float length_m, bool is_other)
-        : patches_(patches)
-        , length_m_(length_m)
-        , is_other_(is_other) {}
+        : patches_(patches), length_m_(length_m), is_other_(is_other) {}
 
     /// On both sides of the middle, so far from it.
     void paint_both(float from_m, float long_m, float near_m, float wide_m) {
@@ -76,8 +74,7 @@ private:
 };
 
 /// Strokes of digits: bits from the top clockwise around, then the middle one.
-constexpr std::array<unsigned, 10> strokes = {
-    0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x07, 0x7f, 0x6f};
+constexpr std::array<unsigned, 10> strokes = {0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x07, 0x7f, 0x6f};
 
 /// A digit whose left side lies there. Strokes across take the corners, so that none overlap.
 void paint_digit(End& end, int digit, float left_m) {
@@ -91,9 +88,7 @@ void paint_digit(End& end, int digit, float left_m) {
         return;
     }
     const auto across = [&](unsigned bit, float from_m) {
-        if ((own >> bit & 1U) != 0) {
-            end.paint({from_m, right_m}, {from_m + stroke_m, left_m});
-        }
+        if ((own >> bit & 1U) != 0) { end.paint({from_m, right_m}, {from_m + stroke_m, left_m}); }
     };
     const float half_m = 0.5F * stroke_m;
     across(0, begin_m + digit_m - stroke_m);
@@ -103,13 +98,11 @@ void paint_digit(End& end, int digit, float left_m) {
     const bool has_middle = (own & 0x40U) != 0;
     const bool has_bottom = (own & 0x08U) != 0;
     const auto upright = [&](unsigned bit, bool is_upper, float from_m) {
-        if ((own >> bit & 1U) == 0) {
-            return;
-        }
-        const float low_m = is_upper ? middle_m + (has_middle ? half_m : 0.0F)
-                                     : begin_m + (has_bottom ? stroke_m : 0.0F);
-        const float high_m = is_upper ? begin_m + digit_m - (has_top ? stroke_m : 0.0F)
-                                      : middle_m - (has_middle ? half_m : 0.0F);
+        if ((own >> bit & 1U) == 0) { return; }
+        const float low_m =
+            is_upper ? middle_m + (has_middle ? half_m : 0.0F) : begin_m + (has_bottom ? stroke_m : 0.0F);
+        const float high_m =
+            is_upper ? begin_m + digit_m - (has_top ? stroke_m : 0.0F) : middle_m - (has_middle ? half_m : 0.0F);
         end.paint({low_m, from_m}, {high_m, from_m + stroke_m});
     };
     upright(1, true, right_m);
@@ -154,8 +147,7 @@ void add_in_parts(const RunwayRectangle& whole, std::vector<RunwayRectangle>& pa
         const auto at_m = [&](int i) {
             return whole.min_m.x + all_m * static_cast<float>(i) / static_cast<float>(parts);
         };
-        patches.push_back(
-            {{at_m(part), whole.min_m.y}, {at_m(part + 1), whole.max_m.y}, whole.is_painted});
+        patches.push_back({{at_m(part), whole.min_m.y}, {at_m(part + 1), whole.max_m.y}, whole.is_painted});
     }
 }
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-// The surface of a runway and what is painted on it, as rectangles: ICAO Annex 14, volume I,
-// chapter 5 (visual aids for navigation), for a runway 45 m wide, of code number 4 and up to
-// 2,400 m long. Where Annex 14 leaves a range, widths are those of FAA AC 150/5340-1 (Standards for
-// Airport Markings). The ranges for the aiming point are also in EASA CS-ADR-DSN, L.540.
+// The surface of a runway and what is painted on it, as rectangles: ICAO Annex 14, volume I, chapter 5 (visual aids for
+// navigation), for a runway 45 m wide, of code number 4 and up to 2,400 m long. Where Annex 14 leaves a range, widths
+// are those of FAA AC 150/5340-1 (Standards for Airport Markings). The ranges for the aiming point are also in EASA
+// CS-ADR-DSN, L.540.
 //
 // threshold         12 stripes of 30 x 1.75 m, 6 m from the end
 // number            18.3 m tall (60 feet), of straight strokes
@@ -19,14 +19,14 @@
 // aiming point      a pair of 45 x 9 m at 300 m, 22 m apart
 // side stripes      0.9 m
 //
-// Deviations: numbers are by grid north and not by magnetic north, which the ground does not know;
-// they have the size of the AC, Annex 14 draws them 9 m tall and with slanted strokes. The AC
-// leaves out the bars at 600 m where a runway is shorter than 1,826 m.
+// Deviations: numbers are by grid north and not by magnetic north, which the ground does not know; they have the size
+// of the AC, Annex 14 draws them 9 m tall and with slanted strokes. The AC leaves out the bars at 600 m where a runway
+// is shorter than 1,826 m.
 
 namespace octant::visuals::nature {
 
-/// A rectangle along the runway's axes: metres along from its beginning, and left of its middle.
-/// Those that are painted do not overlap; they lie within the surface.
+/// A rectangle along the runway's axes: metres along from its beginning, and left of its middle. Those that are painted
+/// do not overlap; they lie within the surface.
 struct RunwayRectangle {
     glm::vec2 min_m{0.0F};
     glm::vec2 max_m{0.0F};
@@ -39,8 +39,8 @@ std::array<std::string, 2> runway_numbers(double heading_rad);
 /// No patch is longer.
 inline constexpr float max_rectangle_length_m = 150.0F;
 
-/// The surface, then what is painted on it. There is room for all of
-/// it (asserted): the runway is 45 m wide, or more, and 1,500 m long.
+/// The surface, then what is painted on it. There is room for all of it (asserted): the runway is 45 m wide, or more,
+/// and 1,500 m long.
 std::vector<RunwayRectangle> runway_rectangles(double length_m, double width_m, double heading_rad);
 
 /// Display values under a light of 1.

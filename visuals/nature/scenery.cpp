@@ -1,4 +1,5 @@
 #include "visuals/nature/scenery.h"
+
 #include "sim/base/geometry2d.h"
 #include "sim/base/hash.h"
 
@@ -25,20 +26,13 @@ constexpr Outline crown{{glm::vec2(0.7F, 0.18F), {1.0F, 0.50F}, {}}, 2};
 constexpr Outline round_crown{{glm::vec2(0.45F, 0.12F), {1.0F, 0.42F}, {0.74F, 0.80F}}, 3};
 
 const Outline& outline_of(TreeShape shape, TreeLod detail) {
-    if (shape == TreeShape::Conical || detail == TreeLod::Far) {
-        return cone;
-    }
+    if (shape == TreeShape::Conical || detail == TreeLod::Far) { return cone; }
     return detail == TreeLod::Near ? round_crown : crown;
 }
 
 } // namespace
 
-void add_tree(
-    LowPolyBuilder& to,
-    const GroundAnchor& anchor,
-    const glm::vec2& size_m,
-    TreeShape shape,
-    TreeLod detail,
+void add_tree(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& size_m, TreeShape shape, TreeLod detail,
     const TreeColours& light) {
     const Outline& outline = outline_of(shape, detail);
     const std::uint32_t step = detail == TreeLod::Far ? 2 : 1;
@@ -69,26 +63,19 @@ void add_tree(
     }
 }
 
-void add_house(
-    LowPolyBuilder& to,
-    const GroundAnchor& anchor,
-    const glm::vec2& along,
-    const glm::vec3& size_m,
-    float height_share,
-    const std::array<glm::vec3, 4>& wall,
-    const std::array<glm::vec3, 2>& roof) {
+void add_house(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& along, const glm::vec3& size_m,
+    float height_share, const std::array<glm::vec3, 4>& wall, const std::array<glm::vec3, 2>& roof) {
     const glm::vec2 across(-along.y, along.x);
     const auto at = [&](float x, float y, float z) {
         const glm::vec2 level = along * (x * size_m.x) + across * (y * size_m.y);
         const float height_at_offset_m = anchor.height_at_offset_m(level);
-        return anchor.at_m + glm::vec3(level, height_at_offset_m + height_share * std::max(z - height_at_offset_m, 0.0F));
+        return anchor.at_m +
+               glm::vec3(level, height_at_offset_m + height_share * std::max(z - height_at_offset_m, 0.0F));
     };
     const float eaves_m = 0.58F * size_m.z;
     const auto quad = [&](const std::array<glm::vec3, 4>& corner, const glm::vec3& colour) {
         const std::uint32_t first = to.add(corner[0], colour);
-        for (std::size_t i = 1; i < 4; ++i) {
-            to.add(corner[i], colour);
-        }
+        for (std::size_t i = 1; i < 4; ++i) { to.add(corner[i], colour); }
         to.triangle(first, first + 1, first + 2);
         to.triangle(first, first + 2, first + 3);
     };
@@ -98,9 +85,7 @@ void add_house(
     quad({at(-1, 1, low), at(-1, -1, low), at(-1, -1, eaves_m), at(-1, 1, eaves_m)}, wall[2]);
     quad({at(-1, -1, low), at(1, -1, low), at(1, -1, eaves_m), at(-1, -1, eaves_m)}, wall[3]);
     quad({at(1, 1, eaves_m), at(-1, 1, eaves_m), at(-1, 0, size_m.z), at(1, 0, size_m.z)}, roof[0]);
-    quad(
-        {at(-1, -1, eaves_m), at(1, -1, eaves_m), at(1, 0, size_m.z), at(-1, 0, size_m.z)},
-        roof[1]);
+    quad({at(-1, -1, eaves_m), at(1, -1, eaves_m), at(1, 0, size_m.z), at(-1, 0, size_m.z)}, roof[1]);
     for (const float end : {1.0F, -1.0F}) {
         const glm::vec3& colour = wall[end > 0.0F ? 0 : 2];
         const std::uint32_t first = to.add(at(end, -end, eaves_m), colour);
@@ -124,9 +109,9 @@ constexpr float house_width = 0.85F;
 constexpr float house_corner = 1.52F; ///< its farthest corner from its middle, likewise
 constexpr float near_lod_distance_m = 60.0F;
 constexpr float far_lod_distance_m = 130.0F;
-constexpr float first_growth_ratio = 0.35F; ///< of the reach: all things have grown by then
+constexpr float first_growth_ratio = 0.35F;     ///< of the reach: all things have grown by then
 constexpr std::size_t upward_light_index = 8;   ///< place of the light from above, after the eight sides
-constexpr double placement_radius_ratio = 0.19;        ///< radius that fits into a quarter of a cell, over its side
+constexpr double placement_radius_ratio = 0.19; ///< radius that fits into a quarter of a cell, over its side
 
 /// Middles of the four quarters into which its diagonals cut a cell.
 constexpr std::array<glm::dvec2, 4> quarter_centres = {
@@ -138,22 +123,18 @@ float share_of(std::uint32_t random_bits, unsigned shift) {
 }
 
 /// How large a tree is, in sizes of its species: 0.7 to 1.3.
-float size_of(std::uint32_t random_bits) {
-    return 0.7F + 0.6F * share_of(random_bits, 16);
-}
+float size_of(std::uint32_t random_bits) { return 0.7F + 0.6F * share_of(random_bits, 16); }
 
 TreeLod detail_at(float distance_m) {
-    return distance_m < near_lod_distance_m      ? TreeLod::Near
+    return distance_m < near_lod_distance_m  ? TreeLod::Near
            : distance_m < far_lod_distance_m ? TreeLod::Medium
-                                    : TreeLod::Far;
+                                             : TreeLod::Far;
 }
 
-/// Leaves out triangles from `first` on that face away: near the outline of a thing far off, where
-/// renderers cannot tell, they would be painted over those before them.
+/// Leaves out triangles from `first` on that face away: near the outline of a thing far off, where renderers cannot
+/// tell, they would be painted over those before them.
 void remove_back_faces(
-    const std::vector<models::ColourVertex>& vertices,
-    std::size_t first,
-    std::vector<std::uint32_t>& indices) {
+    const std::vector<models::ColourVertex>& vertices, std::size_t first, std::vector<std::uint32_t>& indices) {
     std::size_t kept = first;
     for (std::size_t i = first; i < indices.size(); i += 3) {
         const glm::vec3& a = vertices[indices[i]].position_m;
@@ -176,8 +157,7 @@ struct Species {
 
 /// By Scenery::Kind: broadleaf, conifer, shrub.
 const Species& species_of(std::size_t kind) {
-    static const std::array<Species, 3> all = {
-        Species{glm::vec3(0.25F, 0.36F, 0.15F), 9.0F, 4.3F, TreeShape::Round},
+    static const std::array<Species, 3> all = {Species{glm::vec3(0.25F, 0.36F, 0.15F), 9.0F, 4.3F, TreeShape::Round},
         Species{glm::vec3(0.16F, 0.27F, 0.15F), 12.0F, 3.0F, TreeShape::Conical},
         Species{glm::vec3(0.42F, 0.40F, 0.24F), 1.8F, 1.7F, TreeShape::Round}};
     return all[kind - 1];
@@ -186,17 +166,11 @@ const Species& species_of(std::size_t kind) {
 } // namespace
 
 Scenery::Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, SceneryDensityAt scenery_density_at)
-    : first_m_(first_m)
-    , samples_(samples)
-    , spacing_m_(spacing_m)
-    , stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1))
-    , max_radius_m_(static_cast<float>(placement_radius_ratio * spacing_m))
-    , reach_m_(
-          max_radius_m_ < min_radius_m
-              ? 0.0
-              : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m))
-    , density_at_(std::move(scenery_density_at))
-    , item_cache_(cache_size) {}
+    : first_m_(first_m), samples_(samples), spacing_m_(spacing_m),
+      stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1)),
+      max_radius_m_(static_cast<float>(placement_radius_ratio * spacing_m)),
+      reach_m_(max_radius_m_ < min_radius_m ? 0.0 : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m)),
+      density_at_(std::move(scenery_density_at)), item_cache_(cache_size) {}
 
 void Scenery::set_daylight(const Daylight& day) {
     shade_ = day.ambient();
@@ -208,9 +182,7 @@ void Scenery::set_daylight(const Daylight& day) {
     side_light_[upward_light_index] = day.sunlight() * std::max(to_sun.z, 0.0F);
 }
 
-void Scenery::clear_cache() {
-    std::ranges::fill(item_cache_, CachedItem{});
-}
+void Scenery::clear_cache() { std::ranges::fill(item_cache_, CachedItem{}); }
 
 void Scenery::begin(const NearDetailView& view) {
     view_ = view;
@@ -218,57 +190,44 @@ void Scenery::begin(const NearDetailView& view) {
 }
 
 Scenery::SceneryItem Scenery::item_at(int column, int row, int quarter_index) {
-    const std::uint64_t place =
-        (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
-        static_cast<std::uint64_t>(quarter_index);
-    const std::uint32_t random_bits = scrambled(
-        static_cast<std::uint32_t>(column * 4 + quarter_index) * 0x9e3779b1U ^
-        scrambled(static_cast<std::uint32_t>(row)));
+    const std::uint64_t place = (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
+                                static_cast<std::uint64_t>(quarter_index);
+    const std::uint32_t random_bits = scrambled(static_cast<std::uint32_t>(column * 4 + quarter_index) * 0x9e3779b1U ^
+                                                scrambled(static_cast<std::uint32_t>(row)));
     CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
     if (known.place != place) {
         const SceneryDensity scenery_density = density_at_(column, row);
         const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
         float sum = scenery_density.houses;
         SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
-        for (const auto& [share, own] :
-             {std::pair(scenery_density.conifers, SceneryKind::Conifer),
-              std::pair(scenery_density.broadleaves, SceneryKind::Broadleaf),
-              std::pair(scenery_density.shrubs, SceneryKind::Shrub)}) {
+        for (const auto& [share, own] : {std::pair(scenery_density.conifers, SceneryKind::Conifer),
+                 std::pair(scenery_density.broadleaves, SceneryKind::Broadleaf),
+                 std::pair(scenery_density.shrubs, SceneryKind::Shrub)}) {
             sum += share;
             kind = kind == SceneryKind::None && pick < sum ? own : kind;
         }
-        if (kind == SceneryKind::House && max_radius_m_ < house_radius_m) {
-            kind = SceneryKind::None;
-        }
-        known = {
-            place,
-            {kind,
-             static_cast<std::uint8_t>(std::clamp(scenery_density.sun, 0.0F, 1.0F) * 255.0F),
-             scrambled(random_bits)}};
+        if (kind == SceneryKind::House && max_radius_m_ < house_radius_m) { kind = SceneryKind::None; }
+        known = {place, {kind, static_cast<std::uint8_t>(std::clamp(scenery_density.sun, 0.0F, 1.0F) * 255.0F),
+                            scrambled(random_bits)}};
     }
     return known.item;
 }
 
 bool Scenery::has_scenery_at(const glm::dvec2& place_m) {
     constexpr double near = 0.01; // of a cell
-    if (reach_m_ <= 0.0) {
-        return false;
-    }
+    if (reach_m_ <= 0.0) { return false; }
     const glm::dvec2 place = (place_m - first_m_) / spacing_m_;
     const glm::ivec2 least(glm::floor(place - near));
     const glm::ivec2 most(glm::floor(place + near));
     for (int row = std::max(least.y, 0); row <= std::min(most.y, samples_.y - 2); ++row) {
-        for (int column = std::max(least.x, 0); column <= std::min(most.x, samples_.x - 2);
-             ++column) {
-            if (row % stride_ != 0 || column % stride_ != 0) {
-                continue;
-            }
+        for (int column = std::max(least.x, 0); column <= std::min(most.x, samples_.x - 2); ++column) {
+            if (row % stride_ != 0 || column % stride_ != 0) { continue; }
             const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
             for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
                 const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter_index)] - 0.5;
                 const bool upright = std::abs(way.y) > std::abs(way.x);
-                const double out = upright ? std::copysign(1.0, way.y) * from_middle.y
-                                           : std::copysign(1.0, way.x) * from_middle.x;
+                const double out =
+                    upright ? std::copysign(1.0, way.y) * from_middle.y : std::copysign(1.0, way.x) * from_middle.x;
                 const double aside = std::abs(upright ? from_middle.x : from_middle.y);
                 if (out > aside - near && item_at(column, row, quarter_index).kind != SceneryKind::None) {
                     return true;
@@ -283,8 +242,7 @@ bool Scenery::has_scenery_at(const glm::dvec2& place_m) {
 void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const auto& [a, b, c] = triangle_m;
     const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - first_m_;
-    const glm::dvec2 least =
-        (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
+    const glm::dvec2 least = (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
     const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
     const float area = signed_area2(a, b, c);
     const glm::vec3 across = glm::cross(b - a, c - a);
@@ -305,13 +263,9 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
                 glm::vec3 at_m(glm::dvec3(place, 0.0));
                 const float u = signed_area2(b, c, at_m) / area;
                 const float v = signed_area2(c, a, at_m) / area;
-                if (u < 0.0F || v < 0.0F || u + v > 1.0F) {
-                    continue;
-                }
+                if (u < 0.0F || v < 0.0F || u + v > 1.0F) { continue; }
                 at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
-                if (glm::dot(at_m, at_m) > reach2_m2) {
-                    continue;
-                }
+                if (glm::dot(at_m, at_m) > reach2_m2) { continue; }
                 const SceneryItem item = item_at(column, row, quarter_index);
                 if (item.kind != SceneryKind::None) {
                     const float radius = radius_m(item);
@@ -323,24 +277,19 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     }
 }
 
-void Scenery::add(
-    const std::array<glm::vec3, 3>& triangle_m,
-    std::vector<models::ColourVertex>& vertices,
+void Scenery::add(const std::array<glm::vec3, 3>& triangle_m, std::vector<models::ColourVertex>& vertices,
     std::vector<std::uint32_t>& indices) {
     placed_items_.clear();
     collect(triangle_m);
-    std::ranges::sort(placed_items_, [&](const PlacedItem& one, const PlacedItem& other) {
-        return one.power_m2 < other.power_m2;
-    });
+    std::ranges::sort(
+        placed_items_, [&](const PlacedItem& one, const PlacedItem& other) { return one.power_m2 < other.power_m2; });
     for (const PlacedItem& one : placed_items_) {
         const float distance_m = glm::length(one.at_m);
         // Each grows out of the ground at a distance of its own.
         const float begins_m = static_cast<float>(reach_m()) *
                                (first_growth_ratio + (1.0F - first_growth_ratio) * share_of(one.item.random_bits, 0));
         const float height_share = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
-        if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) {
-            continue;
-        }
+        if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) { continue; }
         const std::size_t before = indices.size();
         if (one.item.kind == SceneryKind::House) {
             build_house(one, height_share, vertices, indices);
@@ -352,15 +301,11 @@ void Scenery::add(
     }
 }
 
-float Scenery::house_half_m() const {
-    return std::min(0.62F * max_radius_m_, 5.5F);
-}
+float Scenery::house_half_m() const { return std::min(0.62F * max_radius_m_, 5.5F); }
 
 /// Of a circle that holds it in plan, its middle where it stands.
 float Scenery::radius_m(const SceneryItem& item) const {
-    if (item.kind == SceneryKind::House) {
-        return house_corner * house_half_m();
-    }
+    if (item.kind == SceneryKind::House) { return house_corner * house_half_m(); }
     const Species& species = species_of(static_cast<std::size_t>(item.kind));
     return std::min(size_of(item.random_bits) * species.radius_m, max_radius_m_);
 }
@@ -371,14 +316,11 @@ glm::vec3 Scenery::lit(const PlacedItem& one, const glm::vec3& own, std::size_t 
     return own * (shade_ + sun * side_light_[side]);
 }
 
-void Scenery::build_house(
-    const PlacedItem& one,
-    float height_share,
-    std::vector<models::ColourVertex>& vertices,
+void Scenery::build_house(const PlacedItem& one, float height_share, std::vector<models::ColourVertex>& vertices,
     std::vector<std::uint32_t>& indices) const {
     const std::uint32_t random_bits = one.item.random_bits;
-    const glm::vec3 plaster = glm::mix(
-        glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(random_bits, 12));
+    const glm::vec3 plaster =
+        glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(random_bits, 12));
     const glm::vec3 tiles =
         glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(random_bits, 4));
     const std::size_t turn = random_bits >> 20U & 7U;
@@ -388,35 +330,20 @@ void Scenery::build_house(
     };
     const float half_m = house_half_m();
     LowPolyBuilder to{vertices, indices};
-    add_house(
-        to,
-        {one.at_m, one.ground_slope},
-        compass_directions[turn],
-        glm::vec3(house_length * half_m, house_width * half_m, house_m),
-        height_share,
-        {wall(0), wall(2), wall(4), wall(6)},
-        {roof(2), roof(6)});
+    add_house(to, {one.at_m, one.ground_slope}, compass_directions[turn],
+        glm::vec3(house_length * half_m, house_width * half_m, house_m), height_share,
+        {wall(0), wall(2), wall(4), wall(6)}, {roof(2), roof(6)});
 }
 
-void Scenery::build_tree(
-    const PlacedItem& one,
-    float height_share,
-    TreeLod detail,
-    std::vector<models::ColourVertex>& vertices,
-    std::vector<std::uint32_t>& indices) const {
+void Scenery::build_tree(const PlacedItem& one, float height_share, TreeLod detail,
+    std::vector<models::ColourVertex>& vertices, std::vector<std::uint32_t>& indices) const {
     const Species& species = species_of(static_cast<std::size_t>(one.item.kind));
     const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.item.random_bits, 8));
     TreeColours light{{}, lit(one, leaf, upward_light_index)};
-    for (std::size_t side = 0; side < light.sides.size(); ++side) {
-        light.sides[side] = lit(one, leaf, side);
-    }
+    for (std::size_t side = 0; side < light.sides.size(); ++side) { light.sides[side] = lit(one, leaf, side); }
     LowPolyBuilder to{vertices, indices};
-    add_tree(
-        to,
-        {one.at_m, one.ground_slope},
-        {radius_m(one.item), size_of(one.item.random_bits) * species.height_m * height_share},
-        species.shape,
-        detail,
+    add_tree(to, {one.at_m, one.ground_slope},
+        {radius_m(one.item), size_of(one.item.random_bits) * species.height_m * height_share}, species.shape, detail,
         light);
 }
 

@@ -14,20 +14,14 @@
 #include <span>
 #include <vector>
 
-// Things of few polygons that are convex, or nearly: seen from outside, none of their front faces
-// hides another. Triangles are counter-clockwise seen from outside.
+// Things of few polygons that are convex, or nearly: seen from outside, none of their front faces hides another.
+// Triangles are counter-clockwise seen from outside.
 
 namespace octant::visuals::nature {
 
 /// Eight directions, counter-clockwise from east.
-inline constexpr std::array<glm::vec2, 8> compass_directions = {
-    glm::vec2(1.0F, 0.0F),
-    {0.70710678F, 0.70710678F},
-    {0.0F, 1.0F},
-    {-0.70710678F, 0.70710678F},
-    {-1.0F, 0.0F},
-    {-0.70710678F, -0.70710678F},
-    {0.0F, -1.0F},
+inline constexpr std::array<glm::vec2, 8> compass_directions = {glm::vec2(1.0F, 0.0F), {0.70710678F, 0.70710678F},
+    {0.0F, 1.0F}, {-0.70710678F, 0.70710678F}, {-1.0F, 0.0F}, {-0.70710678F, -0.70710678F}, {0.0F, -1.0F},
     {0.70710678F, -0.70710678F}};
 
 /// Appends vertices and triangles of things, which have none of the ground's fine pattern.
@@ -40,9 +34,7 @@ struct LowPolyBuilder {
         return static_cast<std::uint32_t>(vertices.size() - 1);
     }
 
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        indices.insert(indices.end(), {a, b, c});
-    }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
 };
 
 /// Where a thing stands. Nothing of it lies below that plane, which may be painted before it.
@@ -51,7 +43,9 @@ struct GroundAnchor {
     glm::vec2 ground_slope; ///< metres up a metre east and north
 
     /// Height of the ground over the foot, so far off.
-    float height_at_offset_m(const glm::vec2& off_m) const { return ground_slope.x * off_m.x + ground_slope.y * off_m.y; }
+    float height_at_offset_m(const glm::vec2& off_m) const {
+        return ground_slope.x * off_m.x + ground_slope.y * off_m.y;
+    }
 };
 
 /// A tree's colours under light: of sides that face the compass, and from above.
@@ -66,25 +60,14 @@ enum class TreeShape { Conical, Round };
 enum class TreeLod { Near, Medium, Far };
 
 /// `size_m`: radius and height. The crown's rings lie along the ground.
-void add_tree(
-    LowPolyBuilder& to,
-    const GroundAnchor& anchor,
-    const glm::vec2& size_m,
-    TreeShape shape,
-    TreeLod detail,
+void add_tree(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& size_m, TreeShape shape, TreeLod detail,
     const TreeColours& light);
 
-/// Four walls and a gable roof. `along` (unit) is the ridge's direction, `size_m` half the length,
-/// half the width and the height; `height_share`, 0..1, says how much of the height there is yet; walls
-/// face along, to the left, back and to the right, the roof's sides left and right.
-void add_house(
-    LowPolyBuilder& to,
-    const GroundAnchor& anchor,
-    const glm::vec2& along,
-    const glm::vec3& size_m,
-    float height_share,
-    const std::array<glm::vec3, 4>& wall,
-    const std::array<glm::vec3, 2>& roof);
+/// Four walls and a gable roof. `along` (unit) is the ridge's direction, `size_m` half the length, half the width and
+/// the height; `height_share`, 0..1, says how much of the height there is yet; walls face along, to the left, back and
+/// to the right, the roof's sides left and right.
+void add_house(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& along, const glm::vec3& size_m,
+    float height_share, const std::array<glm::vec3, 4>& wall, const std::array<glm::vec3, 2>& roof);
 
 /// What may stand at a place: shares of places, 0..1, and the sunlight there.
 struct SceneryDensity {
@@ -95,9 +78,9 @@ struct SceneryDensity {
     float sun = 1.0F; ///< 0 in the shadow of the relief
 };
 
-/// Trees, shrubs and houses of few polygons near the eye. Where they stand follows from the ground
-/// alone: at places of the sample grid that lie well within one triangle in every mesh of it, so
-/// that each can be painted right after its triangle.
+/// Trees, shrubs and houses of few polygons near the eye. Where they stand follows from the ground alone: at places of
+/// the sample grid that lie well within one triangle in every mesh of it, so that each can be painted right after its
+/// triangle.
 class Scenery {
 public:
     /// At a sample of the ground.
@@ -117,12 +100,10 @@ public:
     /// Whether anything stands in a quarter of a cell that holds a place or ends there.
     bool has_scenery_at(const glm::dvec2& place_m);
 
-    /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn), none of it
-    /// below the triangle's plane, from near to far: to `vertices`, and as triangles,
-    /// counter-clockwise seen from outside, to `indices`.
-    void
-    add(const std::array<glm::vec3, 3>& triangle_m,
-        std::vector<models::ColourVertex>& vertices,
+    /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn), none of it below the
+    /// triangle's plane, from near to far: to `vertices`, and as triangles, counter-clockwise seen from outside, to
+    /// `indices`.
+    void add(const std::array<glm::vec3, 3>& triangle_m, std::vector<models::ColourVertex>& vertices,
         std::vector<std::uint32_t>& indices);
 
     /// Triangles appended since begin().
@@ -151,8 +132,8 @@ private:
         glm::vec3 at_m;
         glm::vec2 ground_slope; ///< of its ground, metres up a metre east and north
         SceneryItem item;
-        /// The power of the eye in plan with respect to the circle around it: of two that stand
-        /// apart, the one with the greater power hides no part of the other.
+        /// The power of the eye in plan with respect to the circle around it: of two that stand apart, the one with the
+        /// greater power hides no part of the other.
         float power_m2 = 0.0F;
     };
 
@@ -161,27 +142,19 @@ private:
     float radius_m(const SceneryItem& item) const;
     float house_half_m() const;
     glm::vec3 lit(const PlacedItem& one, const glm::vec3& own, std::size_t side) const;
-    void build_house(
-        const PlacedItem& one,
-        float height_share,
-        std::vector<models::ColourVertex>& vertices,
+    void build_house(const PlacedItem& one, float height_share, std::vector<models::ColourVertex>& vertices,
         std::vector<std::uint32_t>& indices) const;
-    void build_tree(
-        const PlacedItem& one,
-        float height_share,
-        TreeLod detail,
-        std::vector<models::ColourVertex>& vertices,
-        std::vector<std::uint32_t>& indices) const;
+    void build_tree(const PlacedItem& one, float height_share, TreeLod detail,
+        std::vector<models::ColourVertex>& vertices, std::vector<std::uint32_t>& indices) const;
 
     glm::dvec2 first_m_;
     glm::ivec2 samples_;
     double spacing_m_;
-    int stride_;          ///< cells from one that bears something to the next
+    int stride_;         ///< cells from one that bears something to the next
     float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
     double reach_m_;
     SceneryDensityAt density_at_;
-    std::array<glm::vec3, 9>
-        side_light_{}; ///< on the eight sides, then on what faces up; the shade
+    std::array<glm::vec3, 9> side_light_{}; ///< on the eight sides, then on what faces up; the shade
     glm::vec3 shade_{0.4F};
     NearDetailView view_;
     std::size_t added_ = 0;

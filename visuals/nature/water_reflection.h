@@ -14,8 +14,8 @@ class WaterReflection {
 public:
     explicit WaterReflection(const Daylight& day);
 
-    /// Display values of a place: `own` is what comes out of the water itself, `from_eye` the way
-    /// from the eye to it, of any length, downwards.
+    /// Display values of a place: `own` is what comes out of the water itself, `from_eye` the way from the eye to it,
+    /// of any length, downwards.
     glm::vec3 shaded_colour(const glm::vec3& own, const glm::vec3& from_eye) const;
 
 private:

@@ -14,8 +14,8 @@
 
 namespace octant::visuals::ordercache {
 
-/// Values as they stand in memory, one behind the other; arrays and texts behind their number of
-/// elements. Types must have no padding, so that equal values give equal bytes.
+/// Values as they stand in memory, one behind the other; arrays and texts behind their number of elements. Types must
+/// have no padding, so that equal values give equal bytes.
 class BinaryWriter {
 public:
     template <class Value>
@@ -45,20 +45,17 @@ public:
 
 private:
     void append(const void* data, std::size_t size) {
-        if (size > 0) {
-            bytes_.append(static_cast<const char*>(data), size);
-        }
+        if (size > 0) { bytes_.append(static_cast<const char*>(data), size); }
     }
 
     std::string bytes_;
 };
 
-/// Reads what BinaryWriter has written, in the same sequence, from bytes that may be anything. Throws
-/// Error "expected ..., got ..." where they end too soon.
+/// Reads what BinaryWriter has written, in the same sequence, from bytes that may be anything. Throws Error "expected
+/// ..., got ..." where they end too soon.
 class BinaryReader {
 public:
-    explicit BinaryReader(std::string_view bytes)
-        : rest_(bytes) {}
+    explicit BinaryReader(std::string_view bytes) : rest_(bytes) {}
 
     template <class Value>
 
@@ -78,9 +75,7 @@ public:
         const auto count = number<std::uint64_t>();
         const std::string_view bytes = next(count, sizeof(Value));
         std::vector<Value> values(static_cast<std::size_t>(count));
-        if (!bytes.empty()) {
-            std::memcpy(values.data(), bytes.data(), bytes.size());
-        }
+        if (!bytes.empty()) { std::memcpy(values.data(), bytes.data(), bytes.size()); }
         return values;
     }
 
@@ -102,8 +97,7 @@ public:
 private:
     void check_size(std::uint64_t many, std::size_t size) const {
         if (many > rest_.size() / size) {
-            throw Error(
-                fmt::format("expected {} times {} bytes, got {}", many, size, rest_.size()));
+            throw Error(fmt::format("expected {} times {} bytes, got {}", many, size, rest_.size()));
         }
     }
 

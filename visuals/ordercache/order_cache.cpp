@@ -1,7 +1,7 @@
-// A file is: signature, version, the key, the order, and a checksum of all bytes before it. The key
-// is a copy of all that decides the order, not a hash of it, so that a file is either of this very
-// model or not used.
+// A file is: signature, version, the key, the order, and a checksum of all bytes before it. The key is a copy of all
+// that decides the order, not a hash of it, so that a file is either of this very model or not used.
 #include "visuals/ordercache/order_cache.h"
+
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
@@ -29,9 +29,8 @@
 
 namespace octant::visuals::ordercache {
 
-// What the order of a model depends on, and the order itself, as bytes. Reading trusts nothing: a
-// child is a later node that no other node has, or a cell, so that every walk ends after as many
-// steps as there are nodes.
+// What the order of a model depends on, and the order itself, as bytes. Reading trusts nothing: a child is a later node
+// that no other node has, or a cell, so that every walk ends after as many steps as there are nodes.
 
 using draworder::DrawOrder;
 using draworder::OrderCell;
@@ -52,9 +51,7 @@ void add_enum(BinaryWriter& out, Enum value) {
     out.number(static_cast<std::uint32_t>(value));
 }
 
-void add_vector(BinaryWriter& out, const glm::dvec3& vector) {
-    out.array(std::span(&vector, 1));
-}
+void add_vector(BinaryWriter& out, const glm::dvec3& vector) { out.array(std::span(&vector, 1)); }
 
 void add_geometry(BinaryWriter& out, const PolygonModel& model) {
     out.array(model.vertices_m);
@@ -66,23 +63,18 @@ void add_geometry(BinaryWriter& out, const PolygonModel& model) {
 void add_node(BinaryWriter& out, const DrawOrder::Node& node) {
     out.array(std::span(&node.plane, 1));
     add_enum(out, node.kind);
-    for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) {
-        out.number(child);
-    }
+    for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) { out.number(child); }
 }
 
 /// Reads an order and holds it against the model that it is for.
 class OrderReader {
 public:
-    OrderReader(std::string_view bytes, const PolygonModel& given)
-        : in_(bytes)
-        , given_(given) {}
+    OrderReader(std::string_view bytes, const PolygonModel& given) : in_(bytes), given_(given) {}
 
     OrderedModel read() {
         PolygonModel model = geometry();
         DrawOrder draw_order = order(model.polygons.size());
-        OrderedModel out{
-            .model = std::move(model), .order = std::move(draw_order), .cells = {}, .notes = {}};
+        OrderedModel out{.model = std::move(model), .order = std::move(draw_order), .cells = {}, .notes = {}};
         out.cells = cells(out.order);
         out.centre_m = vector();
         out.min_distance_m = in_.number<double>();
@@ -90,9 +82,7 @@ public:
         out.splits = in_.number<int>();
         out.cyclic_cells = in_.number<int>();
         const std::size_t notes = in_.count(sizeof(std::uint64_t));
-        for (std::size_t i = 0; i < notes; ++i) {
-            out.notes.push_back(note());
-        }
+        for (std::size_t i = 0; i < notes; ++i) { out.notes.push_back(note()); }
         out.found_by = static_cast<draworder::OrderSource>(at_most(last_way, "a way to an order"));
         out.ray_test.rays = in_.number<long>();
         out.ray_test.wrong = in_.number<long>();
@@ -104,16 +94,12 @@ public:
 
 private:
     static void check(bool good, const char* expected) {
-        if (!good) {
-            throw Error(fmt::format("expected {}, got something else", expected));
-        }
+        if (!good) { throw Error(fmt::format("expected {}, got something else", expected)); }
     }
 
     std::uint32_t at_most(std::uint32_t most, const char* what) {
         const auto value = in_.number<std::uint32_t>();
-        if (value > most) {
-            throw Error(fmt::format("expected {} of 0 to {}, got {}", what, most, value));
-        }
+        if (value > most) { throw Error(fmt::format("expected {} of 0 to {}, got {}", what, most, value)); }
         return value;
     }
 
@@ -121,9 +107,7 @@ private:
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
     }
 
-    static bool is_finite(const Plane& plane) {
-        return is_finite(plane.normal) && std::isfinite(plane.offset_m);
-    }
+    static bool is_finite(const Plane& plane) { return is_finite(plane.normal) && std::isfinite(plane.offset_m); }
 
     /// An array whose elements must all pass a test.
     template <class Value, class Test>
@@ -152,18 +136,15 @@ private:
         model.parts = given_.parts;
         model.pivots = given_.pivots;
         model.notes = given_.notes;
-        model.vertices_m = all_that<glm::dvec3>(
-            [](const glm::dvec3& v) { return is_finite(v); }, "finite vertices");
+        model.vertices_m = all_that<glm::dvec3>([](const glm::dvec3& v) { return is_finite(v); }, "finite vertices");
         model.corner_vertices = all_that<std::uint32_t>(
-            [&](std::uint32_t vertex) { return vertex < model.vertices_m.size(); },
-            "corners among the vertices");
+            [&](std::uint32_t vertex) { return vertex < model.vertices_m.size(); }, "corners among the vertices");
         model.polygons = all_that<Polygon>(
             [&](const Polygon& polygon) {
                 const std::size_t corners = model.corner_vertices.size();
                 return polygon.corner_count >= 3 && polygon.corner_count <= corners &&
                        polygon.first_corner <= corners - polygon.corner_count &&
-                       polygon.material < given_.materials.size() &&
-                       polygon.part < given_.parts.size();
+                       polygon.material < given_.materials.size() && polygon.part < given_.parts.size();
             },
             "polygons of corners, materials and parts that are there");
         model.parents = in_.array<std::uint32_t>();
@@ -173,13 +154,9 @@ private:
 
     /// Each polygon must be a piece of one that is given; those may be pieces of the file's, too.
     void check_parents(const PolygonModel& model) const {
-        check(
-            model.parents.empty() || model.parents.size() == model.polygons.size(),
-            "a parent for each polygon");
+        check(model.parents.empty() || model.parents.size() == model.polygons.size(), "a parent for each polygon");
         std::unordered_set<std::uint32_t> parents;
-        for (std::size_t i = 0; i < given_.polygons.size(); ++i) {
-            parents.insert(given_.parent_of(i));
-        }
+        for (std::size_t i = 0; i < given_.polygons.size(); ++i) { parents.insert(given_.parent_of(i)); }
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             check(parents.contains(model.parent_of(i)), "parents among the polygons of the file");
         }
@@ -201,8 +178,7 @@ private:
             lists[i] = in_.array<std::uint32_t>();
             for (const std::uint32_t polygon : lists[i]) {
                 check(
-                    polygon < polygons && std::exchange(last_list[polygon], i + 1) <= i,
-                    "lists of different polygons");
+                    polygon < polygons && std::exchange(last_list[polygon], i + 1) <= i, "lists of different polygons");
             }
         }
         check(!nodes.empty() || lists.size() == 1, "one list or nodes");
@@ -214,25 +190,20 @@ private:
         std::vector<char> has_parent(nodes.size(), 0);
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const auto is_cell_or_nothing = [&](int child) {
-                return child == DrawOrder::nothing ||
-                       (child < 0 && static_cast<std::size_t>(~child) < lists);
+                return child == DrawOrder::nothing || (child < 0 && static_cast<std::size_t>(~child) < lists);
             };
             const auto is_child = [&](int child) {
-                if (child < 0) {
-                    return is_cell_or_nothing(child);
-                }
+                if (child < 0) { return is_cell_or_nothing(child); }
                 const auto node = static_cast<std::size_t>(child);
                 const bool is_later = node > i && node < nodes.size();
                 return is_later && std::exchange(has_parent[node], 1) == 0;
             };
             const DrawOrder::Node& node = nodes[i];
-            check(
-                is_child(node.front) && is_child(node.back) && is_cell_or_nothing(node.coplanar_front) &&
-                    is_cell_or_nothing(node.coplanar_back),
+            check(is_child(node.front) && is_child(node.back) && is_cell_or_nothing(node.coplanar_front) &&
+                      is_cell_or_nothing(node.coplanar_back),
                 "children that are later nodes or cells");
-            check(
-                node.kind != DrawOrder::Kind::ViewSplit ||
-                    (node.front != DrawOrder::nothing && node.back != DrawOrder::nothing),
+            check(node.kind != DrawOrder::Kind::ViewSplit ||
+                      (node.front != DrawOrder::nothing && node.back != DrawOrder::nothing),
                 "a choice between nodes or cells");
         }
     }
@@ -242,11 +213,9 @@ private:
         for (OrderCell& cell : cells) {
             cell.path = in_.text();
             check(cell.path.empty() || draworder::is_octant_path(cell.path), "an octant path");
-            cell.planes = all_that<Plane>(
-                [](const Plane& plane) { return is_finite(plane); }, "finite planes");
+            cell.planes = all_that<Plane>([](const Plane& plane) { return is_finite(plane); }, "finite planes");
         }
-        const bool fits =
-            order.has_one_cell_per_eye() && cells.size() == static_cast<std::size_t>(order.cell_count());
+        const bool fits = order.has_one_cell_per_eye() && cells.size() == static_cast<std::size_t>(order.cell_count());
         check(cells.empty() || fits, "a region for each cell");
         return cells;
     }
@@ -276,9 +245,7 @@ std::string encode_key(const PolygonModel& model, const draworder::OrderOptions&
     add_geometry(out, model);
     out.number(std::uint64_t{model.materials.size()});
     out.number(std::uint64_t{model.parts.size()});
-    for (const std::string& part : model.parts) {
-        out.text(part);
-    }
+    for (const std::string& part : model.parts) { out.text(part); }
     out.number(std::uint64_t{model.pivots.size()});
     for (const models::polygons::Pivot& pivot : model.pivots) {
         out.number(pivot.part);
@@ -293,13 +260,9 @@ std::string encode_order(const OrderedModel& ordered) {
     add_geometry(out, ordered.model);
     const DrawOrder& order = ordered.order;
     out.number(std::uint64_t{order.nodes().size()});
-    for (const DrawOrder::Node& node : order.nodes()) {
-        add_node(out, node);
-    }
+    for (const DrawOrder::Node& node : order.nodes()) { add_node(out, node); }
     out.number(static_cast<std::uint64_t>(order.cell_count()));
-    for (int cell = 0; cell < order.cell_count(); ++cell) {
-        out.array(order.polygons_of(cell));
-    }
+    for (int cell = 0; cell < order.cell_count(); ++cell) { out.array(order.polygons_of(cell)); }
     out.number(std::uint64_t{ordered.cells.size()});
     for (const OrderCell& cell : ordered.cells) {
         out.text(cell.path);
@@ -310,9 +273,7 @@ std::string encode_order(const OrderedModel& ordered) {
     out.number(ordered.splits);
     out.number(ordered.cyclic_cells);
     out.number(std::uint64_t{ordered.notes.size()});
-    for (const std::string& note : ordered.notes) {
-        out.text(note);
-    }
+    for (const std::string& note : ordered.notes) { out.text(note); }
     add_enum(out, ordered.found_by);
     out.number(ordered.ray_test.rays);
     out.number(ordered.ray_test.wrong);
@@ -353,8 +314,7 @@ std::string file_bytes(std::string_view key, const OrderedModel& ordered) {
 }
 
 /// Throws Error "expected ..., got ...".
-OrderedModel
-from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel& given) {
+OrderedModel from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel& given) {
     BinaryReader head(bytes);
     if (head.number<std::uint64_t>() != signature) {
         throw Error("expected a kept painting order, got another kind of file");
@@ -362,19 +322,14 @@ from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel
     if (const auto version = head.number<std::uint32_t>(); version != order_version) {
         throw Error(fmt::format("expected version {}, got {}", order_version, version));
     }
-    if (head.bytes_left() < checksum_bytes) {
-        throw Error("expected a checksum, got the end of the file");
-    }
+    if (head.bytes_left() < checksum_bytes) { throw Error("expected a checksum, got the end of the file"); }
     const std::string_view summed = bytes.substr(0, bytes.size() - checksum_bytes);
     const auto checksum = BinaryReader(bytes.substr(summed.size())).number<std::uint64_t>();
     if (checksum_of(summed) != checksum) {
-        throw Error(fmt::format(
-            "expected bytes of checksum {:016x}, got {:016x}", checksum, checksum_of(summed)));
+        throw Error(fmt::format("expected bytes of checksum {:016x}, got {:016x}", checksum, checksum_of(summed)));
     }
     BinaryReader rest(summed.substr(bytes.size() - head.bytes_left()));
-    if (rest.text() != key) {
-        throw Error("expected the order of this model, got that of another one");
-    }
+    if (rest.text() != key) { throw Error("expected the order of this model, got that of another one"); }
     return decode_order(summed.substr(summed.size() - rest.bytes_left()), given);
 }
 
@@ -383,21 +338,14 @@ OrderedModel read_order(const fs::path& file, std::string_view key, const Polygo
     const std::string bytes = read_file(file, max_bytes);
     try {
         return from_file_bytes(bytes, key, given);
-    } catch (const Error& fault) {
-        throw_error_in(file, fault.what());
-    }
+    } catch (const Error& fault) { throw_error_in(file, fault.what()); }
 }
 
 /// The order that a file holds; nothing, and a note where there is a file, when it cannot be used.
 std::optional<OrderedModel> kept_order(
-    const fs::path& file,
-    std::string_view key,
-    const PolygonModel& given,
-    std::vector<std::string>& notes) {
+    const fs::path& file, std::string_view key, const PolygonModel& given, std::vector<std::string>& notes) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored)) {
-        return std::nullopt;
-    }
+    if (!fs::exists(file, ignored)) { return std::nullopt; }
     try {
         return read_order(file, key, given);
     } catch (const Error& fault) {
@@ -407,21 +355,14 @@ std::optional<OrderedModel> kept_order(
 }
 
 /// Writes the file of an order; a note where that is not possible.
-void keep(
-    const fs::path& file,
-    std::string_view key,
-    const OrderedModel& ordered,
-    std::vector<std::string>& notes) {
+void keep(const fs::path& file, std::string_view key, const OrderedModel& ordered, std::vector<std::string>& notes) {
     const std::string bytes = file_bytes(key, ordered);
     try {
         if (bytes.size() > max_bytes) {
-            throw_error_in(
-                file, fmt::format("expected at most {} bytes, got {}", max_bytes, bytes.size()));
+            throw_error_in(file, fmt::format("expected at most {} bytes, got {}", max_bytes, bytes.size()));
         }
         write_file(file, bytes);
-    } catch (const Error& fault) {
-        notes.push_back(fmt::format("order cache {}: not kept", fault.what()));
-    }
+    } catch (const Error& fault) { notes.push_back(fmt::format("order cache {}: not kept", fault.what())); }
 }
 
 } // namespace
@@ -429,14 +370,10 @@ void keep(
 void make_cache_folder(const fs::path& folder) {
     try {
         make_folder(folder);
-    } catch (const Error& fault) {
-        throw Error(fmt::format("order cache {}", fault.what()));
-    }
+    } catch (const Error& fault) { throw Error(fmt::format("order cache {}", fault.what())); }
     if (::access(folder.c_str(), R_OK | W_OK | X_OK) != 0) {
         throw Error(fmt::format(
-            "order cache {}: expected a folder to read and write in, got: {}",
-            folder.string(),
-            std::strerror(errno)));
+            "order cache {}: expected a folder to read and write in, got: {}", folder.string(), std::strerror(errno)));
     }
 }
 
@@ -444,9 +381,7 @@ CachedOrder cached_order(const fs::path& folder, PolygonModel model, const Order
     const std::string key = encode_key(model, options);
     const fs::path file = file_of_key(folder, key);
     std::vector<std::string> notes;
-    if (auto kept = kept_order(file, key, model, notes)) {
-        return {std::move(*kept), true, file, {}};
-    }
+    if (auto kept = kept_order(file, key, model, notes)) { return {std::move(*kept), true, file, {}}; }
     OrderedModel ordered = draworder::ordered(std::move(model), options);
     keep(file, key, ordered, notes);
     return {std::move(ordered), false, file, std::move(notes)};

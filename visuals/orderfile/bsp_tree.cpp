@@ -1,6 +1,5 @@
-// Binary space partition: H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A
-// Priori Tree Structures", SIGGRAPH 1980, with planes of the polygons themselves and a
-// back-to-front walk.
+// Binary space partition: H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A Priori Tree
+// Structures", SIGGRAPH 1980, with planes of the polygons themselves and a back-to-front walk.
 //
 // Deviations:
 // - The plane of a node is the best of all by the number of cuts, not the best of a sample; of two
@@ -39,17 +38,14 @@ enum class Among {
 class BspTreeBuilder {
 public:
     BspTreeBuilder(models::polygons::PolygonModel model, Among among)
-        : tolerance_m_(draworder::split_tolerance_m(model))
-        , among_(among) {
+        : tolerance_m_(draworder::split_tolerance_m(model)), among_(among) {
         tree_.model = std::move(model);
     }
 
     BspTree build() {
         const std::size_t polygons = tree_.model.polygons.size();
         Polygons all;
-        for (std::uint32_t i = 0; i < polygons; ++i) {
-            all.push_back(i);
-        }
+        for (std::uint32_t i = 0; i < polygons; ++i) { all.push_back(i); }
         std::vector<Task> tasks;
         tasks.push_back({std::move(all), BspTree::nothing, false, 1});
         while (!tasks.empty()) {
@@ -78,9 +74,7 @@ private:
             front = front || away_m > tolerance_m_;
             back = back || away_m < -tolerance_m_;
         }
-        if (front && back) {
-            return Side::Both;
-        }
+        if (front && back) { return Side::Both; }
         return front ? Side::Front : back ? Side::Back : Side::In;
     }
 
@@ -106,24 +100,17 @@ private:
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const std::vector<Side> sides = sides_of(polygons[i], polygons);
             for (std::size_t j = 0; j < sides.size(); ++j) {
-                if (sides[j] == Side::Both) {
-                    conflicts.push_back({i, j});
-                }
+                if (sides[j] == Side::Both) { conflicts.push_back({i, j}); }
             }
         }
         return conflicts;
     }
 
     /// The cost of a plane: the number of cuts, then what decides among equals; less is better.
-    std::pair<int, int>
-    cost_of(const std::vector<Side>& sides, const std::vector<Conflict>& conflicts) const {
-        const auto count = [&](Side side) {
-            return static_cast<int>(std::ranges::count(sides, side));
-        };
+    std::pair<int, int> cost_of(const std::vector<Side>& sides, const std::vector<Conflict>& conflicts) const {
+        const auto count = [&](Side side) { return static_cast<int>(std::ranges::count(sides, side)); };
         const int cuts = count(Side::Both);
-        if (among_ == Among::Even) {
-            return {cuts, std::abs(count(Side::Front) - count(Side::Back))};
-        }
+        if (among_ == Among::Even) { return {cuts, std::abs(count(Side::Front) - count(Side::Back))}; }
         const auto left = std::ranges::count_if(conflicts, [&](const Conflict& conflict) {
             const Side cutter = sides[conflict.cutter];
             const Side cut = sides[conflict.cut];
@@ -167,32 +154,23 @@ private:
         Task back{{}, number, false, task.level + 1};
         for (const std::uint32_t polygon : task.polygons) {
             const Side side = polygon == chosen ? Side::In : side_of(polygon, node.plane);
-            if (side == Side::In) {
-                add_to_plane(polygon, node.plane);
-            }
+            if (side == Side::In) { add_to_plane(polygon, node.plane); }
             if (side == Side::Both) {
                 back.polygons.push_back(draworder::split_polygon(tree_.model, polygon, node.plane));
             }
-            if (side == Side::Front || side == Side::Both) {
-                front.polygons.push_back(polygon);
-            }
-            if (side == Side::Back) {
-                back.polygons.push_back(polygon);
-            }
+            if (side == Side::Front || side == Side::Both) { front.polygons.push_back(polygon); }
+            if (side == Side::Back) { back.polygons.push_back(polygon); }
         }
         node.count = tree_.polygons.size() - node.first;
         tree_.nodes.push_back(node);
         for (Task& side : {std::ref(front), std::ref(back)}) {
-            if (!side.polygons.empty()) {
-                tasks.push_back(std::move(side));
-            }
+            if (!side.polygons.empty()) { tasks.push_back(std::move(side)); }
         }
     }
 
     void add_to_plane(std::uint32_t polygon, const Plane& plane) {
         tree_.polygons.push_back(polygon);
-        tree_.along.push_back(
-            glm::dot(models::polygons::normal_of(tree_.model, polygon), plane.normal) > 0.0);
+        tree_.along.push_back(glm::dot(models::polygons::normal_of(tree_.model, polygon), plane.normal) > 0.0);
     }
 
     BspTree tree_;
@@ -209,16 +187,10 @@ BspTree bsp_tree(const models::polygons::PolygonModel& model) {
 }
 
 void append_painted(
-    const BspTree& tree,
-    const glm::dvec3& eye_m,
-    std::vector<std::uint32_t>& painted,
-    std::vector<int>& pending) {
-    // An entry `node` means that the walk comes down to it; ~node means that its far side has been
-    // painted.
+    const BspTree& tree, const glm::dvec3& eye_m, std::vector<std::uint32_t>& painted, std::vector<int>& pending) {
+    // An entry `node` means that the walk comes down to it; ~node means that its far side has been painted.
     pending.clear();
-    if (!tree.nodes.empty()) {
-        pending.push_back(0);
-    }
+    if (!tree.nodes.empty()) { pending.push_back(0); }
     while (!pending.empty()) {
         const int entry = pending.back();
         pending.pop_back();
@@ -226,20 +198,14 @@ void append_painted(
         const int number = far_side_done ? ~entry : entry;
         const BspTree::Node& node = tree.nodes[static_cast<std::size_t>(number)];
         const bool in_front = distance_m(node.plane, eye_m) >= 0.0;
-        if (!far_side_done) {
-            pending.push_back(~number);
-        }
+        if (!far_side_done) { pending.push_back(~number); }
         if (far_side_done) {
             for (std::size_t i = node.first; i < node.first + node.count; ++i) {
-                if (tree.along[i] == in_front) {
-                    painted.push_back(tree.polygons[i]);
-                }
+                if (tree.along[i] == in_front) { painted.push_back(tree.polygons[i]); }
             }
         }
         const int child = far_side_done == in_front ? node.front : node.back;
-        if (child != BspTree::nothing) {
-            pending.push_back(child);
-        }
+        if (child != BspTree::nothing) { pending.push_back(child); }
     }
 }
 

@@ -1,6 +1,7 @@
-// Cells as files and checks see them: octants of the eye, their division into four (section IV of
-// the 1989 paper, "divide the viewing directions further"), and regions by planes.
+// Cells as files and checks see them: octants of the eye, their division into four (section IV of the 1989 paper,
+// "divide the viewing directions further"), and regions by planes.
 #include "visuals/orderfile/cell_orders.h"
+
 #include "sim/base/plane.h"
 #include "visuals/draworder/model_faces.h"
 #include "visuals/draworder/octant_order.h"
@@ -20,8 +21,8 @@
 
 namespace octant::visuals::orderfile {
 
-// From parts to cells: the walk of an eye through the tree is done for all eyes of a region at
-// once, and divides where they would go different ways.
+// From parts to cells: the walk of an eye through the tree is done for all eyes of a region at once, and divides where
+// they would go different ways.
 
 namespace {
 
@@ -39,17 +40,14 @@ struct MovingPolygons {
 class CellExpander {
 public:
     CellExpander(const models::polygons::PolygonModel& model, const DrawOrder& order)
-        : order_(order)
-        , frame_(empty_frame(model)) {}
+        : order_(order), frame_(empty_frame(model)) {}
 
     std::optional<std::vector<BspCell>> cells() {
         groups_.push_back({ViewRegion::all_space(), 0, {order_.nodes().empty() ? ~0 : 0}, {}});
         while (!groups_.empty()) {
             MovingPolygons group = std::move(groups_.back());
             groups_.pop_back();
-            if (!walk(std::move(group))) {
-                return std::nullopt;
-            }
+            if (!walk(std::move(group))) { return std::nullopt; }
         }
         return std::move(cells_);
     }
@@ -57,8 +55,7 @@ public:
 private:
     /// The unit and origin of faces, without faces.
     static draworder::ModelFaces empty_frame(const models::polygons::PolygonModel& model) {
-        draworder::ModelFaces frame{
-            .faces = {},
+        draworder::ModelFaces frame{.faces = {},
             .tolerances = {},
             .rigid = draworder::OcclusionGraph(0),
             .ignored = draworder::OcclusionGraph(0),
@@ -73,9 +70,7 @@ private:
         while (!group.pending.empty()) {
             const int at = group.pending.back();
             group.pending.pop_back();
-            if (at == DrawOrder::nothing) {
-                continue;
-            }
+            if (at == DrawOrder::nothing) { continue; }
             if (at < 0) {
                 const auto list = order_.polygons_of(~at);
                 group.list.insert(group.list.end(), list.begin(), list.end());
@@ -86,9 +81,7 @@ private:
                 group.pending.insert(group.pending.end(), {node.back, node.front});
                 continue;
             }
-            if (!cross(group, node)) {
-                return false;
-            }
+            if (!cross(group, node)) { return false; }
         }
         return finish(std::move(group));
     }
@@ -100,9 +93,7 @@ private:
         const bool some_before = group.region.intersects_front_of(plane);
         const bool some_behind = group.region.intersects_front_of(turned);
         if (some_before && some_behind) {
-            if (group.cuts == ViewRegion::max_planes || groups_.size() > max_cells_of_parts) {
-                return false;
-            }
+            if (group.cuts == ViewRegion::max_planes || groups_.size() > max_cells_of_parts) { return false; }
             MovingPolygons behind{*group.region.cut(turned), group.cuts + 1, group.pending, group.list};
             go(behind, node, false);
             groups_.push_back(std::move(behind));
@@ -123,13 +114,9 @@ private:
 
     bool finish(MovingPolygons group) {
         entries_ += group.list.size();
-        if (cells_.size() == max_cells_of_parts || entries_ > max_entries_of_parts) {
-            return false;
-        }
+        if (cells_.size() == max_cells_of_parts || entries_ > max_entries_of_parts) { return false; }
         BspCell& cell = cells_.emplace_back();
-        for (const Plane& plane : group.region.planes()) {
-            cell.planes.push_back(frame_.in_model(plane));
-        }
+        for (const Plane& plane : group.region.planes()) { cell.planes.push_back(frame_.in_model(plane)); }
         cell.list = std::move(group.list);
         return true;
     }
@@ -143,8 +130,7 @@ private:
 
 } // namespace
 
-std::optional<std::vector<BspCell>>
-bsp_cells(const models::polygons::PolygonModel& model, const DrawOrder& order) {
+std::optional<std::vector<BspCell>> bsp_cells(const models::polygons::PolygonModel& model, const DrawOrder& order) {
     return CellExpander(model, order).cells();
 }
 
@@ -167,8 +153,8 @@ ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
     return cell;
 }
 
-/// The planes of a cell that shares its path with others. All eyes of its octant at the least
-/// distance (in L1) lie in one plane, which is added because it helps checks.
+/// The planes of a cell that shares its path with others. All eyes of its octant at the least distance (in L1) lie in
+/// one plane, which is added because it helps checks.
 std::vector<Plane> planes_within_path(
     const ListedCell& cell, const draworder::OrderCell& from, const glm::dvec3& centre_m) {
     std::vector<Plane> planes = cell.planes;
@@ -183,13 +169,11 @@ std::vector<Plane> planes_within_path(
     return planes;
 }
 
-/// The plane through the points at the least distance along each of three directions. Whatever is
-/// farther from the centre, in either metric, lies in front of it, because by the triangle
-/// inequality the distances along the directions add up to at least the distance of the sum.
+/// The plane through the points at the least distance along each of three directions. Whatever is farther from the
+/// centre, in either metric, lies in front of it, because by the triangle inequality the distances along the directions
+/// add up to at least the distance of the sum.
 std::optional<Plane> min_distance_plane(const CellOrders& orders, const ListedCell& cell) {
-    if (cell.min_m <= 0.0 || cell.directions.size() != 3) {
-        return std::nullopt;
-    }
+    if (cell.min_m <= 0.0 || cell.directions.size() != 3) { return std::nullopt; }
     glm::dmat3 rows;
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3& direction = cell.directions[static_cast<std::size_t>(i)];
@@ -242,9 +226,7 @@ CellOrders cell_orders(const draworder::OrderedModel& ordered) {
         return orders;
     }
     std::map<std::string, int> cells_of_path;
-    for (const draworder::OrderCell& cell : ordered.cells) {
-        ++cells_of_path[cell.path];
-    }
+    for (const draworder::OrderCell& cell : ordered.cells) { ++cells_of_path[cell.path]; }
     for (std::size_t i = 0; i < ordered.cells.size(); ++i) {
         const draworder::OrderCell& from = ordered.cells[i];
         ListedCell cell;
@@ -271,11 +253,9 @@ std::optional<std::size_t> cell_of(const CellOrders& orders, const glm::dvec3& e
     const double away_m = length_m(orders.metric, eye_m - orders.centre_m);
     for (std::size_t i = 0; i < orders.cells.size(); ++i) {
         const ListedCell& cell = orders.cells[i];
-        const bool inside = std::ranges::all_of(
-            cell.planes, [&](const Plane& plane) { return distance_m(plane, eye_m) >= 0.0; });
-        if (inside && away_m >= cell.min_m && away_m <= cell.max_m) {
-            return i;
-        }
+        const bool inside =
+            std::ranges::all_of(cell.planes, [&](const Plane& plane) { return distance_m(plane, eye_m) >= 0.0; });
+        if (inside && away_m >= cell.min_m && away_m <= cell.max_m) { return i; }
     }
     return std::nullopt;
 }
@@ -291,16 +271,13 @@ bool in_range(const CellOrders& orders, const glm::dvec3& eye_m) {
     return away_m >= min_m && away_m <= max_m;
 }
 
-std::optional<std::vector<Plane>>
-planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m) {
+std::optional<std::vector<Plane>> planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m) {
     std::vector<Plane> planes;
     bool spans_space = false;
     for (const glm::dvec3& a : directions) {
         for (const glm::dvec3& b : directions) {
             const glm::dvec3 across = glm::cross(glm::normalize(a), glm::normalize(b));
-            if (glm::length(across) < flat) {
-                continue;
-            }
+            if (glm::length(across) < flat) { continue; }
             const glm::dvec3 normal = glm::normalize(across);
             bool in_front = true;
             bool some_off = false;
@@ -310,12 +287,9 @@ planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m)
                 some_off = some_off || std::abs(side) > flat;
             }
             spans_space = spans_space || some_off;
-            const bool known = std::ranges::any_of(planes, [&](const Plane& plane) {
-                return glm::distance(plane.normal, normal) < flat;
-            });
-            if (in_front && some_off && !known) {
-                planes.push_back(plane_through(normal, apex_m));
-            }
+            const bool known = std::ranges::any_of(
+                planes, [&](const Plane& plane) { return glm::distance(plane.normal, normal) < flat; });
+            if (in_front && some_off && !known) { planes.push_back(plane_through(normal, apex_m)); }
         }
     }
     return spans_space ? std::optional(planes) : std::nullopt;
@@ -323,12 +297,8 @@ planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m)
 
 std::vector<Plane> region_of(const CellOrders& orders, const ListedCell& cell) {
     std::vector<Plane> planes = cell.planes;
-    if (const auto least = min_distance_plane(orders, cell)) {
-        planes.push_back(*least);
-    }
-    if (std::isfinite(cell.max_m)) {
-        append_greatest_distance(orders, cell.max_m, planes);
-    }
+    if (const auto least = min_distance_plane(orders, cell)) { planes.push_back(*least); }
+    if (std::isfinite(cell.max_m)) { append_greatest_distance(orders, cell.max_m, planes); }
     return planes;
 }
 

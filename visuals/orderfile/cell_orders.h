@@ -27,21 +27,19 @@ struct BspCell {
     std::vector<std::uint32_t> list;
 };
 
-/// The cells of any order: a plane that parts polygons is a choice of eye space, too, so that the
-/// cells on both sides of it are combined. Only regions with a volume become cells. Returns nothing
-/// when there are too many.
-std::optional<std::vector<BspCell>>
-bsp_cells(const models::polygons::PolygonModel& model, const draworder::DrawOrder& order);
+/// The cells of any order: a plane that parts polygons is a choice of eye space, too, so that the cells on both sides
+/// of it are combined. Only regions with a volume become cells. Returns nothing when there are too many.
+std::optional<std::vector<BspCell>> bsp_cells(
+    const models::polygons::PolygonModel& model, const draworder::DrawOrder& order);
 
-/// How the distance of an eye from the centre is measured: L1 is |x| + |y| + |z|, L2 the usual
-/// length.
+/// How the distance of an eye from the centre is measured: L1 is |x| + |y| + |z|, L2 the usual length.
 enum class Metric { L1, L2 };
 
 /// The length of a vector in a metric.
 double length_m(Metric metric, const glm::dvec3& vector_m);
 
-/// A cell: the eyes that share one list. It is the intersection of the half-spaces in front of
-/// `planes`, from a distance of min_m to one of max_m from the centre. Body axes, metres.
+/// A cell: the eyes that share one list. It is the intersection of the half-spaces in front of `planes`, from a
+/// distance of min_m to one of max_m from the centre. Body axes, metres.
 struct ListedCell {
     std::string path; ///< The octant path, "+-+/0/3"; empty when the cell has none.
     /// The edges of a cone with its apex in the centre; empty when the cell is no cone.
@@ -53,8 +51,7 @@ struct ListedCell {
     std::vector<std::uint32_t> list;
 };
 
-/// Painting orders by cells, as files hold them and checks read them. An eye uses the first cell
-/// that contains it.
+/// Painting orders by cells, as files hold them and checks read them. An eye uses the first cell that contains it.
 struct CellOrders {
     glm::dvec3 centre_m{0.0};
     Metric metric = Metric::L2;
@@ -66,12 +63,11 @@ struct CellOrders {
     std::optional<draworder::DrawOrder> parts;
 };
 
-/// Converts a model's orders to this form. An order by parts is turned into cells where these are
-/// few (bsp_cells.h). Octant cells are made from their paths rather than from
-/// the planes that the model gives them, except where several cells share a path (an octant divided
-/// by planes). They begin at the distance from which the model's orders hold: at its
-/// min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so
-/// that no eye of them lies inside the radius.
+/// Converts a model's orders to this form. An order by parts is turned into cells where these are few (bsp_cells.h).
+/// Octant cells are made from their paths rather than from the planes that the model gives them, except where several
+/// cells share a path (an octant divided by planes). They begin at the distance from which the model's orders hold: at
+/// its min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so that no eye of
+/// them lies inside the radius.
 CellOrders cell_orders(const draworder::OrderedModel& ordered);
 
 /// The index of the cell that an eye uses; nothing when none contains it.
@@ -80,14 +76,12 @@ std::optional<std::size_t> cell_of(const CellOrders& orders, const glm::dvec3& e
 /// Whether an eye is between the least and the greatest distance of all cells.
 bool in_range(const CellOrders& orders, const glm::dvec3& eye_m);
 
-/// The planes through `apex_m` that bound the cone of all non-negative sums of the directions; none
-/// when these span all of space. Returns nothing when the directions lie in one plane.
-std::optional<std::vector<Plane>>
-planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m);
+/// The planes through `apex_m` that bound the cone of all non-negative sums of the directions; none when these span all
+/// of space. Returns nothing when the directions lie in one plane.
+std::optional<std::vector<Plane>> planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m);
 
-/// The planes of a convex region that holds every eye of a cell, its distances included. A plane
-/// for the least distance is known only for cones of three directions; other cells are taken to
-/// reach to the centre.
+/// The planes of a convex region that holds every eye of a cell, its distances included. A plane for the least distance
+/// is known only for cones of three directions; other cells are taken to reach to the centre.
 std::vector<Plane> region_of(const CellOrders& orders, const ListedCell& cell);
 
 } // namespace octant::visuals::orderfile

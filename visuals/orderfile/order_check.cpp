@@ -1,6 +1,6 @@
-// A certificate for painting orders, the exact rule turned round: the code that finds orders looks
-// for what hides what, and this code looks for planes which prove that nothing does. It shares no
-// code with the search, so that a mistake there cannot repeat itself here.
+// A certificate for painting orders, the exact rule turned round: the code that finds orders looks for what hides what,
+// and this code looks for planes which prove that nothing does. It shares no code with the search, so that a mistake
+// there cannot repeat itself here.
 #include "visuals/orderfile/order_check.h"
 
 #include "visuals/separation/check_shape.h"
@@ -25,17 +25,13 @@ using Planes = std::vector<Plane>;
 class OrderChecker {
 public:
     OrderChecker(const models::polygons::PolygonModel& model, const CellOrders& orders)
-        : model_(model)
-        , orders_(orders)
-        , frame_(separation::check_frame(model))
-        , shapes_(separation::check_shapes(model, frame_, orders.two_sided)) {}
+        : model_(model), orders_(orders), frame_(separation::check_frame(model)),
+          shapes_(separation::check_shapes(model, frame_, orders.two_sided)) {}
 
     OrderCheck check(const std::function<void(std::size_t, std::size_t)>& progress) {
         for (std::size_t i = 0; i < orders_.cells.size(); ++i) {
             check_cell(i);
-            if (progress) {
-                progress(i + 1, orders_.cells.size());
-            }
+            if (progress) { progress(i + 1, orders_.cells.size()); }
         }
         return std::move(check_);
     }
@@ -48,13 +44,9 @@ private:
             region_.push_back(frame_.from_body(plane));
         }
         std::vector<bool> listed(shapes_.size());
-        for (const std::uint32_t polygon : list) {
-            listed[polygon] = true;
-        }
+        for (const std::uint32_t polygon : list) { listed[polygon] = true; }
         for (std::uint32_t polygon = 0; polygon < shapes_.size(); ++polygon) {
-            if (!listed[polygon]) {
-                check_unlisted(cell, polygon);
-            }
+            if (!listed[polygon]) { check_unlisted(cell, polygon); }
         }
         for (std::size_t first = 0; first < list.size(); ++first) {
             for (std::size_t later = first + 1; later < list.size(); ++later) {
@@ -67,8 +59,8 @@ private:
     void check_unlisted(std::size_t cell, std::uint32_t polygon) {
         ++check_.unlisted;
         const auto& fronts = shapes_[polygon].swept_fronts;
-        const bool unseen = std::ranges::all_of(
-            fronts, [&](const Plane& front) { return separation::is_behind(region_, front); });
+        const bool unseen =
+            std::ranges::all_of(fronts, [&](const Plane& front) { return separation::is_behind(region_, front); });
         if (!unseen) {
             ++check_.unlisted_unproved;
             doubt({cell, polygon, polygon});
@@ -102,12 +94,8 @@ private:
                 Planes planes = region;
                 planes.insert(planes.end(), near_side.begin(), near_side.end());
                 planes.insert(planes.end(), far_side.begin(), far_side.end());
-                weakest = std::max(
-                    weakest,
-                    separation::find_separation(
-                        rigid ? occluder.corners : occluder.swept,
-                        rigid ? far_one.corners : far_one.swept,
-                        planes));
+                weakest = std::max(weakest, separation::find_separation(rigid ? occluder.corners : occluder.swept,
+                                                rigid ? far_one.corners : far_one.swept, planes));
             }
         }
         return weakest;
@@ -115,18 +103,13 @@ private:
 
     /// For each side from which a polygon is seen, the planes that those eyes are in front of.
     static std::vector<Planes> sides_of(const separation::CheckShape& shape, bool rigid) {
-        if (!rigid && shape.swept_fronts.size() != shape.fronts.size()) {
-            return {Planes{}};
-        }
+        if (!rigid && shape.swept_fronts.size() != shape.fronts.size()) { return {Planes{}}; }
         std::vector<Planes> sides;
-        for (const Plane& front : shape.fronts) {
-            sides.push_back({front});
-        }
+        for (const Plane& front : shape.fronts) { sides.push_back({front}); }
         return sides;
     }
 
-    /// The region as a turning part sees it: only planes perpendicular to its axis hold at every
-    /// angle.
+    /// The region as a turning part sees it: only planes perpendicular to its axis hold at every angle.
     Planes unturned(std::uint32_t pivot) const {
         Planes planes;
         std::ranges::copy_if(region_, std::back_inserter(planes), [&](const Plane& plane) {
@@ -136,9 +119,7 @@ private:
     }
 
     void doubt(const UnprovedPair& doubt) {
-        if (check_.first_unproved.size() < OrderCheck::max_doubts) {
-            check_.first_unproved.push_back(doubt);
-        }
+        if (check_.first_unproved.size() < OrderCheck::max_doubts) { check_.first_unproved.push_back(doubt); }
     }
 
     const models::polygons::PolygonModel& model_;
@@ -151,9 +132,7 @@ private:
 
 } // namespace
 
-OrderCheck check_order(
-    const models::polygons::PolygonModel& model,
-    const CellOrders& orders,
+OrderCheck check_order(const models::polygons::PolygonModel& model, const CellOrders& orders,
     const std::function<void(std::size_t, std::size_t)>& progress) {
     assert(orders.faces == model.polygons.size());
     return OrderChecker(model, orders).check(progress);

@@ -22,19 +22,14 @@ struct OrderRow {
 /// The list 0, 6, 1 as "P1, P7, P2".
 std::string list_description(std::span<const std::uint32_t> list);
 
-/// The planes of a cell in words, in the axes of the model's file: a polygon's plane by the
-/// polygon, one perpendicular to an axis as x > 2, others as 0.6 x - 0.8 y > 1. Without planes it
-/// is "everywhere".
+/// The planes of a cell in words, in the axes of the model's file: a polygon's plane by the polygon, one perpendicular
+/// to an axis as x > 2, others as 0.6 x - 0.8 y > 1. Without planes it is "everywhere".
 std::string region_description(
-    std::span<const Plane> planes,
-    const models::polygons::PolygonModel& model,
-    const models::polygons::FileAxes& axes);
+    std::span<const Plane> planes, const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes);
 
-/// The rows of all cells: octants in the paper's order (+++, ++-, +-+, ...), other cells as they
-/// come; of an order by parts its lists, numbered as in its text.
+/// The rows of all cells: octants in the paper's order (+++, ++-, +-+, ...), other cells as they come; of an order by
+/// parts its lists, numbered as in its text.
 std::vector<OrderRow> order_table(
-    const models::polygons::PolygonModel& model,
-    const CellOrders& orders,
-    const models::polygons::FileAxes& axes = {});
+    const models::polygons::PolygonModel& model, const CellOrders& orders, const models::polygons::FileAxes& axes = {});
 
 } // namespace octant::visuals::orderfile

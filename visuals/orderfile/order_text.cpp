@@ -14,41 +14,30 @@ namespace {
 
 using draworder::DrawOrder;
 
-std::string numbers(const glm::dvec3& v) {
-    return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z);
-}
+std::string numbers(const glm::dvec3& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z); }
 
 std::string indices(const std::vector<std::uint32_t>& list) {
     std::string text;
-    for (const std::uint32_t index : list) {
-        fmt::format_to(std::back_inserter(text), " {}", index);
-    }
+    for (const std::uint32_t index : list) { fmt::format_to(std::back_inserter(text), " {}", index); }
     return text;
 }
 
 std::string region_text(const ListedCell& cell, const models::polygons::FileAxes& axes) {
-    if (!cell.path.empty()) {
-        return draworder::path_in_file(cell.path, axes);
-    }
+    if (!cell.path.empty()) { return draworder::path_in_file(cell.path, axes); }
     if (!cell.directions.empty()) {
         std::string text = fmt::format("cone {}", cell.directions.size());
-        for (const glm::dvec3& direction : cell.directions) {
-            text += " " + numbers(axes.file_from_body(direction));
-        }
+        for (const glm::dvec3& direction : cell.directions) { text += " " + numbers(axes.file_from_body(direction)); }
         return text;
     }
     std::string text = fmt::format("half {}", cell.planes.size());
     for (const Plane& plane : cell.planes) {
-        text += fmt::format(
-            " {} {:.17g}", numbers(axes.file_from_body(plane.normal)), plane.offset_m + 0.0);
+        text += fmt::format(" {} {:.17g}", numbers(axes.file_from_body(plane.normal)), plane.offset_m + 0.0);
     }
     return text;
 }
 
 std::string child_text(int child) {
-    if (child == DrawOrder::nothing) {
-        return " nothing";
-    }
+    if (child == DrawOrder::nothing) { return " nothing"; }
     return child < 0 ? fmt::format(" list {}", ~child) : fmt::format(" node {}", child);
 }
 
@@ -64,16 +53,10 @@ std::string parts_text(const DrawOrder& order, const models::polygons::FileAxes&
             text += fmt::format("node sequence{}\n", children);
             continue;
         }
-        const std::string plane = fmt::format(
-            "{} {:.17g}",
-            numbers(axes.file_from_body(node.plane.normal)),
-            node.plane.offset_m + 0.0);
+        const std::string plane =
+            fmt::format("{} {:.17g}", numbers(axes.file_from_body(node.plane.normal)), node.plane.offset_m + 0.0);
         const bool parts = node.kind == DrawOrder::Kind::PolygonSplit;
-        text += fmt::format(
-            "node {} {}{}{}\n",
-            parts ? "parting" : "choice",
-            plane,
-            children,
+        text += fmt::format("node {} {}{}{}\n", parts ? "parting" : "choice", plane, children,
             parts ? child_text(node.coplanar_front) + child_text(node.coplanar_back) : "");
     }
     return text;
@@ -88,25 +71,15 @@ std::string order_text(const CellOrders& orders, const models::polygons::FileAxe
     }
     text += fmt::format("metric {}\n", orders.metric == Metric::L1 ? "l1" : "l2");
     text += fmt::format("faces {}\n", orders.faces);
-    if (!orders.two_sided.empty()) {
-        text += fmt::format("twosided{}\n", indices(orders.two_sided));
-    }
-    if (!orders.parents.empty()) {
-        text += fmt::format("parents{}\n", indices(orders.parents));
-    }
+    if (!orders.two_sided.empty()) { text += fmt::format("twosided{}\n", indices(orders.two_sided)); }
+    if (!orders.parents.empty()) { text += fmt::format("parents{}\n", indices(orders.parents)); }
     for (const ListedCell& cell : orders.cells) {
         text += "cell " + region_text(cell, axes);
-        if (cell.min_m > 0.0) {
-            text += fmt::format(" min {:.17g}", cell.min_m);
-        }
-        if (std::isfinite(cell.max_m)) {
-            text += fmt::format(" max {:.17g}", cell.max_m);
-        }
+        if (cell.min_m > 0.0) { text += fmt::format(" min {:.17g}", cell.min_m); }
+        if (std::isfinite(cell.max_m)) { text += fmt::format(" max {:.17g}", cell.max_m); }
         text += fmt::format(" order{}\n", indices(cell.list));
     }
-    if (orders.parts) {
-        text += parts_text(*orders.parts, axes);
-    }
+    if (orders.parts) { text += parts_text(*orders.parts, axes); }
     return text;
 }
 

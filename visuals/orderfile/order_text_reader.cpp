@@ -1,5 +1,5 @@
-// Reads painting orders in the text format that order_text.h describes. Every message names the
-// file, the line, what was expected and what was found.
+// Reads painting orders in the text format that order_text.h describes. Every message names the file, the line, what
+// was expected and what was found.
 #include "models/polygons/file_axes.h"
 #include "sim/base/error.h"
 #include "sim/base/plane.h"
@@ -26,17 +26,14 @@ namespace octant::visuals::orderfile {
 
 namespace {
 
-/// The words of a file of orders, line by line, and what they may stand for. What is read is left
-/// behind; a word that is wrong is refused with an Error that names file, line, what was expected
-/// and what was found.
+/// The words of a file of orders, line by line, and what they may stand for. What is read is left behind; a word that
+/// is wrong is refused with an Error that names file, line, what was expected and what was found.
 class OrderTokens {
 public:
-    OrderTokens(const std::filesystem::path& path, const models::polygons::FileAxes& axes)
-        : path_(path)
-        , axes_(axes) {}
+    OrderTokens(const std::filesystem::path& path, const models::polygons::FileAxes& axes) : path_(path), axes_(axes) {}
 
-    /// Goes to the next line of the file, of which a comment after # does not count. The text must
-    /// outlive the work on the line.
+    /// Goes to the next line of the file, of which a comment after # does not count. The text must outlive the work on
+    /// the line.
     void begin_line(std::string_view text);
 
     /// The words of the line with one space between them.
@@ -96,13 +93,10 @@ void OrderTokens::begin_line(std::string_view text) {
     at_ = 0;
 }
 
-std::string OrderTokens::line() const {
-    return fmt::format("{}", fmt::join(words_, " "));
-}
+std::string OrderTokens::line() const { return fmt::format("{}", fmt::join(words_, " ")); }
 
 void OrderTokens::refuse(const std::string& expected) const {
-    const std::string got =
-        has_more() ? fmt::format("'{}'", printable(std::string(peek()))) : "none";
+    const std::string got = has_more() ? fmt::format("'{}'", printable(std::string(peek()))) : "none";
     throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
 }
 
@@ -139,9 +133,7 @@ glm::dvec3 OrderTokens::nonzero_vector(const char* what) {
 
 long OrderTokens::count(const char* what, long least, long most) {
     const auto value = has_more() ? whole_number(peek()) : std::nullopt;
-    if (!value || *value < least || *value > most) {
-        refuse(fmt::format("{} ({} to {})", what, least, most));
-    }
+    if (!value || *value < least || *value > most) { refuse(fmt::format("{} ({} to {})", what, least, most)); }
     ++at_;
     return *value;
 }
@@ -172,14 +164,8 @@ constexpr std::size_t max_cells = 1'000'000;
 /// The reading of one file, line by line and word by word.
 class OrderReader {
 public:
-    OrderReader(
-        const std::filesystem::path& path,
-        std::size_t faces,
-        const models::polygons::FileAxes& axes)
-        : path_(path)
-        , axes_(axes)
-        , words_(path, axes)
-        , used_(faces) {
+    OrderReader(const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes)
+        : path_(path), axes_(axes), words_(path, axes), used_(faces) {
         orders_.faces = faces;
     }
 
@@ -187,19 +173,13 @@ public:
         const std::string text = read_text_file(path_);
         for (const std::string_view line : split_lines(text)) {
             words_.begin_line(line);
-            if (words_.has_more()) {
-                take();
-            }
+            if (words_.has_more()) { take(); }
         }
-        if (seen_.empty()) {
-            throw_error_in(path_, "expected 'draworder 1' first, got an empty file");
-        }
+        if (seen_.empty()) { throw_error_in(path_, "expected 'draworder 1' first, got an empty file"); }
         if (orders_.cells.empty() && lists_.empty()) {
             throw_error_in(path_, "expected at least one cell or list, got none");
         }
-        if (!lists_.empty()) {
-            finish_parts();
-        }
+        if (!lists_.empty()) { finish_parts(); }
         return std::move(orders_);
     }
 
@@ -221,39 +201,31 @@ private:
             used_[polygon] = true;
             list.push_back(polygon);
         }
-        for (const std::uint32_t polygon : list) {
-            used_[polygon] = false;
-        }
+        for (const std::uint32_t polygon : list) { used_[polygon] = false; }
         return list;
     }
 
     void take() {
         const std::string keyword(words_.peek());
         if (seen_.empty()) {
-            if (words_.line() != "draworder 1") {
-                words_.refuse("'draworder 1' first");
-            }
+            if (words_.line() != "draworder 1") { words_.refuse("'draworder 1' first"); }
             seen_.insert(keyword);
             return;
         }
-        if (keyword != "center" && keyword != "metric" && keyword != "faces" &&
-            keyword != "twosided" && keyword != "parents" && keyword != "cell" &&
-            keyword != "list" && keyword != "node") {
+        if (keyword != "center" && keyword != "metric" && keyword != "faces" && keyword != "twosided" &&
+            keyword != "parents" && keyword != "cell" && keyword != "list" && keyword != "node") {
             words_.refuse("center, metric, faces, twosided, parents, cell, list or node");
         }
         const bool is_part = keyword == "list" || keyword == "node";
         if (is_part ? !orders_.cells.empty() : keyword == "cell" && !lists_.empty()) {
             words_.refuse("either cells or parts");
         }
-        if (!is_part && keyword != "cell" &&
-            (!seen_.insert(keyword).second || !orders_.cells.empty())) {
+        if (!is_part && keyword != "cell" && (!seen_.insert(keyword).second || !orders_.cells.empty())) {
             words_.refuse("each keyword once and before the cells");
         }
         words_.advance();
         take(keyword);
-        if (words_.has_more()) {
-            words_.refuse("the end of the line");
-        }
+        if (words_.has_more()) { words_.refuse("the end of the line"); }
     }
 
     void take(const std::string& keyword) {
@@ -270,9 +242,7 @@ private:
             take_parents();
         } else if (keyword == "list") {
             need_faces();
-            if (lists_.size() == max_cells) {
-                words_.refuse(fmt::format("at most {} lists", max_cells));
-            }
+            if (lists_.size() == max_cells) { words_.refuse(fmt::format("at most {} lists", max_cells)); }
             lists_.push_back(different_faces());
         } else if (keyword == "node") {
             need_faces();
@@ -290,17 +260,13 @@ private:
     }
 
     void take_node() {
-        if (nodes_.size() == max_cells) {
-            words_.refuse(fmt::format("at most {} nodes", max_cells));
-        }
+        if (nodes_.size() == max_cells) { words_.refuse(fmt::format("at most {} nodes", max_cells)); }
         DrawOrder::Node node;
         node.kind = words_.skip("choice")     ? DrawOrder::Kind::ViewSplit
                     : words_.skip("parting")  ? DrawOrder::Kind::PolygonSplit
                     : words_.skip("sequence") ? DrawOrder::Kind::Sequence
                                               : throw_wrong_kind();
-        if (node.kind != DrawOrder::Kind::Sequence) {
-            node.plane = words_.plane();
-        }
+        if (node.kind != DrawOrder::Kind::Sequence) { node.plane = words_.plane(); }
         node.front = child();
         node.back = child();
         if (node.kind == DrawOrder::Kind::PolygonSplit) {
@@ -310,19 +276,13 @@ private:
         nodes_.push_back(node);
     }
 
-    [[noreturn]] DrawOrder::Kind throw_wrong_kind() const {
-        words_.refuse("choice, parting or sequence");
-    }
+    [[noreturn]] DrawOrder::Kind throw_wrong_kind() const { words_.refuse("choice, parting or sequence"); }
 
     /// A child as DrawOrder::Node has it. Whether a list is there is known only at the end.
     int child() {
-        if (words_.skip("nothing")) {
-            return DrawOrder::nothing;
-        }
+        if (words_.skip("nothing")) { return DrawOrder::nothing; }
         const auto most = static_cast<long>(max_cells);
-        if (words_.skip("list")) {
-            return ~static_cast<int>(words_.count("the number of a list", 0, most));
-        }
+        if (words_.skip("list")) { return ~static_cast<int>(words_.count("the number of a list", 0, most)); }
         if (words_.skip("node")) {
             const auto later = static_cast<long>(nodes_.size()) + 1;
             const auto number = words_.count("the number of a later node", later, most);
@@ -339,18 +299,13 @@ private:
     /// Makes the order of the parts that were read.
     void finish_parts() {
         const auto check = [&](int child) {
-            const bool there = child == DrawOrder::nothing ||
-                               (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
-                                          : static_cast<std::size_t>(child) < nodes_.size());
+            const bool there =
+                child == DrawOrder::nothing || (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
+                                                          : static_cast<std::size_t>(child) < nodes_.size());
             if (!there) {
                 throw_error_in(
-                    path_,
-                    fmt::format(
-                        "expected children among {} nodes and {} lists, got {} {}",
-                        nodes_.size(),
-                        lists_.size(),
-                        child < 0 ? "list" : "node",
-                        child < 0 ? ~child : child));
+                    path_, fmt::format("expected children among {} nodes and {} lists, got {} {}", nodes_.size(),
+                               lists_.size(), child < 0 ? "list" : "node", child < 0 ? ~child : child));
             }
         };
         for (const DrawOrder::Node& node : nodes_) {
@@ -366,30 +321,24 @@ private:
     }
 
     void take_metric() {
-        if (!words_.next_is("l1") && !words_.next_is("l2")) {
-            words_.refuse("l1 or l2");
-        }
+        if (!words_.next_is("l1") && !words_.next_is("l2")) { words_.refuse("l1 or l2"); }
         orders_.metric = words_.next_is("l1") ? Metric::L1 : Metric::L2;
         words_.advance();
     }
 
     void take_parents() {
         for (std::size_t i = 0; i < orders_.faces; ++i) {
-            orders_.parents.push_back(static_cast<std::uint32_t>(
-                words_.count("a polygon of the whole model", 0, 999'999'999)));
+            orders_.parents.push_back(
+                static_cast<std::uint32_t>(words_.count("a polygon of the whole model", 0, 999'999'999)));
         }
     }
 
     void take_cell() {
         need_faces();
-        if (orders_.cells.size() == max_cells) {
-            words_.refuse(fmt::format("at most {} cells", max_cells));
-        }
+        if (orders_.cells.size() == max_cells) { words_.refuse(fmt::format("at most {} cells", max_cells)); }
         ListedCell cell;
         take_region(cell);
-        if (words_.skip("min")) {
-            cell.min_m = words_.min_zero("the least distance");
-        }
+        if (words_.skip("min")) { cell.min_m = words_.min_zero("the least distance"); }
         if (words_.skip("max")) {
             cell.max_m = words_.min_zero("the greatest distance");
             if (cell.max_m <= cell.min_m) {
@@ -397,9 +346,7 @@ private:
                 words_.refuse("a greatest distance above the least");
             }
         }
-        if (!words_.skip("order")) {
-            words_.refuse("min R, max R or order");
-        }
+        if (!words_.skip("order")) { words_.refuse("min R, max R or order"); }
         cell.list = different_faces();
         orders_.cells.push_back(std::move(cell));
     }
@@ -408,9 +355,7 @@ private:
     void take_region(ListedCell& cell) {
         if (words_.skip("cone")) {
             const long directions = words_.count("how many directions", 3, max_directions);
-            for (long i = 0; i < directions; ++i) {
-                cell.directions.push_back(words_.nonzero_vector("a direction"));
-            }
+            for (long i = 0; i < directions; ++i) { cell.directions.push_back(words_.nonzero_vector("a direction")); }
         } else if (words_.skip("half")) {
             take_planes(cell);
             return;
@@ -420,8 +365,7 @@ private:
             cell.directions.assign(corners.begin(), corners.end());
             words_.advance();
         } else {
-            words_.refuse(fmt::format(
-                "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
+            words_.refuse(fmt::format("a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
                 draworder::max_path_levels));
         }
         const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
@@ -434,9 +378,7 @@ private:
 
     void take_planes(ListedCell& cell) {
         const long planes = words_.count("how many planes", 0, max_planes);
-        for (long i = 0; i < planes; ++i) {
-            cell.planes.push_back(words_.plane());
-        }
+        for (long i = 0; i < planes; ++i) { cell.planes.push_back(words_.plane()); }
     }
 
     std::filesystem::path path_;

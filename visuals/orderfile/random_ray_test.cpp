@@ -1,7 +1,6 @@
-// An independent test of painting orders by sampling: along each ray the polygon that is painted
-// last must be the one nearest to the eye. It finds gaps between cells, which the certificate
-// (order_check.cpp) cannot see, and it measures how wrong an inexact order is: the share of wrong
-// pixels.
+// An independent test of painting orders by sampling: along each ray the polygon that is painted last must be the one
+// nearest to the eye. It finds gaps between cells, which the certificate (order_check.cpp) cannot see, and it measures
+// how wrong an inexact order is: the share of wrong pixels.
 #include "visuals/orderfile/random_ray_test.h"
 
 #include "models/polygons/inside_outline.h"
@@ -51,15 +50,11 @@ void set_ball(Facet& facet) {
 Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon, double turn_rad) {
     Facet facet;
     facet.normal = models::polygons::normal_of(model, polygon);
-    for (const std::uint32_t vertex : model.corners(polygon)) {
-        facet.corners_m.push_back(model.vertices_m[vertex]);
-    }
+    for (const std::uint32_t vertex : model.corners(polygon)) { facet.corners_m.push_back(model.vertices_m[vertex]); }
     const auto pivot = models::polygons::pivot_of(model, polygon);
     if (pivot && turn_rad != 0.0) {
         models::polygons::Pivot turn = model.pivots[*pivot];
-        for (glm::dvec3& corner_m : facet.corners_m) {
-            corner_m = models::polygons::turned(turn, corner_m, turn_rad);
-        }
+        for (glm::dvec3& corner_m : facet.corners_m) { corner_m = models::polygons::turned(turn, corner_m, turn_rad); }
         turn.point_m = glm::dvec3(0.0);
         facet.normal = models::polygons::turned(turn, facet.normal, turn_rad);
     }
@@ -78,20 +73,15 @@ std::optional<double> height_above_m(const Facet& facet, const glm::dvec3& eye_m
 /// The distance along a ray of unit length to a facet that its eye sees from a height, or `missed`.
 double hit_m(const Facet& facet, double height_m, const glm::dvec3& eye_m, const glm::dvec3& ray) {
     const glm::dvec3 past = glm::cross(facet.middle_m - eye_m, ray);
-    if (glm::dot(past, past) > facet.radius2_m2) {
-        return missed;
-    }
+    if (glm::dot(past, past) > facet.radius2_m2) { return missed; }
     const double slope = glm::dot(ray, facet.normal);
-    if (slope * height_m >= 0.0) {
-        return missed;
-    }
+    if (slope * height_m >= 0.0) { return missed; }
     const double at = -height_m / slope;
     const bool hits = models::polygons::is_inside(facet.corners_m, facet.normal, eye_m + ray * at);
     return hits ? at : missed;
 }
 
-/// A random point on the disc of a radius around the origin that is perpendicular to the line of
-/// sight.
+/// A random point on the disc of a radius around the origin that is perpendicular to the line of sight.
 glm::dvec3 target_on_disc(RandomGenerator& dice, const glm::dvec3& eye_m, double radius_m) {
     const glm::dvec3 ahead = glm::normalize(eye_m);
     const glm::dvec3 aside = std::abs(ahead.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -99,12 +89,11 @@ glm::dvec3 target_on_disc(RandomGenerator& dice, const glm::dvec3& eye_m, double
     const glm::dvec3 up = glm::cross(ahead, right);
     const double from_middle_m = radius_m * std::sqrt(dice.next());
     const double angle_rad = dice.between(0.0, 2.0 * pi);
-    return right * (from_middle_m * std::cos(angle_rad)) +
-           up * (from_middle_m * std::sin(angle_rad));
+    return right * (from_middle_m * std::cos(angle_rad)) + up * (from_middle_m * std::sin(angle_rad));
 }
 
-/// A ball that holds a model: about the origin, or about the model's own middle where the origin
-/// lies outside of the model.
+/// A ball that holds a model: about the origin, or about the model's own middle where the origin lies outside of the
+/// model.
 struct Ball {
     glm::dvec3 middle_m{0.0};
     double radius_m = 0.0;
@@ -125,32 +114,22 @@ Ball ball_around(const models::polygons::PolygonModel& model) {
 /// Random eyes and rays, and what they see.
 class RaySampler {
 public:
-    RaySampler(
-        const models::polygons::PolygonModel& model,
-        const RaySampling& samples,
+    RaySampler(const models::polygons::PolygonModel& model, const RaySampling& samples,
         std::span<const std::uint32_t> two_sided)
-        : samples_(samples)
-        , ball_(ball_around(model))
-        , dice_(samples.seed) {
+        : samples_(samples), ball_(ball_around(model)), dice_(samples.seed) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             facets_.push_back(facet_of(model, i, samples.turn_rad));
         }
-        for (const std::uint32_t polygon : two_sided) {
-            facets_[polygon].two_sided = true;
-        }
+        for (const std::uint32_t polygon : two_sided) { facets_[polygon].two_sided = true; }
         hit_.resize(facets_.size());
     }
 
     /// The next random eye, body axes.
     glm::dvec3 next_eye_m() {
         glm::dvec3 direction = dice_.direction();
-        if (samples_.octant >= 0) {
-            direction = glm::abs(direction) * draworder::octant_signs(samples_.octant);
-        }
-        const double spread =
-            std::log(samples_.max_distance_radii / samples_.min_distance_radii);
-        const double away_m =
-            ball_.radius_m * samples_.min_distance_radii * std::exp(spread * dice_.next());
+        if (samples_.octant >= 0) { direction = glm::abs(direction) * draworder::octant_signs(samples_.octant); }
+        const double spread = std::log(samples_.max_distance_radii / samples_.min_distance_radii);
+        const double away_m = ball_.radius_m * samples_.min_distance_radii * std::exp(spread * dice_.next());
         return ball_.middle_m + direction * away_m;
     }
 
@@ -163,19 +142,15 @@ public:
             const glm::dvec3 ray =
                 away_m < ball_.radius_m
                     ? dice_.direction()
-                    : glm::normalize(
-                          target_on_disc(dice_, from_middle_m, ball_.radius_m) - from_middle_m);
+                    : glm::normalize(target_on_disc(dice_, from_middle_m, ball_.radius_m) - from_middle_m);
             double nearest = missed;
             for (const auto& [polygon, height_m] : seen_) {
                 hit_[polygon] = hit_m(facets_[polygon], height_m, eye_m, ray);
                 nearest = std::min(nearest, hit_[polygon]);
             }
-            if (nearest == missed) {
-                continue;
-            }
-            const auto last = std::find_if(painted.rbegin(), painted.rend(), [&](std::uint32_t p) {
-                return hit_[p] != missed;
-            });
+            if (nearest == missed) { continue; }
+            const auto last =
+                std::find_if(painted.rbegin(), painted.rend(), [&](std::uint32_t p) { return hit_[p] != missed; });
             const double seen = last == painted.rend() ? missed : hit_[*last];
             ++count.hits;
             count.wrong += seen - nearest > 1e-9 * std::max(away_m, ball_.radius_m) ? 1 : 0;
@@ -188,9 +163,7 @@ private:
         seen_.clear();
         std::ranges::fill(hit_, missed);
         for (std::uint32_t i = 0; i < facets_.size(); ++i) {
-            if (const auto height_m = height_above_m(facets_[i], eye_m)) {
-                seen_.push_back({i, *height_m});
-            }
+            if (const auto height_m = height_above_m(facets_[i], eye_m)) { seen_.push_back({i, *height_m}); }
         }
     }
 
@@ -203,8 +176,8 @@ private:
     Ball ball_;
     RandomGenerator dice_;
     std::vector<Facet> facets_;
-    std::vector<RayHitResult> seen_;  ///< By the eye that looks.
-    std::vector<double> hit_; ///< By polygon, along the ray that is looked along.
+    std::vector<RayHitResult> seen_; ///< By the eye that looks.
+    std::vector<double> hit_;        ///< By polygon, along the ray that is looked along.
 };
 
 } // namespace
@@ -218,9 +191,7 @@ RayTestCounts& RayTestCounts::operator+=(const RayTestCounts& other) {
 }
 
 RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model,
-    const DrawOrder& order,
-    const RaySampling& samples) {
+    const models::polygons::PolygonModel& model, const DrawOrder& order, const RaySampling& samples) {
     DrawOrder::Walk walk;
     std::vector<std::uint32_t> painted;
     const PaintedListOfEye painted_from = [&](const glm::dvec3& eye_m) {
@@ -232,9 +203,7 @@ RayTestCounts count_wrong_rays(
 }
 
 RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model,
-    const PaintedListOfEye& painted_from,
-    const RaySampling& samples) {
+    const models::polygons::PolygonModel& model, const PaintedListOfEye& painted_from, const RaySampling& samples) {
     RaySampler sampling(model, samples, {});
     RayTestCounts count;
     for (int eye = 0; eye < samples.eyes; ++eye) {
@@ -246,9 +215,7 @@ RayTestCounts count_wrong_rays(
 }
 
 RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model,
-    const CellOrders& orders,
-    const RaySampling& samples) {
+    const models::polygons::PolygonModel& model, const CellOrders& orders, const RaySampling& samples) {
     RaySampler sampling(model, samples, orders.two_sided);
     RayTestCounts count;
     if (orders.parts) {
@@ -265,9 +232,7 @@ RayTestCounts count_wrong_rays(
     }
     for (int eye = 0; eye < samples.eyes; ++eye) {
         const glm::dvec3 eye_m = sampling.next_eye_m();
-        if (!in_range(orders, eye_m)) {
-            continue;
-        }
+        if (!in_range(orders, eye_m)) { continue; }
         if (const auto cell = cell_of(orders, eye_m)) {
             ++count.eyes;
             sampling.look(eye_m, orders.cells[*cell].list, count);

@@ -16,8 +16,8 @@ namespace octant::visuals::orderfile {
 struct RaySampling {
     int eyes = 1000;
     int rays_per_eye = 20;
-    /// The least distance from the origin, in radii of the model; from the model's middle where the
-    /// origin lies outside of the model.
+    /// The least distance from the origin, in radii of the model; from the model's middle where the origin lies outside
+    /// of the model.
     double min_distance_radii = 1.0;
     /// The greatest distance; the logarithm of the distance is evenly distributed.
     double max_distance_radii = 20.0;
@@ -34,35 +34,26 @@ struct RayTestCounts {
     long hits = 0;  ///< Rays that meet the front of a polygon.
     long wrong = 0; ///< Of these, rays on which the polygon painted last is not the nearest.
 
-    double wrong_share() const {
-        return hits == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(hits);
-    }
+    double wrong_share() const { return hits == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(hits); }
 
     RayTestCounts& operator+=(const RayTestCounts& other);
 };
 
-/// Tries an order by rays from random eyes in perspective. Rays are spread evenly over the disc of
-/// the model's radius around the origin as the eye sees it, so that shares are shares of pixels;
-/// eyes inside that radius look in all directions. Polygons that face away from the eye are not
-/// painted.
+/// Tries an order by rays from random eyes in perspective. Rays are spread evenly over the disc of the model's radius
+/// around the origin as the eye sees it, so that shares are shares of pixels; eyes inside that radius look in all
+/// directions. Polygons that face away from the eye are not painted.
 RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model,
-    const draworder::DrawOrder& order,
-    const RaySampling& samples);
+    const models::polygons::PolygonModel& model, const draworder::DrawOrder& order, const RaySampling& samples);
 
 /// Gives the list that is painted for an eye; it must stay as it is until the next call.
 using PaintedListOfEye = std::function<std::span<const std::uint32_t>(const glm::dvec3& eye_m)>;
 
 /// Tries lists that are made for each eye.
 RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model,
-    const PaintedListOfEye& painted_from,
-    const RaySampling& samples);
+    const models::polygons::PolygonModel& model, const PaintedListOfEye& painted_from, const RaySampling& samples);
 
 /// Tries orders by cells; eyes outside the range of distances are skipped.
 RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model,
-    const CellOrders& orders,
-    const RaySampling& samples);
+    const models::polygons::PolygonModel& model, const CellOrders& orders, const RaySampling& samples);
 
 } // namespace octant::visuals::orderfile

@@ -1,9 +1,9 @@
-// The layout follows what fighters show (MIL-STD-1787B, "Aircraft display symbology"): speed left,
-// altitude right, heading above, a pitch ladder and a flight-path marker that lie on the world.
-// Deviations: true instead of calibrated airspeed; the air moves with the ground and has the
-// standard atmosphere's temperature above datum (ISO 2533, troposphere and tropopause); the height
-// above ground is that straight below the aircraft.
+// The layout follows what fighters show (MIL-STD-1787B, "Aircraft display symbology"): speed left, altitude right,
+// heading above, a pitch ladder and a flight-path marker that lie on the world. Deviations: true instead of calibrated
+// airspeed; the air moves with the ground and has the standard atmosphere's temperature above datum (ISO 2533,
+// troposphere and tropopause); the height above ground is that straight below the aircraft.
 #include "visuals/overlay/head_up_display.h"
+
 #include "sim/base/axes.h"
 #include "sim/base/format_once.h"
 #include "sim/base/units.h"
@@ -30,7 +30,7 @@ namespace {
 
 // Shares of the glass's unit.
 constexpr float min_spacing = 0.075F; ///< between rungs
-constexpr float gap = 0.038F;           ///< half of it, in the middle of a rung
+constexpr float gap = 0.038F;         ///< half of it, in the middle of a rung
 constexpr float rung_end = 0.115F;
 constexpr float horizon_end = 0.21F;
 constexpr float bend = 0.018F;
@@ -46,9 +46,7 @@ struct RungFrame {
     glm::vec2 right{1.0F, 0.0F}; ///< unit vector along the horizon
     glm::vec2 up{0.0F, -1.0F};   ///< unit vector square to it, to greater pitch
 
-    glm::vec2 at(float right_px, float up_px) const {
-        return middle + right * right_px + up * up_px;
-    }
+    glm::vec2 at(float right_px, float up_px) const { return middle + right * right_px + up * up_px; }
 };
 
 /// The great circle of an azimuth: 0 = horizon, 90 = zenith, beyond it the other half.
@@ -60,16 +58,13 @@ struct Meridian {
         return std::cos(pitch_rad) * level + glm::dvec3(0.0, 0.0, std::sin(pitch_rad));
     }
 
-    double pitch_of(const glm::dvec3& direction) const {
-        return std::atan2(direction.z, glm::dot(direction, level));
-    }
+    double pitch_of(const glm::dvec3& direction) const { return std::atan2(direction.z, glm::dot(direction, level)); }
 };
 
 Meridian meridian_of(const HudGlass& glass, const glm::dvec3& anchor) {
     glm::dvec3 level(anchor.x, anchor.y, 0.0);
     if (glm::length(level) < 1e-6 * glm::length(anchor)) {
-        level = direction_from_heading(
-            euler_from_body_to_world(glm::conjugate(glass.world_to_body)).heading_rad);
+        level = direction_from_heading(euler_from_body_to_world(glm::conjugate(glass.world_to_body)).heading_rad);
     }
     level = glm::normalize(level);
     return {level, glm::dvec3(level.y, -level.x, 0.0)};
@@ -78,22 +73,17 @@ Meridian meridian_of(const HudGlass& glass, const glm::dvec3& anchor) {
 int degrees_between_rungs(const HudGlass& glass) {
     for (const int step_deg : {1, 2, 5, 10, 15}) {
         const double spacing_px = glass.focal_px * std::tan(rad_from_deg(step_deg));
-        if (spacing_px >= static_cast<double>(min_spacing * glass.unit_px)) {
-            return step_deg;
-        }
+        if (spacing_px >= static_cast<double>(min_spacing * glass.unit_px)) { return step_deg; }
     }
     return 30;
 }
 
-std::optional<RungFrame>
-project(const HudGlass& glass, const Meridian& meridian, double pitch_rad) {
+std::optional<RungFrame> project(const HudGlass& glass, const Meridian& meridian, double pitch_rad) {
     constexpr double small = 0.01;
     const glm::dvec3 centre = meridian.at(pitch_rad);
     const auto middle = glass.project(centre);
     const auto right_of_middle = glass.project(centre + small * meridian.right);
-    if (!middle || !right_of_middle) {
-        return std::nullopt;
-    }
+    if (!middle || !right_of_middle) { return std::nullopt; }
     const glm::vec2 right = glm::normalize(*right_of_middle - *middle);
     return RungFrame{*middle, right, glm::vec2(right.y, -right.x)};
 }
@@ -105,8 +95,7 @@ void draw_horizon(const RungFrame& place, float unit_px, OverlayCanvas& canvas) 
 }
 
 /// The outer half of a rung; `side` = unit to the right or the left.
-void draw_half_rung(
-    const RungFrame& place, float side, float bend_px, bool dashed, OverlayCanvas& canvas) {
+void draw_half_rung(const RungFrame& place, float side, float bend_px, bool dashed, OverlayCanvas& canvas) {
     const glm::vec2 bent = place.at(side * rung_end, bend_px);
     const glm::vec2 end = place.at(side * rung_end, 0.0F);
     if (!dashed) {
@@ -125,8 +114,7 @@ void draw_half_rung(
     }
 }
 
-void draw_rung(
-    const RungFrame& place, int pitch_deg, float unit_px, float letter_px, OverlayCanvas& canvas) {
+void draw_rung(const RungFrame& place, int pitch_deg, float unit_px, float letter_px, OverlayCanvas& canvas) {
     std::array<char, 8> digits{};
     const auto written = fmt::format_to_n(digits.data(), digits.size(), "{}", std::abs(pitch_deg));
     const std::string_view number(digits.data(), written.size);
@@ -134,11 +122,8 @@ void draw_rung(
     for (const float side : {-unit_px, unit_px}) {
         draw_half_rung(place, side, to_horizon * unit_px, pitch_deg < 0, canvas);
         const float alignment = side < 0.0F ? 1.0F : 0.0F;
-        canvas.text(
-            {place.at(side * (rung_end + number_distance), 0.5F * to_horizon * unit_px),
-             letter_px,
-             alignment,
-             place.right},
+        canvas.text({place.at(side * (rung_end + number_distance), 0.5F * to_horizon * unit_px), letter_px, alignment,
+                        place.right},
             number);
     }
 }
@@ -153,11 +138,10 @@ void draw_pole(const RungFrame& place, bool below, float unit_px, OverlayCanvas&
     }
 }
 
-/// Draws the horizon and the rungs of pitch where they are in the world, around the azimuth of
-/// `anchor` (world axes, any length): whole lines above the horizon, dashes below, ends bent
-/// towards the horizon, numbers beside them in degrees. As many degrees apart as fit.
-void draw_pitch_ladder(
-    const HudGlass& glass, const glm::dvec3& anchor, float letter_px, OverlayCanvas& canvas) {
+/// Draws the horizon and the rungs of pitch where they are in the world, around the azimuth of `anchor` (world axes,
+/// any length): whole lines above the horizon, dashes below, ends bent towards the horizon, numbers beside them in
+/// degrees. As many degrees apart as fit.
+void draw_pitch_ladder(const HudGlass& glass, const glm::dvec3& anchor, float letter_px, OverlayCanvas& canvas) {
     const Meridian meridian = meridian_of(glass, anchor);
     const int step_deg = degrees_between_rungs(glass);
     const double middle_deg = deg_from_rad(meridian.pitch_of(glass.direction_to(glm::vec2(0.0F))));
@@ -167,9 +151,7 @@ void draw_pitch_ladder(
     for (int rung = nearest - most; rung <= nearest + most; ++rung) {
         const int along_deg = rung * step_deg; // beyond the zenith more than 90
         auto place = project(glass, meridian, rad_from_deg(along_deg));
-        if (!place) {
-            continue;
-        }
+        if (!place) { continue; }
         const bool upside_down = std::abs(along_deg) > 90;
         const int pitch_deg = upside_down ? (along_deg > 0 ? 180 : -180) - along_deg : along_deg;
         if (upside_down) {
@@ -215,9 +197,7 @@ constexpr double min_marked_speed_mps = 5.0; ///< below, no flight path is shown
 constexpr double full_marker_speed_mps = 20.0;
 constexpr double min_mach = 0.3;
 
-OverlayBox scaled(const OverlayBox& box, float unit_px) {
-    return {box.least * unit_px, box.most * unit_px};
-}
+OverlayBox scaled(const OverlayBox& box, float unit_px) { return {box.least * unit_px, box.most * unit_px}; }
 
 OverlayBox display_box_of(const HudGlass& glass) {
     const OverlayBox box = scaled(display_box, glass.unit_px);
@@ -243,11 +223,8 @@ double speed_of_sound_mps(double height_m) {
 class HudPainter {
 public:
     HudPainter(const InstrumentReadings& inputs, const HudGlass& glass, OverlayCanvas& canvas)
-        : inputs_(inputs)
-        , glass_(glass)
-        , canvas_(canvas)
-        , unit_px_(glass.unit_px)
-        , flight_path_(inputs.state.velocity_mps) {}
+        : inputs_(inputs), glass_(glass), canvas_(canvas), unit_px_(glass.unit_px),
+          flight_path_(inputs.state.velocity_mps) {}
 
     void draw() {
         canvas_.clip_to(scaled(world_symbol_box, unit_px_));
@@ -265,15 +242,13 @@ private:
 
     glm::dvec3 body_axis() const { return inputs_.state.body_to_world * glm::dvec3(1.0, 0.0, 0.0); }
 
-    /// Where the flight goes, held at the field's edge: the ladder stands around it, and before the
-    /// nose where the aircraft hardly moves or goes elsewhere.
+    /// Where the flight goes, held at the field's edge: the ladder stands around it, and before the nose where the
+    /// aircraft hardly moves or goes elsewhere.
     glm::dvec3 ladder_direction() const {
         const double speed_mps = glm::length(flight_path_);
         const double share = glm::smoothstep(min_marked_speed_mps, full_marker_speed_mps, speed_mps);
         const auto place = share > 0.0 ? glass_.project(flight_path_) : std::nullopt;
-        if (!place) {
-            return body_axis();
-        }
+        if (!place) { return body_axis(); }
         const OverlayBox box = scaled(world_symbol_box, unit_px_);
         const glm::dvec3 seen = glass_.direction_to(glm::clamp(*place, box.least, box.most));
         return glm::mix(body_axis(), glm::normalize(seen), share);
@@ -282,9 +257,7 @@ private:
     /// Crossed out where the flight goes beyond the field.
     void draw_flight_path_marker() {
         const auto place = glass_.project(flight_path_);
-        if (!place || glm::length(flight_path_) < min_marked_speed_mps) {
-            return;
-        }
+        if (!place || glm::length(flight_path_) < min_marked_speed_mps) { return; }
         const OverlayBox box = scaled(world_symbol_box, unit_px_);
         const float reach_px = marker_wing * unit_px_;
         const glm::vec2 at = glm::clamp(*place, box.least + reach_px, box.most - reach_px);
@@ -309,16 +282,8 @@ private:
         constexpr float half = 0.0075F;
         constexpr float low = 0.012F;
         std::array<glm::vec2, 7> points{
-            {{-far, 0.0F},
-             {-near, 0.0F},
-             {-half, low},
-             {0.0F, 0.0F},
-             {half, low},
-             {near, 0.0F},
-             {far, 0.0F}}};
-        for (glm::vec2& point : points) {
-            point *= unit_px_;
-        }
+            {{-far, 0.0F}, {-near, 0.0F}, {-half, low}, {0.0F, 0.0F}, {half, low}, {near, 0.0F}, {far, 0.0F}}};
+        for (glm::vec2& point : points) { point *= unit_px_; }
         canvas_.polyline(points);
     }
 
@@ -355,16 +320,13 @@ private:
         draw_boxed(-box_side, 4, ShortText("{}", rounded(kt_from_mps(speed_mps))).text());
         draw_row(1, -box_side, ShortText("G {:4.1f}", inputs_.state.load_factor).text());
         const double mach = speed_mps / speed_of_sound_mps(inputs_.height_m);
-        if (mach >= min_mach) {
-            draw_row(2, -box_side, ShortText("M {:4.2f}", mach).text());
-        }
+        if (mach >= min_mach) { draw_row(2, -box_side, ShortText("M {:4.2f}", mach).text()); }
     }
 
     void draw_right() {
         constexpr double step_ft = 10.0;
         const double climb_mps = inputs_.state.velocity_mps.z;
-        draw_boxed(
-            box_side, 5, ShortText("{}", rounded(ft_from_m(inputs_.height_m), step_ft)).text());
+        draw_boxed(box_side, 5, ShortText("{}", rounded(ft_from_m(inputs_.height_m), step_ft)).text());
         const long climb_fpm = rounded(60.0 * ft_from_m(climb_mps), step_ft);
         draw_row(-1, box_side, ShortText("VS {:+}", climb_fpm).text());
         if (inputs_.height_above_ground_m) {
@@ -374,21 +336,16 @@ private:
     }
 
     void draw_heading() {
-        const double heading_deg =
-            deg_from_rad(euler_from_body_to_world(inputs_.state.body_to_world).heading_rad);
+        const double heading_deg = deg_from_rad(euler_from_body_to_world(inputs_.state.body_to_world).heading_rad);
         draw_tape(heading_deg);
         const float bottom = tape_bottom * unit_px_;
         const float caret = 0.008F * unit_px_;
         const float tip = bottom + 0.5F * caret;
         canvas_.polyline(std::array{
-            glm::vec2(-caret, tip + 1.6F * caret),
-            glm::vec2(0.0F, tip),
-            glm::vec2(caret, tip + 1.6F * caret)});
+            glm::vec2(-caret, tip + 1.6F * caret), glm::vec2(0.0F, tip), glm::vec2(caret, tip + 1.6F * caret)});
         const float height = letter_px(small_letter);
         const long shown = rounded(heading_deg) % 360;
-        canvas_.text(
-            {{0.0F, tip + 2.2F * caret + 0.5F * height}, height, 0.5F},
-            ShortText("{:03}", shown).text());
+        canvas_.text({{0.0F, tip + 2.2F * caret + 0.5F * height}, height, 0.5F}, ShortText("{:03}", shown).text());
     }
 
     /// A tick each 5 degrees, longer each 10, and numbers as close as they fit.
@@ -408,8 +365,7 @@ private:
             canvas_.line({x, bottom}, {x, top});
             if (deg % number_deg == 0) {
                 const int shown = (deg + 720) % 360;
-                canvas_.text(
-                    {{x, bottom - long_tick * unit_px_ - 0.95F * height}, height, 0.5F},
+                canvas_.text({{x, bottom - long_tick * unit_px_ - 0.95F * height}, height, 0.5F},
                     ShortText("{:03}", shown).text());
             }
         }
@@ -427,9 +383,7 @@ private:
 scene::OverlayDraw HeadUpDisplay::draw(
     const InstrumentReadings& inputs, const scene::Camera& camera, const glm::ivec2& size_px) {
     const HudGlass glass = make_hud_glass(inputs.state, camera, size_px);
-    if (!glass.may_show(display_box_of(glass), size_px)) {
-        return {};
-    }
+    if (!glass.may_show(display_box_of(glass), size_px)) { return {}; }
     const float width_px = std::max(line_width * glass.unit_px, min_line_px);
     canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), halo_colour});
     HudPainter(inputs, glass, canvas_).draw();

@@ -18,16 +18,14 @@ struct InstrumentReadings {
     std::optional<double> height_above_ground_m; ///< nothing outside the map
 };
 
-/// Head-up display of the cockpit view: true airspeed in knots, altitude in feet, heading tape,
-/// pitch ladder and flight-path marker that lie on the world behind them, load factor, height above
-/// ground, Mach number, vertical speed. Lines and letters are triangles with soft edges, so that no
-/// multisampling is needed. Sizes go with the picture's height. It is fixed ahead of the pilot: a
-/// look aside moves it out of the picture.
+/// Head-up display of the cockpit view: true airspeed in knots, altitude in feet, heading tape, pitch ladder and
+/// flight-path marker that lie on the world behind them, load factor, height above ground, Mach number, vertical speed.
+/// Lines and letters are triangles with soft edges, so that no multisampling is needed. Sizes go with the picture's
+/// height. It is fixed ahead of the pilot: a look aside moves it out of the picture.
 class HeadUpDisplay {
 public:
     /// Valid until the next call. No allocation once warmed up.
-    scene::OverlayDraw
-    draw(const InstrumentReadings& inputs, const scene::Camera& camera, const glm::ivec2& size_px);
+    scene::OverlayDraw draw(const InstrumentReadings& inputs, const scene::Camera& camera, const glm::ivec2& size_px);
 
 private:
     OverlayCanvas canvas_;

@@ -1,4 +1,5 @@
 #include "visuals/overlay/instrument_panel.h"
+
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "visuals/overlay/head_up_glass.h"
@@ -38,18 +39,14 @@ DialScale speed_scale_kt(double max_speed_mps) {
 }
 
 DialScale load_scale_g(double min_load_factor, double max_load_factor) {
-    return {
-        std::min(std::floor(min_load_factor), 0.0) - 1.0,
-        std::max(std::ceil(max_load_factor), 1.0) + 1.0};
+    return {std::min(std::floor(min_load_factor), 0.0) - 1.0, std::max(std::ceil(max_load_factor), 1.0) + 1.0};
 }
 
 double label_step(const DialScale& scale) {
     const double max_numbers = scale.most >= 100.0 && scale.most < 400.0 ? 5.0 : 9.0;
     const double min_step = (scale.most - scale.least) / (max_numbers - 1.0);
     for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 100.0, 200.0, 500.0}) {
-        if (step >= min_step) {
-            return step;
-        }
+        if (step >= min_step) { return step; }
     }
     return 1000.0 * std::ceil(min_step / 1000.0);
 }
@@ -95,8 +92,7 @@ glm::vec2 towards(double angle_rad) {
 Ring ring_of(const glm::vec2& centre, float radius) {
     Ring ring;
     for (std::size_t i = 0; i < rim_corners; ++i) {
-        ring[i] =
-            centre + radius * towards(2.0 * pi * static_cast<double>(i) / double{rim_corners});
+        ring[i] = centre + radius * towards(2.0 * pi * static_cast<double>(i) / double{rim_corners});
     }
     return ring;
 }
@@ -105,10 +101,7 @@ Ring ring_of(const glm::vec2& centre, float radius) {
 class DialPainter {
 public:
     DialPainter(const glm::vec2& centre, float radius, OverlayCanvas& faces, OverlayCanvas& hands)
-        : centre_(centre)
-        , radius_(radius)
-        , faces_(faces)
-        , hands_(hands) {
+        : centre_(centre), radius_(radius), faces_(faces), hands_(hands) {
         faces_.fill(ring_of(centre_, radius_), rim_colour);
         faces_.fill(ring_of(centre_, rim * radius_), face);
     }
@@ -120,9 +113,7 @@ public:
         for (double at = std::ceil(scale.least / half) * half; at <= scale.most; at += half) {
             const bool numbered = std::abs(std::remainder(at, step)) < 1e-6;
             add_tick(scale_hand_rad(at, scale), numbered);
-            if (numbered) {
-                add_number(scale_hand_rad(at, scale), ShortText("{:.0f}", at / unit + 0.0).text());
-            }
+            if (numbered) { add_number(scale_hand_rad(at, scale), ShortText("{:.0f}", at / unit + 0.0).text()); }
         }
         add_caption(caption, 0.34F);
         add_hand(scale_hand_rad(value, scale), long_hand, 0.055F);
@@ -164,9 +155,7 @@ public:
     void show_attitude(const EulerAngles& attitude) {
         const glm::vec2 up = towards(-attitude.roll_rad);
         const auto shift = static_cast<float>(std::clamp(
-            attitude.pitch_rad * horizon_per_rad,
-            -static_cast<double>(horizon_max),
-            static_cast<double>(horizon_max)));
+            attitude.pitch_rad * horizon_per_rad, -static_cast<double>(horizon_max), static_cast<double>(horizon_max)));
         const float inner = 0.9F * radius_;
         const Ring ring = ring_of(centre_, inner);
         faces_.fill(ring, earth);
@@ -176,8 +165,7 @@ public:
         const float half = std::sqrt(1.0F - shift * shift) * inner;
         faces_.line(on_horizon - along * half, on_horizon + along * half);
         for (const int tens : {-2, -1, 1, 2}) {
-            const float from_middle =
-                static_cast<float>(rad_from_deg(10.0 * tens) * horizon_per_rad) - shift;
+            const float from_middle = static_cast<float>(rad_from_deg(10.0 * tens) * horizon_per_rad) - shift;
             if (std::abs(from_middle) < 0.75F) {
                 const glm::vec2 at = centre_ + up * (from_middle * inner);
                 const float reach = (tens % 2 == 0 ? 0.3F : 0.18F) * inner;
@@ -185,10 +173,8 @@ public:
             }
         }
         const auto wing = [&](float side) {
-            hands_.polyline(std::array{
-                centre_ + radius_ * glm::vec2(0.55F * side, 0.0F),
-                centre_ + radius_ * glm::vec2(0.2F * side, 0.0F),
-                centre_ + radius_ * glm::vec2(0.2F * side, 0.1F)});
+            hands_.polyline(std::array{centre_ + radius_ * glm::vec2(0.55F * side, 0.0F),
+                centre_ + radius_ * glm::vec2(0.2F * side, 0.0F), centre_ + radius_ * glm::vec2(0.2F * side, 0.1F)});
         };
         wing(-1.0F);
         wing(1.0F);
@@ -208,9 +194,7 @@ private:
             const glm::vec2& to = ring[(i + 1) % ring.size()];
             const float above_from = glm::dot(from - on_line, up);
             const float above_to = glm::dot(to - on_line, up);
-            if (above_from >= 0.0F) {
-                part[count++] = from;
-            }
+            if (above_from >= 0.0F) { part[count++] = from; }
             if ((above_from >= 0.0F) != (above_to >= 0.0F)) {
                 part[count++] = from + (to - from) * (above_from / (above_from - above_to));
             }
@@ -233,10 +217,7 @@ private:
     }
 
     void add_number(
-        double angle_rad,
-        std::string_view text,
-        float letter = number_letter,
-        float from_middle = number_radius) {
+        double angle_rad, std::string_view text, float letter = number_letter, float from_middle = number_radius) {
         if (is_numbered()) {
             const glm::vec2 at = centre_ + towards(angle_rad) * (from_middle * radius_);
             faces_.text({at, letter * radius_, 0.5F}, text);
@@ -256,8 +237,7 @@ private:
         const glm::vec2 tip = centre_ + out * (length * radius_);
         const glm::vec2 tail = centre_ - out * (0.14F * radius_);
         const glm::vec2 arm = across * (half_width * radius_);
-        hands_.fill(
-            std::array{tip + 0.3F * arm, tip - 0.3F * arm, tail - arm, tail + arm}, hand_colour);
+        hands_.fill(std::array{tip + 0.3F * arm, tip - 0.3F * arm, tail - arm, tail + arm}, hand_colour);
     }
 
     void add_hub() { hands_.fill(ring_of(centre_, 0.1F * radius_), rim_colour); }
@@ -276,16 +256,11 @@ private:
     OverlayCanvas& hands_;
 };
 
-void show(
-    DialPainter& painter,
-    const Dial& dial,
-    const InstrumentLayout& layout,
-    const InstrumentReadings& inputs) {
+void show(DialPainter& painter, const Dial& dial, const InstrumentLayout& layout, const InstrumentReadings& inputs) {
     const EulerAngles attitude = euler_from_body_to_world(inputs.state.body_to_world);
     switch (dial.quantity) {
     case Dial::Quantity::Speed:
-        painter.show_scale(
-            layout.speed_kt, kt_from_mps(glm::length(inputs.state.velocity_mps)), "KT");
+        painter.show_scale(layout.speed_kt, kt_from_mps(glm::length(inputs.state.velocity_mps)), "KT");
         break;
     case Dial::Quantity::Altitude:
         painter.show_altitude(inputs.height_m);
@@ -304,20 +279,15 @@ void show(
 
 } // namespace
 
-scene::OverlayDraw InstrumentPanel::draw(
-    const InstrumentLayout& layout,
-    const InstrumentReadings& inputs,
-    const scene::Camera& camera,
-    const glm::ivec2& size_px) {
+scene::OverlayDraw InstrumentPanel::draw(const InstrumentLayout& layout, const InstrumentReadings& inputs,
+    const scene::Camera& camera, const glm::ivec2& size_px) {
     const HudGlass glass = make_hud_glass(inputs.state, camera, size_px);
     layers_.clear();
     for (const Dial& dial : layout.dials) {
         const double px_per_m = glass.focal_px / dial.centre_m.x;
         const glm::vec2 centre(glm::dvec2(dial.centre_m.y, dial.centre_m.z) * px_per_m);
         const auto radius = static_cast<float>(dial.radius_m * px_per_m);
-        if (!glass.may_show({centre - radius, centre + radius}, size_px)) {
-            continue;
-        }
+        if (!glass.may_show({centre - radius, centre + radius}, size_px)) { continue; }
         const float width_px = std::max(line_share * radius, min_line_px);
         faces_.begin(glass.to_picture, {width_px, 0.0F, white, 0});
         hands_.begin(glass.to_picture, {1.6F * width_px, 0.0F, mark_colour, 0});

@@ -23,8 +23,8 @@ struct DialScale {
     bool operator==(const DialScale&) const = default;
 };
 
-/// Hand of a dial whose scale runs clockwise over most of a turn, from the left of its foot to the
-/// right; beyond the ends the hand stays there.
+/// Hand of a dial whose scale runs clockwise over most of a turn, from the left of its foot to the right; beyond the
+/// ends the hand stays there.
 double scale_hand_rad(double value, const DialScale& scale);
 
 /// Hand that turns once in `feet_per_turn`, straight up at sea level.
@@ -36,8 +36,8 @@ DialScale speed_scale_kt(double max_speed_mps);
 /// A scale in g that holds two load factors and 1 g.
 DialScale load_scale_g(double min_load_factor, double max_load_factor);
 
-/// Distance of the numbers of a scale, in its unit: a round one, of which no more than nine fit,
-/// or five where they have three digits.
+/// Distance of the numbers of a scale, in its unit: a round one, of which no more than nine fit, or five where they
+/// have three digits.
 double label_step(const DialScale& scale);
 
 /// A round dial that faces the pilot: it lies square to the body's x axis.
@@ -55,17 +55,14 @@ struct InstrumentLayout {
     DialScale load_g;
 };
 
-/// Working dials in the cockpit: true airspeed in knots, altitude in feet by two hands and in
-/// digits, attitude, heading on a turning card, load factor in g. Drawn in perspective where they
-/// lie, over the cockpit's polygons; nothing where a look aside moves them out of the picture.
+/// Working dials in the cockpit: true airspeed in knots, altitude in feet by two hands and in digits, attitude, heading
+/// on a turning card, load factor in g. Drawn in perspective where they lie, over the cockpit's polygons; nothing where
+/// a look aside moves them out of the picture.
 class InstrumentPanel {
 public:
     /// Valid until the next call. No allocation once warmed up.
-    scene::OverlayDraw draw(
-        const InstrumentLayout& layout,
-        const InstrumentReadings& inputs,
-        const scene::Camera& camera,
-        const glm::ivec2& size_px);
+    scene::OverlayDraw draw(const InstrumentLayout& layout, const InstrumentReadings& inputs,
+        const scene::Camera& camera, const glm::ivec2& size_px);
 
 private:
     OverlayCanvas faces_;

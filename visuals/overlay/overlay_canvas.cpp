@@ -1,5 +1,5 @@
-// Lines as strips of triangles: rows of vertices across the line, joined by mitres. The alpha of a
-// core falls to 0 at its edges.
+// Lines as strips of triangles: rows of vertices across the line, joined by mitres. The alpha of a core falls to 0 at
+// its edges.
 
 #include "visuals/overlay/overlay_canvas.h"
 
@@ -20,25 +20,21 @@ namespace {
 
 constexpr float min_length_px = 0.05F;
 constexpr float min_mitre_cosine = -0.6F;  ///< cosine of the turn from which a line begins anew
-constexpr float edge_px = 1.0F;         ///< over which the edge of a core fades
+constexpr float edge_px = 1.0F;            ///< over which the edge of a core fades
 constexpr float max_ridge_width_px = 2.2F; ///< letters' lines up to here fade from their middle on
 constexpr std::size_t circle_corners = 20;
 
-glm::vec2 across(const glm::vec2& along) {
-    return {-along.y, along.x};
-}
+glm::vec2 across(const glm::vec2& along) { return {-along.y, along.x}; }
 
 std::uint32_t with_alpha(std::uint32_t colour, float share) {
     const auto alpha = static_cast<float>(colour >> 24U) * share;
     return (colour & 0x00ffffffU) | static_cast<std::uint32_t>(std::lround(alpha)) << 24U;
 }
 
-/// Narrows the part `from_share` to `to_share` of a line to that on the inner side of one edge;
-/// false when nothing is left. `depth` = how far inside the line begins, `change` = over the line.
+/// Narrows the part `from_share` to `to_share` of a line to that on the inner side of one edge; false when nothing is
+/// left. `depth` = how far inside the line begins, `change` = over the line.
 bool narrow_interval(float depth, float change, float& from_share, float& to_share) {
-    if (change == 0.0F) {
-        return depth >= 0.0F;
-    }
+    if (change == 0.0F) { return depth >= 0.0F; }
     const float share = -depth / change;
     if (change > 0.0F) {
         from_share = std::max(from_share, share);
@@ -89,18 +85,14 @@ glm::vec2 OverlayCanvas::to_picture_at(const glm::vec2& at) const {
 
 void OverlayCanvas::fill(std::span<const glm::vec2> corners, std::uint32_t colour) {
     const auto first = static_cast<std::uint32_t>(vertices_.size());
-    for (const glm::vec2& corner : corners) {
-        vertices_.push_back({to_picture_at(corner), colour});
-    }
+    for (const glm::vec2& corner : corners) { vertices_.push_back({to_picture_at(corner), colour}); }
     for (std::uint32_t i = 2; i < corners.size(); ++i) {
         areas_.insert(areas_.end(), {first, first + i - 1, first + i});
     }
 }
 
 void OverlayCanvas::polyline(std::span<const glm::vec2> points) {
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        clip_line(points[i - 1], points[i]);
-    }
+    for (std::size_t i = 1; i < points.size(); ++i) { clip_line(points[i - 1], points[i]); }
     end_run();
 }
 
@@ -122,23 +114,17 @@ void OverlayCanvas::clip_line(const glm::vec2& from, const glm::vec2& to) {
         add_to_run(from + change * from_share);
     }
     add_to_run(to_share < 1.0F ? from + change * to_share : to);
-    if (to_share < 1.0F) {
-        end_run();
-    }
+    if (to_share < 1.0F) { end_run(); }
 }
 
 void OverlayCanvas::add_to_run(const glm::vec2& at) {
     const glm::vec2 at_px = to_picture_at(at);
-    if (run_.empty() || glm::distance(run_.back(), at_px) > min_length_px) {
-        run_.push_back(at_px);
-    }
+    if (run_.empty() || glm::distance(run_.back(), at_px) > min_length_px) { run_.push_back(at_px); }
 }
 
 void OverlayCanvas::end_run() {
     if (run_.size() > 1) {
-        if (halo_.count > 0) {
-            stroke(halo_);
-        }
+        if (halo_.count > 0) { stroke(halo_); }
         stroke(draws_text_ ? letters_ : lines_);
     }
     run_.clear();
@@ -148,9 +134,7 @@ void OverlayCanvas::end_run() {
 void OverlayCanvas::stroke(Strips& strips) {
     const std::size_t last = run_.size() - 1;
     const bool closed = last > 2 && glm::distance(run_.front(), run_[last]) < min_length_px;
-    const auto direction = [&](std::size_t segment) {
-        return glm::normalize(run_[segment + 1] - run_[segment]);
-    };
+    const auto direction = [&](std::size_t segment) { return glm::normalize(run_[segment + 1] - run_[segment]); };
     glm::vec2 before = direction(closed ? last - 1 : 0);
     for (std::size_t i = 0; i <= last; ++i) {
         const glm::vec2 after = i < last ? direction(i) : (closed ? direction(0) : before);
@@ -158,17 +142,13 @@ void OverlayCanvas::stroke(Strips& strips) {
         if (inside && glm::dot(before, after) > min_mitre_cosine) {
             const glm::vec2 middle = across(before) + across(after);
             add_row(strips, run_[i], middle * (2.0F / glm::dot(middle, middle)));
-            if (i > 0) {
-                join_last_rows(strips);
-            }
+            if (i > 0) { join_last_rows(strips); }
         } else {
             if (i > 0) {
                 add_row(strips, run_[i] + before * strips.extension_px, across(before));
                 join_last_rows(strips);
             }
-            if (i < last) {
-                add_row(strips, run_[i] - after * strips.extension_px, across(after));
-            }
+            if (i < last) { add_row(strips, run_[i] - after * strips.extension_px, across(after)); }
         }
         before = after;
     }
@@ -185,8 +165,7 @@ void OverlayCanvas::join_last_rows(Strips& strips) {
     const std::uint32_t here = static_cast<std::uint32_t>(vertices_.size()) - count;
     const std::uint32_t there = here - count;
     for (std::uint32_t i = 0; i + 1 < count; ++i) {
-        for (const std::uint32_t corner :
-             {there + i, there + i + 1, here + i, here + i, there + i + 1, here + i + 1}) {
+        for (const std::uint32_t corner : {there + i, there + i + 1, here + i, here + i, there + i + 1, here + i + 1}) {
             strips.indices.push_back(corner);
         }
     }
@@ -201,8 +180,8 @@ void OverlayCanvas::box(const OverlayBox& box) {
 void OverlayCanvas::circle(const glm::vec2& centre, float radius) {
     std::array<glm::vec2, circle_corners + 1> corners;
     for (std::size_t i = 0; i <= circle_corners; ++i) {
-        const float angle_rad = 2.0F * std::numbers::pi_v<float> *
-                                static_cast<float>(i % circle_corners) / circle_corners;
+        const float angle_rad =
+            2.0F * std::numbers::pi_v<float> * static_cast<float>(i % circle_corners) / circle_corners;
         corners[i] = centre + radius * glm::vec2(std::cos(angle_rad), std::sin(angle_rad));
     }
     polyline(corners);
@@ -213,8 +192,7 @@ void OverlayCanvas::text(const TextLayout& place, std::string_view text) {
     const glm::vec2 right = place.along * step;
     const glm::vec2 up = glm::vec2(place.along.y, -place.along.x) * step;
     const auto width = static_cast<float>(text_width(text.size()));
-    const glm::vec2 corner =
-        place.at - right * (place.alignment * width) - up * (0.5F * glyph_height);
+    const glm::vec2 corner = place.at - right * (place.alignment * width) - up * (0.5F * glyph_height);
     const glm::vec2 across = right * width;
     const glm::vec2 over = up * static_cast<float>(glyph_height);
     if (!clip_.contains(corner) || !clip_.contains(corner + across) || !clip_.contains(corner + over) ||
@@ -226,8 +204,7 @@ void OverlayCanvas::text(const TextLayout& place, std::string_view text) {
         const glm::vec2 origin = corner + right * static_cast<float>(i * glyph_advance);
         glm::vec2 last(0.0F);
         for (const GlyphPoint& point : glyph_strokes(text[i])) {
-            const glm::vec2 at =
-                origin + right * static_cast<float>(point.x) + up * static_cast<float>(point.y);
+            const glm::vec2 at = origin + right * static_cast<float>(point.x) + up * static_cast<float>(point.y);
             if (point.begins_stroke) {
                 end_run();
             } else {

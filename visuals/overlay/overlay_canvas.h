@@ -24,8 +24,7 @@ struct OverlayBox {
     }
 };
 
-/// What lines are drawn with: a core with soft edges over a wider shade that sets it off from what
-/// is behind it.
+/// What lines are drawn with: a core with soft edges over a wider shade that sets it off from what is behind it.
 struct OverlayPen {
     float width_px = 1.5F;
     float halo_px = 1.5F; ///< how much farther than the core the shade reaches
@@ -37,17 +36,16 @@ struct OverlayPen {
 struct TextLayout {
     glm::vec2 at{0.0F};
     float height = 10.0F;
-    float alignment = 0.0F;   ///< of the text's width that lies before `at`: 0.5 = centred
+    float alignment = 0.0F;      ///< of the text's width that lies before `at`: 0.5 = centred
     glm::vec2 along{1.0F, 0.0F}; ///< unit vector to the right of the text
 };
 
-/// Collects areas, lines and letters as the triangles of an OverlayDraw: areas, then shades, then
-/// lines, then letters.
+/// Collects areas, lines and letters as the triangles of an OverlayDraw: areas, then shades, then lines, then letters.
 /// One draws on a plane, x to the right and y down, that is then seen in the picture.
 class OverlayCanvas {
 public:
-    /// Empties the canvas. (x, y, 1) of the plane times `to_picture`, divided by its last part,
-    /// which must be positive wherever something is drawn, is a place in the picture in pixels.
+    /// Empties the canvas. (x, y, 1) of the plane times `to_picture`, divided by its last part, which must be positive
+    /// wherever something is drawn, is a place in the picture in pixels.
     void begin(const glm::mat3& to_picture, const OverlayPen& pen);
 
     /// Cuts what is drawn from here on at the edges of a box of the plane.

@@ -30,28 +30,22 @@ double round_length_m(double max_m) {
     return ten * (share >= 5.0 ? 5.0 : share >= 2.0 ? 2.0 : 1.0);
 }
 
-char to_upper(char letter) {
-    return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-}
+char to_upper(char letter) { return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter; }
 
 } // namespace
 
-void PathAnnotations::begin(
-    const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m) {
+void PathAnnotations::begin(const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m) {
     camera_ = camera;
     size_px_ = glm::vec2(size_px);
     letter_px_ = std::max(size_px_.y / labels_per_picture_height, min_name_px);
     focal_px_ = scene::focal_px(camera, size_px.y);
     aircraft_m_ = std::max(glm::length(aircraft_m), 1.0);
-    canvas_.begin(
-        glm::mat3(1.0F),
+    canvas_.begin(glm::mat3(1.0F),
         {std::max(0.14F * letter_px_, 1.2F), 0.12F * letter_px_ + 1.0F, name_colour, name_halo_colour});
     canvas_.clip_to({glm::vec2(0.0F), size_px_});
     const float margin_px = 2.5F * letter_px_;
     draw_north({margin_px + 2.0F * letter_px_, size_px_.y - margin_px - 4.5F * letter_px_});
-    if (aircraft_m_ > nearest_scale_m) {
-        draw_scale({margin_px, size_px_.y - margin_px});
-    }
+    if (aircraft_m_ > nearest_scale_m) { draw_scale({margin_px, size_px_.y - margin_px}); }
 }
 
 /// An arrow in a circle: up is the way one looks, level.
@@ -59,26 +53,18 @@ void PathAnnotations::draw_north(const glm::vec2& centre_px) {
     const glm::dvec3 ahead = scene::view_direction(camera_);
     const glm::dvec3 up = camera_.view_to_world * glm::dvec3(0.0, 1.0, 0.0);
     // Looking straight down or up, the top of the picture is what lies ahead.
-    const glm::dvec2 level =
-        std::abs(ahead.z) < 0.98 ? glm::dvec2(ahead) : glm::dvec2(ahead.z < 0.0 ? up : -up);
+    const glm::dvec2 level = std::abs(ahead.z) < 0.98 ? glm::dvec2(ahead) : glm::dvec2(ahead.z < 0.0 ? up : -up);
     const double heading_rad = std::atan2(level.x, level.y);
-    const glm::vec2 north(
-        static_cast<float>(-std::sin(heading_rad)), static_cast<float>(-std::cos(heading_rad)));
+    const glm::vec2 north(static_cast<float>(-std::sin(heading_rad)), static_cast<float>(-std::cos(heading_rad)));
     const glm::vec2 across(-north.y, north.x);
     const float radius_px = 2.0F * letter_px_;
     canvas_.circle(centre_px, radius_px);
     const glm::vec2 tip = centre_px + 0.85F * radius_px * north;
     const glm::vec2 foot = centre_px - 0.7F * radius_px * north;
     canvas_.line(foot, tip);
-    canvas_.polyline(std::array{
-        tip - 0.55F * radius_px * north + 0.35F * radius_px * across,
-        tip,
+    canvas_.polyline(std::array{tip - 0.55F * radius_px * north + 0.35F * radius_px * across, tip,
         tip - 0.55F * radius_px * north - 0.35F * radius_px * across});
-    canvas_.text(
-        {centre_px + 1.65F * radius_px * north + glm::vec2(0.0F, 0.5F * letter_px_),
-         letter_px_,
-         0.5F},
-        "N");
+    canvas_.text({centre_px + 1.65F * radius_px * north + glm::vec2(0.0F, 0.5F * letter_px_), letter_px_, 0.5F}, "N");
 }
 
 void PathAnnotations::draw_scale(const glm::vec2& from_px) {
@@ -95,26 +81,18 @@ void PathAnnotations::draw_scale(const glm::vec2& from_px) {
 
 void PathAnnotations::add(const WorldLabel& place) {
     const glm::dvec3 view = glm::conjugate(camera_.view_to_world) * place.at_m;
-    if (-view.z < 1.0 || glm::length(place.at_m) > farthest_name_m) {
-        return;
-    }
-    const glm::vec2 at_px = 0.5F * size_px_ + glm::vec2(
-                                                  static_cast<float>(focal_px_ * view.x / -view.z),
+    if (-view.z < 1.0 || glm::length(place.at_m) > farthest_name_m) { return; }
+    const glm::vec2 at_px = 0.5F * size_px_ + glm::vec2(static_cast<float>(focal_px_ * view.x / -view.z),
                                                   static_cast<float>(focal_px_ * view.y / view.z));
     std::array<char, 24> letters{};
     const std::size_t count = std::min(place.name.size(), letters.size());
     std::transform(
-        place.name.begin(),
-        place.name.begin() + static_cast<std::ptrdiff_t>(count),
-        letters.begin(),
-        to_upper);
+        place.name.begin(), place.name.begin() + static_cast<std::ptrdiff_t>(count), letters.begin(), to_upper);
     const glm::vec2 above(0.0F, 2.0F * letter_px_);
     canvas_.line(at_px - 0.85F * above, at_px);
     canvas_.text({at_px - above, letter_px_, 0.5F}, std::string_view(letters.data(), count));
 }
 
-scene::OverlayDraw PathAnnotations::finish() {
-    return canvas_.finish();
-}
+scene::OverlayDraw PathAnnotations::finish() { return canvas_.finish(); }
 
 } // namespace octant::visuals::overlay

@@ -18,13 +18,12 @@ struct WorldLabel {
     std::string_view name;
 };
 
-/// What lies beside a path in the picture: names at their places, a scale for what is as far as the
-/// aircraft, and a mark that points north.
+/// What lies beside a path in the picture: names at their places, a scale for what is as far as the aircraft, and a
+/// mark that points north.
 class PathAnnotations {
 public:
     /// Begins a picture; `aircraft_m` off the eye.
-    void
-    begin(const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m);
+    void begin(const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m);
 
     /// Writes a name where its place is in the picture, if that is before the eye and in view.
     void add(const WorldLabel& place);

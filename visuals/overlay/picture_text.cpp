@@ -20,22 +20,18 @@ constexpr std::uint32_t colour = 0xffb4f0ffU;
 
 constexpr std::string_view indent = "  "; ///< of what goes on from the line above
 
-char to_upper(char letter) {
-    return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-}
+char to_upper(char letter) { return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter; }
 
 /// How many letters stand beside each other in a width; more than the indent.
 std::size_t characters_per_line(float width_px, float letter_px) {
     const float step_px = letter_px / glyph_height;
     std::size_t count = indent.size() + 1;
-    while (static_cast<float>(text_width(count + 1)) * step_px <= width_px) {
-        ++count;
-    }
+    while (static_cast<float>(text_width(count + 1)) * step_px <= width_px) { ++count; }
     return count;
 }
 
-/// Takes from the front of a text, and returns, what fits into so many letters: whole words where a
-/// space is among them.
+/// Takes from the front of a text, and returns, what fits into so many letters: whole words where a space is among
+/// them.
 std::string split_at_width(std::string_view& text, std::size_t most) {
     std::size_t count = text.size();
     if (count > most) {
@@ -50,13 +46,10 @@ std::string split_at_width(std::string_view& text, std::size_t most) {
 
 } // namespace
 
-scene::OverlayDraw
-PictureText::draw(std::span<const std::string> lines, const glm::ivec2& size_px) {
+scene::OverlayDraw PictureText::draw(std::span<const std::string> lines, const glm::ivec2& size_px) {
     const glm::vec2 size(size_px);
     const float letter_px = std::max(size.y / lines_per_picture_height, min_letter_px);
-    canvas_.begin(
-        glm::mat3(1.0F),
-        {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, halo_colour});
+    canvas_.begin(glm::mat3(1.0F), {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, halo_colour});
     glm::vec2 at(letter_px, 2.0F * letter_px);
     const std::size_t most = characters_per_line(size.x - 2.0F * letter_px, letter_px);
     for (const std::string_view line : lines) {

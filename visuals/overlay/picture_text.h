@@ -10,8 +10,8 @@
 
 namespace octant::visuals::overlay {
 
-/// Lines of text in the upper left corner of a picture, in the strokes of the head-up display:
-/// small letters become capitals. A line that is too long for the picture goes on below, indented.
+/// Lines of text in the upper left corner of a picture, in the strokes of the head-up display: small letters become
+/// capitals. A line that is too long for the picture goes on below, indented.
 class PictureText {
 public:
     /// Sizes go with the picture's height. Valid until the next call.

@@ -16,8 +16,8 @@ class ShortText {
 public:
     template <typename... Values>
     explicit ShortText(fmt::format_string<Values...> format, Values&&... values) {
-        const auto written = fmt::format_to_n(
-            letters_.data(), letters_.size(), format, std::forward<Values>(values)...);
+        const auto written =
+            fmt::format_to_n(letters_.data(), letters_.size(), format, std::forward<Values>(values)...);
         size_ = std::min(written.size, letters_.size());
     }
 

@@ -78,8 +78,7 @@ constexpr Glyph letter_from(std::string_view drawing) {
             ++at;
             continue;
         }
-        letter.points.at(letter.count++) = {
-            drawing[at] - '0', drawing[at + 1] - '0', begins_stroke};
+        letter.points.at(letter.count++) = {drawing[at] - '0', drawing[at + 1] - '0', begins_stroke};
         begins_stroke = false;
         at += 2;
     }
@@ -90,9 +89,7 @@ constexpr std::size_t codes = 128;
 
 constexpr std::array<Glyph, codes> make_font() {
     std::array<Glyph, codes> font{};
-    for (const auto& [code, drawing] : drawings) {
-        font.at(static_cast<std::size_t>(code)) = letter_from(drawing);
-    }
+    for (const auto& [code, drawing] : drawings) { font.at(static_cast<std::size_t>(code)) = letter_from(drawing); }
     return font;
 }
 
@@ -102,9 +99,7 @@ constexpr std::array<Glyph, codes> font = make_font();
 
 std::span<const GlyphPoint> glyph_strokes(char letter) {
     const auto code = static_cast<unsigned char>(letter);
-    if (code >= codes) {
-        return {};
-    }
+    if (code >= codes) { return {}; }
     return std::span(font[code].points).first(font[code].count);
 }
 

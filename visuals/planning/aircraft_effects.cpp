@@ -63,8 +63,7 @@ std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& axis) {
     return {first, glm::cross(axis, first)};
 }
 
-/// A disc that is thin in the middle and at its edge, where the blades are fewest and their tips
-/// blur most.
+/// A disc that is thin in the middle and at its edge, where the blades are fewest and their tips blur most.
 void draw_disc(const glm::dvec3& centre_m, const glm::dvec3& axis, double radius_m, Shape& shape) {
     const auto [right, up] = across(axis);
     constexpr std::array rings{0.08, 0.5, 0.93, 1.0};
@@ -75,26 +74,21 @@ void draw_disc(const glm::dvec3& centre_m, const glm::dvec3& axis, double radius
         first[ring] = static_cast<std::uint32_t>(shape.vertices.size());
         for (int segment_index = 0; segment_index < segments; ++segment_index) {
             const double turn = 2.0 * pi * segment_index / segments;
-            shape.add(
-                centre_m + rings[ring] * radius_m * (std::cos(turn) * right + std::sin(turn) * up),
+            shape.add(centre_m + rings[ring] * radius_m * (std::cos(turn) * right + std::sin(turn) * up),
                 clear_colour(grey, alphas[ring]));
         }
     }
     for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring) {
         for (std::uint32_t segment_index = 0; segment_index < segments; ++segment_index) {
             const std::uint32_t next = (segment_index + 1) % segments;
-            shape.quad(
-                first[ring] + segment_index,
-                first[ring + 1] + segment_index,
-                first[ring + 1] + next,
+            shape.quad(first[ring] + segment_index, first[ring + 1] + segment_index, first[ring + 1] + next,
                 first[ring] + next);
         }
     }
 }
 
 /// Three sheets through the plume's axis: seen from any side they fill it.
-void draw_plume(
-    const glm::dvec3& from_m, double radius_m, const EffectStrength& strength, Shape& shape) {
+void draw_plume(const glm::dvec3& from_m, double radius_m, const EffectStrength& strength, Shape& shape) {
     constexpr std::array along{0.0, 0.12, 0.35, 0.65, 1.0};
     constexpr std::array wide{0.85, 1.0, 0.8, 0.55, 0.25};
     constexpr std::array flame{0.55, 0.75, 0.5, 0.22, 0.0};
@@ -106,14 +100,11 @@ void draw_plume(
         const glm::dvec3 side(0.0, std::cos(turn), std::sin(turn));
         std::uint32_t before = 0;
         for (std::size_t i = 0; i < along.size(); ++i) {
-            const glm::dvec3 middle_m =
-                from_m - glm::dvec3(plume_radii * radius_m * along[i], 0.0, 0.0);
+            const glm::dvec3 middle_m = from_m - glm::dvec3(plume_radii * radius_m * along[i], 0.0, 0.0);
             const auto share = static_cast<float>(along[i]);
             const glm::vec3 fire = glm::mix(blue, hot, std::min(3.0F * share, 1.0F));
             const glm::vec3 rgb = glm::mix(smoke, fire, static_cast<float>(strength.burner));
-            const double alpha =
-                glm::mix(0.1 * strength.exhaust * (1.0 - along[i]), flame[i], strength.burner) *
-                0.6;
+            const double alpha = glm::mix(0.1 * strength.exhaust * (1.0 - along[i]), flame[i], strength.burner) * 0.6;
             const double half_m = radius_m * wide[i];
             const std::uint32_t left = shape.add(middle_m - half_m * side, clear_colour(rgb, 0.0));
             const std::uint32_t core = shape.add(middle_m, clear_colour(rgb, alpha));
@@ -136,11 +127,9 @@ void draw_vapour(const glm::dvec3& from_m, double strength, Shape& shape) {
         const double half_m = vapour_high_m * (0.15 + 0.85 * share);
         const double alpha = 0.7 * strength * (1.0 - share);
         const glm::vec3 white(0.94F, 0.95F, 0.97F);
-        const std::uint32_t top =
-            shape.add(middle_m - glm::dvec3(0.0, 0.0, half_m), clear_colour(white, 0.0));
+        const std::uint32_t top = shape.add(middle_m - glm::dvec3(0.0, 0.0, half_m), clear_colour(white, 0.0));
         const std::uint32_t core = shape.add(middle_m, clear_colour(white, alpha));
-        const std::uint32_t low =
-            shape.add(middle_m + glm::dvec3(0.0, 0.0, half_m), clear_colour(white, 0.0));
+        const std::uint32_t low = shape.add(middle_m + glm::dvec3(0.0, 0.0, half_m), clear_colour(white, 0.0));
         if (i > 0) {
             shape.quad(before, top, core, before + 1);
             shape.quad(before + 1, core, low, before + 2);
@@ -150,13 +139,10 @@ void draw_vapour(const glm::dvec3& from_m, double strength, Shape& shape) {
 }
 
 /// How far the model reaches along a direction, without one of its parts.
-double reach_along(
-    const PolygonModel& model, const glm::dvec3& direction, std::optional<std::uint32_t> excluded_part) {
+double reach_along(const PolygonModel& model, const glm::dvec3& direction, std::optional<std::uint32_t> excluded_part) {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-        if (excluded_part && model.polygons[polygon].part == *excluded_part) {
-            continue;
-        }
+        if (excluded_part && model.polygons[polygon].part == *excluded_part) { continue; }
         for (const std::uint32_t vertex : model.corners(polygon)) {
             most = std::max(most, glm::dot(direction, model.vertices_m[vertex]));
         }
@@ -197,16 +183,12 @@ void AircraftEffects::add_effect(const Effect& effect, const glm::dvec3& reach_m
 void AircraftEffects::find_discs(const PolygonModel& model) {
     for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
         const Pivot& pivot = model.pivots[number];
-        if (std::abs(pivot.turns_per_s) < quick_turns_per_s) {
-            continue;
-        }
+        if (std::abs(pivot.turns_per_s) < quick_turns_per_s) { continue; }
         double radius_m = 0.0;
         double along_sum_m = 0.0;
         int corners = 0;
         for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-            if (model.polygons[polygon].part != pivot.part) {
-                continue;
-            }
+            if (model.polygons[polygon].part != pivot.part) { continue; }
             for (const std::uint32_t vertex : model.corners(polygon)) {
                 const glm::dvec3 off_m = model.vertices_m[vertex] - pivot.point_m;
                 const double along_m = glm::dot(off_m, pivot.axis);
@@ -215,9 +197,7 @@ void AircraftEffects::find_discs(const PolygonModel& model) {
                 ++corners;
             }
         }
-        if (corners == 0) {
-            continue;
-        }
+        if (corners == 0) { continue; }
         const glm::dvec3 centre_m = pivot.point_m + along_sum_m / corners * pivot.axis;
         for (const double side : {-1.0, 1.0}) {
             const glm::dvec3 outward = side * pivot.axis;
@@ -237,9 +217,7 @@ void AircraftEffects::find_plumes(const PolygonModel& model) {
         glm::dvec3 least(1e9);
         glm::dvec3 most(-1e9);
         for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-            if (!is_of_nozzle(model.parts[model.polygons[polygon].part])) {
-                continue;
-            }
+            if (!is_of_nozzle(model.parts[model.polygons[polygon].part])) { continue; }
             for (const std::uint32_t vertex : model.corners(polygon)) {
                 const glm::dvec3& at_m = model.vertices_m[vertex];
                 if (side * at_m.y >= 0.0) {
@@ -248,9 +226,7 @@ void AircraftEffects::find_plumes(const PolygonModel& model) {
                 }
             }
         }
-        if (least.x > most.x) {
-            continue;
-        }
+        if (least.x > most.x) { continue; }
         const double radius_m = 0.42 * std::min(most.y - least.y, most.z - least.z);
         const glm::dvec3 position_m(rear_m, 0.5 * (least.y + most.y), 0.5 * (least.z + most.z));
         add_effect({Kind::Plume, position_m, aft, radius_m}, plume_radii * radius_m * aft);
@@ -259,17 +235,14 @@ void AircraftEffects::find_plumes(const PolygonModel& model) {
 
 /// Only of jets: what has a plume. Others hardly ever load their tips so.
 void AircraftEffects::find_vapour(const PolygonModel& model) {
-    if (std::ranges::none_of(effects_, [](const Effect& one) { return one.kind == Kind::Plume; })) {
-        return;
-    }
+    if (std::ranges::none_of(effects_, [](const Effect& one) { return one.kind == Kind::Plume; })) { return; }
     for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 outward(0.0, side, 0.0);
         glm::dvec3 tip_m(0.0);
         double max_m = 0.0;
         for (const glm::dvec3& at_m : model.vertices_m) {
             // Of corners as far out the rearmost.
-            if (side * at_m.y > max_m + 1e-6 ||
-                (side * at_m.y > max_m - 1e-6 && at_m.x < tip_m.x)) {
+            if (side * at_m.y > max_m + 1e-6 || (side * at_m.y > max_m - 1e-6 && at_m.x < tip_m.x)) {
                 max_m = std::max(max_m, side * at_m.y);
                 tip_m = at_m;
             }
@@ -278,16 +251,12 @@ void AircraftEffects::find_vapour(const PolygonModel& model) {
     }
 }
 
-AircraftEffects::TransparentRanges AircraftEffects::add(
-    const glm::dmat4& body_to_eye_world,
-    const EffectStrength& strength,
-    std::span<const ArticulatedPart> articulated_parts,
-    std::uint32_t number,
+AircraftEffects::TransparentRanges AircraftEffects::add(const glm::dmat4& body_to_eye_world,
+    const EffectStrength& strength, std::span<const ArticulatedPart> articulated_parts, std::uint32_t number,
     TransparentGeometry& transparents) {
     const auto is_articulated = [&](std::uint32_t pivot) {
-        return std::ranges::any_of(articulated_parts, [&](const ArticulatedPart& part) {
-            return part.aircraft == number && part.pivot == pivot;
-        });
+        return std::ranges::any_of(articulated_parts,
+            [&](const ArticulatedPart& part) { return part.aircraft == number && part.pivot == pivot; });
     };
     const glm::dvec3 eye_m(glm::inverse(body_to_eye_world)[3]);
     TransparentRanges ranges;
@@ -296,9 +265,7 @@ AircraftEffects::TransparentRanges AircraftEffects::add(
         indices_.clear();
         Shape shape{body_to_eye_world, vertices_, indices_};
         for (const Effect& effect : effects_) {
-            if ((glm::dot(eye_m - effect.position_m, effect.outward) > 0.0) != after) {
-                continue;
-            }
+            if ((glm::dot(eye_m - effect.position_m, effect.outward) > 0.0) != after) { continue; }
             if (effect.kind == Kind::Disc) {
                 if (!is_articulated(effect.pivot)) {
                     draw_disc(effect.position_m, effect.outward, effect.radius_m, shape);

@@ -5,8 +5,8 @@
 #include "models/polygons/polygon_model.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
-#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/articulated_part.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/transparent_geometry.h"
 
 #include <glm/mat4x4.hpp>
@@ -22,8 +22,7 @@ namespace octant::visuals::planning {
 struct EffectStrength {
     /// Hot air behind the nozzles.
     double exhaust = 0.0;
-    /// Afterburners: the motion needs more thrust than there is without them
-    /// (sim::reheat_fraction).
+    /// Afterburners: the motion needs more thrust than there is without them (sim::reheat_fraction).
     double burner = 0.0;
     /// Vapour at the wingtips, under load.
     double vapour = 0.0;
@@ -32,14 +31,14 @@ struct EffectStrength {
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
 EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state);
 
-/// What is seen through around an aircraft: discs of quick rotors and propellers, plumes behind
-/// nozzles, vapour behind wingtips. Each lies on one side of a plane that has all the rest of the
-/// aircraft on its other side, so that it is painted after the aircraft for eyes on its own side
-/// and before it for all others. A rotor without such a plane has no disc.
+/// What is seen through around an aircraft: discs of quick rotors and propellers, plumes behind nozzles, vapour behind
+/// wingtips. Each lies on one side of a plane that has all the rest of the aircraft on its other side, so that it is
+/// painted after the aircraft for eyes on its own side and before it for all others. A rotor without such a plane has
+/// no disc.
 class AircraftEffects {
 public:
-    /// Of a model in body axes: its pivots that turn fast, its parts named as nozzles and
-    /// burners, and the ends of its span, of models with a nozzle.
+    /// Of a model in body axes: its pivots that turn fast, its parts named as nozzles and burners, and the ends of its
+    /// span, of models with a nozzle.
     explicit AircraftEffects(const models::polygons::PolygonModel& model);
 
     bool empty() const { return effects_.empty(); }
@@ -53,14 +52,10 @@ public:
         TransparentRange after;
     };
 
-    /// Adds what is seen to a frame's veils. A rotor that somebody else moves, as `articulated_parts` says of
-    /// the scene's aircraft `number`, has no disc.
-    TransparentRanges
-    add(const glm::dmat4& body_to_eye_world,
-        const EffectStrength& strength,
-        std::span<const ArticulatedPart> articulated_parts,
-        std::uint32_t number,
-        TransparentGeometry& transparents);
+    /// Adds what is seen to a frame's veils. A rotor that somebody else moves, as `articulated_parts` says of the
+    /// scene's aircraft `number`, has no disc.
+    TransparentRanges add(const glm::dmat4& body_to_eye_world, const EffectStrength& strength,
+        std::span<const ArticulatedPart> articulated_parts, std::uint32_t number, TransparentGeometry& transparents);
 
 private:
     enum class Kind : std::uint8_t { Disc, Plume, Vapour };

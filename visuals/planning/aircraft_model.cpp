@@ -19,12 +19,12 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// A triangle of a fan with less than this share of its polygon's area is a sliver: its corners may
-/// come to lie on one line, and drivers differ about which way such a triangle faces.
+/// A triangle of a fan with less than this share of its polygon's area is a sliver: its corners may come to lie on one
+/// line, and drivers differ about which way such a triangle faces.
 constexpr double sliver_share = 1e-6;
 
-/// The corner around which a polygon's triangles have no slivers: the first one, or where several
-/// corners lie on one side with it, the one whose least triangle is largest.
+/// The corner around which a polygon's triangles have no slivers: the first one, or where several corners lie on one
+/// side with it, the one whose least triangle is largest.
 std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint32_t polygon) {
     const auto corners = model.corners(polygon);
     const auto at_m = [&](std::size_t corner) -> const glm::dvec3& {
@@ -45,9 +45,7 @@ std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint3
     };
     double max_m2 = min_area_m2(0);
     std::uint32_t best = 0;
-    if (corners.size() == 3 || max_m2 >= sliver_share * whole_m2) {
-        return best;
-    }
+    if (corners.size() == 3 || max_m2 >= sliver_share * whole_m2) { return best; }
     for (std::uint32_t corner = 1; corner < corners.size(); ++corner) {
         if (const double min_m2 = min_area_m2(corner); min_m2 > max_m2) {
             max_m2 = min_m2;
@@ -60,8 +58,7 @@ std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint3
 class BufferBuilder {
 public:
     BufferBuilder(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
-        : model_(model)
-        , normals_(normals) {
+        : model_(model), normals_(normals) {
         for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
             add_corners(i);
             apexes_.push_back(fan_corner(model, i));
@@ -74,13 +71,12 @@ public:
         scene::IndexRange range;
         range.first_index = static_cast<std::uint32_t>(buffers_.indices.size());
         for (const std::uint32_t polygon : polygons) {
-            const auto [first, count] = std::pair(
-                model_.polygons[polygon].first_corner, model_.polygons[polygon].corner_count);
+            const auto [first, count] =
+                std::pair(model_.polygons[polygon].first_corner, model_.polygons[polygon].corner_count);
             const std::uint32_t apex = apexes_[polygon];
             for (std::uint32_t corner = apex + 2; corner < apex + count; ++corner) {
                 buffers_.indices.insert(
-                    buffers_.indices.end(),
-                    {first + apex, first + (corner - 1) % count, first + corner % count});
+                    buffers_.indices.end(), {first + apex, first + (corner - 1) % count, first + corner % count});
             }
             ++range.polygons;
         }
@@ -93,19 +89,12 @@ public:
 private:
     void add_corners(std::size_t polygon) {
         const glm::vec3 normal(models::polygons::normal_of(model_, polygon));
-        const std::uint32_t colour =
-            models::packed_colour(model_.materials[model_.polygons[polygon].material].colour);
+        const std::uint32_t colour = models::packed_colour(model_.materials[model_.polygons[polygon].material].colour);
         const std::optional<std::uint32_t> pivot = models::polygons::pivot_of(model_, polygon);
         const std::uint32_t part = pivot ? *pivot + 1 : 0;
         for (const std::uint32_t vertex : model_.corners(polygon)) {
-            buffers_.vertices.push_back(
-                {glm::vec3(model_.vertices_m[vertex]),
-                 normals_[buffers_.vertices.size()],
-                 normal,
-                 colour,
-                 colour,
-                 part,
-                 static_cast<std::uint32_t>(polygon)});
+            buffers_.vertices.push_back({glm::vec3(model_.vertices_m[vertex]), normals_[buffers_.vertices.size()],
+                normal, colour, colour, part, static_cast<std::uint32_t>(polygon)});
         }
     }
 
@@ -116,15 +105,12 @@ private:
     scene::ModelBuffers buffers_;
 };
 
-/// A model in which what touches a side of a polygon is a corner of it, so that both are rounded
-/// alike on the screen: where a side has no corner of its own in such a place, single pixels
-/// between the two may belong to neither. Normals there are those of the side.
-models::polygons::PolygonModel
-closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
+/// A model in which what touches a side of a polygon is a corner of it, so that both are rounded alike on the screen:
+/// where a side has no corner of its own in such a place, single pixels between the two may belong to neither. Normals
+/// there are those of the side.
+models::polygons::PolygonModel closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
     const auto on_sides = models::planar::t_junctions(model);
-    if (on_sides.empty()) {
-        return model;
-    }
+    if (on_sides.empty()) { return model; }
     std::vector<std::uint32_t> corners;
     std::vector<glm::vec3> corner_normals;
     auto next = on_sides.begin();
@@ -153,16 +139,14 @@ closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
 std::vector<std::uint32_t> first_vertices_of(const models::polygons::PolygonModel& closed) {
     std::vector<std::uint32_t> first;
     first.reserve(closed.polygons.size() + 1);
-    for (const models::polygons::Polygon& polygon : closed.polygons) {
-        first.push_back(polygon.first_corner);
-    }
+    for (const models::polygons::Polygon& polygon : closed.polygons) { first.push_back(polygon.first_corner); }
     first.push_back(static_cast<std::uint32_t>(closed.corner_vertices.size()));
     return first;
 }
 
 /// Where the triangles of each polygon of a list begin, and where those of the last one end.
-std::vector<std::uint32_t>
-first_indices_of(const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
+std::vector<std::uint32_t> first_indices_of(
+    const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
     std::vector<std::uint32_t> first{0};
     first.reserve(list.size() + 1);
     for (const std::uint32_t polygon : list) {
@@ -173,24 +157,15 @@ first_indices_of(const models::polygons::PolygonModel& model, std::span<const st
 
 } // namespace
 
-scene::IndexRange
-index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range) {
+scene::IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range) {
     const std::uint32_t first = model.first_indices[range.first];
-    return {
-        first,
-        model.first_indices[range.first + range.count] - first,
-        static_cast<int>(range.count),
+    return {first, model.first_indices[range.first + range.count] - first, static_cast<int>(range.count),
         static_cast<std::uint32_t>(range.first)};
 }
 
-AircraftModel aircraft_model(
-    models::polygons::PolygonModel polygons,
-    draworder::DrawOrder order,
-    const glm::dvec3& eye_m,
-    std::vector<glm::vec3> normals) {
-    if (normals.empty()) {
-        normals = shading::corner_normals(polygons);
-    }
+AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder::DrawOrder order,
+    const glm::dvec3& eye_m, std::vector<glm::vec3> normals) {
+    if (normals.empty()) { normals = shading::corner_normals(polygons); }
     assert(normals.size() == polygons.corner_vertices.size());
     const models::polygons::PolygonModel drawn = closed(polygons, normals);
     shading::ShadedPolygons shaded = shading::shaded_polygons(drawn, normals);
@@ -202,19 +177,8 @@ AircraftModel aircraft_model(
     const double radius_m = models::polygons::radius_m(polygons);
     const AxisAlignedBox hull = model_bounds(polygons);
     scene::ModelBuffers buffers = maker.take();
-    return {
-        std::move(polygons),
-        std::move(order),
-        std::move(buffers),
-        first_vertices_of(drawn),
-        std::move(first_indices),
-        all,
-        std::move(file_list),
-        hull,
-        {radius_m, eye_m},
-        std::move(shaded),
-        {},
-        nullptr,
+    return {std::move(polygons), std::move(order), std::move(buffers), first_vertices_of(drawn),
+        std::move(first_indices), all, std::move(file_list), hull, {radius_m, eye_m}, std::move(shaded), {}, nullptr,
         {0.0}};
 }
 
@@ -229,24 +193,19 @@ void include(AircraftModel& model, const glm::dvec3& point_m) {
 
 } // namespace
 
-void add_levels(
-    AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m) {
+void add_levels(AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m) {
     model.errors_m.clear();
     for (const MeshSource& source : sources) {
         model.levels.push_back(append_level(model.buffers, source));
         model.errors_m.push_back(source.error_m);
-        for (const glm::dvec3& vertex_m : source.mesh->vertices_m) {
-            include(model, vertex_m);
-        }
+        for (const glm::dvec3& vertex_m : source.mesh->vertices_m) { include(model, vertex_m); }
     }
     model.errors_m.push_back(polygons_error_m);
     assert(std::ranges::is_sorted(model.errors_m));
 }
 
 void add_progressive(
-    AircraftModel& model,
-    std::shared_ptr<const refine::ProgressiveMesh> mesh,
-    double polygons_error_m) {
+    AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m) {
     const glm::dvec3& origin_m = mesh->parts().origin_m;
     for (std::uint32_t node = 0; node < mesh->node_count(); ++node) {
         include(model, origin_m + glm::dvec3(mesh->position_m(node)));
@@ -288,9 +247,7 @@ void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, flo
 
 double reach_below_m(const AircraftModel& model) {
     float max_m = 0.0F;
-    for (const scene::ModelVertex& vertex : model.buffers.vertices) {
-        max_m = std::max(max_m, vertex.position_m.z);
-    }
+    for (const scene::ModelVertex& vertex : model.buffers.vertices) { max_m = std::max(max_m, vertex.position_m.z); }
     return static_cast<double>(max_m);
 }
 

@@ -18,10 +18,9 @@
 
 namespace octant::visuals::planning {
 
-/// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where
-/// another polygon's corner lies on a side; one index buffer that holds the polygons of the order's
-/// flat list and, behind them, all polygons in file order. As meshes, where it has levels of
-/// detail: behind both.
+/// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where another polygon's
+/// corner lies on a side; one index buffer that holds the polygons of the order's flat list and, behind them, all
+/// polygons in file order. As meshes, where it has levels of detail: behind both.
 struct AircraftModel {
     /// The polygons that the order speaks of.
     models::polygons::PolygonModel polygons;
@@ -45,11 +44,11 @@ struct AircraftModel {
     std::shared_ptr<const refine::ProgressiveMesh> progressive;
     /// Of each representation: the levels or the progressive mesh, then the polygons.
     std::vector<double> errors_m;
-    /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons.
-    /// Their polygons have the number 0 each: all smooth, or all flat.
+    /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons. Their polygons have
+    /// the number 0 each: all smooth, or all flat.
     scene::IndexRange turning{};
-    /// With a progressive mesh: its transparent surfaces, which are blended over all others. Their
-    /// polygons have the number 0 each.
+    /// With a progressive mesh: its transparent surfaces, which are blended over all others. Their polygons have the
+    /// number 0 each.
     scene::IndexRange transparent{};
     /// How much of what is behind the transparent surfaces hide.
     float opacity = 1.0F;
@@ -71,24 +70,19 @@ struct AircraftModel {
 /// The part of a model's index buffer that holds a range of its order.
 scene::IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range);
 
-/// Makes a model ready to be drawn. `pilot_eye_m`: body axes. `normals`: one a corner, for smooth
-/// shading; empty = made here by crease angle, for polygons that are whole. Loading work.
-AircraftModel aircraft_model(
-    models::polygons::PolygonModel polygons,
-    draworder::DrawOrder order,
-    const glm::dvec3& pilot_eye_m,
-    std::vector<glm::vec3> normals = {});
+/// Makes a model ready to be drawn. `pilot_eye_m`: body axes. `normals`: one a corner, for smooth shading; empty = made
+/// here by crease angle, for polygons that are whole. Loading work.
+AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder::DrawOrder order,
+    const glm::dvec3& pilot_eye_m, std::vector<glm::vec3> normals = {});
 
-/// Gives a model levels of detail, finest first, of which its polygons are the last one, wrong by
-/// `polygons_error_m`. Errors must not fall (asserted). Loading work.
+/// Gives a model levels of detail, finest first, of which its polygons are the last one, wrong by `polygons_error_m`.
+/// Errors must not fall (asserted). Loading work.
 void add_levels(AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m);
 
-/// Gives a model a mesh that is refined in each frame; far away, where `polygons_error_m` is
-/// little, it is drawn as its polygons. Loading work.
+/// Gives a model a mesh that is refined in each frame; far away, where `polygons_error_m` is little, it is drawn as its
+/// polygons. Loading work.
 void add_progressive(
-    AircraftModel& model,
-    std::shared_ptr<const refine::ProgressiveMesh> mesh,
-    double polygons_error_m);
+    AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m);
 
 /// A part of a mesh aircraft that turns by a pivot of its polygons.
 struct TurningPartMesh {
@@ -104,12 +98,12 @@ void add_turning_parts(AircraftModel& model, std::span<const TurningPartMesh> pa
 /// Gives a model with a progressive mesh its transparent surfaces; body axes. Loading work.
 void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
 
-/// How far a model reaches below its reference point when it stands upright, metres; parts that
-/// turn as at the time 0. Goes with the corners: to be asked once, at loading.
+/// How far a model reaches below its reference point when it stands upright, metres; parts that turn as at the time 0.
+/// Goes with the corners: to be asked once, at loading.
 double reach_below_m(const AircraftModel& model);
 
-/// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
-/// of the length behind the nose at the height of the top.
+/// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter of the length
+/// behind the nose at the height of the top.
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::planning

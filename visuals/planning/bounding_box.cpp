@@ -23,14 +23,11 @@ void widen(AxisAlignedBox& extent, const glm::dvec3& min_m, const glm::dvec3& ma
 }
 
 glm::dvec3 signs_of(int corner) {
-    return {
-        (corner & 1) != 0 ? 1.0 : -1.0,
-        (corner & 2) != 0 ? 1.0 : -1.0,
-        (corner & 4) != 0 ? 1.0 : -1.0};
+    return {(corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0};
 }
 
-/// Calls edge(corner, other corner) for each edge of the outline between the sides of which
-/// `seen` says yes and those of which it says no.
+/// Calls edge(corner, other corner) for each edge of the outline between the sides of which `seen` says yes and those
+/// of which it says no.
 template <class Seen, class Edge>
 void for_each_outline_edge(const Seen& seen, const Edge& edge) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -41,8 +38,7 @@ void for_each_outline_edge(const Seen& seen, const Edge& edge) {
             const int v_max = which >> 1;
             if (seen(2 * u + u_max) != seen(2 * v + v_max)) {
                 const int corner = (u_max << u) | (v_max << v);
-                edge(
-                    static_cast<std::size_t>(corner), static_cast<std::size_t>(corner | 1 << axis));
+                edge(static_cast<std::size_t>(corner), static_cast<std::size_t>(corner | 1 << axis));
             }
         }
     }
@@ -64,22 +60,18 @@ void forbid_across(OcclusionPair& pair, const OrientedBox& a, const OrientedBox&
     const double b_m = glm::dot(unit, b.centre_m);
     const double a_reach_m = reach_m(a, unit);
     const double b_reach_m = reach_m(b, unit);
-    if (std::abs(b_m - a_m) <= a_reach_m + b_reach_m) {
-        return;
-    }
+    if (std::abs(b_m - a_m) <= a_reach_m + b_reach_m) { return; }
     pair.intersect = false;
     const double up = b_m > a_m ? 1.0 : -1.0;
-    // Along up * unit: a, then b, the eye at zero. An eye below the beginning of b cannot have a
-    // hidden by b.
+    // Along up * unit: a, then b, the eye at zero. An eye below the beginning of b cannot have a hidden by b.
     pair.b_occludes_a = pair.b_occludes_a && up * b_m - b_reach_m < 0.0;
     pair.a_occludes_b = pair.a_occludes_b && up * a_m + a_reach_m > 0.0;
 }
 
 bool are_disjoint_on_screen(const ViewCone& cone, const std::array<glm::dvec3, 8>& corners_m) {
     return std::ranges::any_of(cone.planes(), [&](const glm::dvec3& normal) {
-        return std::ranges::all_of(corners_m, [&](const glm::dvec3& corner_m) {
-            return glm::dot(normal, corner_m) <= 0.0;
-        });
+        return std::ranges::all_of(
+            corners_m, [&](const glm::dvec3& corner_m) { return glm::dot(normal, corner_m) <= 0.0; });
     });
 }
 
@@ -89,8 +81,7 @@ AxisAlignedBox rotation_bounds(const models::polygons::Pivot& pivot, const glm::
     const glm::dvec3 arm_m = point_m - pivot.point_m;
     const glm::dvec3 along_m = pivot.axis * glm::dot(arm_m, pivot.axis);
     const double radius_m = glm::length(arm_m - along_m);
-    const glm::dvec3 reach_m =
-        radius_m * glm::sqrt(glm::max(1.0 - pivot.axis * pivot.axis, glm::dvec3(0.0)));
+    const glm::dvec3 reach_m = radius_m * glm::sqrt(glm::max(1.0 - pivot.axis * pivot.axis, glm::dvec3(0.0)));
     const glm::dvec3 centre_m = pivot.point_m + along_m;
     return {centre_m - reach_m, centre_m + reach_m};
 }
@@ -112,43 +103,30 @@ AxisAlignedBox model_bounds(const models::polygons::PolygonModel& model) {
 }
 
 OrientedBox placed_box(
-    const AxisAlignedBox& extent,
-    const glm::dvec3& position_m,
-    const glm::dquat& body_to_world,
-    double margin_m) {
-    return {
-        position_m + body_to_world * (0.5 * (extent.min_m + extent.max_m)),
-        glm::mat3_cast(body_to_world),
+    const AxisAlignedBox& extent, const glm::dvec3& position_m, const glm::dquat& body_to_world, double margin_m) {
+    return {position_m + body_to_world * (0.5 * (extent.min_m + extent.max_m)), glm::mat3_cast(body_to_world),
         0.5 * (extent.max_m - extent.min_m) + margin_m};
 }
 
 std::array<glm::dvec3, 8> corners_of(const OrientedBox& box) {
     std::array<glm::dvec3, 8> corners_m;
     for (int corner = 0; corner < 8; ++corner) {
-        corners_m[static_cast<std::size_t>(corner)] =
-            box.centre_m + box.axes * (box.half_m * signs_of(corner));
+        corners_m[static_cast<std::size_t>(corner)] = box.centre_m + box.axes * (box.half_m * signs_of(corner));
     }
     return corners_m;
 }
 
 AxisAlignedBox world_bounds(const OrientedBox& box) {
     glm::dvec3 reach(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        reach += glm::abs(box.axes[axis]) * box.half_m[axis];
-    }
+    for (int axis = 0; axis < 3; ++axis) { reach += glm::abs(box.axes[axis]) * box.half_m[axis]; }
     return {box.centre_m - reach, box.centre_m + reach};
 }
 
 OrientedBox oriented_box(const AxisAlignedBox& extent) {
-    return {
-        0.5 * (extent.min_m + extent.max_m),
-        glm::dmat3(1.0),
-        0.5 * (extent.max_m - extent.min_m)};
+    return {0.5 * (extent.min_m + extent.max_m), glm::dmat3(1.0), 0.5 * (extent.max_m - extent.min_m)};
 }
 
-double radius_m(const OrientedBox& box) {
-    return glm::length(box.half_m);
-}
+double radius_m(const OrientedBox& box) { return glm::length(box.half_m); }
 
 Plane side_of(const OrientedBox& box, int side) {
     const int axis = side / 2;
@@ -170,8 +148,7 @@ bool contains_eye(const OrientedBox& box) {
 ViewCone cone_of(const OrientedBox& box) {
     const std::array<glm::dvec3, 8> corners_m = corners_of(box);
     ViewCone cone;
-    for_each_outline_edge(
-        [&](int side) { return side_of(box, side).offset_m > 0.0; },
+    for_each_outline_edge([&](int side) { return side_of(box, side).offset_m > 0.0; },
         [&](std::size_t from, std::size_t to) {
             const glm::dvec3 across = glm::cross(corners_m[from], corners_m[to]);
             const double size = glm::length(across);
@@ -186,17 +163,14 @@ ViewCone cone_of(const OrientedBox& box) {
 LightPrism prism_of(const OrientedBox& box, const glm::dvec3& from) {
     const std::array<glm::dvec3, 8> corners_m = corners_of(box);
     LightPrism prism;
-    for_each_outline_edge(
-        [&](int side) { return glm::dot(side_of(box, side).normal, from) > 0.0; },
+    for_each_outline_edge([&](int side) { return glm::dot(side_of(box, side).normal, from) > 0.0; },
         [&](std::size_t first, std::size_t second) {
             const glm::dvec3 across = glm::cross(corners_m[second] - corners_m[first], from);
             const double size = glm::length(across);
             if (size > 0.0 && prism.count < 6) {
-                const double inward =
-                    glm::dot(across, box.centre_m - corners_m[first]) < 0.0 ? -1.0 : 1.0;
+                const double inward = glm::dot(across, box.centre_m - corners_m[first]) < 0.0 ? -1.0 : 1.0;
                 const glm::dvec3 normal = across * (inward / size);
-                prism.planes[static_cast<std::size_t>(prism.count++)] = {
-                    normal, -glm::dot(normal, corners_m[first])};
+                prism.planes[static_cast<std::size_t>(prism.count++)] = {normal, -glm::dot(normal, corners_m[first])};
             }
         });
     return prism;
@@ -220,13 +194,10 @@ OcclusionPair occlusion_pair(const OrientedBox& a, const OrientedBox& b) {
     for (int i = 0; i < 3; ++i) {
         forbid_across(pair, a, b, a.axes[i]);
         forbid_across(pair, a, b, b.axes[i]);
-        for (int k = 0; k < 3; ++k) {
-            forbid_across(pair, a, b, glm::cross(a.axes[i], b.axes[k]));
-        }
+        for (int k = 0; k < 3; ++k) { forbid_across(pair, a, b, glm::cross(a.axes[i], b.axes[k])); }
     }
     if (!pair.intersect && (pair.a_occludes_b || pair.b_occludes_a) && !contains_eye(a) && !contains_eye(b) &&
-        (are_disjoint_on_screen(cone_of(a), corners_of(b)) ||
-         are_disjoint_on_screen(cone_of(b), corners_of(a)))) {
+        (are_disjoint_on_screen(cone_of(a), corners_of(b)) || are_disjoint_on_screen(cone_of(b), corners_of(a)))) {
         pair.a_occludes_b = false;
         pair.b_occludes_a = false;
     }

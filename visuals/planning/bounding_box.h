@@ -35,10 +35,7 @@ struct OrientedBox {
 
 /// The hull of an aircraft at `position_m` (eye at the origin), wider by `margin_m` on all sides.
 OrientedBox placed_box(
-    const AxisAlignedBox& extent,
-    const glm::dvec3& position_m,
-    const glm::dquat& body_to_world,
-    double margin_m);
+    const AxisAlignedBox& extent, const glm::dvec3& position_m, const glm::dquat& body_to_world, double margin_m);
 
 std::array<glm::dvec3, 8> corners_of(const OrientedBox& box);
 
@@ -60,22 +57,20 @@ void clip_to_box(ViewPolygon& polygon, const OrientedBox& box, ViewPolygon& scra
 /// True for an eye inside the box or on it.
 bool contains_eye(const OrientedBox& box);
 
-/// The planes through the eye and the outline of a box as the eye sees it, unit normals pointing
-/// inside. The box, and what it holds, lies in front of all of them.
+/// The planes through the eye and the outline of a box as the eye sees it, unit normals pointing inside. The box, and
+/// what it holds, lies in front of all of them.
 struct ViewCone {
     std::array<glm::dvec3, 6> normals{};
     int count = 0;
 
-    std::span<const glm::dvec3> planes() const {
-        return std::span(normals).first(static_cast<std::size_t>(count));
-    }
+    std::span<const glm::dvec3> planes() const { return std::span(normals).first(static_cast<std::size_t>(count)); }
 };
 
 /// Seen from an eye outside the box.
 ViewCone cone_of(const OrientedBox& box);
 
-/// The same for light that comes from the unit vector `from`: planes along the light, unit normals
-/// pointing inside, with the box in front of all of them.
+/// The same for light that comes from the unit vector `from`: planes along the light, unit normals pointing inside,
+/// with the box in front of all of them.
 struct LightPrism {
     std::array<Plane, 6> planes{};
     int count = 0;
@@ -86,8 +81,7 @@ LightPrism prism_of(const OrientedBox& box, const glm::dvec3& from);
 /// Multiple of `ray` (from the eye, into the box's cone) at which it enters the box.
 double entry_distance(const OrientedBox& box, const glm::dvec3& ray);
 
-/// Which of two boxes can hide part of the other from the eye; for boxes that do not meet at most
-/// one can.
+/// Which of two boxes can hide part of the other from the eye; for boxes that do not meet at most one can.
 struct OcclusionPair {
     bool intersect = false;
     bool a_occludes_b = false;

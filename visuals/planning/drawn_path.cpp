@@ -24,8 +24,7 @@ DrawnPath drawn_path(const sim::Trajectory& trajectory, std::span<const NamedTim
     }
     for (const NamedTime& leg : legs) {
         const double place = std::max((leg.time_s - path.first_s) / path.step_s, 0.0);
-        path.legs.push_back(
-            {std::min(static_cast<std::size_t>(std::lround(place)), last), leg.name});
+        path.legs.push_back({std::min(static_cast<std::size_t>(std::lround(place)), last), leg.name});
     }
     return path;
 }

@@ -11,8 +11,7 @@
 
 namespace octant::visuals::planning {
 
-/// The path of an aircraft as it is drawn: points at even times, and where its legs begin. World
-/// axes.
+/// The path of an aircraft as it is drawn: points at even times, and where its legs begin. World axes.
 struct DrawnPath {
     struct Point {
         glm::dvec3 position_m{0.0};

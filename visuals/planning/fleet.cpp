@@ -16,8 +16,8 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// What the boxes around aircraft are made wider by, so that rounding leaves nothing outside: wider
-/// ones only cost time.
+/// What the boxes around aircraft are made wider by, so that rounding leaves nothing outside: wider ones only cost
+/// time.
 constexpr double hull_margin_px = 0.25;
 constexpr double hull_margin_m = 0.01;
 
@@ -45,41 +45,28 @@ sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, doubl
 
 scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisplay look) {
     const AircraftModel& model = *aircraft.model;
-    if (look == scene::ModelDisplay::None ||
-        (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
+    if (look == scene::ModelDisplay::None || (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
         return {};
     }
-    if (look == scene::ModelDisplay::Shading) {
-        return scene::shading_tints;
-    }
-    const double radius_m =
-        model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
-    const double error_m =
-        is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
+    if (look == scene::ModelDisplay::Shading) { return scene::shading_tints; }
+    const double radius_m = model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
+    const double error_m = is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
     const std::uint32_t colour = scene::level_colour(error_m, radius_m);
     return {colour, colour};
 }
 
 } // namespace
 
-Fleet::Fleet(const Scene& scene, const scene::Settings& settings)
-    : scene_(scene)
-    , settings_(settings) {
-    for (const std::uint32_t model : scene.aircraft) {
-        add(model);
-    }
+Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene), settings_(settings) {
+    for (const std::uint32_t model : scene.aircraft) { add(model); }
     bounding_boxes_.resize(placed_.size());
-    if (scene.cockpit && settings.view.kind == scene::View::Cockpit) {
-        add(*scene.cockpit);
-    }
+    if (scene.cockpit && settings.view.kind == scene::View::Cockpit) { add(*scene.cockpit); }
     for (PlacedAircraft& aircraft : placed_) {
         const AircraftModel& model = *aircraft.model;
-        aircraft.parts =
-            std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
-        refined_.push_back(
-            model.progressive ? std::make_unique<RefinedAircraft>(
-                                    model.progressive, refiner_options(settings), settings.shading)
-                              : nullptr);
+        aircraft.parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+        refined_.push_back(model.progressive ? std::make_unique<RefinedAircraft>(
+                                                   model.progressive, refiner_options(settings), settings.shading)
+                                             : nullptr);
     }
     was_refined_.resize(placed_.size());
 }
@@ -104,10 +91,7 @@ void Fleet::add(std::uint32_t model) {
     parts_.resize(parts_.size() + pivots + 1);
 }
 
-void Fleet::place(
-    const FrameView& view,
-    const AircraftStates& aircraft,
-    std::span<const AircraftEffects> effects) {
+void Fleet::place(const FrameView& view, const AircraftStates& aircraft, std::span<const AircraftEffects> effects) {
     const glm::dvec3& eye_m = view.camera.eye_m;
     for (std::size_t i = 0; i < aircraft.states.size(); ++i) {
         const sim::AircraftState state = sunk(aircraft.states[i], eye_m, view.earth_radius_m);
@@ -122,14 +106,10 @@ void Fleet::place(
     }
 }
 
-OrientedBox Fleet::bounding_box_of(
-    const PlacedAircraft& aircraft,
-    const sim::AircraftState& state,
-    const AircraftEffects* effects,
-    const FrameView& view) const {
+OrientedBox Fleet::bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
+    const AircraftEffects* effects, const FrameView& view) const {
     const glm::dvec3 position_m = state.position_m - view.camera.eye_m;
-    const double margin_m =
-        hull_margin_m + hull_margin_px * view.pixel_rad * glm::length(position_m);
+    const double margin_m = hull_margin_m + hull_margin_px * view.pixel_rad * glm::length(position_m);
     AxisAlignedBox extent = aircraft.model->hull;
     if (effects != nullptr && !effects->empty()) {
         extent.min_m = glm::min(extent.min_m, effects->extent().min_m);
@@ -138,61 +118,43 @@ OrientedBox Fleet::bounding_box_of(
     return placed_box(extent, position_m, state.body_to_world, margin_m);
 }
 
-void Fleet::place(
-    PlacedAircraft& aircraft,
-    const sim::AircraftState& state,
-    std::span<const ArticulatedPart> articulated_parts,
-    const FrameView& view) {
+void Fleet::place(PlacedAircraft& aircraft, const sim::AircraftState& state,
+    std::span<const ArticulatedPart> articulated_parts, const FrameView& view) {
     const glm::dvec3& eye_m = view.camera.eye_m;
     choose_model(aircraft, glm::length(state.position_m - eye_m), view);
     const AircraftModel& model = *aircraft.model;
-    const auto parts =
-        std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+    const auto parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
     place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
     const models::polygons::PolygonModel& numbered =
         aircraft.far_model == nullptr ? model.polygons : aircraft.near_model->polygons;
     for (const ArticulatedPart& part : articulated_parts) {
-        if (part.aircraft == aircraft.number) {
-            place_articulated_part(model.polygons, numbered, part, parts);
-        }
+        if (part.aircraft == aircraft.number) { place_articulated_part(model.polygons, numbered, part, parts); }
     }
-    const glm::dvec3 eye_in_body_m =
-        draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
+    const glm::dvec3 eye_in_body_m = draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
     aircraft.cell = model.order.has_one_cell_per_eye() ? model.order.cell_of(eye_in_body_m) : 0;
     choose_representation(aircraft, view);
     aircraft.tints = model_tints(aircraft, settings_.shading.show_model);
     choose_ranges(aircraft, eye_in_body_m);
     aircraft.polygon_count = 0;
-    for (const scene::IndexRange& range : aircraft.ranges) {
-        aircraft.polygon_count += range.polygons;
-    }
+    for (const scene::IndexRange& range : aircraft.ranges) { aircraft.polygon_count += range.polygons; }
 }
 
-/// Chooses between an aircraft's own model and the one that stands in for it, by the rule for
-/// levels of detail.
+/// Chooses between an aircraft's own model and the one that stands in for it, by the rule for levels of detail.
 void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view) {
-    if (aircraft.far_model == nullptr) {
-        return;
-    }
+    if (aircraft.far_model == nullptr) { return; }
     const double nearest_m = std::max(distance_m - aircraft.near_model->subject.radius_m, 0.0);
     const std::array errors_m{0.0, aircraft.far_error_m};
-    const bool far = select_level(
-                         errors_m,
-                         settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
+    const bool far = select_level(errors_m, settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
                          is_far(aircraft) ? 1 : 0) == 1;
     aircraft.model = far ? aircraft.far_model : aircraft.near_model;
     aircraft.model_index = far ? aircraft.far_index : aircraft.near_index;
-    aircraft.parts =
-        std::span(parts_).subspan(aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
+    aircraft.parts = std::span(parts_).subspan(aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
 }
 
-/// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of
-/// all.
+/// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of all.
 void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& view) const {
     const AircraftModel& model = *aircraft.model;
-    if (model.polygons_from_mesh() == 0) {
-        return;
-    }
+    if (model.polygons_from_mesh() == 0) { return; }
     const glm::dvec3 place_m(aircraft.parts[0][3]);
     const double radius_m = model.subject.radius_m;
     if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, view.frustum)) {
@@ -201,26 +163,20 @@ void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& vie
         return;
     }
     const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
-    aircraft.representation = static_cast<std::size_t>(select_level(
-        model.errors_m,
-        settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
-        aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
+    aircraft.representation = static_cast<std::size_t>(
+        select_level(model.errors_m, settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
+            aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
     aircraft.is_represented = true;
 }
 
-/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh and of one that is not
-/// there nothing.
+/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh and of one that is not there nothing.
 void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
     aircraft.list = {};
-    if (aircraft.is_hidden) {
-        return;
-    }
+    if (aircraft.is_hidden) { return; }
     if (is_mesh(aircraft)) {
-        if (!is_refined(aircraft)) {
-            aircraft.ranges.push_back(model.levels[aircraft.representation].range);
-        }
+        if (!is_refined(aircraft)) { aircraft.ranges.push_back(model.levels[aircraft.representation].range); }
         return;
     }
     if (settings_.surface.hidden_surface != scene::HiddenSurface::Octant) {
@@ -242,8 +198,7 @@ void Fleet::refine(const FrameView& view) {
         const bool before = was_refined_[i] != 0;
         was_refined_[i] = is_refined(aircraft) ? 1 : 0;
         if (is_refined(aircraft)) {
-            const refine::RefinedFrame frame =
-                refined_[i]->update(aircraft.parts[0], view, !before);
+            const refine::RefinedFrame frame = refined_[i]->update(aircraft.parts[0], view, !before);
             splits_ += static_cast<int>(frame.splits);
             collapses_ += static_cast<int>(frame.collapses);
             aircraft.polygon_count = refined_[i]->triangles();

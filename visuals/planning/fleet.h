@@ -27,24 +27,19 @@ struct AircraftStates {
     std::span<const ArticulatedPart> articulated_parts = {};
 };
 
-/// The aircraft of one view, and the cockpit around its eye: where each one is in a frame, as what
-/// it is drawn (polygons in the order of its eye point, a level of detail, or a mesh refined for
-/// the frame), and the box that stands in for it. Levels and refined meshes go on from frame to
-/// frame. Keeps its memory.
+/// The aircraft of one view, and the cockpit around its eye: where each one is in a frame, as what it is drawn
+/// (polygons in the order of its eye point, a level of detail, or a mesh refined for the frame), and the box that
+/// stands in for it. Levels and refined meshes go on from frame to frame. Keeps its memory.
 class Fleet {
 public:
     /// The scene and the settings must outlive it.
     Fleet(const Scene& scene, const scene::Settings& settings);
 
-    /// Decides where each aircraft is, which list it is painted by and which box stands in for it.
-    /// `effects`: one for each of Scene::aircraft, which its box holds, too, or none at all.
-    void place(
-        const FrameView& view,
-        const AircraftStates& aircraft,
-        std::span<const AircraftEffects> effects);
+    /// Decides where each aircraft is, which list it is painted by and which box stands in for it. `effects`: one for
+    /// each of Scene::aircraft, which its box holds, too, or none at all.
+    void place(const FrameView& view, const AircraftStates& aircraft, std::span<const AircraftEffects> effects);
 
-    /// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep
-    /// theirs as they are.
+    /// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep theirs as they are.
     void refine(const FrameView& view);
 
     /// Those of Scene::aircraft, then the cockpit where the view is from inside one.
@@ -73,19 +68,13 @@ public:
 
 private:
     void add(std::uint32_t model);
-    void place(
-        PlacedAircraft& aircraft,
-        const sim::AircraftState& state,
-        std::span<const ArticulatedPart> articulated_parts,
-        const FrameView& view);
+    void place(PlacedAircraft& aircraft, const sim::AircraftState& state,
+        std::span<const ArticulatedPart> articulated_parts, const FrameView& view);
     void choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view);
     void choose_representation(PlacedAircraft& aircraft, const FrameView& view) const;
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
-    OrientedBox bounding_box_of(
-        const PlacedAircraft& aircraft,
-        const sim::AircraftState& state,
-        const AircraftEffects* effects,
-        const FrameView& view) const;
+    OrientedBox bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
+        const AircraftEffects* effects, const FrameView& view) const;
 
     const Scene& scene_;
     const scene::Settings& settings_;

@@ -33,9 +33,8 @@ struct RibbonView {
     double gap_m = 15.0;
 };
 
-/// A path as a ribbon along the wings, in dashes of about equal times with gaps between them, so
-/// that each has a place of its own in the painting order. Legs have two colours in turn. Keeps its
-/// memory.
+/// A path as a ribbon along the wings, in dashes of about equal times with gaps between them, so that each has a place
+/// of its own in the painting order. Legs have two colours in turn. Keeps its memory.
 class PathRibbon {
 public:
     /// The path must outlive the ribbon.
@@ -62,7 +61,8 @@ private:
 
     AircraftPoint aircraft_point(double time_s) const;
     void add_dash(std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents);
-    void add_ribbon_section(std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents);
+    void add_ribbon_section(
+        std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents);
 
     const DrawnPath& path_;
     std::size_t points_per_dash_ = 1;
@@ -71,9 +71,8 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
-/// All that one view sees through: clouds, the ribbon of the first aircraft's path, effects around
-/// aircraft. Each has its range of the frame's veils, so that it can be blended at its place in the
-/// painting order. Keeps its memory.
+/// All that one view sees through: clouds, the ribbon of the first aircraft's path, effects around aircraft. Each has
+/// its range of the frame's veils, so that it can be blended at its place in the painting order. Keeps its memory.
 class FrameTransparents {
 public:
     /// The scene must outlive it. Loading work.
@@ -85,28 +84,21 @@ public:
     /// The effects of Scene::aircraft; none at all where the settings want none.
     std::span<const AircraftEffects> effects() const { return effects_; }
 
-    /// Makes the veils of a frame, seen by the matrices and through the haze of its plan, which
-    /// must stay until the next frame. `fleet`: as it is placed for the same frame.
-    void make(
-        const FrameView& view,
-        const AircraftStates& aircraft,
-        const Fleet& fleet,
-        const scene::FramePlan& plan);
+    /// Makes the veils of a frame, seen by the matrices and through the haze of its plan, which must stay until the
+    /// next frame. `fleet`: as it is placed for the same frame.
+    void make(const FrameView& view, const AircraftStates& aircraft, const Fleet& fleet, const scene::FramePlan& plan);
 
     /// All of them together; valid until the next frame.
     scene::OverlayDraw draw() const { return transparents_.draw(); }
 
     /// The height of the clouds, which lie above all ground; nothing = there are none.
-    std::optional<double> cloud_height_m() const {
-        return clouds_ ? std::optional(cloud_height_m_) : std::nullopt;
-    }
+    std::optional<double> cloud_height_m() const { return clouds_ ? std::optional(cloud_height_m_) : std::nullopt; }
 
     const TransparentRange& clouds() const { return cloud_range_; }
 
     /// The effects of one aircraft; empty ranges where it shows none.
     AircraftEffects::TransparentRanges effects_of(std::uint32_t aircraft) const {
-        return aircraft < effect_ranges_.size() ? effect_ranges_[aircraft]
-                                                : AircraftEffects::TransparentRanges();
+        return aircraft < effect_ranges_.size() ? effect_ranges_[aircraft] : AircraftEffects::TransparentRanges();
     }
 
     bool has_ribbon() const { return ribbon_.has_value(); }

@@ -2,16 +2,10 @@
 
 namespace octant::visuals::planning {
 
-FrameView
-frame_view(const scene::Camera& camera, const glm::ivec2& size_px, double earth_radius_m) {
+FrameView frame_view(const scene::Camera& camera, const glm::ivec2& size_px, double earth_radius_m) {
     const double aspect = static_cast<double>(size_px.x) / size_px.y;
     return {
-        camera,
-        size_px,
-        aspect,
-        1.0 / focal_px(camera, size_px.y),
-        frustum_normals(camera, aspect),
-        earth_radius_m};
+        camera, size_px, aspect, 1.0 / focal_px(camera, size_px.y), frustum_normals(camera, aspect), earth_radius_m};
 }
 
 bool in_view(const OrientedBox& box, const FrameView& view) {

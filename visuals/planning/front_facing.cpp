@@ -12,8 +12,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// Twice what renderers round screen positions to: it bounds the error of both ends of an
-/// edge.
+/// Twice what renderers round screen positions to: it bounds the error of both ends of an edge.
 constexpr float rounding_px = 2.0F * static_cast<float>(scene::screen_step_px);
 
 float sum_of_parts(const glm::vec3& v) {
@@ -21,9 +20,9 @@ float sum_of_parts(const glm::vec3& v) {
     return size.x + size.y + size.z;
 }
 
-/// Corners relative to the eye. The triple product is the triangle's doubled area on the screen
-/// times distance cubed times the pixel's angle squared; rounding moves that area by at most
-/// rounding_px times the outline. Sums of parts bound lengths from above without a square root.
+/// Corners relative to the eye. The triple product is the triangle's doubled area on the screen times distance cubed
+/// times the pixel's angle squared; rounding moves that area by at most rounding_px times the outline. Sums of parts
+/// bound lengths from above without a square root.
 enum class Facing { Towards, AwayWithinTolerance, Away };
 
 Facing facing_of(const scene::TriangleDraw& draw, const std::uint32_t* corners, float pixel_rad) {
@@ -39,13 +38,9 @@ Facing facing_of(const scene::TriangleDraw& draw, const std::uint32_t* corners, 
     return away > doubt ? Facing::Away : away > 0.0F ? Facing::AwayWithinTolerance : Facing::Towards;
 }
 
-/// Copies the triangles first .. last - 1 that face the eye to the beginning of `kept`, which must
-/// have room for all of them. Returns the number of indices copied.
-std::size_t remove_back_faces(
-    const scene::TriangleDraw& draw,
-    std::size_t first,
-    std::size_t last,
-    float pixel_rad,
+/// Copies the triangles first .. last - 1 that face the eye to the beginning of `kept`, which must have room for all of
+/// them. Returns the number of indices copied.
+std::size_t remove_back_faces(const scene::TriangleDraw& draw, std::size_t first, std::size_t last, float pixel_rad,
     std::span<std::uint32_t> kept) {
     std::size_t count = 0;
     for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
@@ -62,8 +57,7 @@ std::size_t remove_back_faces(
 
 } // namespace
 
-scene::TriangleDraw
-front_facing(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept) {
+scene::TriangleDraw front_facing(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept) {
     const scene::TriangleDraw& draw = ground.all;
     const auto pixel = static_cast<float>(pixel_rad);
     kept.resize(draw.indices.size() + ground.shadow_indices.size());
@@ -75,8 +69,7 @@ front_facing(const GroundFrame& ground, double pixel_rad, std::vector<std::uint3
     };
     for (const ShadowPieces& shadow : ground.shadows) {
         keep_until(std::max<std::size_t>(next, std::size_t{shadow.triangle} + 1));
-        std::ranges::copy(
-            ground.shadow_indices.subspan(shadow.first, shadow.count),
+        std::ranges::copy(ground.shadow_indices.subspan(shadow.first, shadow.count),
             kept.begin() + static_cast<std::ptrdiff_t>(count));
         count += shadow.count;
     }
@@ -86,28 +79,21 @@ front_facing(const GroundFrame& ground, double pixel_rad, std::vector<std::uint3
 }
 
 scene::TriangleDraw front_facing_first(
-    const scene::TriangleDraw& draw,
-    double pixel_rad,
-    std::vector<std::uint32_t>& kept,
-    std::size_t& edge_on_indices) {
+    const scene::TriangleDraw& draw, double pixel_rad, std::vector<std::uint32_t>& kept, std::size_t& edge_on_indices) {
     kept.resize(draw.indices.size());
     std::size_t count = 0;
     std::size_t back = kept.size();
     for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
         const std::uint32_t* corner = &draw.indices[i];
         const Facing facing = facing_of(draw, corner, static_cast<float>(pixel_rad));
-        if (facing == Facing::Away) {
-            continue;
-        }
+        if (facing == Facing::Away) { continue; }
         std::size_t& place = facing == Facing::Towards ? count : back;
         place -= facing == Facing::Towards ? 0 : 3;
         std::copy_n(corner, 3, kept.begin() + static_cast<std::ptrdiff_t>(place));
         place += facing == Facing::Towards ? 3 : 0;
     }
     edge_on_indices = kept.size() - back;
-    kept.erase(
-        kept.begin() + static_cast<std::ptrdiff_t>(count),
-        kept.begin() + static_cast<std::ptrdiff_t>(back));
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(count), kept.begin() + static_cast<std::ptrdiff_t>(back));
     return {draw.vertices, kept};
 }
 

@@ -9,8 +9,7 @@
 
 namespace octant::visuals::planning {
 
-/// Indices of pieces that lie on one triangle, of shadows or painted, numbered as
-/// FramePlan::repaint_indices are.
+/// Indices of pieces that lie on one triangle, of shadows or painted, numbered as FramePlan::repaint_indices are.
 struct ShadowPieces {
     /// The number of the triangle in GroundMesher::triangles().
     std::uint32_t triangle = 0;
@@ -33,7 +32,6 @@ struct GroundFrame {
 std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle);
 
 /// Three corners of a triangle of the ground.
-void place_triangle(
-    const scene::TriangleDraw& ground, std::uint32_t triangle, ViewPolygon& placed);
+void place_triangle(const scene::TriangleDraw& ground, std::uint32_t triangle, ViewPolygon& placed);
 
 } // namespace octant::visuals::planning

@@ -13,8 +13,8 @@
 
 namespace octant::visuals::planning {
 
-/// Convex set of points: the common front of some planes and the inside of a box along the world's
-/// axes. World axes with the eye at the origin.
+/// Convex set of points: the common front of some planes and the inside of a box along the world's axes. World axes
+/// with the eye at the origin.
 struct ConvexVolume {
     AxisAlignedBox extent;
     std::array<Plane, 14> planes{};
@@ -39,15 +39,12 @@ struct GroundInFrontTriangle {
 
 /// Finds the triangles of the ground that hide part of a box or meet it. Keeps its memory.
 ///
-/// A triangle and a box that do not meet are parted by a plane, and the eye stands on one side of
-/// it: wherever the eye sees both, the same one is nearer. So one sight line through both decides.
+/// A triangle and a box that do not meet are parted by a plane, and the eye stands on one side of it: wherever the eye
+/// sees both, the same one is nearer. So one sight line through both decides.
 class GroundInFront {
 public:
     /// Looks at those of the mesher's last triangles() that face the eye. `eye_m`: world.
-    void find(
-        const OrientedBox& box,
-        const landscape::GroundMesher& ground,
-        const scene::TriangleDraw& triangles,
+    void find(const OrientedBox& box, const landscape::GroundMesher& ground, const scene::TriangleDraw& triangles,
         const glm::dvec3& eye_m);
 
     /// In the ground's painting order.

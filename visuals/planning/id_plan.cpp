@@ -40,8 +40,7 @@ std::uint32_t paint_id(std::uint32_t colour) {
     return std::max(static_cast<std::uint32_t>(hash.value()) & number_mask, 1U);
 }
 
-/// Numbers of a model's polygons. Not how many they are: a model may be split in one way of
-/// drawing, whole in another.
+/// Numbers of a model's polygons. Not how many they are: a model may be split in one way of drawing, whole in another.
 std::uint32_t number_count(const AircraftModel& model) {
     std::uint32_t count = 0;
     for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
@@ -55,11 +54,9 @@ scene::ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
     scene::ModelBuffers buffers = model.buffers;
     const std::uint32_t count = number_count(model);
     if (first + count + buffers.vertices.size() > number_mask) {
-        throw Error(fmt::format(
-            "pictures of polygon numbers: expected less than {} polygons and corners in all, got "
-            "more with {}",
-            number_mask,
-            model.polygons.name));
+        throw Error(fmt::format("pictures of polygon numbers: expected less than {} polygons and corners in all, got "
+                                "more with {}",
+            number_mask, model.polygons.name));
     }
     const std::vector<std::uint32_t>& begins = model.first_vertices;
     for (std::size_t polygon = 0; polygon + 1 < begins.size(); ++polygon) {
@@ -78,9 +75,8 @@ scene::ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
 
 void throw_if_refined(const AircraftModel& model) {
     if (model.progressive) {
-        throw Error(fmt::format(
-            "pictures of polygon numbers: expected polygons or levels of detail, got {}, which is "
-            "refined in each frame and whose triangles have no numbers",
+        throw Error(fmt::format("pictures of polygon numbers: expected polygons or levels of detail, got {}, which is "
+                                "refined in each frame and whose triangles have no numbers",
             model.polygons.name));
     }
 }
@@ -92,12 +88,10 @@ IdPlan::IdPlan(const Scene& scene) {
     const auto add = [&](const AircraftModel& model) {
         throw_if_refined(model);
         const std::size_t parts = model.polygons.pivots.size() + 1;
-        model_of_part_.insert(
-            model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
+        model_of_part_.insert(model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
         models_.push_back(numbered(model, first));
         first += number_count(model);
-        first +=
-            model.levels.empty() ? 0 : static_cast<std::uint32_t>(model.buffers.vertices.size());
+        first += model.levels.empty() ? 0 : static_cast<std::uint32_t>(model.buffers.vertices.size());
     };
     for (const std::uint32_t model : scene.aircraft) {
         const auto far = std::ranges::find(scene.far_models, model, &FarModel::model);
@@ -107,18 +101,13 @@ IdPlan::IdPlan(const Scene& scene) {
             // Both have the same parts in a plan, of which it draws one.
             const std::size_t parts = model_of_part_.size() - first_part;
             far_ids_of_part_.push_back(
-                {static_cast<std::uint32_t>(first_part),
-                 far->far_model,
-                 static_cast<std::uint32_t>(models_.size())});
+                {static_cast<std::uint32_t>(first_part), far->far_model, static_cast<std::uint32_t>(models_.size())});
             add(*scene.models[far->far_model]);
             const std::size_t far_parts = model_of_part_.size() - first_part - parts;
-            model_of_part_.resize(
-                first_part + std::max(parts, far_parts), model_of_part_[first_part]);
+            model_of_part_.resize(first_part + std::max(parts, far_parts), model_of_part_[first_part]);
         }
     }
-    if (scene.cockpit) {
-        add(*scene.models[*scene.cockpit]);
-    }
+    if (scene.cockpit) { add(*scene.models[*scene.cockpit]); }
 }
 
 void IdPlan::add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices) {
@@ -127,12 +116,10 @@ void IdPlan::add_ground(const scene::FramePlan& plan, std::span<const std::uint3
         std::array<glm::vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t at = indices[i + k];
-            corners[k] = at < own ? plan.ground.vertices[at].position_m
-                                  : plan.shadow_vertices[at - own].position_m;
+            corners[k] = at < own ? plan.ground.vertices[at].position_m : plan.shadow_vertices[at - own].position_m;
         }
         const std::uint32_t colour =
-            opaque | (indices[i] < own ? ground_id(corners)
-                                       : paint_id(plan.shadow_vertices[indices[i] - own].colour));
+            opaque | (indices[i] < own ? ground_id(corners) : paint_id(plan.shadow_vertices[indices[i] - own].colour));
         for (const glm::vec3& corner : corners) {
             indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
             vertices_.push_back({corner, colour});
@@ -158,9 +145,8 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     });
     std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour
     for (scene::AircraftDraw& draw : plan_.aircraft) {
-        const auto far = std::ranges::find_if(far_ids_of_part_, [&](const FarModelIds& one) {
-            return one.first_part == draw.first_part && one.far_model == draw.model;
-        });
+        const auto far = std::ranges::find_if(far_ids_of_part_,
+            [&](const FarModelIds& one) { return one.first_part == draw.first_part && one.far_model == draw.model; });
         draw.model = far != far_ids_of_part_.end() ? far->numbered : model_of_part_[draw.first_part];
         draw.tints = {};
     }
@@ -168,8 +154,7 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     const std::size_t ground_indices = indices_.size();
     add_ground(plan, plan.repaint_indices);
     plan_.ground = {vertices_, std::span(indices_).first(ground_indices)};
-    plan_.repaint_indices.assign(
-        indices_.begin() + static_cast<std::ptrdiff_t>(ground_indices), indices_.end());
+    plan_.repaint_indices.assign(indices_.begin() + static_cast<std::ptrdiff_t>(ground_indices), indices_.end());
     return plan_;
 }
 

@@ -9,22 +9,21 @@
 
 namespace octant::visuals::planning {
 
-/// Turns plans into plans whose picture says in each pixel's colour which polygon it shows: of an
-/// aircraft (a split polygon counts as one, each aircraft for itself), which triangle of the
-/// ground or which colour of a road or a runway on it; 0 is nothing. The painting steps stay those
-/// of the plan, but for sky and overlay, so that a renderer draws both alike. For pictures with one
-/// sample a pixel, of plans without shadows.
+/// Turns plans into plans whose picture says in each pixel's colour which polygon it shows: of an aircraft (a split
+/// polygon counts as one, each aircraft for itself), which triangle of the ground or which colour of a road or a runway
+/// on it; 0 is nothing. The painting steps stay those of the plan, but for sky and overlay, so that a renderer draws
+/// both alike. For pictures with one sample a pixel, of plans without shadows.
 class IdPlan {
 public:
-    /// The scene must outlive it. Throws Error for one with a mesh that is refined in each frame:
-    /// its triangles have no numbers.
+    /// The scene must outlive it. Throws Error for one with a mesh that is refined in each frame: its triangles have no
+    /// numbers.
     explicit IdPlan(const Scene& scene);
 
     /// What a renderer has to load for these plans, in place of the scene's models.
     const std::vector<scene::ModelBuffers>& models() const { return models_; }
 
-    /// Valid until the next call, and as long as `plan`. A triangle of the ground has the same
-    /// number in every plan in which its corners lie in the same places.
+    /// Valid until the next call, and as long as `plan`. A triangle of the ground has the same number in every plan in
+    /// which its corners lie in the same places.
     const scene::FramePlan& of(const scene::FramePlan& plan);
 
 private:

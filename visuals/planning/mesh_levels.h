@@ -26,15 +26,13 @@ struct MeshLevel {
     shading::ShadedPolygons shaded;
 };
 
-/// Appends a mesh to a model's buffers: corners that look the same share a vertex, but each
-/// triangle has a first corner of its own. Normals are the mesh's own where it has any, else by
-/// crease angle. Loading work.
+/// Appends a mesh to a model's buffers: corners that look the same share a vertex, but each triangle has a first corner
+/// of its own. Normals are the mesh's own where it has any, else by crease angle. Loading work.
 MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source);
 
-/// Which of several representations, finest first, is drawn: the coarsest whose error is at most
-/// `max_m`, the finest where none is. `before`, the one drawn last (negative: none), is kept while
-/// it is good enough and no coarser one is by a margin, so that none changes to and fro. Errors
-/// rise, or stay.
+/// Which of several representations, finest first, is drawn: the coarsest whose error is at most `max_m`, the finest
+/// where none is. `before`, the one drawn last (negative: none), is kept while it is good enough and no coarser one is
+/// by a margin, so that none changes to and fro. Errors rise, or stay.
 int select_level(std::span<const double> errors_m, double max_m, int before);
 
 } // namespace octant::visuals::planning

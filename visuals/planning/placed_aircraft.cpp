@@ -15,25 +15,21 @@ namespace octant::visuals::planning {
 
 namespace {
 
-glm::dmat4 turned_about(
-    const models::polygons::Pivot& pivot, double angle_rad, const glm::dmat4& body_to_eye_world) {
+glm::dmat4 turned_about(const models::polygons::Pivot& pivot, double angle_rad, const glm::dmat4& body_to_eye_world) {
     const glm::dmat4 there = glm::translate(body_to_eye_world, pivot.point_m);
     return glm::translate(glm::rotate(there, angle_rad, pivot.axis), -pivot.point_m);
 }
 
-/// The pivot of `model` that turns the part of the name that `pivot` of `numbered` turns; past the
-/// end where there is none.
+/// The pivot of `model` that turns the part of the name that `pivot` of `numbered` turns; past the end where there is
+/// none.
 std::size_t pivot_in(
-    const models::polygons::PolygonModel& model,
-    const models::polygons::PolygonModel& numbered,
-    std::size_t pivot) {
+    const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered, std::size_t pivot) {
     if (&model == &numbered || pivot >= numbered.pivots.size()) {
         return pivot < numbered.pivots.size() ? pivot : model.pivots.size();
     }
     const std::string& name = numbered.parts[numbered.pivots[pivot].part];
-    const auto found = std::ranges::find_if(model.pivots, [&](const models::polygons::Pivot& one) {
-        return model.parts[one.part] == name;
-    });
+    const auto found = std::ranges::find_if(
+        model.pivots, [&](const models::polygons::Pivot& one) { return model.parts[one.part] == name; });
     return static_cast<std::size_t>(found - model.pivots.begin());
 }
 
@@ -59,8 +55,7 @@ scene::AircraftDraw draw_of(const PlacedAircraft& aircraft) {
     return draw;
 }
 
-scene::AircraftDraw
-draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count) {
+scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count) {
     scene::AircraftDraw draw;
     draw.model = aircraft.model_index;
     draw.first_index = first_index;
@@ -71,10 +66,7 @@ draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t
     return draw;
 }
 
-void place_parts(
-    const models::polygons::PolygonModel& model,
-    const glm::dmat4& body_to_eye_world,
-    double time_s,
+void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& body_to_eye_world, double time_s,
     std::span<glm::dmat4> parts) {
     assert(parts.size() == model.pivots.size() + 1);
     parts[0] = body_to_eye_world;
@@ -86,15 +78,10 @@ void place_parts(
     }
 }
 
-void place_articulated_part(
-    const models::polygons::PolygonModel& model,
-    const models::polygons::PolygonModel& numbered,
-    const ArticulatedPart& turned,
-    std::span<glm::dmat4> parts) {
+void place_articulated_part(const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered,
+    const ArticulatedPart& turned, std::span<glm::dmat4> parts) {
     const std::size_t pivot = pivot_in(model, numbered, turned.pivot);
-    if (pivot >= model.pivots.size()) {
-        return;
-    }
+    if (pivot >= model.pivots.size()) { return; }
     const models::polygons::Pivot& axis = model.pivots[pivot];
     const glm::dvec3 about(turned.turn.x, turned.turn.y, turned.turn.z);
     const double angle_rad = 2.0 * std::atan2(glm::dot(about, axis.axis), turned.turn.w);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/aircraft_model.h"
-#include "visuals/planning/view_polygon.h"
 #include "visuals/planning/articulated_part.h"
+#include "visuals/planning/bounding_box.h"
+#include "visuals/planning/view_polygon.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -26,8 +26,7 @@ struct PlacedAircraft {
     std::uint32_t near_index = 0;
     std::uint32_t far_index = 0;
     double far_error_m = 0.0;
-    /// Polygons in the order of the index buffer: what IndexRange::first_polygon counts in. Empty
-    /// for a mesh.
+    /// Polygons in the order of the index buffer: what IndexRange::first_polygon counts in. Empty for a mesh.
     std::span<const std::uint32_t> list;
     /// Of the index buffer: what is drawn of it, one range after the other. Keeps its memory.
     std::vector<scene::IndexRange> ranges;
@@ -55,8 +54,7 @@ inline bool is_far(const PlacedAircraft& aircraft) {
     return aircraft.far_model != nullptr && aircraft.model == aircraft.far_model;
 }
 
-/// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are
-/// removed by depth.
+/// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are removed by depth.
 inline bool is_mesh(const PlacedAircraft& aircraft) {
     return aircraft.representation < aircraft.model->polygons_from_mesh();
 }
@@ -73,23 +71,16 @@ void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPo
 scene::AircraftDraw draw_of(const PlacedAircraft& aircraft);
 
 /// What a part of its index buffer is drawn by.
-scene::AircraftDraw
-draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count);
+scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count);
 
 /// The body matrix of an aircraft and one matrix for each pivot of its model, at a time.
-void place_parts(
-    const models::polygons::PolygonModel& model,
-    const glm::dmat4& body_to_eye_world,
-    double time_s,
+void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& body_to_eye_world, double time_s,
     std::span<glm::dmat4> parts);
 
-/// Turns and moves a part that somebody else turns; nothing where the model has no such pivot.
-/// `numbered` is the model whose pivots `articulated_parts` counts: the part of the same name turns in
-/// `model`, which is the same or stands in for it from afar. `parts` as place_parts() has them.
-void place_articulated_part(
-    const models::polygons::PolygonModel& model,
-    const models::polygons::PolygonModel& numbered,
-    const ArticulatedPart& articulated_parts,
-    std::span<glm::dmat4> parts);
+/// Turns and moves a part that somebody else turns; nothing where the model has no such pivot. `numbered` is the model
+/// whose pivots `articulated_parts` counts: the part of the same name turns in `model`, which is the same or stands in
+/// for it from afar. `parts` as place_parts() has them.
+void place_articulated_part(const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered,
+    const ArticulatedPart& articulated_parts, std::span<glm::dmat4> parts);
 
 } // namespace octant::visuals::planning

@@ -17,13 +17,11 @@ struct PlanCounts {
     /// Aircraft painted by depth, as they meet each other or the ground in too many places.
     int unordered = 0;
     int shadow_triangles = 0;
-    /// Triangles of roads and the runway; those of the ground have them among them, as what stands
-    /// on it.
+    /// Triangles of roads and the runway; those of the ground have them among them, as what stands on it.
     int painted_triangles = 0;
     /// Triangles in view of clouds and all else that is seen through.
     int transparent_triangles = 0;
-    /// Polygons of whole models and triangles of refined meshes, and those of them that are lit
-    /// smoothly.
+    /// Polygons of whole models and triangles of refined meshes, and those of them that are lit smoothly.
     int smoothable_polygons = 0;
     int smooth_polygons = 0;
     /// The representation of the first aircraft, 0 = the finest.

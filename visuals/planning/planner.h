@@ -44,9 +44,9 @@
 
 namespace octant::visuals::planning {
 
-/// Cuts what is painted on the ground to the ground's triangles: each piece lies in the plane of
-/// its triangle, whatever the mesh, and goes a little beyond its sides, so that no gap shows
-/// between two of them. On the plan places are metres east and north of the eye. Keeps its memory.
+/// Cuts what is painted on the ground to the ground's triangles: each piece lies in the plane of its triangle, whatever
+/// the mesh, and goes a little beyond its sides, so that no gap shows between two of them. On the plan places are
+/// metres east and north of the eye. Keeps its memory.
 class DecalClipper {
 public:
     /// A convex quadrangle on the plan, counter-clockwise.
@@ -55,8 +55,8 @@ public:
     /// The most triangles of one piece: three cuts add a corner each.
     static constexpr int max_triangles = 5;
 
-    /// Forgets the last frame. Triangles are GroundMesher::triangles as they are before facing, and
-    /// must stay until the next call.
+    /// Forgets the last frame. Triangles are GroundMesher::triangles as they are before facing, and must stay until the
+    /// next call.
     void begin(const scene::TriangleDraw& triangles, const FrameView& view);
 
     /// Takes a triangle to lay patches on.
@@ -74,8 +74,8 @@ public:
     /// Whether the triangle at hand stands on the ground and is no part of it.
     bool is_scenery() const;
 
-    /// Lays what of a patch lies on the triangle at hand, if anything does, so many overlaps beyond
-    /// the triangle's sides.
+    /// Lays what of a patch lies on the triangle at hand, if anything does, so many overlaps beyond the triangle's
+    /// sides.
     void add_decal(const Patch& patch, std::uint32_t colour, GroundLayer layer, double overlaps);
 
     /// What has been laid since begin().
@@ -92,8 +92,7 @@ private:
 
     using SideFlags = std::array<bool, 3>;
 
-    /// A side of the triangle, a unit vector outwards, and how far its ends move along that for one
-    /// overlap.
+    /// A side of the triangle, a unit vector outwards, and how far its ends move along that for one overlap.
     struct Side {
         glm::dvec2 from_m;
         glm::dvec2 to_m;
@@ -123,9 +122,9 @@ private:
     std::array<glm::dvec2, 3> corners_on_plan_m_;
 };
 
-/// Lays a runway on the triangles of the ground, each of its patches on each triangle, to be
-/// painted right after it. What looks narrow takes the colour of what it lies on and is left out
-/// from there on; so is what lies on triangles out of view. Keeps its memory.
+/// Lays a runway on the triangles of the ground, each of its patches on each triangle, to be painted right after it.
+/// What looks narrow takes the colour of what it lies on and is left out from there on; so is what lies on triangles
+/// out of view. Keeps its memory.
 class RunwayPainter {
 public:
     /// Null: there is no runway, and nothing is painted.
@@ -136,13 +135,9 @@ public:
     /// The most triangles that it takes, of so many that are aimed at: fewer from farther off.
     int max_triangles(const glm::dvec3& eye_m, int triangle_target) const;
 
-    /// Paints on the ground whose triangles the cutter has, the nearest first; markings only while
-    /// the cutter has laid fewer than `most` triangles.
-    void paint(
-        const landscape::GroundMesher& ground,
-        const FrameView& view,
-        bool is_front_to_back,
-        int most,
+    /// Paints on the ground whose triangles the cutter has, the nearest first; markings only while the cutter has laid
+    /// fewer than `most` triangles.
+    void paint(const landscape::GroundMesher& ground, const FrameView& view, bool is_front_to_back, int most,
         DecalClipper& cutter);
 
 private:
@@ -166,25 +161,20 @@ private:
     glm::dvec2 eye_m_{0.0};
 };
 
-/// Lays the roads of a ground on its triangles, to be painted right after them. Each piece of a
-/// road is shown by a level of detail; what looks about as narrow as a pixel takes the colour of
-/// the ground before it is left out. Keeps its memory.
+/// Lays the roads of a ground on its triangles, to be painted right after them. Each piece of a road is shown by a
+/// level of detail; what looks about as narrow as a pixel takes the colour of the ground before it is left out. Keeps
+/// its memory.
 class RoadPainter {
 public:
     /// Paints the roads of this ground under this light from the next frame on. Loading work.
     void follow(const landscape::Ground& ground, const nature::Daylight& day);
 
-    /// The most triangles that it takes, of so many that are aimed at: none where no road can be
-    /// seen, fewer from high up.
+    /// The most triangles that it takes, of so many that are aimed at: none where no road can be seen, fewer from high
+    /// up.
     int max_triangles(const FrameView& view, int triangle_target) const;
 
-    /// Paints on the ground whose triangles the cutter has, the nearest first, at most so many
-    /// triangles.
-    void paint(
-        const landscape::GroundMesher& ground,
-        const FrameView& view,
-        bool is_front_to_back,
-        int most,
+    /// Paints on the ground whose triangles the cutter has, the nearest first, at most so many triangles.
+    void paint(const landscape::GroundMesher& ground, const FrameView& view, bool is_front_to_back, int most,
         DecalClipper& cutter);
 
 private:
@@ -220,33 +210,27 @@ private:
     std::shared_ptr<const landscape::Ground> ground_;
     std::optional<nature::Daylight> day_;
     std::shared_ptr<const roads::RoadNetwork> network_;
-    double lowest_m_ = 0.0;         ///< of the roads
-    std::vector<SectionLight> pieces_;     ///< of the network's
-    std::vector<glm::vec3> lights_; ///< of stretches, worked out when they are first seen
-    std::vector<SectionPatches> chosen_;    ///< one a piece
+    double lowest_m_ = 0.0;              ///< of the roads
+    std::vector<SectionLight> pieces_;   ///< of the network's
+    std::vector<glm::vec3> lights_;      ///< of stretches, worked out when they are first seen
+    std::vector<SectionPatches> chosen_; ///< one a piece
     std::vector<VisiblePatch> seen_;
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> numbers_;
     std::uint64_t frame_ = 0;
 };
 
-/// What lies over the picture of one view: marks of the path's legs, dials, the head-up display and
-/// lines of text. Keeps its memory.
+/// What lies over the picture of one view: marks of the path's legs, dials, the head-up display and lines of text.
+/// Keeps its memory.
 class FrameOverlay {
 public:
     /// The scene and the settings must outlive it.
-    FrameOverlay(const Scene& scene, const scene::Settings& settings)
-        : scene_(scene)
-        , settings_(settings) {}
+    FrameOverlay(const Scene& scene, const scene::Settings& settings) : scene_(scene), settings_(settings) {}
 
-    /// The overlay of a frame, `transparents` first; valid until the next call. `marks_path`: legs of the
-    /// first aircraft's path are named, which must be known.
-    scene::OverlayDraw draw(
-        const scene::OverlayDraw& transparents,
-        const scene::Camera& camera,
-        std::span<const sim::AircraftState> states,
-        bool marks_path,
-        std::span<const std::string> overlay_lines);
+    /// The overlay of a frame, `transparents` first; valid until the next call. `marks_path`: legs of the first
+    /// aircraft's path are named, which must be known.
+    scene::OverlayDraw draw(const scene::OverlayDraw& transparents, const scene::Camera& camera,
+        std::span<const sim::AircraftState> states, bool marks_path, std::span<const std::string> overlay_lines);
 
 private:
     scene::OverlayDraw path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m);
@@ -298,8 +282,8 @@ struct PlanRequest {
     /// Triangles of ground that are aimed at, at least 1; nothing = as the settings say.
     std::optional<int> triangle_target = std::nullopt;
     SmoothTarget smooth = {};
-    /// Called in the midst of the work, when the aircraft are placed and their meshes refined: for
-    /// whoever measures. May be empty.
+    /// Called in the midst of the work, when the aircraft are placed and their meshes refined: for whoever measures.
+    /// May be empty.
     std::function<void()> on_refined = nullptr;
     /// Lines written into the upper left corner of the picture.
     std::span<const std::string> overlay_lines = {};
@@ -314,17 +298,14 @@ struct PlannedFrame {
     PlanCounts counts;
 };
 
-/// Decides what is drawn in each frame of one view. Keeps memory that the plans point into, and the
-/// ground's detail control from frame to frame. Several views have a planner each over one scene.
+/// Decides what is drawn in each frame of one view. Keeps memory that the plans point into, and the ground's detail
+/// control from frame to frame. Several views have a planner each over one scene.
 class Planner {
 public:
-    /// The scene and the settings must outlive the planner; of the settings the visibility may
-    /// change between plans. `mesher` is one of the scene's ground,
-    /// from which the view's detail goes on; null = a new one by these settings.
+    /// The scene and the settings must outlive the planner; of the settings the visibility may change between plans.
+    /// `mesher` is one of the scene's ground, from which the view's detail goes on; null = a new one by these settings.
     Planner(
-        const Scene& scene,
-        const scene::Settings& settings,
-        std::unique_ptr<landscape::GroundMesher> mesher = nullptr);
+        const Scene& scene, const scene::Settings& settings, std::unique_ptr<landscape::GroundMesher> mesher = nullptr);
     Planner(const Planner&) = delete;
     Planner& operator=(const Planner&) = delete;
     Planner(Planner&&) = delete;
@@ -334,50 +315,39 @@ public:
     /// Sets the detail of the ground for the camera of the first frame. Loading work.
     void reset_detail(const scene::Camera& camera);
 
-    /// Goes on under the sun of the settings and over the ground of the scene where these have
-    /// become others: the same heights in other colours. Nothing may be prepared then. Returns
-    /// false where the detail of the ground begins anew: reset_detail() again.
+    /// Goes on under the sun of the settings and over the ground of the scene where these have become others: the same
+    /// heights in other colours. Nothing may be prepared then. Returns false where the detail of the ground begins
+    /// anew: reset_detail() again.
     bool set_sun();
 
-    /// Begins the work on the ground of the next plan() beside the caller, for the camera and the
-    /// triangle target that it will be given; the last plan stays valid. May be left out: changes
-    /// no plan.
-    void begin_next_mesh(
-        const scene::Camera& camera,
-        std::optional<int> triangle_target = std::nullopt,
+    /// Begins the work on the ground of the next plan() beside the caller, for the camera and the triangle target that
+    /// it will be given; the last plan stays valid. May be left out: changes no plan.
+    void begin_next_mesh(const scene::Camera& camera, std::optional<int> triangle_target = std::nullopt,
         const landscape::IdleThreadRunner& on_idle_thread = nullptr);
 
-    /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made
-    /// when it is asked for.
+    /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made when it is asked for.
     void wait() { mesher_->wait(); }
 
-    /// The plan of the next frame, and what it holds. No allocation once the first frames have been
-    /// planned.
+    /// The plan of the next frame, and what it holds. No allocation once the first frames have been planned.
     PlannedFrame plan(const PlanRequest& request);
 
-    /// Goes on as if plan() had been called, for a picture that nobody sees: levels of detail,
-    /// stand-ins of far aircraft, refined meshes and smooth polygons are then what the next plan
-    /// goes on from. Leaves out the ground, whose detail goes on from plan to plan only where
-    /// earlier counts control it.
+    /// Goes on as if plan() had been called, for a picture that nobody sees: levels of detail, stand-ins of far
+    /// aircraft, refined meshes and smooth polygons are then what the next plan goes on from. Leaves out the ground,
+    /// whose detail goes on from plan to plan only where earlier counts control it.
     void advance_without_drawing(const PlanRequest& request);
 
-    /// The mesher of the ground, for the planner that follows this one in the same view. Nothing
-    /// may be planned after it.
+    /// The mesher of the ground, for the planner that follows this one in the same view. Nothing may be planned after
+    /// it.
     std::unique_ptr<landscape::GroundMesher> take_mesher() { return std::move(mesher_); }
 
 private:
     FrameView view_of(const scene::Camera& camera) const;
-    landscape::MeshRequest
-    ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
+    landscape::MeshRequest ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
     void place_aircraft(const PlanRequest& request, const FrameView& view);
     SmoothChoice::Count choose_smooth(const SmoothTarget& smooth_target);
     void begin_plan(const FrameView& view);
     void update_roads();
-    void paint_ground(
-        const PlanRequest& request,
-        const FrameView& view,
-        const GroundFrame& ground,
-        PlanCounts& counts);
+    void paint_ground(const PlanRequest& request, const FrameView& view, const GroundFrame& ground, PlanCounts& counts);
     int requested_triangles(std::optional<int> triangle_target) const;
     void cast_shadows(const FrameView& view, GroundFrame& ground);
     void count(const SmoothChoice::Count& shaded, PlanCounts& counts) const;

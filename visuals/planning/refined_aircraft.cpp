@@ -17,9 +17,7 @@ namespace {
 /// The bit of RefinedDraw::first_smooth that flat triangles have.
 constexpr std::uint32_t flat_polygon = 1;
 
-float part_of(std::uint32_t colour, unsigned shift) {
-    return static_cast<float>(colour >> shift & 0xffU);
-}
+float part_of(std::uint32_t colour, unsigned shift) { return static_cast<float>(colour >> shift & 0xffU); }
 
 float colour_sum(std::uint32_t colour) {
     return (part_of(colour, 0) + part_of(colour, 8) + part_of(colour, 16)) / 255.0F;
@@ -28,8 +26,7 @@ float colour_sum(std::uint32_t colour) {
 std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     std::uint32_t mean = 0xff000000U;
     for (unsigned shift = 0; shift < 24; shift += 8) {
-        const std::uint32_t sum =
-            (a >> shift & 0xffU) + (b >> shift & 0xffU) + (c >> shift & 0xffU);
+        const std::uint32_t sum = (a >> shift & 0xffU) + (b >> shift & 0xffU) + (c >> shift & 0xffU);
         mean |= (sum + 1) / 3 << shift;
     }
     return mean;
@@ -37,27 +34,19 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 } // namespace
 
-RefinedAircraft::RefinedAircraft(
-    std::shared_ptr<const refine::ProgressiveMesh> mesh,
-    const refine::ViewRefinerOptions& options,
-    const scene::ShadingSettings& shading)
-    : refiner_(std::move(mesh), options)
-    , selector_(shading_rule_of(shading))
-    , shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
+RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh,
+    const refine::ViewRefinerOptions& options, const scene::ShadingSettings& shading)
+    : refiner_(std::move(mesh), options), selector_(shading_rule_of(shading)),
+      shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
-refine::RefinedFrame
-RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
+refine::RefinedFrame RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
     const glm::dmat3 turn(body_to_eye_world); // a vector times it is turned back
     refine::RefineView in_body;
     in_body.eye_m = -glm::dvec3(body_to_eye_world[3]) * turn;
     in_body.forward = view_direction(view.camera) * turn;
-    for (std::size_t i = 0; i < view.frustum.size(); ++i) {
-        in_body.side_normals[i] = view.frustum[i] * turn;
-    }
+    for (std::size_t i = 0; i < view.frustum.size(); ++i) { in_body.side_normals[i] = view.frustum[i] * turn; }
     in_body.focal_px = 1.0 / view.pixel_rad;
-    if (first) {
-        refiner_.refine_fully(in_body);
-    }
+    if (first) { refiner_.refine_fully(in_body); }
     const refine::RefinedFrame frame = refiner_.update(in_body);
     const bool changed = first || frame.splits + frame.collapses > 0;
     front_changed_ = front_changed_ || changed;
@@ -101,14 +90,11 @@ void RefinedAircraft::follow_labels() {
     front.take_dirty_faces(ranges_);
     labels_.resize(front.indices().size() / 3);
     for (const refine::SlotRange& range : ranges_) {
-        for (std::size_t place = range.first; place < range.end; ++place) {
-            labels_[place] = front.face_at(place);
-        }
+        for (std::size_t place = range.first; place < range.end; ++place) { labels_[place] = front.face_at(place); }
     }
 }
 
-void RefinedAircraft::shade(
-    const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth) {
+void RefinedAircraft::shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth) {
     assert(smooth >= 0 && smooth <= triangles());
     const bool chooses = smooth > 0 && smooth < triangles();
     const bool all_flat = smooth == 0;
@@ -118,21 +104,17 @@ void RefinedAircraft::shade(
     }
     choosing_ = chooses;
     all_flat_ = all_flat;
-    if (!chooses) {
-        return;
-    }
+    if (!chooses) { return; }
     if (drawn_changed_) {
         follow_front();
         follow_labels();
     }
-    const shading::DynamicMesh mesh{
-        .points = points_,
+    const shading::DynamicMesh mesh{.points = points_,
         .indices = refiner_.front().indices(),
         .labels = labels_,
         .triangle_count = refiner_.front().face_count(),
         .centre_m = glm::vec3(refiner_.front().mesh().middle_m())};
-    const bool chosen =
-        selector_.choose(mesh, eye_m, light, static_cast<std::size_t>(smooth), front_changed_);
+    const bool chosen = selector_.choose(mesh, eye_m, light, static_cast<std::size_t>(smooth), front_changed_);
     front_changed_ = false;
     drawn_changed_ = drawn_changed_ || chosen;
 }
@@ -142,8 +124,7 @@ void RefinedAircraft::write_flat(std::span<const std::uint32_t> corners) {
     const scene::ModelVertex& second = vertices_[corners[1]];
     const scene::ModelVertex& third = vertices_[corners[2]];
     scene::ModelVertex first = vertices_[corners[0]];
-    const glm::vec3 across =
-        glm::cross(second.position_m - first.position_m, third.position_m - first.position_m);
+    const glm::vec3 across = glm::cross(second.position_m - first.position_m, third.position_m - first.position_m);
     const float size = glm::length(across);
     first.face_normal = size > 0.0F ? across / size : first.normal;
     first.face_colour = mean_colour(first.colour, second.colour, third.colour);
@@ -176,9 +157,7 @@ scene::RefinedDraw RefinedAircraft::draw() {
     assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
-        if (!all_smooth) {
-            write_indices();
-        }
+        if (!all_smooth) { write_indices(); }
     }
     drawn_changed_ = false;
     scene::RefinedDraw draw;

@@ -16,30 +16,27 @@
 
 namespace octant::visuals::planning {
 
-/// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
-/// memory; what stays from frame to frame is not worked out again.
+/// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its memory; what stays
+/// from frame to frame is not worked out again.
 class RefinedAircraft {
 public:
     /// The hierarchy is in body axes.
-    RefinedAircraft(
-        std::shared_ptr<const refine::ProgressiveMesh> mesh,
-        const refine::ViewRefinerOptions& options,
+    RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const refine::ViewRefinerOptions& options,
         const scene::ShadingSettings& shading);
 
-    /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame
-    /// before, so it is made fit at once.
-    refine::RefinedFrame
-    update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first);
+    /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame before, so it is made
+    /// fit at once.
+    refine::RefinedFrame update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first);
 
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
 
-    /// Chooses which triangles of the last update() are smooth: exactly `smooth`, from 0 to
-    /// triangles(). Eye and light are in body axes.
+    /// Chooses which triangles of the last update() are smooth: exactly `smooth`, from 0 to triangles(). Eye and light
+    /// are in body axes.
     void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
 
-    /// The mesh of the last update() for drawing, shaded as shade() chose after it, before the
-    /// first one all smooth. Corners share vertices, but a flat triangle's first one is its own,
-    /// with its normal and the mean of its corners' colours. Until the next call.
+    /// The mesh of the last update() for drawing, shaded as shade() chose after it, before the first one all smooth.
+    /// Corners share vertices, but a flat triangle's first one is its own, with its normal and the mean of its corners'
+    /// colours. Until the next call.
     scene::RefinedDraw draw();
 
 private:

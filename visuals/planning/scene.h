@@ -25,12 +25,11 @@ struct FarModel {
     double error_m = 0.0;
 };
 
-/// Everything that is loaded once and looked at in every frame, by one view or by several. What is
-/// large is shared and never changes: a copy costs little.
+/// Everything that is loaded once and looked at in every frame, by one view or by several. What is large is shared and
+/// never changes: a copy costs little.
 struct Scene {
     std::shared_ptr<const landscape::Ground> ground;
-    /// Null = the ground shows its vertices' colours. Plans need no texels: they may be gone once a
-    /// renderer has them.
+    /// Null = the ground shows its vertices' colours. Plans need no texels: they may be gone once a renderer has them.
     std::shared_ptr<const scene::GroundTexture> ground_texture;
     /// Each once, however many aircraft fly it.
     std::vector<std::shared_ptr<const AircraftModel>> models;

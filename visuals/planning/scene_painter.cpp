@@ -1,4 +1,5 @@
 #include "visuals/planning/scene_painter.h"
+
 #include "visuals/planning/front_facing.h"
 
 #include <glm/common.hpp>
@@ -14,9 +15,9 @@
 
 namespace octant::visuals::planning {
 
-// Knots are the strongly connected components of "waits for": R. Tarjan, Depth-First Search and
-// Linear Graph Algorithms, SIAM Journal on Computing 1(2), 1972, section 4.
-// Deviations: a path kept in memory stands in for the recursion.
+// Knots are the strongly connected components of "waits for": R. Tarjan, Depth-First Search and Linear Graph
+// Algorithms, SIAM Journal on Computing 1(2), 1972, section 4. Deviations: a path kept in memory stands in for the
+// recursion.
 
 void SceneOrder::arrange(std::span<const OrientedBox> boxes) {
     place_bodies(boxes);
@@ -25,9 +26,7 @@ void SceneOrder::arrange(std::span<const OrientedBox> boxes) {
     members_.clear();
     std::uint32_t body = 0;
     const auto add_single_bodies_until = [&](std::size_t end) {
-        for (; body < end; ++body) {
-            add_overlap_group(std::span(&body, 1), 0);
-        }
+        for (; body < end; ++body) { add_overlap_group(std::span(&body, 1), 0); }
     };
     std::size_t next = 0;
     while (next < windows_.size()) {
@@ -63,18 +62,15 @@ void SceneOrder::place_bodies(std::span<const OrientedBox> boxes) {
     });
 }
 
-/// Sweeps along x for bodies whose spheres meet, and notes the windows of the list in which a body
-/// stands before one that it hides.
+/// Sweeps along x for bodies whose spheres meet, and notes the windows of the list in which a body stands before one
+/// that it hides.
 void SceneOrder::find_windows() {
     windows_.clear();
     by_x_.resize(bodies_.size());
     std::iota(by_x_.begin(), by_x_.end(), 0U);
-    const auto min_x = [&](std::uint32_t i) {
-        return bodies_[i].box.centre_m.x - bodies_[i].radius_m;
-    };
-    std::ranges::sort(by_x_, [&](std::uint32_t a, std::uint32_t b) {
-        return min_x(a) != min_x(b) ? min_x(a) < min_x(b) : a < b;
-    });
+    const auto min_x = [&](std::uint32_t i) { return bodies_[i].box.centre_m.x - bodies_[i].radius_m; };
+    std::ranges::sort(
+        by_x_, [&](std::uint32_t a, std::uint32_t b) { return min_x(a) != min_x(b) ? min_x(a) < min_x(b) : a < b; });
     for (std::size_t i = 0; i < by_x_.size(); ++i) {
         const Body& body = bodies_[by_x_[i]];
         const double max_x = body.box.centre_m.x + body.radius_m;
@@ -82,9 +78,7 @@ void SceneOrder::find_windows() {
             const Body& other = bodies_[by_x_[k]];
             const glm::dvec3 apart_m = other.box.centre_m - body.box.centre_m;
             const double contact_tolerance_m = body.radius_m + other.radius_m;
-            if (glm::dot(apart_m, apart_m) > contact_tolerance_m * contact_tolerance_m) {
-                continue;
-            }
+            if (glm::dot(apart_m, apart_m) > contact_tolerance_m * contact_tolerance_m) { continue; }
             const auto [earlier, later] = std::minmax(by_x_[i], by_x_[k]);
             if (occlusion_pair(bodies_[earlier].box, bodies_[later].box).a_occludes_b) {
                 windows_.emplace_back(earlier, later);
@@ -100,9 +94,7 @@ void SceneOrder::arrange_window(std::uint32_t first, std::uint32_t last) {
     find_occluders(first, count);
     visited_ = 0;
     for (std::uint32_t body = 0; body < count; ++body) {
-        if (visits_[body].number == 0) {
-            visit_component(first, body);
-        }
+        if (visits_[body].number == 0) { visit_component(first, body); }
     }
 }
 
@@ -118,16 +110,10 @@ void SceneOrder::find_occluders(std::uint32_t first, std::uint32_t count) {
         const Body& earlier = bodies_[first + a];
         for (std::uint32_t b = a + 1; b < count; ++b) {
             const Body& later = bodies_[first + b];
-            if (!may_overlap_on_screen(earlier, later)) {
-                continue;
-            }
+            if (!may_overlap_on_screen(earlier, later)) { continue; }
             const OcclusionPair pair = occlusion_pair(earlier.box, later.box);
-            if (pair.a_occludes_b) {
-                occluders_.emplace_back(a, b);
-            }
-            if (pair.b_occludes_a) {
-                occluders_.emplace_back(b, a);
-            }
+            if (pair.a_occludes_b) { occluders_.emplace_back(a, b); }
+            if (pair.b_occludes_a) { occluders_.emplace_back(b, a); }
         }
     }
     std::ranges::sort(occluders_);
@@ -146,8 +132,8 @@ void SceneOrder::begin_visit(std::uint32_t body) {
     open_.push_back(body);
 }
 
-/// Walks along what each body waits for. A body from which no lesser number is reached than its own
-/// closes a knot with all that are open since.
+/// Walks along what each body waits for. A body from which no lesser number is reached than its own closes a knot with
+/// all that are open since.
 void SceneOrder::visit_component(std::uint32_t first, std::uint32_t body) {
     path_.clear();
     open_.clear();
@@ -171,9 +157,7 @@ void SceneOrder::visit_component(std::uint32_t first, std::uint32_t body) {
         }
         if (visit.least == visit.number) {
             std::size_t overlap_group = open_.size();
-            do {
-                visits_[open_[--overlap_group]].is_in_group = true;
-            } while (open_[overlap_group] != at);
+            do { visits_[open_[--overlap_group]].is_in_group = true; } while (open_[overlap_group] != at);
             add_overlap_group(std::span(open_).subspan(overlap_group), first);
             open_.resize(overlap_group);
         }
@@ -206,13 +190,8 @@ constexpr double touching = 1e-9;
 
 } // namespace
 
-std::optional<int> PolygonRepaint::paint(
-    std::span<const PlacedAircraft* const> aircraft,
-    const OrientedBox& box,
-    const GroundFrame& ground,
-    std::span<const std::uint32_t> intersecting,
-    double rounding_rad,
-    StepWriter& steps) {
+std::optional<int> PolygonRepaint::paint(std::span<const PlacedAircraft* const> aircraft, const OrientedBox& box,
+    const GroundFrame& ground, std::span<const std::uint32_t> intersecting, double rounding_rad, StepWriter& steps) {
     painted_.clear();
     corners_.clear();
     repaint_count_ = 0;
@@ -237,30 +216,20 @@ void PolygonRepaint::record(PaintedItem painted, const ViewPolygon& part) {
 }
 
 void PolygonRepaint::paint_aircraft(
-    std::span<const PlacedAircraft* const> aircraft,
-    std::uint32_t owner,
-    double rounding_rad,
-    StepWriter& steps) {
+    std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner, double rounding_rad, StepWriter& steps) {
     for (const scene::IndexRange& range : aircraft[owner]->ranges) {
         paint_range(aircraft, owner, range, rounding_rad, steps);
     }
 }
 
-void PolygonRepaint::paint_range(
-    std::span<const PlacedAircraft* const> aircraft,
-    std::uint32_t owner,
-    const scene::IndexRange& range,
-    double rounding_rad,
-    StepWriter& steps) {
+void PolygonRepaint::paint_range(std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner,
+    const scene::IndexRange& range, double rounding_rad, StepWriter& steps) {
     const PlacedAircraft& own = *aircraft[owner];
     std::uint32_t run_first = range.first_index;
     std::uint32_t next = run_first;
-    const auto polygons =
-        own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
+    const auto polygons = own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
     for (const std::uint32_t polygon : polygons) {
-        if (exceeds_limits()) {
-            return;
-        }
+        if (exceeds_limits()) { return; }
         const std::uint32_t first = next;
         next += own.model->index_count_of(polygon);
         place_polygon(own, polygon, polygon_);
@@ -272,9 +241,7 @@ void PolygonRepaint::paint_range(
         record({owner, first, next - first, 0, 0}, polygon_);
         const std::size_t hiding = painted_.size();
         find_occluding(plane, owner, before, rounding_rad);
-        if (painted_.size() == hiding) {
-            continue;
-        }
+        if (painted_.size() == hiding) { continue; }
         steps.add(draw_of(own, run_first, next - run_first));
         run_first = next;
         for (std::size_t i = hiding; i < painted_.size(); ++i) {
@@ -282,30 +249,22 @@ void PolygonRepaint::paint_range(
             ++repaint_count_;
         }
     }
-    if (next > run_first) {
-        steps.add(draw_of(own, run_first, next - run_first));
-    }
+    if (next > run_first) { steps.add(draw_of(own, run_first, next - run_first)); }
 }
 
 /// Notes the parts of what was painted before that hide part of polygon_.
-void PolygonRepaint::find_occluding(
-    const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
+void PolygonRepaint::find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
     cone_of(polygon_, rounding_rad, cone_);
     const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
     comparison_count_ += before;
     for (std::size_t i = 0; i < before; ++i) {
         const PaintedItem painted = painted_[i];
-        if (painted.owner == owner) {
-            continue;
-        }
-        const auto corners =
-            std::span(corners_).subspan(painted.first_corner, painted.corner_count);
+        if (painted.owner == owner) { continue; }
+        const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
         part_.assign(corners.begin(), corners.end());
         clip_to_front(part_, plane, tolerance_m, scratch_);
         clip_to_cone(part_, cone_, scratch_);
-        if (solid_angle_sr(part_) < min_solid_angle_sr) {
-            continue;
-        }
+        if (solid_angle_sr(part_) < min_solid_angle_sr) { continue; }
         record(painted, part_);
     }
 }
@@ -317,8 +276,7 @@ void PolygonRepaint::write(
     if (painted.owner == is_ground) {
         steps.add_within(*ground_, painted.item, part_);
     } else {
-        steps.add_within(
-            draw_of(*aircraft[painted.owner], painted.item, painted.index_count), part_);
+        steps.add_within(draw_of(*aircraft[painted.owner], painted.item, painted.index_count), part_);
     }
 }
 
@@ -329,17 +287,14 @@ constexpr double nearest = 1e-6;
 
 } // namespace
 
-scene::PixelBox
-pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
+scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
     const glm::dmat4 world_to_clip = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
     const glm::dvec2 size(size_px);
     glm::dvec2 least(std::numeric_limits<double>::max());
     glm::dvec2 most(std::numeric_limits<double>::lowest());
     for (const glm::dvec3& corner_m : corners_of(box)) {
         const glm::dvec4 clip = world_to_clip * glm::dvec4(corner_m, 1.0);
-        if (clip.w <= nearest * radius_m(box)) {
-            return {glm::ivec2(0), size_px};
-        }
+        if (clip.w <= nearest * radius_m(box)) { return {glm::ivec2(0), size_px}; }
         const glm::dvec2 at = glm::dvec2(clip.x, -clip.y) / clip.w;
         least = glm::min(least, at);
         most = glm::max(most, at);
@@ -352,16 +307,14 @@ pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2
 
 namespace {
 
-/// A little more than two of scene::screen_step_px. What is painted again is cut this much too wide
-/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
+/// A little more than two of scene::screen_step_px. What is painted again is cut this much too wide where only that
+/// rounding could tell, so that no line of the covered thing shows along the cut.
 constexpr double paint_rounding_px = 0.01;
 
-double away_m2(const OrientedBox& box) {
-    return glm::dot(box.centre_m, box.centre_m);
-}
+double away_m2(const OrientedBox& box) { return glm::dot(box.centre_m, box.centre_m); }
 
-/// Whether the middle of one box is nearer to the eye than that of another; of two that are equally
-/// far the one with the lower number counts as nearer.
+/// Whether the middle of one box is nearer to the eye than that of another; of two that are equally far the one with
+/// the lower number counts as nearer.
 bool is_nearer(std::span<const OrientedBox> boxes, std::uint32_t a, std::uint32_t b) {
     const double a_m2 = away_m2(boxes[a]);
     const double b_m2 = away_m2(boxes[b]);
@@ -381,8 +334,7 @@ bool is_beyond_clouds(const FrameScene& frame, const OverlapGroup& overlap_group
 
 } // namespace
 
-void ScenePainter::paint(
-    const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts) {
+void ScenePainter::paint(const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts) {
     if (hidden_surface == scene::HiddenSurface::DepthBuffer) {
         paint_by_depth(frame);
     } else {
@@ -396,12 +348,9 @@ void ScenePainter::paint_by_depth(const FrameScene& frame) {
     const auto bounding_boxes = frame.fleet.bounding_boxes();
     near_to_far_.resize(bounding_boxes.size());
     std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
-    std::ranges::sort(
-        near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(bounding_boxes, a, b); });
+    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(bounding_boxes, a, b); });
     steps_.clear_depth({glm::ivec2(0), frame.view.size_px});
-    if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) {
-        paint(frame, *cockpit, scene::DepthUse::Nearest);
-    }
+    if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) { paint(frame, *cockpit, scene::DepthUse::Nearest); }
     // What is refined comes apart, so that all others become one step.
     for (const bool refined : {false, true}) {
         for (const std::uint32_t i : near_to_far_) {
@@ -411,50 +360,37 @@ void ScenePainter::paint_by_depth(const FrameScene& frame) {
         }
     }
     std::size_t edge_on_indices = 0;
-    plan_.ground =
-        front_facing_first(frame.ground.all, frame.view.pixel_rad, facing_indices_, edge_on_indices);
+    plan_.ground = front_facing_first(frame.ground.all, frame.view.pixel_rad, facing_indices_, edge_on_indices);
     steps_.add_ground_by_depth(edge_on_indices);
     steps_.add_shadows_by_depth(frame.ground);
     steps_.add_sky(scene::DepthUse::InfinitelyFar);
     for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
-        if (!placed[*i].is_hidden) {
-            paint_transparent(frame, placed[*i]);
-        }
+        if (!placed[*i].is_hidden) { paint_transparent(frame, placed[*i]); }
     }
 }
 
 void ScenePainter::paint_in_order(const FrameScene& frame, PlanCounts& counts) {
     plan_.ground = front_facing(frame.ground, frame.view.pixel_rad, facing_indices_);
     boxes_.assign(frame.fleet.bounding_boxes().begin(), frame.fleet.bounding_boxes().end());
-    for (const PathRibbon::Dash& dash : frame.transparents.dashes()) {
-        boxes_.push_back(dash.box);
-    }
+    for (const PathRibbon::Dash& dash : frame.transparents.dashes()) { boxes_.push_back(dash.box); }
     order_.arrange(boxes_);
     steps_.add_sky();
     // The clouds lie above all ground.
     const bool from_above = is_above_clouds(frame, frame.view.camera.eye_m.z);
-    if (from_above) {
-        steps_.add_ground();
-    }
+    if (from_above) { steps_.add_ground(); }
     if (frame.transparents.cloud_height_m()) {
         paint_groups(frame, true, counts);
         steps_.add_transparent_range(frame.transparents.clouds().first, frame.transparents.clouds().count);
     }
-    if (!from_above) {
-        steps_.add_ground();
-    }
+    if (!from_above) { steps_.add_ground(); }
     paint_groups(frame, false, counts);
-    if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) {
-        paint(frame, *cockpit, scene::DepthUse::None);
-    }
+    if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) { paint(frame, *cockpit, scene::DepthUse::None); }
 }
 
 /// Paints the knots that lie beyond the clouds, or those that do not.
 void ScenePainter::paint_groups(const FrameScene& frame, bool beyond_clouds, PlanCounts& counts) {
     for (const OverlapGroup& overlap_group : order_.overlap_groups()) {
-        if (is_beyond_clouds(frame, overlap_group) == beyond_clouds) {
-            paint_group(frame, overlap_group, counts);
-        }
+        if (is_beyond_clouds(frame, overlap_group) == beyond_clouds) { paint_group(frame, overlap_group, counts); }
     }
 }
 
@@ -473,22 +409,16 @@ void ScenePainter::collect_members(const FrameScene& frame, const OverlapGroup& 
 /// Paints a knot and again what lies before it; nothing again where it is out of view.
 void ScenePainter::paint_group(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
     collect_members(frame, overlap_group);
-    if (members_.empty() && group_dashes_.empty()) {
-        return;
-    }
+    if (members_.empty() && group_dashes_.empty()) { return; }
     if (!in_view(overlap_group.box, frame.view)) {
-        for (const PlacedAircraft* member : members_) {
-            steps_.add(draw_of(*member));
-        }
+        for (const PlacedAircraft* member : members_) { steps_.add(draw_of(*member)); }
         return;
     }
     in_front_.find(overlap_group.box, frame.mesher, frame.ground.all, frame.view.camera.eye_m);
     paint_with_effects(frame, overlap_group, counts);
-    if (in_front_.found().empty() || contains_eye(overlap_group.box)) {
-        return;
-    }
-    // Not in the cone of a knot's box: between the members a farther knot may be seen before the
-    // ground. What was painted earlier and is seen in a member's cone lies behind the member.
+    if (in_front_.found().empty() || contains_eye(overlap_group.box)) { return; }
+    // Not in the cone of a knot's box: between the members a farther knot may be seen before the ground. What was
+    // painted earlier and is seen in a member's cone lies behind the member.
     for (const std::uint32_t member : order_.members(overlap_group)) {
         steps_.add_in_front(frame.ground, in_front_.found(), overlap_group.box, cone_of(boxes_[member]));
         counts.cuts += static_cast<int>(in_front_.found().size());
@@ -496,8 +426,7 @@ void ScenePainter::paint_group(const FrameScene& frame, const OverlapGroup& over
 }
 
 /// The aircraft of a knot with their effects, and the dashes of a ribbon behind and before them.
-void ScenePainter::paint_with_effects(
-    const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
+void ScenePainter::paint_with_effects(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
     constexpr double infinite_distance_m2 = std::numeric_limits<double>::infinity();
     const double group_distance_m2 = members_.empty() ? 0.0 : away_m2(overlap_group.box);
     paint_dashes(frame, infinite_distance_m2, group_distance_m2);
@@ -527,7 +456,8 @@ void ScenePainter::paint_dashes(const FrameScene& frame, double farther_m2, doub
     });
     for (const std::uint32_t box : group_dashes_) {
         if (away_m2(boxes_[box]) <= farther_m2 && away_m2(boxes_[box]) > nearer_m2) {
-            const TransparentRange& range = frame.transparents.dashes()[box - frame.fleet.bounding_boxes().size()].range;
+            const TransparentRange& range =
+                frame.transparents.dashes()[box - frame.fleet.bounding_boxes().size()].range;
             steps_.add_transparent_range(range.first, range.count);
         }
     }
@@ -535,8 +465,7 @@ void ScenePainter::paint_dashes(const FrameScene& frame, double farther_m2, doub
 
 /// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
 void ScenePainter::paint_members(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
-    const bool has_mesh =
-        std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
+    const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
     const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
     counts.overlap_groups += alone ? 0 : 1;
     if (has_mesh) {
@@ -548,8 +477,7 @@ void ScenePainter::paint_members(const FrameScene& frame, const OverlapGroup& ov
     }
 }
 
-/// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would
-/// take too long.
+/// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would take too long.
 void ScenePainter::paint_intersecting(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
     const StepWriter::Checkpoint before = steps_.checkpoint();
     const double rounding_rad = paint_rounding_px * frame.view.pixel_rad;
@@ -567,23 +495,16 @@ void ScenePainter::paint_intersecting(const FrameScene& frame, const OverlapGrou
 /// By a depth buffer that holds nothing else but the ground that meets them.
 void ScenePainter::paint_members_by_depth(const FrameScene& frame, const OverlapGroup& overlap_group) {
     steps_.clear_depth(pixel_box(overlap_group.box, plan_, frame.view.size_px));
-    if (!in_front_.intersecting().empty()) {
-        steps_.occlude_by_ground(frame.ground, in_front_.intersecting());
-    }
-    for (const PlacedAircraft* member : members_) {
-        paint(frame, *member, scene::DepthUse::Nearest);
-    }
+    if (!in_front_.intersecting().empty()) { steps_.occlude_by_ground(frame.ground, in_front_.intersecting()); }
+    for (const PlacedAircraft* member : members_) { paint(frame, *member, scene::DepthUse::Nearest); }
     std::ranges::sort(members_, [&](const PlacedAircraft* a, const PlacedAircraft* b) {
         return is_nearer(frame.fleet.bounding_boxes(), b->number, a->number);
     });
-    for (const PlacedAircraft* member : members_) {
-        paint_transparent(frame, *member);
-    }
+    for (const PlacedAircraft* member : members_) { paint_transparent(frame, *member); }
 }
 
 /// Paints a whole aircraft. What was refined for this frame is always drawn by depth.
-void ScenePainter::paint(
-    const FrameScene& frame, const PlacedAircraft& aircraft, scene::DepthUse depth) {
+void ScenePainter::paint(const FrameScene& frame, const PlacedAircraft& aircraft, scene::DepthUse depth) {
     if (!is_refined(aircraft)) {
         steps_.add(draw_of(aircraft), depth);
         return;
@@ -600,13 +521,11 @@ void ScenePainter::paint(
     }
 }
 
-/// Paints what is transparent of an aircraft that was refined for this frame: after all that it may
-/// be seen before.
+/// Paints what is transparent of an aircraft that was refined for this frame: after all that it may be seen before.
 void ScenePainter::paint_transparent(const FrameScene& frame, const PlacedAircraft& aircraft) {
     const scene::IndexRange& transparent = aircraft.model->transparent;
     if (is_refined(aircraft) && transparent.index_count > 0) {
-        scene::AircraftDraw draw =
-            draw_of(aircraft, transparent.first_index, transparent.index_count);
+        scene::AircraftDraw draw = draw_of(aircraft, transparent.first_index, transparent.index_count);
         draw.first_smooth = frame.smooth.turning_word_index();
         steps_.add_transparent(draw, aircraft.model->opacity);
     }

@@ -37,16 +37,14 @@ struct OverlapGroup {
 
 /// Painting order of aircraft by the boxes that stand in for them. Keeps its memory.
 ///
-/// A box must wait for every other of which it can hide a part; two that meet wait for each other.
-/// Boxes that wait for each other, directly or in a ring, become one knot, and no others do: what
-/// is left has an order.
+/// A box must wait for every other of which it can hide a part; two that meet wait for each other. Boxes that wait for
+/// each other, directly or in a ring, become one knot, and no others do: what is left has an order.
 ///
 /// Nearly all of it comes from a sort. The power of the eye with respect to a sphere is
 /// |centre|^2 - radius^2. The eyes of equal power to two spheres that do not meet form a plane
-/// between them, and the sphere on the eye's side has the smaller power: by descending power, no
-/// such box comes before one that must be painted first. Only where spheres meet, a box may come
-/// before one that it hides; the window of the list from one to the other is then sorted anew by
-/// which box hides which. No ring reaches out of these windows.
+/// between them, and the sphere on the eye's side has the smaller power: by descending power, no such box comes before
+/// one that must be painted first. Only where spheres meet, a box may come before one that it hides; the window of the
+/// list from one to the other is then sorted anew by which box hides which. No ring reaches out of these windows.
 class SceneOrder {
 public:
     /// Boxes with the eye at the origin.
@@ -115,29 +113,22 @@ private:
     std::vector<std::uint32_t> members_;
 };
 
-/// Paints aircraft that no order puts right as wholes: boxes that meet each other or the ground.
-/// It keeps its memory from frame to frame.
+/// Paints aircraft that no order puts right as wholes: boxes that meet each other or the ground. It keeps its memory
+/// from frame to frame.
 ///
-/// Polygon by polygon: after each polygon P everything painted before is painted once more, in its
-/// order, as far as it lies in the cone of the eye over P and before the plane of P. If the picture
-/// was right before P, it is right after: where nothing lies before P, P is seen; elsewhere what
-/// was on top lies before P (the nearest does when any does) and comes on top again. Polygons of
-/// the same aircraft are in order already and are not compared. What is painted again is cut to
-/// a convex part of itself by planes through the eye.
+/// Polygon by polygon: after each polygon P everything painted before is painted once more, in its order, as far as it
+/// lies in the cone of the eye over P and before the plane of P. If the picture was right before P, it is right after:
+/// where nothing lies before P, P is seen; elsewhere what was on top lies before P (the nearest does when any does) and
+/// comes on top again. Polygons of the same aircraft are in order already and are not compared. What is painted again
+/// is cut to a convex part of itself by planes through the eye.
 class PolygonRepaint {
 public:
-    /// Paints the aircraft in `box` over ground that has been painted; `intersecting` are the triangles
-    /// that meet the box, in painting order, and only what lies inside it is painted again.
-    /// `rounding_rad`: how far a renderer may move an edge. Returns how many triangles and polygons
-    /// were painted again; nothing, with some of it written, where that would be more than
-    /// `max_repaints` or more than `max_comparisons` pairs would have to be compared.
-    std::optional<int> paint(
-        std::span<const PlacedAircraft* const> aircraft,
-        const OrientedBox& box,
-        const GroundFrame& ground,
-        std::span<const std::uint32_t> intersecting,
-        double rounding_rad,
-        StepWriter& steps);
+    /// Paints the aircraft in `box` over ground that has been painted; `intersecting` are the triangles that meet the
+    /// box, in painting order, and only what lies inside it is painted again. `rounding_rad`: how far a renderer may
+    /// move an edge. Returns how many triangles and polygons were painted again; nothing, with some of it written,
+    /// where that would be more than `max_repaints` or more than `max_comparisons` pairs would have to be compared.
+    std::optional<int> paint(std::span<const PlacedAircraft* const> aircraft, const OrientedBox& box,
+        const GroundFrame& ground, std::span<const std::uint32_t> intersecting, double rounding_rad, StepWriter& steps);
 
 private:
     /// More take longer than a frame has: some hundred are usual where two aircraft meet.
@@ -163,20 +154,11 @@ private:
 
     void record(PaintedItem painted, const ViewPolygon& part);
     void paint_aircraft(
-        std::span<const PlacedAircraft* const> aircraft,
-        std::uint32_t owner,
-        double rounding_rad,
-        StepWriter& steps);
-    void paint_range(
-        std::span<const PlacedAircraft* const> aircraft,
-        std::uint32_t owner,
-        const scene::IndexRange& range,
-        double rounding_rad,
-        StepWriter& steps);
-    void
-    find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad);
-    void write(
-        std::span<const PlacedAircraft* const> aircraft, const PaintedItem& painted, StepWriter& steps);
+        std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner, double rounding_rad, StepWriter& steps);
+    void paint_range(std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner,
+        const scene::IndexRange& range, double rounding_rad, StepWriter& steps);
+    void find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad);
+    void write(std::span<const PlacedAircraft* const> aircraft, const PaintedItem& painted, StepWriter& steps);
 
     std::vector<PaintedItem> painted_;
     std::vector<ViewVertex> corners_;
@@ -189,10 +171,9 @@ private:
     std::size_t comparison_count_ = 0;
 };
 
-/// The pixels that hold a box as FramePlan::world_to_view and view_to_clip show it; the whole
-/// picture where part of the box lies behind the eye.
-scene::PixelBox
-pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px);
+/// The pixels that hold a box as FramePlan::world_to_view and view_to_clip show it; the whole picture where part of the
+/// box lies behind the eye.
+scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px);
 
 /// All that is in a frame, apart from the order in which it is painted.
 struct FrameScene {
@@ -205,24 +186,20 @@ struct FrameScene {
     const landscape::GroundMesher& mesher;
 };
 
-/// Writes the painting steps of a plan: in which order, and how, what is in a frame is drawn. It
-/// also chooses which triangles of the ground the plan draws. Keeps its memory.
+/// Writes the painting steps of a plan: in which order, and how, what is in a frame is drawn. It also chooses which
+/// triangles of the ground the plan draws. Keeps its memory.
 ///
-/// In painting order (HiddenSurface::Octant, BackFace): sky, ground with its shadows in place, then
-/// the aircraft from far to near. Clouds come before what lies on the eye's side of them and after
-/// the rest: seen from below before all ground, seen from above after it. After each knot of
-/// aircraft the ground that lies before it is painted again, cut to where the knot is seen. Meshes
-/// ask for depth, within their knot, and so do aircraft that meet in too many places.
+/// In painting order (HiddenSurface::Octant, BackFace): sky, ground with its shadows in place, then the aircraft from
+/// far to near. Clouds come before what lies on the eye's side of them and after the rest: seen from below before all
+/// ground, seen from above after it. After each knot of aircraft the ground that lies before it is painted again, cut
+/// to where the knot is seen. Meshes ask for depth, within their knot, and so do aircraft that meet in too many places.
 ///
-/// By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured
-/// first: aircraft, ground, shadows, sky. Where aircraft and ground are equally near the aircraft
-/// is seen.
+/// By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured first: aircraft,
+/// ground, shadows, sky. Where aircraft and ground are equally near the aircraft is seen.
 class ScenePainter {
 public:
     /// The plan must outlive it; its lists of steps, clips and draws are empty before each frame.
-    explicit ScenePainter(scene::FramePlan& plan)
-        : plan_(plan)
-        , steps_(plan) {}
+    explicit ScenePainter(scene::FramePlan& plan) : plan_(plan), steps_(plan) {}
 
     /// Adds what was painted again, and in knots, to the counts.
     void paint(const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts);
@@ -247,8 +224,7 @@ private:
     SceneOrder order_;
     GroundInFront in_front_;
     PolygonRepaint repaint_;
-    /// The boxes that have a place in the painting order: those of the aircraft, then those of the
-    /// ribbon's dashes.
+    /// The boxes that have a place in the painting order: those of the aircraft, then those of the ribbon's dashes.
     std::vector<OrientedBox> boxes_;
     /// The aircraft of the knot that is painted, and its dashes, by their boxes.
     std::vector<const PlacedAircraft*> members_;

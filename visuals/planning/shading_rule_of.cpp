@@ -4,8 +4,7 @@ namespace octant::visuals::planning {
 
 shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& settings) {
     shading::ShadingRuleSettings rule;
-    rule.rule = settings.rule == scene::HybridRule::Paper ? shading::ShadingRule::Paper
-                                                          : shading::ShadingRule::Error;
+    rule.rule = settings.rule == scene::HybridRule::Paper ? shading::ShadingRule::Paper : shading::ShadingRule::Error;
     return rule;
 }
 

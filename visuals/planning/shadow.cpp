@@ -22,11 +22,8 @@ constexpr double min_shadow_px = 2.0;
 constexpr int max_march_steps = 200;
 
 glm::vec4 unpacked(std::uint32_t colour) {
-    return glm::vec4(
-               static_cast<float>(colour & 255U),
-               static_cast<float>((colour >> 8U) & 255U),
-               static_cast<float>((colour >> 16U) & 255U),
-               static_cast<float>(colour >> 24U)) /
+    return glm::vec4(static_cast<float>(colour & 255U), static_cast<float>((colour >> 8U) & 255U),
+               static_cast<float>((colour >> 16U) & 255U), static_cast<float>(colour >> 24U)) /
            255.0F;
 }
 
@@ -42,13 +39,9 @@ ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun,
     const AxisAlignedBox extent = world_bounds(hull);
     const glm::dvec3 down_m = to_sun * -(path_m + reach_m);
     ConvexVolume volume;
-    volume.extent = {
-        glm::min(extent.min_m, extent.min_m + down_m),
-        glm::max(extent.max_m, extent.max_m + down_m)};
+    volume.extent = {glm::min(extent.min_m, extent.min_m + down_m), glm::max(extent.max_m, extent.max_m + down_m)};
     const LightPrism prism = prism_of(hull, to_sun);
-    for (int i = 0; i < prism.count; ++i) {
-        volume.add(prism.planes[static_cast<std::size_t>(i)]);
-    }
+    for (int i = 0; i < prism.count; ++i) { volume.add(prism.planes[static_cast<std::size_t>(i)]); }
     return volume;
 }
 
@@ -56,8 +49,8 @@ double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) 
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The upright plane through an edge of a polygon that lies counter-clockwise seen from above, with
-/// the polygon in front of it.
+/// The upright plane through an edge of a polygon that lies counter-clockwise seen from above, with the polygon in
+/// front of it.
 Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
     const glm::dvec3 edge_m = to_m - from_m;
     const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
@@ -67,13 +60,10 @@ Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
 } // namespace
 
 ShadowCaster::ShadowCaster(const glm::dvec3& to_sun)
-    : to_sun_(to_sun)
-    , high_enough_(to_sun.z >= std::sin(rad_from_deg(min_sun_elevation_deg))) {}
+    : to_sun_(to_sun), high_enough_(to_sun.z >= std::sin(rad_from_deg(min_sun_elevation_deg))) {}
 
 void ShadowCaster::begin(
-    const scene::TriangleDraw& triangles,
-    bool alpha_is_visibility,
-    std::vector<models::ColourVertex>& vertices) {
+    const scene::TriangleDraw& triangles, bool alpha_is_visibility, std::vector<models::ColourVertex>& vertices) {
     ground_ = triangles;
     alpha_is_light_ = alpha_is_visibility;
     vertices_ = &vertices;
@@ -88,9 +78,8 @@ void ShadowCaster::set_decals(const GroundDecals& decals) {
     decals_ = decals;
     decals_by_triangle_.resize(decals.decals.size());
     std::iota(decals_by_triangle_.begin(), decals_by_triangle_.end(), 0U);
-    std::ranges::stable_sort(decals_by_triangle_, {}, [&](std::uint32_t decal) {
-        return decals_.decals[decal].triangle;
-    });
+    std::ranges::stable_sort(
+        decals_by_triangle_, {}, [&](std::uint32_t decal) { return decals_.decals[decal].triangle; });
     for (const GroundDecal& decal : decals.decals) {
         const std::size_t first = indices_.size();
         for (std::uint32_t i = 0; i < decal.count; ++i) {
@@ -102,18 +91,11 @@ void ShadowCaster::set_decals(const GroundDecals& decals) {
     }
 }
 
-void ShadowCaster::cast(
-    const PlacedAircraft& aircraft,
-    const OrientedBox& hull,
-    const landscape::GroundMesher& ground,
+void ShadowCaster::cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const landscape::GroundMesher& ground,
     const FrameView& view) {
-    if (!high_enough_ || ground_.indices.empty()) {
-        return;
-    }
+    if (!high_enough_ || ground_.indices.empty()) { return; }
     const double path_m = light_path_m(hull, ground.ground(), view.camera.eye_m);
-    if (path_m < 0.0) {
-        return;
-    }
+    if (path_m < 0.0) { return; }
     const glm::dvec3 position_m = hull.centre_m - to_sun_ * path_m;
     const AxisAlignedBox& extent = aircraft.model->hull;
     const double size_m = 0.5 * glm::distance(extent.min_m, extent.max_m);
@@ -142,14 +124,12 @@ void ShadowCaster::cast(
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3& b = triangle_[1].at_m;
         const glm::dvec3& c = triangle_[2].at_m;
-        if (may_intersect(volume, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
-            cast_on(candidate);
-        }
+        if (may_intersect(volume, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) { cast_on(candidate); }
     }
 }
 
-/// Length of the light's way from the middle of the hull to the ground; negative when it meets
-/// none or the middle lies under it.
+/// Length of the light's way from the middle of the hull to the ground; negative when it meets none or the middle lies
+/// under it.
 double ShadowCaster::light_path_m(
     const OrientedBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const {
     const glm::dvec3 from_m = hull.centre_m + eye_m;
@@ -163,9 +143,7 @@ double ShadowCaster::light_path_m(
     double path_m = 0.0;
     for (int step = 0; step < max_march_steps; ++step) {
         const std::optional<double> height_m = height_over_ground_m(path_m);
-        if (!height_m || (step == 0 && *height_m < 0.0)) {
-            return -1.0;
-        }
+        if (!height_m || (step == 0 && *height_m < 0.0)) { return -1.0; }
         if (*height_m <= 0.0) {
             for (int halving = 0; halving < 20; ++halving) {
                 const double middle_m = 0.5 * (above_m + path_m);
@@ -201,9 +179,7 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
         return; // the sun does not reach it or the eye does not see it
     }
     std::array<Plane, 3> sides;
-    for (std::size_t i = 0; i < 3; ++i) {
-        sides[i] = side_of(triangle_[i].at_m, triangle_[(i + 1) % 3].at_m);
-    }
+    for (std::size_t i = 0; i < 3; ++i) { sides[i] = side_of(triangle_[i].at_m, triangle_[(i + 1) % 3].at_m); }
     shadow_parts_.clear();
     shadow_ends_.clear();
     const std::size_t first = indices_.size();
@@ -211,14 +187,10 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
         const auto corners = std::span(face_corners_).subspan(face.first, face.count);
         part_.assign(corners.begin(), corners.end());
         clip_to_front(part_, plane, 0.0, scratch_);
-        for (ViewVertex& corner : part_) {
-            corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope);
-        }
+        for (ViewVertex& corner : part_) { corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope); }
         const std::size_t before = shadow_parts_.size();
         shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
-        for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) {
-            clip_to_front(part_, sides[i], 0.0, scratch_);
-        }
+        for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) { clip_to_front(part_, sides[i], 0.0, scratch_); }
         if (part_.size() >= 3) {
             add_piece(triangle);
             shadow_ends_.push_back(shadow_parts_.size());
@@ -227,19 +199,14 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
         }
     }
     add_pieces(triangle, GroundLayer::Shadow, first);
-    if (!decals_.decals.empty() && !shadow_ends_.empty()) {
-        add_on_decals(triangle);
-    }
+    if (!decals_.decals.empty() && !shadow_ends_.empty()) { add_on_decals(triangle); }
 }
 
 /// What indices_ holds from one on, unless that is nothing.
 void ShadowCaster::add_pieces(std::uint32_t triangle, GroundLayer layer, std::size_t first) {
     if (indices_.size() > first) {
         pieces_.push_back(
-            {triangle,
-             static_cast<std::uint32_t>(first),
-             static_cast<std::uint32_t>(indices_.size() - first),
-             layer});
+            {triangle, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(indices_.size() - first), layer});
     }
 }
 
@@ -247,9 +214,7 @@ void ShadowCaster::add_pieces(std::uint32_t triangle, GroundLayer layer, std::si
 void ShadowCaster::add_fan(std::size_t corners) {
     const auto all = static_cast<std::uint32_t>(ground_.vertices.size() + vertices_->size());
     const std::uint32_t base = all - static_cast<std::uint32_t>(corners);
-    for (std::uint32_t i = 2; i < corners; ++i) {
-        indices_.insert(indices_.end(), {base, base + i - 1, base + i});
-    }
+    for (std::uint32_t i = 2; i < corners; ++i) { indices_.insert(indices_.end(), {base, base + i - 1, base + i}); }
 }
 
 /// part_ as a fan with the triangle's colours, darkened.
@@ -265,8 +230,7 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
         const glm::vec4 colour =
             unpacked(ground_.vertices[corner[0]].colour) * static_cast<float>(share_a) +
             unpacked(ground_.vertices[corner[1]].colour) * static_cast<float>(share_b) +
-            unpacked(ground_.vertices[corner[2]].colour) *
-                static_cast<float>(1.0 - share_a - share_b);
+            unpacked(ground_.vertices[corner[2]].colour) * static_cast<float>(1.0 - share_a - share_b);
         vertices_->push_back({glm::vec3(at.at_m), shaded(colour, alpha_is_light_)});
     }
     add_fan(part_.size());
@@ -282,8 +246,7 @@ void ShadowCaster::add_on_decals(std::uint32_t triangle) {
         const auto corners = decals_.corners.subspan(decal.first, decal.count);
         std::size_t begin = 0;
         for (const std::size_t end : shadow_ends_) {
-            part_.assign(
-                shadow_parts_.begin() + static_cast<std::ptrdiff_t>(begin),
+            part_.assign(shadow_parts_.begin() + static_cast<std::ptrdiff_t>(begin),
                 shadow_parts_.begin() + static_cast<std::ptrdiff_t>(end));
             begin = end;
             for (std::size_t i = 0; i < corners.size() && !part_.empty(); ++i) {
@@ -291,9 +254,8 @@ void ShadowCaster::add_on_decals(std::uint32_t triangle) {
                 clip_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
             }
             for (const ViewVertex& at : part_) {
-                vertices_->push_back(
-                    {glm::vec3(at.at_m) * depth_offset_factor(GroundLayer::ShadowOnDecal),
-                     shaded(unpacked(decal.colour), false)});
+                vertices_->push_back({glm::vec3(at.at_m) * depth_offset_factor(GroundLayer::ShadowOnDecal),
+                    shaded(unpacked(decal.colour), false)});
             }
             add_fan(part_.size());
         }
@@ -302,9 +264,8 @@ void ShadowCaster::add_on_decals(std::uint32_t triangle) {
 }
 
 void ShadowCaster::sort_pieces() {
-    std::ranges::sort(pieces_, {}, [](const ShadowPieces& piece) {
-        return std::tuple(piece.triangle, piece.layer, piece.first);
-    });
+    std::ranges::sort(
+        pieces_, {}, [](const ShadowPieces& piece) { return std::tuple(piece.triangle, piece.layer, piece.first); });
 }
 
 } // namespace octant::visuals::planning

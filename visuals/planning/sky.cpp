@@ -23,8 +23,7 @@ constexpr int sky_segments = 36;
 constexpr double dome_radius_m = 1000.0;
 
 /// Elevations of the rings above the horizon, degrees, from the zenith down.
-constexpr std::array rings_above_deg = {
-    90.0, 75.0, 60.0, 48.0, 38.0, 30.0, 23.0, 17.0, 12.0, 8.0, 5.0, 2.5, 1.0, 0.0};
+constexpr std::array rings_above_deg = {90.0, 75.0, 60.0, 48.0, 38.0, 30.0, 23.0, 17.0, 12.0, 8.0, 5.0, 2.5, 1.0, 0.0};
 constexpr int rings_above = static_cast<int>(rings_above_deg.size());
 constexpr int rings_below = 7;
 
@@ -44,23 +43,16 @@ double mean_density(double rise_m, double falloff_per_m) {
 
 /// Distance at which a look down meets the plain; nothing above its horizon.
 std::optional<double> infinite_plain_distance_m(double depression_rad, const SurroundingPlain& plain) {
-    if (plain.height_below_eye_m <= 0.0 || depression_rad <= 0.0) {
-        return std::nullopt;
-    }
-    if (plain.earth_radius_m <= 0.0) {
-        return plain.height_below_eye_m / std::sin(depression_rad);
-    }
+    if (plain.height_below_eye_m <= 0.0 || depression_rad <= 0.0) { return std::nullopt; }
+    if (plain.earth_radius_m <= 0.0) { return plain.height_below_eye_m / std::sin(depression_rad); }
     // The nearer root of h + d^2 / 2R = d tan(depression).
     const double slope = std::tan(depression_rad);
     const double under = slope * slope - 2.0 * plain.height_below_eye_m / plain.earth_radius_m;
-    if (under < 0.0) {
-        return std::nullopt;
-    }
+    if (under < 0.0) { return std::nullopt; }
     return 2.0 * plain.height_below_eye_m / (slope + std::sqrt(under)) / std::cos(depression_rad);
 }
 
-/// The same for a plain that begins at the map's edge: over low ground of the map a look goes on to
-/// there.
+/// The same for a plain that begins at the map's edge: over low ground of the map a look goes on to there.
 std::optional<double> distance_to_plain_m(double depression_rad, const SurroundingPlain& plain) {
     const auto infinite_distance_m = infinite_plain_distance_m(depression_rad, plain);
     return infinite_distance_m ? std::optional(std::max(*infinite_distance_m, plain.map_edge_m)) : std::nullopt;
@@ -72,14 +64,12 @@ glm::vec3 colour_below(const glm::dvec3& ray, const SurroundingPlain& plain, con
     constexpr double beyond_m = 1e9;
     const glm::dvec3 level(ray.x, ray.y, 0.0);
     return distance_m ? through_haze(haze, *distance_m * ray, plain.colour)
-                      : through_haze(
-                            {haze.colour, 1.0F, 0.0F, haze.horizontal_to_sun, haze.sunward_colour},
-                            beyond_m * level,
-                            haze.colour);
+                      : through_haze({haze.colour, 1.0F, 0.0F, haze.horizontal_to_sun, haze.sunward_colour},
+                            beyond_m * level, haze.colour);
 }
 
-/// Steepest look down at which the plain can show past the edge of the map, with a margin for
-/// ground that lies lower than the plain.
+/// Steepest look down at which the plain can show past the edge of the map, with a margin for ground that lies lower
+/// than the plain.
 double deepest_rad(const SurroundingPlain& plain) {
     const double height_m = std::max(plain.height_below_eye_m, 0.0) + 200.0;
     const double deepest = std::atan2(2.0 * height_m, std::max(plain.map_edge_m, 1.0));
@@ -89,22 +79,18 @@ double deepest_rad(const SurroundingPlain& plain) {
 } // namespace
 
 glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own) {
-    if (haze.visibility_m <= 0.0F) {
-        return own;
-    }
+    if (haze.visibility_m <= 0.0F) { return own; }
     const double distance_m = std::max(glm::length(position_m), 1e-6);
     const double depth = distance_m / static_cast<double>(haze.visibility_m) *
                          mean_density(position_m.z, static_cast<double>(haze.falloff_per_m));
     const double towards =
         std::max(glm::dot(glm::dvec2(position_m), glm::dvec2(haze.horizontal_to_sun)) / distance_m, 0.0);
-    const glm::vec3 air =
-        glm::mix(haze.colour, haze.sunward_colour, static_cast<float>(towards * towards));
+    const glm::vec3 air = glm::mix(haze.colour, haze.sunward_colour, static_cast<float>(towards * towards));
     return glm::mix(air, own, static_cast<float>(std::exp(-depth)));
 }
 
 Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
-    : first_azimuth_rad_(std::atan2(day.horizontal_to_sun().x, day.horizontal_to_sun().y))
-    , land_(std::move(land)) {
+    : first_azimuth_rad_(std::atan2(day.horizontal_to_sun().x, day.horizontal_to_sun().y)), land_(std::move(land)) {
     add_dome(day);
     add_sun(day);
     sky_vertices_ = vertices_.size();
@@ -118,8 +104,8 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     }
 }
 
-/// Triangles between two rings of vertices, counter-clockwise seen from the inside of the dome
-/// where corners go clockwise seen from above.
+/// Triangles between two rings of vertices, counter-clockwise seen from the inside of the dome where corners go
+/// clockwise seen from above.
 void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int vertices) {
     for (int corner = 0; corner < vertices; ++corner) {
         const auto here = static_cast<std::uint32_t>(corner);
@@ -148,30 +134,22 @@ void Sky::add_dome(const nature::Daylight& day) {
     }
 }
 
-/// Over the dome: glare from outside in, then the disc. What would lie below the horizon is moved
-/// up to it.
+/// Over the dome: glare from outside in, then the disc. What would lie below the horizon is moved up to it.
 void Sky::add_sun(const nature::Daylight& day) {
     const glm::dvec3& to_sun = day.to_sun();
     const glm::dvec3 right(-to_sun.y, to_sun.x, 0.0);
-    const glm::dvec3 across =
-        glm::length(right) > 1e-9 ? glm::normalize(right) : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 across = glm::length(right) > 1e-9 ? glm::normalize(right) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 up = glm::cross(to_sun, across);
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     const auto add = [&](double from_sun_rad, int segment_index, bool of_disc) {
         const double turn = -2.0 * pi * segment_index / sun_segments;
         glm::dvec3 direction =
-            std::cos(from_sun_rad) * to_sun +
-            std::sin(from_sun_rad) * (std::cos(turn) * across + std::sin(turn) * up);
-        if (direction.z < 0.0) {
-            direction = glm::normalize(glm::dvec3(direction.x, direction.y, 0.0));
-        }
+            std::cos(from_sun_rad) * to_sun + std::sin(from_sun_rad) * (std::cos(turn) * across + std::sin(turn) * up);
+        if (direction.z < 0.0) { direction = glm::normalize(glm::dvec3(direction.x, direction.y, 0.0)); }
         const double angle_rad = std::acos(std::clamp(glm::dot(direction, to_sun), -1.0, 1.0));
         vertices_.push_back(dome_vertex(
-            direction,
-            of_disc
-                ? glm::max(
-                      day.disc(), glm::min(day.sky(direction) + day.glare(0.0), glm::vec3(1.0F)))
-                : day.sky(direction) + day.glare(angle_rad)));
+            direction, of_disc ? glm::max(day.disc(), glm::min(day.sky(direction) + day.glare(0.0), glm::vec3(1.0F)))
+                               : day.sky(direction) + day.glare(angle_rad)));
     };
     for (auto ring = glare_rings_deg.rbegin(); ring != glare_rings_deg.rend(); ++ring) {
         for (int segment_index = 0; segment_index < sun_segments; ++segment_index) {
@@ -198,14 +176,12 @@ void Sky::place_backdrop(const SurroundingPlain& plain, const scene::Haze& haze,
             at_m.z -= (at_m.x * at_m.x + at_m.y * at_m.y) / (2.0 * plain.earth_radius_m);
         }
         const auto cover_code = static_cast<std::uint32_t>(std::lround(corner.cover_code));
-        const std::uint32_t colour =
-            models::packed_colour(through_haze(haze, at_m, corner.colour)) & 0x00ffffffU;
+        const std::uint32_t colour = models::packed_colour(through_haze(haze, at_m, corner.colour)) & 0x00ffffffU;
         *vertex++ = {glm::vec3(at_m), colour | cover_code << 24U};
     }
 }
 
-scene::TriangleDraw
-Sky::around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
+scene::TriangleDraw Sky::around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
     const double deepest = deepest_rad(plain);
     const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
     SurroundingPlain beyond = plain;
@@ -222,16 +198,12 @@ Sky::around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::d
             const glm::dvec3 level =
                 direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments);
             const glm::dvec3 ray(
-                std::cos(elevation_rad) * level.x,
-                std::cos(elevation_rad) * level.y,
-                std::sin(elevation_rad));
+                std::cos(elevation_rad) * level.x, std::cos(elevation_rad) * level.y, std::sin(elevation_rad));
             *vertex = dome_vertex(ray, colour_below(ray, beyond, haze));
         }
     }
     const std::span indices(indices_);
-    if (!has_land) {
-        return {std::span(vertices_).first(sky_vertices_), indices.first(sky_indices_)};
-    }
+    if (!has_land) { return {std::span(vertices_).first(sky_vertices_), indices.first(sky_indices_)}; }
     place_backdrop(plain, haze, eye_m);
     return {vertices_, indices};
 }

@@ -26,18 +26,16 @@ struct SurroundingPlain {
     double earth_radius_m = 0.0;
 };
 
-/// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare; the
-/// plain below it as far down as the map does not cover it. What is below the horizon is made anew
-/// each frame in the same memory.
+/// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare; the plain below it as
+/// far down as the map does not cover it. What is below the horizon is made anew each frame in the same memory.
 class Sky {
 public:
     /// `land`: what lies around the map; may be empty.
     explicit Sky(const nature::Daylight& day, nature::Backdrop land = {});
 
-    /// The triangles, in painting order, stay valid until the next call. The land around the map is
-    /// left out from below its mean height.
-    scene::TriangleDraw
-    around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
+    /// The triangles, in painting order, stay valid until the next call. The land around the map is left out from below
+    /// its mean height.
+    scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
 
 private:
     void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);

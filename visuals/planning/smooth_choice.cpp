@@ -21,33 +21,27 @@ constexpr double nearest_radii = 1.0;
 
 std::size_t mask_words_for(const AircraftModel& model) {
     std::size_t most = 0;
-    for (std::size_t as = 0; as <= model.levels.size(); ++as) {
-        most = std::max(most, model.shaded_as(as).size());
-    }
+    for (std::size_t as = 0; as <= model.levels.size(); ++as) { most = std::max(most, model.shaded_as(as).size()); }
     return most / word_bits + 1;
 }
 
-double distance_m(const PlacedAircraft& aircraft) {
-    return glm::length(glm::dvec3(aircraft.parts[0][3]));
-}
+double distance_m(const PlacedAircraft& aircraft) { return glm::length(glm::dvec3(aircraft.parts[0][3])); }
 
 /// Those that may be flat or smooth.
 int polygons_of(const PlacedAircraft& aircraft) {
-    return is_refined(aircraft)
-               ? aircraft.polygon_count
-               : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
+    return is_refined(aircraft) ? aircraft.polygon_count
+                                : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
 }
 
 /// Whether some polygons may be smooth while others are not.
 bool chooses_by(const scene::ShadingSettings& settings, bool follows_clock) {
     return settings.kind == scene::AircraftShading::Hybrid &&
            (settings.smooth_share < 1.0 || settings.device_ratio || follows_clock ||
-            settings.rule == scene::HybridRule::Paper);
+               settings.rule == scene::HybridRule::Paper);
 }
 
 /// The light of the sun on an aircraft, in its body axes.
-shading::ShadingLight
-illumination(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
+shading::ShadingLight illumination(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
     shading::ShadingLight sun;
     sun.to_light = glm::vec3(to_sun * glm::dmat3(aircraft.parts[0]));
     sun.ambient = light.x;
@@ -93,13 +87,9 @@ void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, st
     }
 }
 
-SmoothChoice::SmoothChoice(
-    const scene::ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed)
-    : settings_(settings)
-    , selects_(chooses_by(settings, follows_clock))
-    , selectors_(placed.size())
-    , shares_(placed.size())
-    , assigned_(placed.size()) {
+SmoothChoice::SmoothChoice(const scene::ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed)
+    : settings_(settings), selects_(chooses_by(settings, follows_clock)), selectors_(placed.size()),
+      shares_(placed.size()), assigned_(placed.size()) {
     std::size_t words = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const AircraftModel& model = *placed[i].model;
@@ -110,9 +100,7 @@ SmoothChoice::SmoothChoice(
         }
         if (placed[i].far_model != nullptr) {
             needed = std::max(needed, mask_words_for(*placed[i].far_model));
-            if (selects_) {
-                selectors_[i].emplace_back(placed[i].far_model->shaded, shading_rule_of(settings));
-            }
+            if (selects_) { selectors_[i].emplace_back(placed[i].far_model->shaded, shading_rule_of(settings)); }
         }
         words += needed;
     }
@@ -137,30 +125,22 @@ int SmoothChoice::smooth_count_for(std::span<const PlacedAircraft> placed, const
     if (settings_.rule == scene::HybridRule::Paper) {
         const shading::ShadingRange range{settings_.near_m, settings_.far_m};
         for (std::size_t i = 0; i < placed.size(); ++i) {
-            assigned_[i] = std::min(
-                assigned_[i],
-                shading::smooth_count(distance_m(placed[i]), range, shares_[i].polygons));
+            assigned_[i] =
+                std::min(assigned_[i], shading::smooth_count(distance_m(placed[i]), range, shares_[i].polygons));
         }
     }
     return all;
 }
 
-SmoothChoice::Count SmoothChoice::choose(
-    std::span<const PlacedAircraft> placed,
-    std::span<const std::unique_ptr<RefinedAircraft>> refined,
-    const SmoothTarget& smooth_target,
-    const glm::dvec3& to_sun,
-    const glm::vec2& light,
-    std::vector<std::uint32_t>& smooth) {
+SmoothChoice::Count SmoothChoice::choose(std::span<const PlacedAircraft> placed,
+    std::span<const std::unique_ptr<RefinedAircraft>> refined, const SmoothTarget& smooth_target,
+    const glm::dvec3& to_sun, const glm::vec2& light, std::vector<std::uint32_t>& smooth) {
     Count count{smooth_count_for(placed, smooth_target), 0};
     for (std::size_t i = 0; i < placed.size(); ++i) {
         int assigned = settings_.kind == scene::AircraftShading::Flat ? 0 : shares_[i].polygons;
         const shading::ShadingLight sun = illumination(placed[i], to_sun, light);
-        const glm::dvec3 eye_m =
-            -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
-        if (selects_) {
-            assigned = assigned_[i];
-        }
+        const glm::dvec3 eye_m = -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
+        if (selects_) { assigned = assigned_[i]; }
         if (is_refined(placed[i])) {
             refined[i]->shade(eye_m, sun, assigned);
         } else if (selects_) {
@@ -172,22 +152,17 @@ SmoothChoice::Count SmoothChoice::choose(
     return count;
 }
 
-shading::ShadingSelector&
-SmoothChoice::selector_of(std::size_t aircraft, const PlacedAircraft& placed) {
+shading::ShadingSelector& SmoothChoice::selector_of(std::size_t aircraft, const PlacedAircraft& placed) {
     const std::size_t polygons = placed.near_model->levels.size();
     const std::size_t as_it_is = is_mesh(placed) ? placed.representation : polygons;
     return selectors_[aircraft][is_far(placed) ? polygons + 1 : as_it_is];
 }
 
-void SmoothChoice::write_bits(
-    const PlacedAircraft& aircraft, const shading::ShadingChoice& choice) {
+void SmoothChoice::write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice) {
     for (std::size_t first = 0; first < choice.smooth.size(); first += word_bits) {
-        const auto part =
-            choice.smooth.subspan(first, std::min(word_bits, choice.smooth.size() - first));
+        const auto part = choice.smooth.subspan(first, std::min(word_bits, choice.smooth.size() - first));
         std::uint32_t word = 0;
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            word |= std::uint32_t{part[i]} << i;
-        }
+        for (std::size_t i = 0; i < part.size(); ++i) { word |= std::uint32_t{part[i]} << i; }
         bits_[aircraft.first_smooth + first / word_bits] = word;
     }
 }

@@ -24,27 +24,23 @@ struct SmoothCandidate {
     double weight = 0.0;
 };
 
-/// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has;
-/// in all as many as asked for, or all. `assigned`: one an aircraft.
+/// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has; in all as many as
+/// asked for, or all. `assigned`: one an aircraft.
 void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, std::span<int> assigned);
 
-/// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the
-/// settings say.
+/// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the settings say.
 struct SmoothTarget {
     std::optional<int> polygons;
     std::optional<double> share;
 };
 
-/// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes
-/// that are refined included. Keeps the choice, so that shading does not flicker, and its memory.
+/// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes that are refined
+/// included. Keeps the choice, so that shading does not flicker, and its memory.
 class SmoothChoice {
 public:
-    /// Gives each aircraft its place in FramePlan::smooth. `follows_clock`: the share of smooth
-    /// polygons may be another one in each frame. Loading work.
-    SmoothChoice(
-        const scene::ShadingSettings& settings,
-        bool follows_clock,
-        std::span<PlacedAircraft> placed);
+    /// Gives each aircraft its place in FramePlan::smooth. `follows_clock`: the share of smooth polygons may be another
+    /// one in each frame. Loading work.
+    SmoothChoice(const scene::ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed);
 
     /// RefinedDraw::first_smooth of all that is refined.
     std::uint32_t refined_word_index() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
@@ -58,21 +54,16 @@ public:
         int smooth = 0;
     };
 
-    /// Fills in the bits of the aircraft as they are placed and shades what is refined (`refined`:
-    /// one an aircraft, some null); counts all polygons of models, painted or not, and the
-    /// triangles that refined meshes have now.
+    /// Fills in the bits of the aircraft as they are placed and shades what is refined (`refined`: one an aircraft,
+    /// some null); counts all polygons of models, painted or not, and the triangles that refined meshes have now.
     /// `to_sun`: unit vector, world axes. `light`: share of it from everywhere and from the sun.
-    Count choose(
-        std::span<const PlacedAircraft> placed,
-        std::span<const std::unique_ptr<RefinedAircraft>> refined,
-        const SmoothTarget& smooth_target,
-        const glm::dvec3& to_sun,
-        const glm::vec2& light,
+    Count choose(std::span<const PlacedAircraft> placed, std::span<const std::unique_ptr<RefinedAircraft>> refined,
+        const SmoothTarget& smooth_target, const glm::dvec3& to_sun, const glm::vec2& light,
         std::vector<std::uint32_t>& smooth);
 
 private:
-    /// Of one aircraft: its levels, then its polygons, then those of what stands in for it; empty
-    /// where all polygons are alike.
+    /// Of one aircraft: its levels, then its polygons, then those of what stands in for it; empty where all polygons
+    /// are alike.
     using Selectors = std::vector<shading::ShadingSelector>;
 
     int smooth_count_for(std::span<const PlacedAircraft> placed, const SmoothTarget& smooth_target);

@@ -15,8 +15,7 @@ namespace octant::visuals::planning {
 /// Appends to the painting steps of a plan.
 class StepWriter {
 public:
-    explicit StepWriter(scene::FramePlan& plan)
-        : plan_(plan) {}
+    explicit StepWriter(scene::FramePlan& plan) : plan_(plan) {}
 
     /// How far a plan has been written.
     struct Checkpoint {
@@ -41,9 +40,8 @@ public:
     /// The plan's ground in its order; nothing where it is empty.
     void add_ground();
 
-    /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles
-    /// that face away but for rounding: they only close holes along edges, elsewhere their depths
-    /// mean nothing.
+    /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles that face away but
+    /// for rounding: they only close holes along edges, elsewhere their depths mean nothing.
     void add_ground_by_depth(std::size_t edge_on_indices);
 
     /// All shadows, where ground has been drawn by depth.
@@ -67,33 +65,24 @@ public:
     /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
     void add_within(const scene::AircraftDraw& draw, const ViewPolygon& region);
 
-    /// Paints triangles once more where they lie before a box, with their shadows, as far as they
-    /// are seen in `cone`: of the box or of one inside it. They are in painting order; those that
-    /// meet the box are cut to the outside of its sides. The eye is outside the box.
-    void add_in_front(
-        const GroundFrame& ground,
-        std::span<const GroundInFrontTriangle> triangles,
-        const OrientedBox& box,
-        const ViewCone& cone);
+    /// Paints triangles once more where they lie before a box, with their shadows, as far as they are seen in `cone`:
+    /// of the box or of one inside it. They are in painting order; those that meet the box are cut to the outside of
+    /// its sides. The eye is outside the box.
+    void add_in_front(const GroundFrame& ground, std::span<const GroundInFrontTriangle> triangles,
+        const OrientedBox& box, const ViewCone& cone);
 
     /// Paints one triangle once more where `region`, a part of it, is seen.
     void add_within(const GroundFrame& ground, std::uint32_t triangle, const ViewPolygon& region);
 
-    /// Gives depth to ground that what comes next by depth may stick in: triangles that have been
-    /// painted.
+    /// Gives depth to ground that what comes next by depth may stick in: triangles that have been painted.
     void occlude_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
 
 private:
-    void add_range(
-        scene::PaintStep::Content content, std::size_t first, std::size_t count, scene::DepthUse depth);
+    void add_range(scene::PaintStep::Content content, std::size_t first, std::size_t count, scene::DepthUse depth);
 
     /// Index of a new clip by planes through the eye, at most Clip::max_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);
-    void add_outside(
-        const GroundFrame& ground,
-        std::uint32_t triangle,
-        const OrientedBox& box,
-        const ViewCone& cone);
+    void add_outside(const GroundFrame& ground, std::uint32_t triangle, const OrientedBox& box, const ViewCone& cone);
     void add_indices(const GroundFrame& ground, std::uint32_t triangle);
 
     /// Calls paint(clip) for each convex piece of `region` that few enough planes bound.

@@ -36,23 +36,19 @@ float before_plane(const glm::vec4& clip, int plane) {
 }
 
 glm::vec3 rgb_of(std::uint32_t colour) {
-    return glm::vec3(
-               static_cast<float>(colour & 0xffU),
-               static_cast<float>(colour >> 8U & 0xffU),
+    return glm::vec3(static_cast<float>(colour & 0xffU), static_cast<float>(colour >> 8U & 0xffU),
                static_cast<float>(colour >> 16U & 0xffU)) /
            255.0F;
 }
 
 std::uint32_t packed(const glm::vec4& colour) {
-    const auto alpha =
-        static_cast<std::uint32_t>(std::lround(255.0F * std::clamp(colour.w, 0.0F, 1.0F)));
+    const auto alpha = static_cast<std::uint32_t>(std::lround(255.0F * std::clamp(colour.w, 0.0F, 1.0F)));
     return (models::packed_colour(glm::vec3(colour)) & 0x00ffffffU) | (alpha << 24U);
 }
 
 } // namespace
 
-void TransparentGeometry::begin(
-    const glm::mat4& world_to_clip, const glm::ivec2& size_px, const scene::Haze& haze) {
+void TransparentGeometry::begin(const glm::mat4& world_to_clip, const glm::ivec2& size_px, const scene::Haze& haze) {
     world_to_clip_ = world_to_clip;
     size_px_ = glm::vec2(size_px);
     haze_ = &haze;
@@ -72,19 +68,16 @@ TransparentGeometry::TransparentVertex TransparentGeometry::placed(const models:
 /// Through the haze, unless it has been asked for before.
 void TransparentGeometry::colour(const models::ColourVertex& vertex, TransparentVertex& vertex_out) const {
     if (vertex_out.colour.x < 0.0F) {
-        vertex_out.colour = glm::vec4(
-            through_haze(*haze_, glm::dvec3(vertex.position_m), rgb_of(vertex.colour)),
+        vertex_out.colour = glm::vec4(through_haze(*haze_, glm::dvec3(vertex.position_m), rgb_of(vertex.colour)),
             static_cast<float>(vertex.colour >> 24U) / 255.0F);
     }
 }
 
-TransparentRange
-TransparentGeometry::add(std::span<const models::ColourVertex> vertices, std::span<const std::uint32_t> indices) {
+TransparentRange TransparentGeometry::add(
+    std::span<const models::ColourVertex> vertices, std::span<const std::uint32_t> indices) {
     TransparentRange range{indices_.size(), 0};
     vertex_cache_.clear();
-    for (const models::ColourVertex& vertex : vertices) {
-        vertex_cache_.push_back(placed(vertex));
-    }
+    for (const models::ColourVertex& vertex : vertices) { vertex_cache_.push_back(placed(vertex)); }
     std::array<TransparentVertex, 3> three;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         std::uint32_t all = ~0U;
@@ -94,9 +87,7 @@ TransparentGeometry::add(std::span<const models::ColourVertex> vertices, std::sp
             all &= vertex_out.outside;
             any |= vertex_out.outside;
         }
-        if (all != 0) {
-            continue;
-        }
+        if (all != 0) { continue; }
         for (std::size_t k = 0; k < 3; ++k) {
             TransparentVertex& vertex_out = vertex_cache_[indices[i + k]];
             colour(vertices[indices[i + k]], vertex_out);
@@ -123,15 +114,10 @@ void TransparentGeometry::cut() {
             const TransparentVertex& to = polygon_[(i + 1) % polygon_.size()];
             const float from_m = before_plane(from.clip, plane);
             const float to_m = before_plane(to.clip, plane);
-            if (from_m >= 0.0F) {
-                scratch_.push_back(from);
-            }
+            if (from_m >= 0.0F) { scratch_.push_back(from); }
             if ((from_m < 0.0F) != (to_m < 0.0F)) {
                 const float share = from_m / (from_m - to_m);
-                scratch_.push_back(
-                    {glm::mix(from.clip, to.clip, share),
-                     glm::mix(from.colour, to.colour, share),
-                     0});
+                scratch_.push_back({glm::mix(from.clip, to.clip, share), glm::mix(from.colour, to.colour, share), 0});
             }
         }
         std::swap(polygon_, scratch_);
@@ -139,14 +125,11 @@ void TransparentGeometry::cut() {
 }
 
 void TransparentGeometry::add_polygon(std::span<const TransparentVertex> corners) {
-    if (corners.size() < 3) {
-        return;
-    }
+    if (corners.size() < 3) { return; }
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     for (const TransparentVertex& vertex_out : corners) {
         const glm::vec2 at = glm::vec2(vertex_out.clip) / vertex_out.clip.w;
-        vertices_.push_back(
-            {glm::vec2(0.5F + 0.5F * at.x, 0.5F - 0.5F * at.y) * size_px_, packed(vertex_out.colour)});
+        vertices_.push_back({glm::vec2(0.5F + 0.5F * at.x, 0.5F - 0.5F * at.y) * size_px_, packed(vertex_out.colour)});
     }
     for (std::uint32_t i = 2; i < corners.size(); ++i) {
         indices_.insert(indices_.end(), {first, first + i - 1, first + i});

@@ -20,17 +20,16 @@ struct TransparentRange {
     std::size_t count = 0;
 };
 
-/// Transparent triangles of a frame on their way into the picture: seen through the haze, cut at
-/// the view's edges and placed. Keeps its memory.
+/// Transparent triangles of a frame on their way into the picture: seen through the haze, cut at the view's edges and
+/// placed. Keeps its memory.
 class TransparentGeometry {
 public:
     /// Forgets the last frame. The haze must outlive the frame.
     void begin(const glm::mat4& world_to_clip, const glm::ivec2& size_px, const scene::Haze& haze);
 
-    /// Adds triangles, either way round: world axes with the eye subtracted, their alpha says how
-    /// much of what is behind they cover. Returns what is seen of them.
-    TransparentRange
-    add(std::span<const models::ColourVertex> vertices, std::span<const std::uint32_t> indices);
+    /// Adds triangles, either way round: world axes with the eye subtracted, their alpha says how much of what is
+    /// behind they cover. Returns what is seen of them.
+    TransparentRange add(std::span<const models::ColourVertex> vertices, std::span<const std::uint32_t> indices);
 
     /// All that was added. Valid until the next call of another member.
     scene::OverlayDraw draw() const { return {vertices_, indices_}; }

@@ -1,5 +1,5 @@
-// Whether a textured triangle is even, and its corners then. Compiled once for each instruction
-// set; all give the same bits, because real numbers are summed and multiplied one by one.
+// Whether a textured triangle is even, and its corners then. Compiled once for each instruction set; all give the same
+// bits, because real numbers are summed and multiplied one by one.
 #include "visuals/raster/affine_textured_triangle.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.
@@ -52,8 +52,8 @@ struct Steps {
     }
 };
 
-/// How far exact values lie beyond even ones: from the least to the most, at the corners (0) and at
-/// the edges' middles, where they differ most.
+/// How far exact values lie beyond even ones: from the least to the most, at the corners (0) and at the edges' middles,
+/// where they differ most.
 struct Bend {
     hn::Vec<Four> least;
     hn::Vec<Four> most;
@@ -86,8 +86,7 @@ struct Bend {
 double thin_footprint(const Vertices& vertices, double reach) {
     double range = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
-        const auto [least, most] =
-            std::minmax({vertices[0]->value[i], vertices[1]->value[i], vertices[2]->value[i]});
+        const auto [least, most] = std::minmax({vertices[0]->value[i], vertices[1]->value[i], vertices[2]->value[i]});
         range = std::max(range, static_cast<double>(most - least));
     }
     return range * steps_per_px / reach;
@@ -95,15 +94,13 @@ double thin_footprint(const Vertices& vertices, double reach) {
 
 HWY_INLINE TexelDerivatives texel_derivatives(const Vertices& vertices, const Steps& steps) {
     const auto way = [&](std::size_t to) {
-        return std::array{
-            static_cast<double>(vertices[to]->x - vertices[0]->x),
+        return std::array{static_cast<double>(vertices[to]->x - vertices[0]->x),
             static_cast<double>(vertices[to]->y - vertices[0]->y)};
     };
     const auto b = way(1);
     const auto c = way(2);
     const double area = b[0] * c[1] - b[1] * c[0];
-    const double reach = std::max(
-        std::max(std::abs(b[0]), std::abs(c[0])), std::max(std::abs(b[1]), std::abs(c[1])));
+    const double reach = std::max(std::max(std::abs(b[0]), std::abs(c[0])), std::max(std::abs(b[1]), std::abs(c[1])));
     if (std::abs(area) < min_thickness * reach) {
         const double texels = thin_footprint(vertices, reach);
         return {{texels, 0.0}, {0.0, texels}};
@@ -112,8 +109,7 @@ HWY_INLINE TexelDerivatives texel_derivatives(const Vertices& vertices, const St
     const hn::Half<Four> places; // the first two values
     const auto by_area = hn::Set(pair, steps_per_px / area);
     const auto to_b = hn::Mul(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_second)), by_area);
-    const auto to_c =
-        hn::Neg(hn::Mul(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_first)), by_area));
+    const auto to_c = hn::Neg(hn::Mul(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_first)), by_area));
     const auto times = [&](hn::Vec<Pair> value, double factor)
                            HWY_ATTR { return hn::Mul(value, hn::Set(pair, factor)); };
     TexelDerivatives result;
@@ -136,9 +132,7 @@ bool FitAffineTexture(const Vertices& vertices, std::size_t level_count, AffineT
     const auto scale = std::bit_cast<float>((127U - even.mip_selection.fine) << 23U); // 2^-fine
     const auto most = two_of_each(
         set(2.0F * AffineTexturedTriangle::max_texels_wrong / scale), set(AffineTexturedTriangle::max_share_wrong));
-    if (!hn::AllTrue(four, hn::Le(bend.size(), most))) {
-        return false;
-    }
+    if (!hn::AllTrue(four, hn::Le(bend.size(), most))) { return false; }
     const auto half = set(0.5F);
     const auto moved = hn::Add(hn::Mul(bend.doubled_middle(), half), half);
     const auto none = hn::Zero(four);
@@ -164,12 +158,10 @@ namespace octant::visuals::raster {
 
 HWY_EXPORT(FitAffineTexture);
 
-std::optional<AffineTexturedTriangle>
-fit_affine_texture(const std::array<const ScreenVertex*, 3>& vertices, std::size_t level_count) {
+std::optional<AffineTexturedTriangle> fit_affine_texture(
+    const std::array<const ScreenVertex*, 3>& vertices, std::size_t level_count) {
     AffineTexturedTriangle even;
-    if (!HWY_DYNAMIC_DISPATCH(FitAffineTexture)(vertices, level_count, even)) {
-        return std::nullopt;
-    }
+    if (!HWY_DYNAMIC_DISPATCH(FitAffineTexture)(vertices, level_count, even)) { return std::nullopt; }
     return even;
 }
 

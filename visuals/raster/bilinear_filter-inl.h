@@ -1,5 +1,5 @@
-// The colours of a texture's level at places: four texels each, mixed in whole numbers.
-// Included once for each instruction set.
+// The colours of a texture's level at places: four texels each, mixed in whole numbers. Included once for each
+// instruction set.
 #if defined(OCTANT_RASTER_TEXEL_MIX_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_TEXEL_MIX_INL
 #undef OCTANT_RASTER_TEXEL_MIX_INL
@@ -42,8 +42,7 @@ struct BilinearWeights {
     /// By the lower halves of places, 2^-16 texel.
     template <class V>
     HWY_INLINE BilinearWeights(V even_x, V odd_x, V even_y, V odd_y)
-        : right(lower_halves<Halves>(even_x, odd_x))
-        , up(hn::ShiftRight<9>(lower_halves<Halves>(even_y, odd_y))) {}
+        : right(lower_halves<Halves>(even_x, odd_x)), up(hn::ShiftRight<9>(lower_halves<Halves>(even_y, odd_y))) {}
 
     /// Bytes, left below, right below, left above and right above; 1/128.
     HWY_INLINE hn::Vec<Halves> mixed(const std::array<hn::Vec<Halves>, 4>& texels_2x2) const {
@@ -68,8 +67,7 @@ struct TexelGrid {
     TexelCoords last_y;
 
     HWY_INLINE explicit TexelGrid(const LitGroundTexture::MipLevel& level)
-        : texels(level.texels.data())
-        , above(level.texels.data() + level.stride) {
+        : texels(level.texels.data()), above(level.texels.data() + level.stride) {
         const hn::RebindToSigned<Texels> sign;
         stride = hn::Set(sign, level.stride);
         last_x = hn::Set(sign, (level.width - 1) * 65536 - 1);
@@ -86,21 +84,17 @@ struct TexelQuads {
 
     /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
     HWY_INLINE TexelQuads(const TexelGrid<Texels>& grid, TexelCoords x, TexelCoords y) {
-        const auto number =
-            hn::Add(hn::Mul(hn::ShiftRight<16>(y), grid.stride), hn::ShiftRight<16>(x));
+        const auto number = hn::Add(hn::Mul(hn::ShiftRight<16>(y), grid.stride), hn::ShiftRight<16>(x));
         load_neighbours(grid.texels, number, texels_2x2[0], texels_2x2[1]);
         load_neighbours(grid.above, number, texels_2x2[2], texels_2x2[3]);
     }
 
 #if HWY_TARGET == HWY_AVX2
 
-    /// Texels by their numbers, and those right of them: both are loaded at once. One by one they
-    /// come faster than by the processor's own gathering.
+    /// Texels by their numbers, and those right of them: both are loaded at once. One by one they come faster than by
+    /// the processor's own gathering.
     static HWY_INLINE void load_neighbours(
-        const std::uint32_t* from,
-        TexelCoords number,
-        hn::Vec<Texels>& left_ones,
-        hn::Vec<Texels>& right_ones) {
+        const std::uint32_t* from, TexelCoords number, hn::Vec<Texels>& left_ones, hn::Vec<Texels>& right_ones) {
         const __m128i low = _mm256_castsi256_si128(number.raw);
         const __m128i high = _mm256_extracti128_si256(number.raw, 1);
         // The first two of each four, then the others.
@@ -112,11 +106,9 @@ struct TexelQuads {
 
 private:
     /// By two numbers of 32 bits each.
-    static HWY_INLINE __m256
-    texels_of(const std::uint32_t* from, std::int64_t low, std::int64_t high) {
+    static HWY_INLINE __m256 texels_of(const std::uint32_t* from, std::int64_t low, std::int64_t high) {
         return _mm256_set_m128(
-            texels_of(from, static_cast<std::uint64_t>(high)),
-            texels_of(from, static_cast<std::uint64_t>(low)));
+            texels_of(from, static_cast<std::uint64_t>(high)), texels_of(from, static_cast<std::uint64_t>(low)));
     }
 
     static HWY_INLINE __m128 texels_of(const std::uint32_t* from, std::uint64_t two) {
@@ -129,10 +121,7 @@ private:
 
     /// Texels by their numbers, and those right of them: both are loaded at once.
     static HWY_INLINE void load_neighbours(
-        const std::uint32_t* from,
-        TexelCoords number,
-        hn::Vec<Texels>& left_ones,
-        hn::Vec<Texels>& right_ones) {
+        const std::uint32_t* from, TexelCoords number, hn::Vec<Texels>& left_ones, hn::Vec<Texels>& right_ones) {
         const Texels texels;
         const hn::Repartition<std::uint64_t, Texels> pairs;
         const hn::RebindToSigned<decltype(pairs)> offsets;
@@ -143,10 +132,8 @@ private:
         const auto numbers = hn::BitCast(pairs, number);
         const auto even = load(hn::And(numbers, hn::Set(pairs, std::uint64_t{0xffffffff})));
         const auto odd = load(hn::ShiftRight<32>(numbers));
-        left_ones =
-            hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
-        right_ones =
-            hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
+        left_ones = hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
+        right_ones = hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
     }
 
 #endif
@@ -159,16 +146,15 @@ using FilteredColours = std::array<hn::Vec<Halves>, 3>;
 template <class Halves>
 using TexelsOf = hn::Repartition<std::uint32_t, Halves>;
 
-/// A level's colours at places, 2^-16 texel, of pixels in even lanes and in odd ones. Places beyond
-/// the level's rim have the rim's.
+/// A level's colours at places, 2^-16 texel, of pixels in even lanes and in odd ones. Places beyond the level's rim
+/// have the rim's.
 template <class Halves, class V>
-HWY_INLINE FilteredColours<Halves>
-filter_bilinear(const TexelGrid<TexelsOf<Halves>>& grid, V even_x, V even_y, V odd_x, V odd_y) {
+HWY_INLINE FilteredColours<Halves> filter_bilinear(
+    const TexelGrid<TexelsOf<Halves>>& grid, V even_x, V even_y, V odd_x, V odd_y) {
     using Texels = TexelsOf<Halves>;
     const hn::RebindToSigned<Texels> sign;
     const Halves halves;
-    const auto within = [&](V place, V last)
-                            HWY_ATTR { return hn::Min(hn::Max(place, hn::Zero(sign)), last); };
+    const auto within = [&](V place, V last) HWY_ATTR { return hn::Min(hn::Max(place, hn::Zero(sign)), last); };
     even_x = within(even_x, grid.last_x);
     odd_x = within(odd_x, grid.last_x);
     even_y = within(even_y, grid.last_y);
@@ -189,9 +175,7 @@ filter_bilinear(const TexelGrid<TexelsOf<Halves>>& grid, V even_x, V even_y, V o
     }
     const auto of_even = red_and_blue(even, even_x, even_y);
     const auto of_odd = red_and_blue(odd, odd_x, odd_y);
-    return {
-        lower_halves<Halves>(of_even, of_odd),
-        BilinearWeights<Halves>(even_x, odd_x, even_y, odd_y).mixed(green),
+    return {lower_halves<Halves>(of_even, of_odd), BilinearWeights<Halves>(even_x, odd_x, even_y, odd_y).mixed(green),
         upper_halves<Halves>(of_even, of_odd)};
 }
 

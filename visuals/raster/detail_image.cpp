@@ -30,26 +30,23 @@ void write_level(const DetailPattern& pattern, std::uint16_t* to) {
     }
 }
 
-/// A part of the world direction of each pixel's line of sight, one unit deep: `of_view` has that
-/// part of the directions right, up and backwards.
-AttributePlane
-ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_clip, const glm::dvec2& half_px) {
+/// A part of the world direction of each pixel's line of sight, one unit deep: `of_view` has that part of the
+/// directions right, up and backwards.
+AttributePlane ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_clip, const glm::dvec2& half_px) {
     const double across = 1.0 / view_to_clip[0][0];
     const double up = 1.0 / view_to_clip[1][1];
     AttributePlane plane;
     plane.per_x = of_view.x * across / half_px.x;
     plane.per_y = -of_view.y * up / half_px.y;
     // The picture's middle need not lie straight ahead.
-    plane.base = of_view.x * across * (view_to_clip[2][0] - 1.0) +
-                 of_view.y * up * (view_to_clip[2][1] + 1.0) - of_view.z +
-                 0.5 * (plane.per_x + plane.per_y);
+    plane.base = of_view.x * across * (view_to_clip[2][0] - 1.0) + of_view.y * up * (view_to_clip[2][1] + 1.0) -
+                 of_view.z + 0.5 * (plane.per_x + plane.per_y);
     return plane;
 }
 
 } // namespace
 
-DetailImage::DetailImage()
-    : texels_(std::size_t{2 * side} * stride) {
+DetailImage::DetailImage() : texels_(std::size_t{2 * side} * stride) {
     int level = 0;
     for (const DetailPattern& pattern : scene::detail_mip_levels()) {
         write_level(pattern, &texels_[static_cast<std::size_t>(row_of(level++)) * stride]);
@@ -69,18 +66,15 @@ DetailRays detail_rays(const scene::FramePlan& plan, const Projection& projectio
     DetailRays rays;
     // Columns of world_to_view: what the world's axes are in the view's.
     for (glm::length_t axis = 0; axis < 3; ++axis) {
-        rays.direction[static_cast<std::size_t>(axis)] =
-            ray_part(world_to_view[axis], view_to_clip, half_px);
+        rays.direction[static_cast<std::size_t>(axis)] = ray_part(world_to_view[axis], view_to_clip, half_px);
     }
     constexpr auto parts_a_texel = 256.0F;
     constexpr auto parts_a_tile = parts_a_texel * DetailPattern::side_texels;
     for (std::size_t scale = 0; scale < DetailPattern::scales; ++scale) {
-        const float texels_per_m = std::ldexp(
-            DetailPattern::texels_per_m, -DetailPattern::levels_per_scale * static_cast<int>(scale));
-        rays.scales[scale] = {
-            plan.detail_texture->at_eye[scale] * parts_a_tile,
-            plan.detail_texture->eye_height_tiles[scale] * parts_a_tile,
-            parts_a_texel * texels_per_m};
+        const float texels_per_m =
+            std::ldexp(DetailPattern::texels_per_m, -DetailPattern::levels_per_scale * static_cast<int>(scale));
+        rays.scales[scale] = {plan.detail_texture->at_eye[scale] * parts_a_tile,
+            plan.detail_texture->eye_height_tiles[scale] * parts_a_tile, parts_a_texel * texels_per_m};
     }
     const scene::Haze& haze = plan.haze;
     rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;

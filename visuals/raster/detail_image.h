@@ -2,8 +2,8 @@
 
 #include "visuals/raster/projection.h"
 #include "visuals/raster/triangle.h"
-#include "visuals/scene/frame_plan.h"
 #include "visuals/scene/detail_pattern.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <glm/vec2.hpp>
 
@@ -13,10 +13,9 @@
 
 namespace octant::visuals::raster {
 
-/// The fine pattern of ground, in levels of half the size each, all in one list: where a texel of
-/// any level lies follows from shifts. A texel holds its own value and that of the one above, so
-/// that two of them, one load, are the four around a place. Each level repeats each way, and has
-/// its first column once more behind its last.
+/// The fine pattern of ground, in levels of half the size each, all in one list: where a texel of any level lies
+/// follows from shifts. A texel holds its own value and that of the one above, so that two of them, one load, are the
+/// four around a place. Each level repeats each way, and has its first column once more behind its last.
 class DetailImage {
 public:
     static constexpr int side = scene::DetailPattern::side_texels;

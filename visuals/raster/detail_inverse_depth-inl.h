@@ -1,7 +1,6 @@
-// How near the ground of a tile is where its fine pattern is looked up: at every second pixel of
-// every second row, those of a row in two phases, so that places in the pattern can be found for
-// one pair of pixels in two first and for those between only where they must. Included once for
-// each instruction set.
+// How near the ground of a tile is where its fine pattern is looked up: at every second pixel of every second row,
+// those of a row in two phases, so that places in the pattern can be found for one pair of pixels in two first and for
+// those between only where they must. Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_NEARNESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_NEARNESS_INL
 #undef OCTANT_RASTER_GRAIN_NEARNESS_INL
@@ -33,21 +32,16 @@ constexpr std::size_t pairs_per_row = tile_width / 2;
 constexpr std::size_t phases = 2; ///< pairs 0, 2, 4 ..., then 1, 3, 5 ...
 constexpr std::size_t pairs_per_phase = pairs_per_row / phases;
 
-HWY_INLINE hn::Vec<PixelPairs> pair_floats(float value) {
-    return hn::Set(PixelPairs(), value);
-}
+HWY_INLINE hn::Vec<PixelPairs> pair_floats(float value) { return hn::Set(PixelPairs(), value); }
 
-HWY_INLINE hn::Vec<PixelPairBits> pair_bits(unsigned value) {
-    return hn::Set(PixelPairBits(), value);
-}
+HWY_INLINE hn::Vec<PixelPairBits> pair_bits(unsigned value) { return hn::Set(PixelPairBits(), value); }
 
 /// Of two changes the smaller one: at a rim the larger one leads to other ground.
 HWY_INLINE hn::Vec<PixelPairs> smaller_change(hn::Vec<PixelPairs> one, hn::Vec<PixelPairs> other) {
     return hn::IfThenElse(hn::Lt(hn::Abs(one), hn::Abs(other)), one, other);
 }
 
-/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside
-/// and below.
+/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside and below.
 struct InverseDepthQuad {
     hn::Vec<PixelPairs> here; ///< 1/m; 0: no ground
     hn::Vec<PixelPairs> across;
@@ -60,15 +54,12 @@ struct InterpolatedPairs {
     hn::Mask<PixelPairs> is_linear; ///< as near as the mean of these
 };
 
-/// The nearness of a tile's pairs by phases, in rows that stand for two of the tile's each. Right
-/// of the tile and below it the ground goes on as within it.
+/// The nearness of a tile's pairs by phases, in rows that stand for two of the tile's each. Right of the tile and below
+/// it the ground goes on as within it.
 class TileInverseDepths {
 public:
-    HWY_INLINE TileInverseDepths(const TileJob& job, const TileBuffer& buffer)
-        : rows_((job.size_px.y + 1) / 2) {
-        for (int row = 0; row < rows_; ++row) {
-            put_row(buffer.ground_of_row(2 * row), row);
-        }
+    HWY_INLINE TileInverseDepths(const TileJob& job, const TileBuffer& buffer) : rows_((job.size_px.y + 1) / 2) {
+        for (int row = 0; row < rows_; ++row) { put_row(buffer.ground_of_row(2 * row), row); }
         if (any_ != 0) {
             extend(1, 0, -1, true);
             extend(rows_ - 2, rows_ - 1, rows_, false);
@@ -83,15 +74,13 @@ public:
     /// Whether a pair of a row sees ground; beyond the last row as in it.
     bool has_ground(int row) const { return (any_ >> std::min(row, rows_ - 1) & 1U) != 0; }
 
-    /// Of pairs of a row and phase, from one of them on. None below what is no ground: a pixel at
-    /// the horizon may be half sky.
+    /// Of pairs of a row and phase, from one of them on. None below what is no ground: a pixel at the horizon may be
+    /// half sky.
     HWY_INLINE InverseDepthQuad at(int row, std::size_t phase, std::size_t first) const {
         const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
         const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
         const PixelPairs real;
-        return between(
-            hn::LoadU(real, own),
-            {hn::LoadU(real, before), hn::LoadU(real, before + 1)},
+        return between(hn::LoadU(real, own), {hn::LoadU(real, before), hn::LoadU(real, before + 1)},
             {hn::LoadU(real, own - row_size), hn::LoadU(real, own + row_size)});
     }
 
@@ -100,18 +89,15 @@ public:
         const PixelPairs real;
         const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
         const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
-        const auto both = [&](const float* corner) HWY_ATTR {
-            return hn::Add(hn::LoadU(real, corner), hn::LoadU(real, corner + phase));
-        };
+        const auto both = [&](const float* corner)
+                              HWY_ATTR { return hn::Add(hn::LoadU(real, corner), hn::LoadU(real, corner + phase)); };
         const int away = row & 1;
-        const auto around =
-            hn::Add(both(of_row(row - away) + first), both(of_row(row + away) + first));
+        const auto around = hn::Add(both(of_row(row - away) + first), both(of_row(row + away) + first));
         const auto here = hn::LoadU(real, own);
         constexpr float max_off = 1.0F / 64.0F; // of four times itself: a pixel's height
         const auto off = hn::Sub(hn::Mul(here, pair_floats(4.0F)), around);
         const auto above = hn::LoadU(real, own - row_size);
-        return {
-            is_seen(here, above, hn::LoadU(real, before), hn::LoadU(real, before + 1)),
+        return {is_seen(here, above, hn::LoadU(real, before), hn::LoadU(real, before + 1)),
             hn::Le(hn::Abs(off), hn::Mul(here, pair_floats(max_off)))};
     }
 
@@ -128,8 +114,7 @@ public:
                 columns[3][i] = right[row_size];
             }
         }
-        const auto column = [&](std::size_t which)
-                                HWY_ATTR { return hn::LoadU(PixelPairs(), columns[which].data()); };
+        const auto column = [&](std::size_t which) HWY_ATTR { return hn::LoadU(PixelPairs(), columns[which].data()); };
         return between(column(0), {column(1), hn::Zero(PixelPairs())}, {column(2), column(3)});
     }
 
@@ -139,28 +124,24 @@ private:
     static constexpr std::size_t max_rows = tile_height / 2;
     static_assert(pairs_per_phase + 1 < odd_pairs);
 
-    static HWY_INLINE hn::Mask<PixelPairs>
-    is_seen(hn::Vec<PixelPairs> own, hn::Vec<PixelPairs> above, hn::Vec<PixelPairs> before, hn::Vec<PixelPairs> next) {
+    static HWY_INLINE hn::Mask<PixelPairs> is_seen(
+        hn::Vec<PixelPairs> own, hn::Vec<PixelPairs> above, hn::Vec<PixelPairs> before, hn::Vec<PixelPairs> next) {
         const auto least = hn::Min(hn::Min(own, above), hn::Max(before, next));
         return hn::Gt(least, hn::Zero(PixelPairs()));
     }
 
-    static HWY_INLINE InverseDepthQuad between(
-        hn::Vec<PixelPairs> own,
+    static HWY_INLINE InverseDepthQuad between(hn::Vec<PixelPairs> own,
         const std::array<hn::Vec<PixelPairs>, 2>& right_of_tile,
         const std::array<hn::Vec<PixelPairs>, 2>& above_and_below) {
         const auto& [before, next] = right_of_tile;
         const auto& [above, below] = above_and_below;
         const auto half = pair_floats(0.5F);
-        return {
-            hn::IfThenElseZero(is_seen(own, above, before, next), own),
+        return {hn::IfThenElseZero(is_seen(own, above, before, next), own),
             hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
             hn::Mul(smaller_change(hn::Sub(below, own), hn::Sub(own, above)), half)};
     }
 
-    const float* of_row(int row) const {
-        return near_.data() + static_cast<std::size_t>(row + 1) * row_size;
-    }
+    const float* of_row(int row) const { return near_.data() + static_cast<std::size_t>(row + 1) * row_size; }
 
     float* of_row(int row) { return const_cast<float*>(std::as_const(*this).of_row(row)); }
 
@@ -194,8 +175,7 @@ private:
             const auto own = hn::LoadU(real, of_row(last) + i);
             const auto before = has_from ? hn::LoadU(real, of_row(from) + i) : own;
             const auto is_ground = hn::Gt(before, hn::Zero(real));
-            const auto next =
-                hn::Max(hn::Sub(hn::Add(own, own), before), hn::Mul(own, pair_floats(0.25F)));
+            const auto next = hn::Max(hn::Sub(hn::Add(own, own), before), hn::Mul(own, pair_floats(0.25F)));
             const auto otherwise = alone ? own : hn::Zero(real);
             hn::StoreU(hn::IfThenElse(is_ground, next, otherwise), real, of_row(beyond) + i);
         }

@@ -1,6 +1,5 @@
-// Where every second pixel looks in the fine pattern of ground, and at which level: by how near the
-// ground is there, and how that changes to the pixels beside and below.
-// Included once for each instruction set.
+// Where every second pixel looks in the fine pattern of ground, and at which level: by how near the ground is there,
+// and how that changes to the pixels beside and below. Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_PLACES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_PLACES_INL
 #undef OCTANT_RASTER_GRAIN_PLACES_INL
@@ -28,14 +27,13 @@ struct TileRayComponent {
     float per_y;
 
     HWY_INLINE TileRayComponent(const AttributePlane& ray, const glm::ivec2& first_px)
-        : first(static_cast<float>(ray.at(first_px.x, first_px.y)))
-        , per_x(static_cast<float>(ray.per_x))
-        , per_y(static_cast<float>(ray.per_y)) {}
+        : first(static_cast<float>(ray.at(first_px.x, first_px.y))), per_x(static_cast<float>(ray.per_x)),
+          per_y(static_cast<float>(ray.per_y)) {}
 
     /// Of the first pixels of every second pair of a row of the tile, from one on.
     HWY_INLINE hn::Vec<PixelPairs> in_row(std::size_t row, std::size_t first_two) const {
-        const auto columns = hn::Add(
-            hn::Mul(lane_indices_from(PixelPairs(), 0), pair_floats(4.0F)), pair_floats(static_cast<float>(2 * first_two)));
+        const auto columns = hn::Add(hn::Mul(lane_indices_from(PixelPairs(), 0), pair_floats(4.0F)),
+            pair_floats(static_cast<float>(2 * first_two)));
         const float of_row = first + static_cast<float>(row) * per_y;
         return hn::Add(pair_floats(of_row), hn::Mul(columns, pair_floats(per_x)));
     }
@@ -57,16 +55,11 @@ struct TileRays {
     std::array<TileRayComponent, 3> part;
 
     HWY_INLINE TileRays(const DetailRays& rays, const glm::ivec2& first_px)
-        : part{
-              TileRayComponent(rays.direction[0], first_px),
-              TileRayComponent(rays.direction[1], first_px),
+        : part{TileRayComponent(rays.direction[0], first_px), TileRayComponent(rays.direction[1], first_px),
               TileRayComponent(rays.direction[2], first_px)} {}
 
     HWY_INLINE PairRays in_row(std::size_t row, std::size_t first_two) const {
-        return {
-            part[0].in_row(row, first_two),
-            part[1].in_row(row, first_two),
-            part[2].in_row(row, first_two)};
+        return {part[0].in_row(row, first_two), part[1].in_row(row, first_two), part[2].in_row(row, first_two)};
     }
 
     HWY_INLINE PairRays right_of_tile(std::size_t first_row) const {
@@ -77,16 +70,15 @@ struct TileRays {
     HWY_INLINE float length() const {
         float squares = 0.0F;
         for (const TileRayComponent& ray : part) {
-            const float middle =
-                ray.first + 0.5F * (tile_width * ray.per_x + tile_height * ray.per_y);
+            const float middle = ray.first + 0.5F * (tile_width * ray.per_x + tile_height * ray.per_y);
             squares += middle * middle;
         }
         return std::sqrt(squares);
     }
 };
 
-/// Where pairs of pixels look in the pattern: at a scale at the level of their size, and at the
-/// next coarser scale at its finest level.
+/// Where pairs of pixels look in the pattern: at a scale at the level of their size, and at the next coarser scale at
+/// its finest level.
 struct DetailPositions {
     // 1/256 texel of the finest level.
     hn::Vec<PixelPairInts> fine_x;
@@ -108,15 +100,14 @@ class DetailSampler {
 public:
     HWY_INLINE DetailSampler(
         const DetailRays& rays, const TileRays& tile_rays, const PairRays& direction, const InverseDepthQuad& near)
-        : is_ground_(hn::Gt(near.here, hn::Zero(PixelPairs())))
-        , depth_(hn::Div(pair_floats(1.0F), hn::Max(near.here, pair_floats(1e-9F)))) {
+        : is_ground_(hn::Gt(near.here, hn::Zero(PixelPairs()))),
+          depth_(hn::Div(pair_floats(1.0F), hn::Max(near.here, pair_floats(1e-9F)))) {
         PairRays across;
         PairRays down;
         for (std::size_t i = 0; i < 3; ++i) {
             at_[i] = hn::Mul(direction[i], depth_);
-            const auto moves = [&](float per_px, hn::Vec<PixelPairs> change) HWY_ATTR {
-                return hn::Sub(pair_floats(per_px), hn::Mul(at_[i], change));
-            };
+            const auto moves = [&](float per_px, hn::Vec<PixelPairs> change)
+                                   HWY_ATTR { return hn::Sub(pair_floats(per_px), hn::Mul(at_[i], change)); };
             across[i] = moves(tile_rays.part[i].per_x, near.across);
             down[i] = moves(tile_rays.part[i].per_y, near.down);
         }
@@ -131,21 +122,12 @@ public:
     /// `haze_per_depth`: by how much ground one unit deep dims.
     HWY_INLINE DetailPositions places(const DetailRays& rays, float haze_per_depth) const {
         const PixelPairBits bits;
-        const auto of = [&](hn::Mask<PixelPairs> which, unsigned bit) HWY_ATTR {
-            return hn::IfThenElseZero(hn::RebindMask(bits, which), pair_bits(bit));
-        };
-        const auto flags = hn::Or(
-            of(is_ground_, DetailPositions::ground),
-            hn::Or(of(upright_in_x_, 1), of(upright_in_y_, 2)));
-        const auto left = hn::IfThenElseZero(
-            hn::RebindMask(bits, is_ground_), left_of_haze(rays, haze_per_depth));
-        return {
-            fine_.x,
-            fine_.y,
-            coarse_.x,
-            coarse_.y,
-            hn::Or(hn::AndNot(pair_bits(7), level_), flags),
-            left};
+        const auto of = [&](hn::Mask<PixelPairs> which, unsigned bit)
+                            HWY_ATTR { return hn::IfThenElseZero(hn::RebindMask(bits, which), pair_bits(bit)); };
+        const auto flags =
+            hn::Or(of(is_ground_, DetailPositions::ground), hn::Or(of(upright_in_x_, 1), of(upright_in_y_, 2)));
+        const auto left = hn::IfThenElseZero(hn::RebindMask(bits, is_ground_), left_of_haze(rays, haze_per_depth));
+        return {fine_.x, fine_.y, coarse_.x, coarse_.y, hn::Or(hn::AndNot(pair_bits(7), level_), flags), left};
     }
 
 private:
@@ -161,8 +143,8 @@ private:
     };
 
     static HWY_INLINE hn::Vec<PixelPairs> square(const PairRays& direction) {
-        return hn::Add(
-            hn::Add(hn::Mul(direction[0], direction[0]), hn::Mul(direction[1], direction[1])), hn::Mul(direction[2], direction[2]));
+        return hn::Add(hn::Add(hn::Mul(direction[0], direction[0]), hn::Mul(direction[1], direction[1])),
+            hn::Mul(direction[2], direction[2]));
     }
 
     /// As scene::Haze, by polynomials: the pattern need not fade to the bit.
@@ -177,24 +159,20 @@ private:
         // (1 - x / 16)^16
         const auto sixteenth = hn::Mul(haze, pair_floats(1.0F / 16.0F));
         auto share = hn::Max(hn::Sub(pair_floats(1.0F), sixteenth), hn::Zero(PixelPairs()));
-        for (int i = 0; i < 4; ++i) {
-            share = hn::Mul(share, share);
-        }
+        for (int i = 0; i < 4; ++i) { share = hn::Mul(share, share); }
         return hn::BitCast(PixelPairBits(), hn::ConvertTo(PixelPairInts(), hn::Mul(share, pair_floats(32767.0F))));
     }
 
-    /// From which side the pattern is laid over steep ground: by the normal of what is seen, which
-    /// lies across both changes.
+    /// From which side the pattern is laid over steep ground: by the normal of what is seen, which lies across both
+    /// changes.
     HWY_INLINE void choose_sides(const PairRays& across, const PairRays& down) {
         const auto normal2 = [&](std::size_t one, std::size_t other) HWY_ATTR {
-            const auto part =
-                hn::Sub(hn::Mul(across[one], down[other]), hn::Mul(across[other], down[one]));
+            const auto part = hn::Sub(hn::Mul(across[one], down[other]), hn::Mul(across[other], down[one]));
             return hn::Mul(part, part);
         };
         const auto east2 = normal2(1, 2);
         const auto north2 = normal2(2, 0);
-        constexpr float least2 =
-            scene::DetailPattern::min_upright_slope * scene::DetailPattern::min_upright_slope;
+        constexpr float least2 = scene::DetailPattern::min_upright_slope * scene::DetailPattern::min_upright_slope;
         const auto is_steep = hn::Gt(hn::Add(east2, north2), hn::Mul(normal2(0, 1), pair_floats(least2)));
         const auto is_east = hn::Ge(east2, north2);
         upright_in_x_ = hn::And(is_steep, is_east);
@@ -210,11 +188,9 @@ private:
         constexpr std::int32_t most = (levels << 24) - 1;
         constexpr float texels2_per_m2 = DetailPattern::texels_per_m * DetailPattern::texels_per_m;
         const auto texels2 = hn::Mul(width2_m, pair_floats(texels2_per_m2));
-        const auto exponent =
-            hn::Sub(hn::BitCast(PixelPairInts(), texels2), hn::Set(PixelPairInts(), of_one));
+        const auto exponent = hn::Sub(hn::BitCast(PixelPairInts(), texels2), hn::Set(PixelPairInts(), of_one));
         level_ = hn::BitCast(
-            PixelPairBits(),
-            hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), most)));
+            PixelPairBits(), hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), most)));
     }
 
     /// At odd scales the pattern is turned by a right angle, and leans the other way.
@@ -235,11 +211,9 @@ private:
         const auto scale_of_each = hn::ShiftRight<DetailPositions::scale_shift>(level_);
         // Pairs beside each other seldom see different scales.
         for (std::size_t scale = 0; scale + 1 < DetailPattern::scales; ++scale) {
-            const auto is_it = hn::RebindMask(
-                PixelPairInts(), hn::Eq(scale_of_each, pair_bits(static_cast<unsigned>(scale))));
-            if (hn::AllFalse(PixelPairInts(), is_it)) {
-                continue;
-            }
+            const auto is_it =
+                hn::RebindMask(PixelPairInts(), hn::Eq(scale_of_each, pair_bits(static_cast<unsigned>(scale))));
+            if (hn::AllFalse(PixelPairInts(), is_it)) { continue; }
             const bool is_odd = scale % 2 != 0;
             const Place fine = place_of(rays, scale, is_odd ? odd : even);
             const Place coarse = place_of(rays, scale + 1, is_odd ? even : odd);
@@ -270,7 +244,7 @@ private:
 
     hn::Mask<PixelPairs> is_ground_;
     hn::Vec<PixelPairs> depth_;
-    PairRays at_;             ///< metres from the eye
+    PairRays at_;                  ///< metres from the eye
     hn::Vec<PixelPairBits> level_; ///< as DetailPositions, but for its flags
     Place fine_;
     Place coarse_;

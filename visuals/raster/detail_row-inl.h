@@ -1,5 +1,4 @@
-// What the pixels of a tile see of the fine pattern of ground.
-// Included once for each instruction set.
+// What the pixels of a tile see of the fine pattern of ground. Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_ROW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_ROW_INL
 #undef OCTANT_RASTER_GRAIN_ROW_INL
@@ -20,8 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1. Places
-/// are as DetailPositions::fine_x.
+/// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1. Places are as
+/// DetailPositions::fine_x.
 HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
     const DetailImage& image, hn::Vec<PixelPairBits> x, hn::Vec<PixelPairBits> y, hn::Vec<PixelPairBits> level) {
     const PixelPairBits bits;
@@ -29,22 +28,18 @@ HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
     const auto last = hn::Shr(pair_bits(DetailImage::side - 1), level);
     const auto column = hn::And(hn::ShiftRight<8>(x), last);
     const auto in_level = hn::And(hn::ShiftRight<8>(y), last);
-    const auto first_row =
-        hn::Sub(pair_bits(2 * DetailImage::side), hn::Shr(pair_bits(2 * DetailImage::side), level));
+    const auto first_row = hn::Sub(pair_bits(2 * DetailImage::side), hn::Shr(pair_bits(2 * DetailImage::side), level));
     const auto row = hn::Add(first_row, in_level);
     static_assert(DetailImage::stride == (1 << 9) + 1);
     const auto texel = hn::Add(hn::Add(hn::ShiftLeft<9>(row), row), column);
-    const auto four = hn::GatherOffset(
-        bits,
-        reinterpret_cast<const std::uint32_t*>(image.texels()),
+    const auto four = hn::GatherOffset(bits, reinterpret_cast<const std::uint32_t*>(image.texels()),
         hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
     const auto byte_of_each = pair_bits(0x00ff00ff);
     const auto own = hn::BitCast(halves, hn::And(four, byte_of_each));
     const auto above = hn::BitCast(halves, hn::And(hn::ShiftRight<8>(four), byte_of_each));
     const auto up = hn::And(y, pair_bits(0xff));
     const auto ups = hn::BitCast(halves, hn::Or(up, hn::ShiftLeft<16>(up)));
-    const auto both =
-        hn::BitCast(bits, hn::Add(hn::ShiftLeft<8>(own), hn::Mul(hn::Sub(above, own), ups)));
+    const auto both = hn::BitCast(bits, hn::Add(hn::ShiftLeft<8>(own), hn::Mul(hn::Sub(above, own), ups)));
     const auto left = hn::BitCast(PixelPairInts(), hn::And(both, pair_bits(0xffff)));
     const auto right = hn::BitCast(PixelPairInts(), hn::ShiftRight<16>(both));
     const auto rightwards = hn::BitCast(PixelPairInts(), hn::And(x, pair_bits(0xff)));
@@ -62,12 +57,7 @@ struct DetailPositionRow {
         const auto whole = [&](std::size_t which) HWY_ATTR {
             return hn::BitCast(PixelPairInts(), hn::LoadU(PixelPairBits(), &value[which][at]));
         };
-        return {
-            whole(0),
-            whole(1),
-            whole(2),
-            whole(3),
-            hn::LoadU(PixelPairBits(), &value[4][at]),
+        return {whole(0), whole(1), whole(2), whole(3), hn::LoadU(PixelPairBits(), &value[4][at]),
             hn::LoadU(PixelPairBits(), &value[5][at])};
     }
 
@@ -85,17 +75,14 @@ struct DetailPositionRow {
 
     /// No ground.
     void clear() {
-        for (Each& each : value) {
-            each.fill(0);
-        }
+        for (Each& each : value) { each.fill(0); }
     }
 };
 
-/// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the
-/// lower half what the haze leaves of it, likewise; 0: no ground. Of both scales together: the
-/// squares of their shares are about one, so that the contrast stays while one gives way to the
-/// other while its levels are gone through. Most pixels take one level: the next one comes in over
-/// a third of the way only.
+/// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the lower half what the
+/// haze leaves of it, likewise; 0: no ground. Of both scales together: the squares of their shares are about one, so
+/// that the contrast stays while one gives way to the other while its levels are gone through. Most pixels take one
+/// level: the next one comes in over a third of the way only.
 HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const DetailPositions& places) {
     const PixelPairBits bits;
     const PixelPairInts whole;
@@ -112,27 +99,21 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
     static_assert(scene::DetailPattern::levels_per_scale == 4);
     const auto level = hn::Add(hn::And(hn::ShiftRight<24>(places.level), pair_bits(3)), is_next);
     const auto at_level = [&](hn::Vec<PixelPairBits> of) HWY_ATTR {
-        const auto place = [&](hn::Vec<PixelPairInts> fine_coord) HWY_ATTR {
-            return hn::Sub(hn::Shr(hn::BitCast(bits, fine_coord), of), half_texel);
-        };
+        const auto place = [&](hn::Vec<PixelPairInts> fine_coord)
+                               HWY_ATTR { return hn::Sub(hn::Shr(hn::BitCast(bits, fine_coord), of), half_texel); };
         return sample_detail_level(image, place(places.fine_x), place(places.fine_y), of);
     };
-    const auto coarse = sample_detail_level(
-        image,
-        hn::Sub(hn::BitCast(bits, places.coarse_x), half_texel),
-        hn::Sub(hn::BitCast(bits, places.coarse_y), half_texel),
-        hn::Zero(bits));
+    const auto coarse = sample_detail_level(image, hn::Sub(hn::BitCast(bits, places.coarse_x), half_texel),
+        hn::Sub(hn::BitCast(bits, places.coarse_y), half_texel), hn::Zero(bits));
     auto fine = at_level(level);
     const auto next_level = hn::And(hn::BitCast(bits, share), pair_bits(0xff));
     if (!hn::AllTrue(bits, hn::Eq(next_level, hn::Zero(bits)))) {
         const auto next = at_level(hn::Add(level, pair_bits(1)));
         fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, next_level)));
     }
-    const auto through =
-        hn::BitCast(whole, hn::And(hn::ShiftRight<18>(places.level), pair_bits(0xff)));
+    const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<18>(places.level), pair_bits(0xff)));
     const auto before = hn::Sub(all, through);
-    const auto both = hn::Add(
-        share_of(fine, hn::Sub(all, share_of(through, through))),
+    const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),
         share_of(coarse, hn::Sub(all, share_of(before, before))));
     const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
     const auto seen = hn::Or(hn::ShiftLeft<16>(hn::BitCast(bits, limited)), places.left);
@@ -146,18 +127,16 @@ struct DetailRow {
     /// Between two rows.
     HWY_INLINE void put_between(const DetailRow& above, const DetailRow& below) {
         for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
-            const auto of = [&](const DetailRow& row)
-                                HWY_ATTR { return hn::Load(PixelPairBits(), &row.seen[two]); };
+            const auto of = [&](const DetailRow& row) HWY_ATTR { return hn::Load(PixelPairBits(), &row.seen[two]); };
             hn::Store(seen_between(of(above), of(below)), PixelPairBits(), &seen[two]);
         }
         seen[pairs_per_row] = below.seen[pairs_per_row];
     }
 
 private:
-    /// In the middle between pairs that see ground; none between others. The mean of places that
-    /// differ varies less than the pattern does: as much is added as they differ by.
-    static HWY_INLINE hn::Vec<PixelPairBits>
-    seen_between(hn::Vec<PixelPairBits> one, hn::Vec<PixelPairBits> other) {
+    /// In the middle between pairs that see ground; none between others. The mean of places that differ varies less
+    /// than the pattern does: as much is added as they differ by.
+    static HWY_INLINE hn::Vec<PixelPairBits> seen_between(hn::Vec<PixelPairBits> one, hn::Vec<PixelPairBits> other) {
         const PixelPairBits bits;
         const PixelPairHalves halves;
         const auto half = [&](hn::Vec<PixelPairBits> of)
@@ -172,17 +151,14 @@ private:
     }
 };
 
-/// Finds what the pairs of every second row of a tile see, and those of the row below it. Where
-/// they look is found by how near the ground is for one pair in four, the first phase of rows of
-/// even number; the others look in the middle of these where the ground goes on evenly from one to
-/// the other.
+/// Finds what the pairs of every second row of a tile see, and those of the row below it. Where they look is found by
+/// how near the ground is for one pair in four, the first phase of rows of even number; the others look in the middle
+/// of these where the ground goes on evenly from one to the other.
 class TileDetailSampler {
 public:
     HWY_INLINE TileDetailSampler(const TileJob& job, const TileInverseDepths& inverse_depth)
-        : job_(job)
-        , inverse_depths_(inverse_depth)
-        , tile_rays_(*job.detail_texture, job.first_px)
-        , haze_per_depth_(job.detail_texture->haze_per_m * tile_rays_.length()) {
+        : job_(job), inverse_depths_(inverse_depth), tile_rays_(*job.detail_texture, job.first_px),
+          haze_per_depth_(job.detail_texture->haze_per_m * tile_rays_.length()) {
         for (std::size_t row = 0; row < right_edge_values_.size(); row += pairs_at_once) {
             const InverseDepthQuad near = inverse_depths_.right_of_tile(static_cast<int>(row));
             const DetailSampler look(*job_.detail_texture, tile_rays_, tile_rays_.right_of_tile(2 * row), near);
@@ -204,8 +180,8 @@ public:
     }
 
     /// Looks up a row between two of even number; one of these is its own above and below.
-    HWY_NOINLINE void
-    look(int row, const DetailPositionRow& above, const DetailPositionRow& below, DetailRow& detail_texture) const {
+    HWY_NOINLINE void look(
+        int row, const DetailPositionRow& above, const DetailPositionRow& below, DetailRow& detail_texture) const {
         const DetailImage& image = detail_image();
         for (std::size_t i = 0; i < pairs_per_phase; i += pairs_at_once) {
             const bool is_found = row % 2 == 0;
@@ -236,8 +212,8 @@ private:
     }
 
     /// Of pairs in the middle of others that are found.
-    HWY_INLINE DetailPositions
-    interpolated_at(const PairStart& from, const DetailPositionRow& above, const DetailPositionRow& below) const {
+    HWY_INLINE DetailPositions interpolated_at(
+        const PairStart& from, const DetailPositionRow& above, const DetailPositionRow& below) const {
         const PixelPairBits bits;
         const PixelPairInts whole;
         const InterpolatedPairs pairs = inverse_depths_.interpolated_at(from.row, from.phase, from.first);
@@ -246,25 +222,19 @@ private:
         const DetailPositions b = above.places(from.first + from.phase);
         const DetailPositions c = below.places(from.first);
         const DetailPositions d = below.places(from.first + from.phase);
-        const auto differs = hn::And(
-            hn::Or(
-                hn::Xor(a.level, b.level),
-                hn::Or(hn::Xor(a.level, c.level), hn::Xor(a.level, d.level))),
-            pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground | DetailPositions::sides));
+        const auto differs =
+            hn::And(hn::Or(hn::Xor(a.level, b.level), hn::Or(hn::Xor(a.level, c.level), hn::Xor(a.level, d.level))),
+                pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground | DetailPositions::sides));
         const auto has_none = hn::AndNot(a.level, pair_bits(DetailPositions::ground));
-        const auto is_alike = hn::And(
-            hn::RebindMask(bits, pairs.is_linear), hn::Eq(hn::Or(differs, has_none), hn::Zero(bits)));
-        const auto mean = [&](auto i, auto j, auto k, auto l) HWY_ATTR {
-            return hn::ShiftRight<2>(hn::Add(hn::Add(i, j), hn::Add(k, l)));
-        };
+        const auto is_alike =
+            hn::And(hn::RebindMask(bits, pairs.is_linear), hn::Eq(hn::Or(differs, has_none), hn::Zero(bits)));
+        const auto mean = [&](auto i, auto j, auto k, auto l)
+                              HWY_ATTR { return hn::ShiftRight<2>(hn::Add(hn::Add(i, j), hn::Add(k, l))); };
         const auto flags = hn::And(a.level, pair_bits(7));
         const auto level = hn::AndNot(pair_bits(7), mean(a.level, b.level, c.level, d.level));
-        DetailPositions places{
-            mean(a.fine_x, b.fine_x, c.fine_x, d.fine_x),
-            mean(a.fine_y, b.fine_y, c.fine_y, d.fine_y),
-            mean(a.coarse_x, b.coarse_x, c.coarse_x, d.coarse_x),
-            mean(a.coarse_y, b.coarse_y, c.coarse_y, d.coarse_y),
-            hn::Or(level, flags),
+        DetailPositions places{mean(a.fine_x, b.fine_x, c.fine_x, d.fine_x),
+            mean(a.fine_y, b.fine_y, c.fine_y, d.fine_y), mean(a.coarse_x, b.coarse_x, c.coarse_x, d.coarse_x),
+            mean(a.coarse_y, b.coarse_y, c.coarse_y, d.coarse_y), hn::Or(level, flags),
             hn::IfThenElseZero(is_ground, mean(a.left, b.left, c.left, d.left))};
         const auto is_other = hn::AndNot(is_alike, is_ground);
         if (!hn::AllFalse(bits, is_other)) {

@@ -1,5 +1,5 @@
-// Places and colours of the corners of ground, several at once. Compiled once for each instruction
-// set; all give the same bits, because real numbers are summed and multiplied one by one.
+// Places and colours of the corners of ground, several at once. Compiled once for each instruction set; all give the
+// same bits, because real numbers are summed and multiplied one by one.
 #include "visuals/raster/ground_vertices.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.
@@ -31,9 +31,7 @@ using Real = hn::Vec<Reals>;
 constexpr std::size_t at_once = hn::MaxLanes(Reals());
 constexpr float max_level = 255.0F;
 
-HWY_INLINE Real set(float value) {
-    return hn::Set(Reals(), value);
-}
+HWY_INLINE Real set(float value) { return hn::Set(Reals(), value); }
 
 /// The value between `from` and `to` at `share`, as mix() of GLSL gives it.
 HWY_INLINE Real mixed(Real from, Real to, Real share) {
@@ -83,24 +81,19 @@ struct Haze {
 
     HWY_INLINE Haze(const Positions& at, const Light& light) {
         const Reals reals;
-        const auto squares =
-            hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), hn::Mul(at.z, at.z));
+        const auto squares = hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), hn::Mul(at.z, at.z));
         const auto distance_m = hn::Sqrt(squares);
         const auto haze_density_exponent = hn::Mul(at.z, set(light.falloff_per_m));
         const auto size = hn::Abs(haze_density_exponent);
         const auto left = exp_of_minus_each(hn::Min(size, set(max_haze_fall)));
-        const auto over =
-            hn::IfThenElse(hn::Gt(haze_density_exponent, hn::Zero(reals)), size, hn::Mul(size, left));
-        const auto density = hn::IfThenElse(
-            hn::Ge(size, set(min_haze_fall)),
-            hn::Div(hn::Sub(set(1.0F), left), over),
+        const auto over = hn::IfThenElse(hn::Gt(haze_density_exponent, hn::Zero(reals)), size, hn::Mul(size, left));
+        const auto density = hn::IfThenElse(hn::Ge(size, set(min_haze_fall)), hn::Div(hn::Sub(set(1.0F), left), over),
             hn::Sub(set(1.0F), hn::Mul(set(0.5F), haze_density_exponent)));
         const auto depth = hn::Mul(hn::Mul(distance_m, set(light.per_m)), density);
         share = hn::Sub(set(1.0F), exp_of_minus_each(depth));
-        const auto level_m = hn::Add(
-            hn::Mul(at.x, set(light.horizontal_to_sun.x)), hn::Mul(at.y, set(light.horizontal_to_sun.y)));
-        const auto towards =
-            hn::Max(hn::Div(level_m, hn::Max(distance_m, set(1e-6F))), hn::Zero(reals));
+        const auto level_m =
+            hn::Add(hn::Mul(at.x, set(light.horizontal_to_sun.x)), hn::Mul(at.y, set(light.horizontal_to_sun.y)));
+        const auto towards = hn::Max(hn::Div(level_m, hn::Max(distance_m, set(1e-6F))), hn::Zero(reals));
         const auto sunward_colour = hn::Mul(towards, towards);
         for (glm::length_t i = 0; i < 3; ++i) {
             rgb_255[static_cast<std::size_t>(i)] =
@@ -133,21 +126,16 @@ struct VertexStore {
             return hn::IfThenElseZero(hn::RebindMask(Bits(), mask), hn::Set(Bits(), bit));
         };
         const auto is_placed = hn::And(
-            hn::Ge(w, set(projection.near_m)),
-            hn::And(
-                hn::Le(hn::Abs(x), hn::Mul(set(projection.max_over_w.x), w)),
-                hn::Le(hn::Abs(y), hn::Mul(set(projection.max_over_w.y), w))));
-        const auto off_sides = hn::Or(
-            bit_where(hn::Lt(x, minus_w), left_of_view), bit_where(hn::Gt(x, w), right_of_view));
-        const auto over =
-            hn::Or(bit_where(hn::Gt(y, w), above_view), bit_where(hn::Lt(y, minus_w), below_view));
+            hn::Ge(w, set(projection.near_m)), hn::And(hn::Le(hn::Abs(x), hn::Mul(set(projection.max_over_w.x), w)),
+                                                   hn::Le(hn::Abs(y), hn::Mul(set(projection.max_over_w.y), w))));
+        const auto off_sides =
+            hn::Or(bit_where(hn::Lt(x, minus_w), left_of_view), bit_where(hn::Gt(x, w), right_of_view));
+        const auto over = hn::Or(bit_where(hn::Gt(y, w), above_view), bit_where(hn::Lt(y, minus_w), below_view));
         const auto outcode = hn::Or(hn::Or(off_sides, over), bit_where(hn::Not(is_placed), beyond_range));
         const auto inverse_w = hn::Div(set(1.0F), w);
         const auto steps = [&](hn::Vec<Reals> px) HWY_ATTR {
-            const auto from_middle =
-                hn::Mul(hn::Sub(px, set(0.5F)), set(static_cast<float>(ScreenVertex::per_px)));
-            const auto half =
-                hn::IfThenElse(hn::Lt(from_middle, hn::Zero(reals)), set(-0.5F), set(0.5F));
+            const auto from_middle = hn::Mul(hn::Sub(px, set(0.5F)), set(static_cast<float>(ScreenVertex::per_px)));
+            const auto half = hn::IfThenElse(hn::Lt(from_middle, hn::Zero(reals)), set(-0.5F), set(0.5F));
             const auto placed = hn::IfThenElseZero(is_placed, hn::Add(from_middle, half));
             return hn::BitCast(reals, hn::ConvertTo(whole, placed));
         };
@@ -155,8 +143,7 @@ struct VertexStore {
         const auto half_y = set(projection.half_px.y);
         const auto x_px = hn::Add(hn::Mul(hn::Mul(x, inverse_w), half_x), half_x);
         const auto y_px = hn::Sub(half_y, hn::Mul(hn::Mul(y, inverse_w), half_y));
-        hn::StoreInterleaved4(
-            steps(x_px), steps(y_px), inverse_w, hn::BitCast(reals, outcode), reals, place.data());
+        hn::StoreInterleaved4(steps(x_px), steps(y_px), inverse_w, hn::BitCast(reals, outcode), reals, place.data());
     }
 
     HWY_INLINE void put_values(Real a, Real b, Real c, Real d) {
@@ -177,11 +164,8 @@ struct VertexStore {
 
 /// Calls values_of(places, store) for each block of corners, then writes it.
 template <class ValuesOf>
-HWY_INLINE void project_each(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const VertexOutputs& to,
-    const ValuesOf& values_of) {
+HWY_INLINE void project_each(std::span<const models::ColourVertex> from, const Projection& projection,
+    const VertexOutputs& to, const ValuesOf& values_of) {
     VertexStore store;
     std::array<models::ColourVertex, at_once> last{};
     for (std::size_t first = 0; first < from.size(); first += at_once) {
@@ -198,20 +182,14 @@ HWY_INLINE void project_each(
     }
 }
 
-void ProjectColoured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
+void ProjectColoured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
     const VertexOutputs& to) {
-    const auto own = [&](const Positions& at, VertexStore& store) HWY_ATTR {
-        store.put_values(at.level<0>(), at.level<8>(), at.level<16>(), at.level<24>());
-    };
+    const auto own = [&](const Positions& at, VertexStore& store)
+                         HWY_ATTR { store.put_values(at.level<0>(), at.level<8>(), at.level<16>(), at.level<24>()); };
     const auto in_haze = [&](const Positions& at, VertexStore& store) HWY_ATTR {
         const Haze haze(at, light);
-        store.put_values(
-            mixed(at.level<0>(), haze.rgb_255[0], haze.share),
-            mixed(at.level<8>(), haze.rgb_255[1], haze.share),
-            mixed(at.level<16>(), haze.rgb_255[2], haze.share),
+        store.put_values(mixed(at.level<0>(), haze.rgb_255[0], haze.share),
+            mixed(at.level<8>(), haze.rgb_255[1], haze.share), mixed(at.level<16>(), haze.rgb_255[2], haze.share),
             at.level<24>());
     };
     if (light.per_m > 0.0F) {
@@ -221,12 +199,8 @@ void ProjectColoured(
     }
 }
 
-void ProjectTextured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const TexelTransform& to_texels,
-    const VertexOutputs& to) {
+void ProjectTextured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
+    const TexelTransform& to_texels, const VertexOutputs& to) {
     project_each(from, projection, to, [&](const Positions& at, VertexStore& store) HWY_ATTR {
         const auto x = hn::Add(set(to_texels.at_eye.x), hn::Mul(at.x, set(to_texels.per_m.x)));
         const auto y = hn::Add(set(to_texels.at_eye.y), hn::Mul(at.y, set(to_texels.per_m.y)));
@@ -246,21 +220,14 @@ namespace octant::visuals::raster {
 HWY_EXPORT(ProjectColoured);
 HWY_EXPORT(ProjectTextured);
 
-void project_coloured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
+void project_coloured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
     const VertexOutputs& to) {
     assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
     HWY_DYNAMIC_DISPATCH(ProjectColoured)(from, projection, light, to);
 }
 
-void project_textured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const TexelTransform& to_texels,
-    const VertexOutputs& to) {
+void project_textured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
+    const TexelTransform& to_texels, const VertexOutputs& to) {
     assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
     HWY_DYNAMIC_DISPATCH(ProjectTextured)(from, projection, light, to_texels, to);
 }

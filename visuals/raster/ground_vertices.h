@@ -9,18 +9,11 @@
 namespace octant::visuals::raster {
 
 /// Corners that have the colours they show, but for haze; the sky has none.
-void project_coloured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
+void project_coloured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
     const VertexOutputs& to);
 
 /// Corners of ground that a texture colours.
-void project_textured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const TexelTransform& to_texels,
-    const VertexOutputs& to);
+void project_textured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
+    const TexelTransform& to_texels, const VertexOutputs& to);
 
 } // namespace octant::visuals::raster

@@ -1,8 +1,8 @@
 #include "visuals/raster/mask_picture.h"
 
-#include "visuals/raster/triangle_binner.h"
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/tile.h"
+#include "visuals/raster/triangle_binner.h"
 
 #include <glm/common.hpp>
 
@@ -25,10 +25,9 @@ constexpr glm::vec3 free_sample(66.0F);
 constexpr glm::vec3 line_between(24.0F);
 constexpr glm::vec3 cell_ground(34.0F);
 
-/// For each sample of a tile the place of what covers it among the nearest triangles, from 1; 0:
-/// nothing. As many triangles as it takes to cover half of all samples.
-std::vector<std::size_t>
-covering(TileJob job, std::span<const TileTriangle> triangles, const SampleLanes& lanes) {
+/// For each sample of a tile the place of what covers it among the nearest triangles, from 1; 0: nothing. As many
+/// triangles as it takes to cover half of all samples.
+std::vector<std::size_t> covering(TileJob job, std::span<const TileTriangle> triangles, const SampleLanes& lanes) {
     std::vector<std::size_t> by_sample(TileBuffer::pixels * samples, 0);
     std::vector<std::uint8_t> rgba(TileBuffer::pixels * 4);
     const auto buffer = std::make_unique<TileBuffer>();
@@ -43,9 +42,7 @@ covering(TileJob job, std::span<const TileTriangle> triangles, const SampleLanes
             by_sample[i] = covered && by_sample[i] == 0 ? count : by_sample[i];
             covered_samples += covered ? 1 : 0;
         }
-        if (2 * covered_samples >= by_sample.size()) {
-            break;
-        }
+        if (2 * covered_samples >= by_sample.size()) { break; }
     }
     return by_sample;
 }
@@ -56,10 +53,8 @@ glm::vec3 colour_of_place(std::size_t place) {
     const double sixths = 6.0 * (turn - std::floor(turn));
     glm::vec3 colour;
     for (glm::length_t k = 0; k < 3; ++k) {
-        const double from =
-            std::fmod(sixths + std::array{0.0, 4.0, 2.0}[static_cast<std::size_t>(k)], 6.0);
-        colour[k] =
-            static_cast<float>(80.0 + 175.0 * std::clamp(std::abs(from - 3.0) - 1.0, 0.0, 1.0));
+        const double from = std::fmod(sixths + std::array{0.0, 4.0, 2.0}[static_cast<std::size_t>(k)], 6.0);
+        colour[k] = static_cast<float>(80.0 + 175.0 * std::clamp(std::abs(from - 3.0) - 1.0, 0.0, 1.0));
     }
     return colour;
 }
@@ -70,18 +65,14 @@ public:
         picture_.width = tile_width * cell_px;
         picture_.height = tile_height * cell_px;
         picture_.rgba.assign(
-            std::size_t{4} * static_cast<std::size_t>(picture_.width) *
-                static_cast<std::size_t>(picture_.height),
-            255);
+            std::size_t{4} * static_cast<std::size_t>(picture_.width) * static_cast<std::size_t>(picture_.height), 255);
     }
 
     void set(const glm::ivec2& at, const glm::vec3& colour) {
-        const glm::ivec2 within =
-            glm::clamp(at, glm::ivec2(0), glm::ivec2(picture_.width, picture_.height) - 1);
+        const glm::ivec2 within = glm::clamp(at, glm::ivec2(0), glm::ivec2(picture_.width, picture_.height) - 1);
         const auto first = 4 * static_cast<std::size_t>(within.y * picture_.width + within.x);
         for (std::size_t k = 0; k < 3; ++k) {
-            picture_.rgba[first + k] =
-                static_cast<std::uint8_t>(colour[static_cast<glm::length_t>(k)]);
+            picture_.rgba[first + k] = static_cast<std::uint8_t>(colour[static_cast<glm::length_t>(k)]);
         }
     }
 
@@ -93,11 +84,8 @@ private:
 
 } // namespace
 
-scene::Picture mask_picture(
-    const scene::FramePlan& plan,
-    std::span<const scene::ModelBuffers> models,
-    const glm::ivec2& size_px,
-    Workers& workers) {
+scene::Picture mask_picture(const scene::FramePlan& plan, std::span<const scene::ModelBuffers> models,
+    const glm::ivec2& size_px, Workers& workers) {
     assert(!plan.ground_texture);
     const SamplePattern pattern = sample_pattern(samples);
     const SampleLanes lanes(pattern);
@@ -105,8 +93,7 @@ scene::Picture mask_picture(
     work.prepare({plan, models, nullptr, size_px});
     const int tile = work.tiles().y / 2 * work.tiles().x + work.tiles().x / 2;
     TileJob job;
-    job.first_px = glm::ivec2(tile % work.tiles().x, tile / work.tiles().x) *
-                   glm::ivec2(tile_width, tile_height);
+    job.first_px = glm::ivec2(tile % work.tiles().x, tile / work.tiles().x) * glm::ivec2(tile_width, tile_height);
     job.size_px = glm::min(glm::ivec2(tile_width, tile_height), size_px - job.first_px);
     job.light = &work.light();
     std::vector<TileTriangle> list;
@@ -123,12 +110,9 @@ scene::Picture mask_picture(
         const auto pixel = static_cast<int>(i / samples);
         const std::size_t lane = i % samples;
         const glm::ivec2 within(pattern.x[lane] + cell_px, pattern.y[lane] + cell_px);
-        const glm::ivec2 at =
-            cell_px * glm::ivec2(pixel % tile_width, pixel / tile_width) + within / 2;
+        const glm::ivec2 at = cell_px * glm::ivec2(pixel % tile_width, pixel / tile_width) + within / 2;
         const glm::vec3 colour = by_sample[i] == 0 ? free_sample : colour_of_place(by_sample[i]);
-        for (int k = 0; k < 9; ++k) {
-            canvas.set(at + glm::ivec2(k % 3, k / 3) - 1, colour);
-        }
+        for (int k = 0; k < 9; ++k) { canvas.set(at + glm::ivec2(k % 3, k / 3) - 1, colour); }
     }
     return canvas.picture();
 }

@@ -1,6 +1,6 @@
-// Paints a textured triangle: places in the texture are planes where that is as good (tile_affine),
-// else they are corrected for perspective at both ends of sixteen pixels and even in between; and
-// so are light and haze. Included once for each instruction set.
+// Paints a textured triangle: places in the texture are planes where that is as good (tile_affine), else they are
+// corrected for perspective at both ends of sixteen pixels and even in between; and so are light and haze. Included
+// once for each instruction set.
 #if defined(OCTANT_RASTER_TEXTURE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_TEXTURE_INL
 #undef OCTANT_RASTER_TEXTURE_INL
@@ -8,11 +8,11 @@
 #define OCTANT_RASTER_TEXTURE_INL
 #endif
 
-#include "visuals/raster/strip_walk-inl.h"
 #include "visuals/raster/affine_span-inl.h"
+#include "visuals/raster/strip_walk-inl.h"
+#include "visuals/raster/texel_fetch-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
 #include "visuals/raster/tile_gouraud-inl.h"
-#include "visuals/raster/texel_fetch-inl.h"
 
 #include <bit>
 #include <vector>
@@ -55,18 +55,13 @@ struct BlockTexels {
 };
 
 /// Adds a block's colours to the sums.
-HWY_INLINE void add_colours(
-    const BlockTexels& texels,
-    const BlockShares& shares,
-    const TileJob& job,
-    const TextureBlock& block,
-    TileBuffer& buffer) {
+HWY_INLINE void add_colours(const BlockTexels& texels, const BlockShares& shares, const TileJob& job,
+    const TextureBlock& block, TileBuffer& buffer) {
     const Pixels values;
     const auto coarse_share = hn::Set(values, texels.coarse_share);
-    const auto part_of =
-        [&](hn::Vec<Pixels> from, hn::Vec<Pixels> to, hn::Vec<Pixels> weight) HWY_ATTR {
-            return hn::Add(hn::Sub(from, hn::MulHigh(from, weight)), hn::MulHigh(to, weight));
-        };
+    const auto part_of = [&](hn::Vec<Pixels> from, hn::Vec<Pixels> to, hn::Vec<Pixels> weight) HWY_ATTR {
+        return hn::Add(hn::Sub(from, hn::MulHigh(from, weight)), hn::MulHigh(to, weight));
+    };
     for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
         const auto light_left = hn::LoadU(values, &shares.light_left[i]);
         const auto haze_share = hn::LoadU(values, &shares.haze[i]);
@@ -77,11 +72,9 @@ HWY_INLINE void add_colours(
             if (texels.coarse_share > 0) {
                 mine = part_of(mine, hn::LoadU(values, &texels.coarse.level[k][i]), coarse_share);
             }
-            const auto haze_level = hn::Set(
-                values,
-                static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
-            const auto seen =
-                hn::Add(hn::MulHigh(mine, seen_share), hn::MulHigh(haze_level, haze_share));
+            const auto haze_level =
+                hn::Set(values, static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
+            const auto seen = hn::Add(hn::MulHigh(mine, seen_share), hn::MulHigh(haze_level, haze_share));
             const auto colour = hn::ShiftRight<3>(hn::Add(seen, hn::Set(values, 4)));
             std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
             hn::StoreU(hn::Add(hn::LoadU(values, sums), hn::Mul(colour, count)), values, sums);
@@ -103,8 +96,7 @@ HWY_INLINE BlockShares shares_between(const std::array<TexturePoint, 2>& ends, d
     const auto along = [&](std::size_t which, std::array<std::uint16_t, block_px>& to) HWY_ATTR {
         for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
             const auto steps = lane_indices_from(values, i);
-            const auto at = hn::Add(
-                hn::Set(values, static_cast<std::uint16_t>(walk.first[which])),
+            const auto at = hn::Add(hn::Set(values, static_cast<std::uint16_t>(walk.first[which])),
                 hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(walk.per_px[which]))));
             hn::StoreU(at, values, &to[i]);
         }
@@ -116,48 +108,32 @@ HWY_INLINE BlockShares shares_between(const std::array<TexturePoint, 2>& ends, d
 
 /// Colours a block, right in perspective at both of its ends.
 HWY_INLINE void add_texture(
-    const TexturePlanes& planes,
-    const TileJob& job,
-    const TextureBlock& block,
-    TileBuffer& buffer) {
+    const TexturePlanes& planes, const TileJob& job, const TextureBlock& block, TileBuffer& buffer) {
     static constexpr auto one_over = [] {
         std::array<double, block_px + 1> shares{};
-        for (int px = 1; px <= block_px; ++px) {
-            shares[static_cast<std::size_t>(px)] = 1.0 / px;
-        }
+        for (int px = 1; px <= block_px; ++px) { shares[static_cast<std::size_t>(px)] = 1.0 / px; }
         return shares;
     }();
     const double by_px = one_over[static_cast<std::size_t>(block.px())];
-    const std::array ends{
-        planes.at(block.at.x, block.at.y), planes.at(block.at.x + block.px(), block.at.y)};
-    const MipSelection chosen =
-        select_mip_levels(texel_derivatives(planes, ends, by_px), job.ground->levels().size());
+    const std::array ends{planes.at(block.at.x, block.at.y), planes.at(block.at.x + block.px(), block.at.y)};
+    const MipSelection chosen = select_mip_levels(texel_derivatives(planes, ends, by_px), job.ground->levels().size());
     BlockTexels texels;
     texels.coarse_share = chosen.coarse_share;
     sample_texture(*job.ground, chosen.fine, chosen, ends, by_px, texels.fine);
-    if (chosen.coarse_share > 0) {
-        sample_texture(*job.ground, chosen.fine + 1, chosen, ends, by_px, texels.coarse);
-    }
+    if (chosen.coarse_share > 0) { sample_texture(*job.ground, chosen.fine + 1, chosen, ends, by_px, texels.coarse); }
     add_colours(texels, shares_between(ends, by_px), job, block, buffer);
 }
 
 /// Colours a block of a triangle whose places are planes.
 HWY_INLINE void add_affine_texture(
-    const AffineSpan& affine,
-    const TileJob& job,
-    const TextureBlock& block,
-    TileBuffer& buffer) {
+    const AffineSpan& affine, const TileJob& job, const TextureBlock& block, TileBuffer& buffer) {
     BlockTexels texels;
     texels.coarse_share = affine.chosen.coarse_share;
     const std::vector<LitGroundTexture::MipLevel>& levels = job.ground->levels();
     const std::size_t fine = affine.chosen.fine;
     sample_line(levels[fine], affine.line(0, block.at), Probes(affine.chosen, fine), texels.fine);
     if (affine.chosen.coarse_share > 0) {
-        sample_line(
-            levels[fine + 1],
-            affine.line(1, block.at),
-            Probes(affine.chosen, fine + 1),
-            texels.coarse);
+        sample_line(levels[fine + 1], affine.line(1, block.at), Probes(affine.chosen, fine + 1), texels.coarse);
     }
     BlockShares shares;
     affine.share(0, block.at, shares.light_left);
@@ -167,16 +143,10 @@ HWY_INLINE void add_affine_texture(
 
 /// Colours what is new in a row of a strip, each block by add_block().
 template <class AddBlock>
-HWY_INLINE void add_textured_row(
-    const AddBlock& add_block,
-    const glm::ivec2& at,
-    const StripValues& masks,
-    const StripValues& fresh,
-    std::size_t pixel) {
+HWY_INLINE void add_textured_row(const AddBlock& add_block, const glm::ivec2& at, const StripValues& masks,
+    const StripValues& fresh, std::size_t pixel) {
     const std::uint32_t fresh_bits = set_bits(fresh);
-    if (fresh_bits == 0) {
-        return;
-    }
+    if (fresh_bits == 0) { return; }
     alignas(64) std::array<std::uint16_t, strip_px + block_px> counts;
     for (std::size_t i = 0; i < strip_parts; ++i) {
         hn::Store(hn::PopulationCount(fresh[i]), Strip(), counts.data() + i * part_px);
@@ -188,10 +158,7 @@ HWY_INLINE void add_textured_row(
         const std::uint32_t in_block = fresh_bits >> first & 0xffffU;
         if (in_block != 0) {
             const TextureBlock block{
-                at + glm::ivec2(first, 0),
-                at.x + last,
-                counts.data() + first,
-                pixel + static_cast<std::size_t>(first)};
+                at + glm::ivec2(first, 0), at.x + last, counts.data() + first, pixel + static_cast<std::size_t>(first)};
             add_block(block);
         }
     }
@@ -201,9 +168,7 @@ HWY_INLINE void add_textured_row(
 HWY_NOINLINE void paint_texture(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const TileBox box(*one.triangle, job);
-    if ((box.rows() & ~buffer.full_rows) == 0) {
-        return;
-    }
+    if ((box.rows() & ~buffer.full_rows) == 0) { return; }
     const TexturePlanes planes(*one.extra);
     AffineRows affine_rows(planes, *job.ground, job.first_px, box);
     const auto add = [&](const TextureBlock& block) HWY_ATTR {
@@ -215,14 +180,12 @@ HWY_NOINLINE void paint_texture(
         }
     };
     for (int left = box.left; left <= box.right; left += strip_px) {
-        const auto paint =
-            [&](int row, const StripValues& masks, const StripValues& fresh) HWY_ATTR {
-                const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-                const auto pixel = static_cast<std::size_t>(row * tile_width + left);
-                add_textured_row(add, at, masks, fresh, pixel);
-            };
-        walk_strip<strip_parts>(
-            *one.triangle, job, lanes, box, left, buffer, paint, []() HWY_ATTR {});
+        const auto paint = [&](int row, const StripValues& masks, const StripValues& fresh) HWY_ATTR {
+            const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
+            const auto pixel = static_cast<std::size_t>(row * tile_width + left);
+            add_textured_row(add, at, masks, fresh, pixel);
+        };
+        walk_strip<strip_parts>(*one.triangle, job, lanes, box, left, buffer, paint, []() HWY_ATTR {});
     }
 }
 

@@ -21,10 +21,9 @@ std::uint16_t packed(double level) {
 
 /// A level, 2^-16 from the level 128.
 std::int32_t level_at(const ColourGradients& levels, std::size_t i, int column, int row) {
-    return static_cast<std::int32_t>(
-        static_cast<std::uint32_t>(levels.base[i]) +
-        static_cast<std::uint32_t>(levels.per_x[i]) * static_cast<std::uint32_t>(column) +
-        static_cast<std::uint32_t>(levels.per_y[i]) * static_cast<std::uint32_t>(row));
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(levels.base[i]) +
+                                     static_cast<std::uint32_t>(levels.per_x[i]) * static_cast<std::uint32_t>(column) +
+                                     static_cast<std::uint32_t>(levels.per_y[i]) * static_cast<std::uint32_t>(row));
 }
 
 /// A level, 1/128 from the level 128, within the triangle's own.
@@ -53,8 +52,7 @@ PixelColour perspective_colour(const TileTriangle& one, int column, int row) {
     for (std::size_t i = 0; i < 3; ++i) {
         const ColourGradients& levels = one.triangle->gradients;
         const double level = one.extra->over_w[i].at(column, row) * w;
-        colour[i] = packed(
-            std::clamp(level, levels.least[i] / 128.0 + 128.0, levels.most[i] / 128.0 + 128.0));
+        colour[i] = packed(std::clamp(level, levels.least[i] / 128.0 + 128.0, levels.most[i] / 128.0 + 128.0));
     }
     return colour;
 }
@@ -71,13 +69,10 @@ std::array<double, 3> texel_at(const LitGroundTexture::MipLevel& level, double x
     const double up = within_y - y0;
     const auto texel = [&](int column, int row) { return level.texels[level.number(column, row)]; };
     const std::array corners{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)};
-    const std::array weights{
-        (1.0 - right) * (1.0 - up), right * (1.0 - up), (1.0 - right) * up, right * up};
+    const std::array weights{(1.0 - right) * (1.0 - up), right * (1.0 - up), (1.0 - right) * up, right * up};
     std::array<double, 3> sum{};
     for (std::size_t k = 0; k < corners.size(); ++k) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            sum[i] += weights[k] * (corners[k] >> (8 * i) & 0xffU);
-        }
+        for (std::size_t i = 0; i < 3; ++i) { sum[i] += weights[k] * (corners[k] >> (8 * i) & 0xffU); }
     }
     return sum;
 }
@@ -103,9 +98,7 @@ PixelColour textured(const TextureValues& at, const MipSelection& chosen, const 
         const double y = at.y + far * static_cast<double>(chosen.reach[1]);
         const std::array<double, 3> fine = at_level(chosen.fine, x, y);
         std::array<double, 3> coarse = fine;
-        if (chosen.coarse_share > 0) {
-            coarse = at_level(std::size_t{chosen.fine} + 1, x, y);
-        }
+        if (chosen.coarse_share > 0) { coarse = at_level(std::size_t{chosen.fine} + 1, x, y); }
         for (std::size_t i = 0; i < 3; ++i) {
             const double one = fine[i] + chosen.coarse_share / 65536.0 * (coarse[i] - fine[i]);
             own[i] += one / chosen.probes;
@@ -133,8 +126,7 @@ PixelColour affine_texture_colour(const TileTriangle& one, const TileJob& job, i
     return textured({place(0), place(1), share(2), share(3)}, triangle.texture, job);
 }
 
-PixelColour
-perspective_texture_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
+PixelColour perspective_texture_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
     const TriangleExtra& extra = *one.extra;
     const double w = depth_of(extra, column, row);
     const auto value = [&](std::size_t i) { return extra.over_w[i].at(column, row) * w; };
@@ -143,8 +135,7 @@ perspective_texture_colour(const TileTriangle& one, const TileJob& job, int colu
     // How far the place moves in the texture from this pixel to the next ones.
     const auto move = [&](double AttributePlane::*per_px) {
         const double w_part = extra.over_w[4].*per_px;
-        return std::array{
-            (extra.over_w[0].*per_px - x * w_part) * w, (extra.over_w[1].*per_px - y * w_part) * w};
+        return std::array{(extra.over_w[0].*per_px - x * w_part) * w, (extra.over_w[1].*per_px - y * w_part) * w};
     };
     const TexelDerivatives steps{move(&AttributePlane::per_x), move(&AttributePlane::per_y)};
     return textured({x, y, value(2), value(3)}, select_mip_levels(steps, job.ground->levels().size()), job);
@@ -195,30 +186,21 @@ float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
 
 /// A value of three corners, each times its weight.
 template <class Part>
-std::array<float, 3>
-mixed(const TriangleExtra& extra, const std::array<float, 3>& weights, Part part) {
+std::array<float, 3> mixed(const TriangleExtra& extra, const std::array<float, 3>& weights, Part part) {
     std::array<float, 3> sum{};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::array<float, 3>& own = extra.lit[k]->*part;
-        for (std::size_t i = 0; i < 3; ++i) {
-            sum[i] += weights[k] * own[i];
-        }
+        for (std::size_t i = 0; i < 3; ++i) { sum[i] += weights[k] * own[i]; }
     }
     return sum;
 }
 
-/// The cosine between the mirrored light and the way to the eye to the power of the highlight.
-/// `normal` and `to_eye` of any length, `towards_sun` their dot product with the light.
-float highlight(
-    const std::array<float, 3>& normal,
-    const std::array<float, 3>& to_eye,
-    const std::array<float, 3>& to_sun,
-    float towards_sun) {
-    const float mirrored =
-        2.0F * towards_sun * dot(normal, to_eye) / dot(normal, normal) - dot(to_sun, to_eye);
-    if (!(mirrored > 0.0F)) {
-        return 0.0F;
-    }
+/// The cosine between the mirrored light and the way to the eye to the power of the highlight. `normal` and `to_eye` of
+/// any length, `towards_sun` their dot product with the light.
+float highlight(const std::array<float, 3>& normal, const std::array<float, 3>& to_eye,
+    const std::array<float, 3>& to_sun, float towards_sun) {
+    const float mirrored = 2.0F * towards_sun * dot(normal, to_eye) / dot(normal, normal) - dot(to_sun, to_eye);
+    if (!(mirrored > 0.0F)) { return 0.0F; }
     float base = std::min(mirrored / std::sqrt(dot(to_eye, to_eye)), 1.0F);
     float power = 1.0F;
     for (int exponent = scene::Highlight::power; exponent > 0; exponent /= 2) {
@@ -253,15 +235,15 @@ PixelColour lit_colour(const TileTriangle& one, const TileJob& job, int column, 
     if (towards_sun > 0.0F && length > 0.0F) {
         diffuse = towards_sun / length;
         specular = scene::Highlight::share * static_cast<float>(max_level) *
-                highlight(normal, mixed(extra, weights, &LitVertex::to_eye), to_sun, towards_sun);
+                   highlight(normal, mixed(extra, weights, &LitVertex::to_eye), to_sun, towards_sun);
     }
     const auto own = mixed(extra, weights, &LitVertex::rgb);
     const auto haze = mixed(extra, weights, &LitVertex::haze);
     PixelColour colour;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto part = static_cast<glm::length_t>(i);
-        const float lit = own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) +
-                          light.sunlight[part] * specular;
+        const float lit =
+            own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) + light.sunlight[part] * specular;
         const float seen = std::min(lit, static_cast<float>(max_level)) * transmittance + haze[i];
         colour[i] = packed(static_cast<double>(seen));
     }

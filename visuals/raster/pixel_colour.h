@@ -13,8 +13,7 @@ using PixelColour = std::array<std::uint16_t, 3>;
 /// The colour of a triangle at a pixel of the picture, whatever fills it.
 PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row);
 
-/// The colour of a triangle of the overlay at a pixel, alpha in the highest byte, red in the
-/// lowest.
+/// The colour of a triangle of the overlay at a pixel, alpha in the highest byte, red in the lowest.
 std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row);
 
 } // namespace octant::visuals::raster

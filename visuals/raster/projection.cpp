@@ -31,13 +31,11 @@ ClipPosition clip_position(const Projection& projection, const glm::vec3& positi
 }
 
 void place(const Projection& projection, const ClipPosition& clip, ScreenVertex& vertex) {
-    vertex.outcode = (clip.x < -clip.w ? left_of_view : 0U) |
-                     (clip.x > clip.w ? right_of_view : 0U) | (clip.y > clip.w ? above_view : 0U) |
-                     (clip.y < -clip.w ? below_view : 0U);
+    vertex.outcode = (clip.x < -clip.w ? left_of_view : 0U) | (clip.x > clip.w ? right_of_view : 0U) |
+                     (clip.y > clip.w ? above_view : 0U) | (clip.y < -clip.w ? below_view : 0U);
     const glm::vec2 most = projection.max_over_w * clip.w;
     // Written so that what is no number counts as unplaced.
-    if (!(clip.w >= projection.near_m && std::abs(clip.x) <= most.x &&
-          std::abs(clip.y) <= most.y)) {
+    if (!(clip.w >= projection.near_m && std::abs(clip.x) <= most.x && std::abs(clip.y) <= most.y)) {
         vertex.outcode |= beyond_range;
         return;
     }
@@ -45,9 +43,7 @@ void place(const Projection& projection, const ClipPosition& clip, ScreenVertex&
     const float x_px = clip.x * vertex.inverse_w * projection.half_px.x + projection.half_px.x;
     const float y_px = projection.half_px.y - clip.y * vertex.inverse_w * projection.half_px.y;
     constexpr auto steps = static_cast<float>(ScreenVertex::per_px);
-    const auto rounded = [](float value) {
-        return static_cast<std::int32_t>(value + (value < 0.0F ? -0.5F : 0.5F));
-    };
+    const auto rounded = [](float value) { return static_cast<std::int32_t>(value + (value < 0.0F ? -0.5F : 0.5F)); };
     vertex.x = rounded((x_px - 0.5F) * steps);
     vertex.y = rounded((y_px - 0.5F) * steps);
 }
@@ -61,9 +57,7 @@ float exp_of_minus(float x) {
     // 2^-part: the Taylor series of exp(-part * ln 2) about part = 1/2.
     const float t = (0.5F - part) * 0.693147181F;
     float series = 1.0F;
-    for (const float order : {7.0F, 6.0F, 5.0F, 4.0F, 3.0F, 2.0F, 1.0F}) {
-        series = 1.0F + t / order * series;
-    }
+    for (const float order : {7.0F, 6.0F, 5.0F, 4.0F, 3.0F, 2.0F, 1.0F}) { series = 1.0F + t / order * series; }
     const float half_power = 0.707106781F * series;
     return half_power * std::bit_cast<float>((127 - whole) << 23);
 }

@@ -27,8 +27,8 @@ ClipPosition clip_position(const Projection& projection, const glm::vec3& positi
 /// Fills in all but the values.
 void place(const Projection& projection, const ClipPosition& clip, ScreenVertex& vertex);
 
-/// exp(-x) for x >= 0, by sums and products alone, so that all processors agree. Relative error
-/// below 4e-6: that of the product x * log2(e) at x = 80, where nothing is left to see.
+/// exp(-x) for x >= 0, by sums and products alone, so that all processors agree. Relative error below 4e-6: that of the
+/// product x * log2(e) at x = 80, where nothing is left to see.
 float exp_of_minus(float x);
 
 } // namespace octant::visuals::raster

@@ -1,6 +1,5 @@
-// The ways that the walk from near to far is compared with, one sample a pixel: from far to near,
-// each triangle over what is there (painter's), and in any order by a depth for each pixel.
-// Included once for each instruction set.
+// The ways that the walk from near to far is compared with, one sample a pixel: from far to near, each triangle over
+// what is there (painter's), and in any order by a depth for each pixel. Included once for each instruction set.
 #if defined(OCTANT_RASTER_COMPARED_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_COMPARED_INL
 #undef OCTANT_RASTER_COMPARED_INL
@@ -28,16 +27,14 @@ struct DepthRule {
     bool colours;
 
     explicit DepthRule(scene::DepthUse use)
-        : compares(use != scene::DepthUse::None)
-        , passes_equal(use == scene::DepthUse::OnGround || use == scene::DepthUse::InfinitelyFar)
-        , writes(use != scene::DepthUse::InfinitelyFar)
-        , colours(use != scene::DepthUse::DepthOnly) {}
+        : compares(use != scene::DepthUse::None),
+          passes_equal(use == scene::DepthUse::OnGround || use == scene::DepthUse::InfinitelyFar),
+          writes(use != scene::DepthUse::InfinitelyFar), colours(use != scene::DepthUse::DepthOnly) {}
 };
 
-/// Compares a row's pixels, a bit each, with the depths from `depth` on and writes those that pass.
-/// Depths go on from `first` by `per_px`.
-HWY_INLINE std::uint32_t
-nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, float* depth) {
+/// Compares a row's pixels, a bit each, with the depths from `depth` on and writes those that pass. Depths go on from
+/// `first` by `per_px`.
+HWY_INLINE std::uint32_t nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, float* depth) {
     const Depths real;
     std::uint32_t nearer = 0;
     for (std::size_t i = 0; i < strip_px && pixels >> i != 0; i += hn::Lanes(real)) {
@@ -50,9 +47,7 @@ nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, f
         const auto before = hn::LoadU(real, depth + i);
         const auto is_nearer = rule.passes_equal ? hn::Ge(here, before) : hn::Gt(here, before);
         const auto passes = hn::And(is_drawn, is_nearer);
-        if (rule.writes) {
-            hn::StoreU(hn::IfThenElse(passes, here, before), real, depth + i);
-        }
+        if (rule.writes) { hn::StoreU(hn::IfThenElse(passes, here, before), real, depth + i); }
         bits.fill(0);
         hn::StoreMaskBits(real, passes, bits.data());
         nearer |= static_cast<std::uint32_t>(bits[0] | bits[1] << 8) << i;
@@ -62,10 +57,7 @@ nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, f
 
 /// Colours pixels of a strip, a bit each, whatever is there.
 HWY_INLINE void colour_over(
-    std::uint32_t pixels,
-    const std::array<StripGradient, 3>& gradients,
-    std::size_t first,
-    TileBuffer& buffer) {
+    std::uint32_t pixels, const std::array<StripGradient, 3>& gradients, std::size_t first, TileBuffer& buffer) {
     alignas(8) std::array<std::uint8_t, 8> bits{};
     std::memcpy(bits.data(), &pixels, sizeof pixels);
     for (std::size_t i = 0; i < strip_parts; ++i) {
@@ -81,40 +73,27 @@ HWY_INLINE void colour_over(
     }
 }
 
-/// Puts the grain of a triangle over pixels of a strip, a bit each: none of one without. The strip
-/// begins at a column and row of the tile.
+/// Puts the grain of a triangle over pixels of a strip, a bit each: none of one without. The strip begins at a column
+/// and row of the tile.
 HWY_INLINE void add_detail_over(
-    std::uint32_t pixels,
-    const Triangle& triangle,
-    const TileJob& job,
-    const glm::ivec2& at,
-    TileBuffer& buffer) {
+    std::uint32_t pixels, const Triangle& triangle, const TileJob& job, const glm::ivec2& at, TileBuffer& buffer) {
     const auto first = static_cast<std::size_t>(at.y * tile_width + at.x);
     alignas(8) std::array<std::uint8_t, 8> bits{};
     std::memcpy(bits.data(), &pixels, sizeof pixels);
     for (std::size_t i = 0; i < strip_parts; ++i) {
         const std::size_t part = i * part_px;
         const auto is_drawn = hn::LoadMaskBits(Strip(), bits.data() + part / 8);
-        const auto count =
-            hn::Set(Strip(), triangle.has_detail_texture ? std::uint16_t{0} : std::uint16_t{16});
+        const auto count = hn::Set(Strip(), triangle.has_detail_texture ? std::uint16_t{0} : std::uint16_t{16});
         std::uint16_t* const sums = buffer.sums[3].data() + first + part;
         hn::StoreU(hn::IfThenElse(is_drawn, count, hn::LoadU(Strip(), sums)), Strip(), sums);
         if (triangle.has_detail_texture) {
-            put_ground(
-                Strip(),
-                triangle,
-                job,
-                at + glm::ivec2(static_cast<int>(part), 0),
-                hn::VecFromMask(Strip(), is_drawn),
-                buffer);
+            put_ground(Strip(), triangle, job, at + glm::ivec2(static_cast<int>(part), 0),
+                hn::VecFromMask(Strip(), is_drawn), buffer);
         }
     }
-    for (std::uint32_t left = triangle.has_detail_texture || at.y % 2 != 0 ? 0 : pixels; left != 0;
-         left &= left - 1) {
+    for (std::uint32_t left = triangle.has_detail_texture || at.y % 2 != 0 ? 0 : pixels; left != 0; left &= left - 1) {
         const int column = at.x + std::countr_zero(left);
-        if (column % 2 == 0) {
-            buffer.ground_of_row(at.y)[column / 2] = 0;
-        }
+        if (column % 2 == 0) { buffer.ground_of_row(at.y)[column / 2] = 0; }
     }
 }
 
@@ -136,30 +115,22 @@ HWY_INLINE void paint_strip_over(
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();
         const std::uint32_t through = whole.pixels_from();
-        std::uint32_t drawn =
-            (bent ^ through) & (through ^ (bends_left & (bent ^ through))) & columns;
+        std::uint32_t drawn = (bent ^ through) & (through ^ (bends_left & (bent ^ through))) & columns;
         if (drawn != 0 && rule.compares) {
             const auto share = static_cast<double>(one.extra->depth_share);
             const AttributePlane& plane = one.extra->depth;
-            drawn = nearer_pixels(
-                drawn,
-                static_cast<float>(plane.at(job.first_px.x + left, job.first_px.y + row) * share),
-                static_cast<float>(plane.per_x * share),
-                rule,
-                buffer.depth.data() + pixel);
+            drawn =
+                nearer_pixels(drawn, static_cast<float>(plane.at(job.first_px.x + left, job.first_px.y + row) * share),
+                    static_cast<float>(plane.per_x * share), rule, buffer.depth.data() + pixel);
         }
         if (drawn != 0 && rule.colours) {
             colour_over(drawn, gradients, pixel, buffer);
-            if (job.detail_texture != nullptr) {
-                add_detail_over(drawn, triangle, job, {left, row}, buffer);
-            }
+            if (job.detail_texture != nullptr) { add_detail_over(drawn, triangle, job, {left, row}, buffer); }
         }
         whole.x += whole.slope;
         upper.x += upper.slope;
         lower.x += lower.slope;
-        for (StripGradient& level : gradients) {
-            level.at += level.per_row;
-        }
+        for (StripGradient& level : gradients) { level.at += level.per_row; }
     }
 }
 
@@ -172,31 +143,22 @@ HWY_INLINE void paint_pixels_over(
     for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
         const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
         const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-        const std::uint16_t* const masks =
-            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
         for (int column = places.first; column < end; ++column) {
-            if (masks[column] == 0) {
-                continue;
-            }
+            if (masks[column] == 0) { continue; }
             const auto pixel = static_cast<std::size_t>(row * tile_width + column);
             const glm::ivec2 at = job.first_px + glm::ivec2(column, row);
             if (rule.compares) {
-                const auto here = static_cast<float>(
-                    one.extra->depth.at(at.x, at.y) * static_cast<double>(one.extra->depth_share));
+                const auto here =
+                    static_cast<float>(one.extra->depth.at(at.x, at.y) * static_cast<double>(one.extra->depth_share));
                 float& before = buffer.depth[pixel];
-                if (!(here > before || (rule.passes_equal && here == before))) {
-                    continue;
-                }
+                if (!(here > before || (rule.passes_equal && here == before))) { continue; }
                 before = rule.writes ? here : before;
             }
-            if (!rule.colours) {
-                continue;
-            }
+            if (!rule.colours) { continue; }
             const PixelColour colour = colour_of(one, job, at.x, at.y);
             buffer.covered[pixel] = 0xffff;
-            for (std::size_t k = 0; k < 3; ++k) {
-                buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U);
-            }
+            for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U); }
             if (job.detail_texture != nullptr) {
                 const Triangle& triangle = *one.triangle;
                 buffer.sums[3][pixel] = triangle.has_detail_texture ? 0 : 16;
@@ -213,16 +175,15 @@ HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
     return one.extra != nullptr && one.extra->opacity < 1.0F;
 }
 
-/// Whether a tile is painted so: because it is asked for, or because all of it is one group by
-/// depth with nothing behind or before it; never with clear surfaces, which are noted apart.
+/// Whether a tile is painted so: because it is asked for, or because all of it is one group by depth with nothing
+/// behind or before it; never with clear surfaces, which are noted apart.
 HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
-    if (!lanes.are_one || job.triangles.empty()) {
-        return false;
-    }
+    if (!lanes.are_one || job.triangles.empty()) { return false; }
     const std::uint16_t first = job.triangles.front().triangle->group;
     const bool one_group = first != 0 && first == job.triangles.back().triangle->group;
-    const auto is_recorded_separately = [](const TileTriangle& one)
-                                    HWY_ATTR { return is_transparent_surface(one) || is_transparent_fill(one); };
+    const auto is_recorded_separately = [](const TileTriangle& one) HWY_ATTR {
+        return is_transparent_surface(one) || is_transparent_fill(one);
+    };
     return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_recorded_separately);
 }
 
@@ -235,8 +196,7 @@ HWY_NOINLINE void paint_over(const TileJob& job, const SampleLanes& lanes, TileB
             group = triangle.group;
             buffer.depth.assign(TileBuffer::pixels + TileBuffer::padding, 0.0F);
         }
-        const bool is_plain =
-            triangle.fill == Fill::Gouraud && (one.extra == nullptr || one.extra->cut_count == 0);
+        const bool is_plain = triangle.fill == Fill::Gouraud && (one.extra == nullptr || one.extra->cut_count == 0);
         if (!is_plain) {
             paint_pixels_over(one, job, lanes, buffer);
             continue;

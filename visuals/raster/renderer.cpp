@@ -19,36 +19,25 @@ constexpr std::array<std::uint8_t, 4> inset_frame{20, 23, 26, 255};
 constexpr std::array<std::uint8_t, 4> inset_frame_blue_first{26, 23, 20, 255};
 constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
 
-std::uint8_t byte_of(float share) {
-    return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
-}
+std::uint8_t byte_of(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F); }
 
 /// Colour of the haze in the middle of the picture, which textured ground has all over.
 glm::vec3 haze_ahead(const scene::FramePlan& plan) {
-    const glm::vec3 ahead(
-        -plan.world_to_view[0].z, -plan.world_to_view[1].z, -plan.world_to_view[2].z);
+    const glm::vec3 ahead(-plan.world_to_view[0].z, -plan.world_to_view[1].z, -plan.world_to_view[2].z);
     const float towards = std::max(glm::dot(glm::vec2(ahead), plan.haze.horizontal_to_sun), 0.0F);
     return glm::mix(plan.haze.colour, plan.haze.sunward_colour, towards * towards);
 }
 
 } // namespace
 
-Renderer::Renderer(
-    std::shared_ptr<Workers> workers,
-    const glm::ivec2& size_px,
-    int samples,
+Renderer::Renderer(std::shared_ptr<Workers> workers, const glm::ivec2& size_px, int samples,
     std::shared_ptr<scene::WindowPicture> window)
-    : workers_(std::move(workers))
-    , window_(std::move(window))
-    , samples_(samples)
-    , lanes_(sample_pattern(samples))
-    , binner_(sample_pattern(samples), *workers_) {
+    : workers_(std::move(workers)), window_(std::move(window)), samples_(samples), lanes_(sample_pattern(samples)),
+      binner_(sample_pattern(samples), *workers_) {
     info_.description = fmt::format("raster, {} threads", workers_->threads());
     info_.device = "processor";
     info_.is_software = true;
-    for (int i = 0; i < workers_->threads(); ++i) {
-        thread_scratch_.push_back(std::make_unique<ThreadScratch>());
-    }
+    for (int i = 0; i < workers_->threads(); ++i) { thread_scratch_.push_back(std::make_unique<ThreadScratch>()); }
     detail_image();
     resize(size_px, samples);
 }
@@ -82,17 +71,14 @@ void Renderer::begin_picture() {
 }
 
 std::size_t Renderer::byte_at(int x, int y) const {
-    return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px_.x) +
-                static_cast<std::size_t>(x));
+    return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px_.x) + static_cast<std::size_t>(x));
 }
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
     models_.assign(models.begin(), models.end());
 }
 
-void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
-    ground_.emplace().load(texture);
-}
+void Renderer::load_ground_texture(const scene::GroundTexture& texture) { ground_.emplace().load(texture); }
 
 void Renderer::draw(const scene::FramePlan& plan) {
     draw_calls_ = 0;
@@ -108,8 +94,7 @@ void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& 
     const int last_y = std::min(rect.y + rect.height + frame, size_px_.y);
     for (int y = std::max(rect.y - frame, 0); y < last_y; ++y) {
         for (int x = std::max(rect.x - frame, 0); x < last_x; ++x) {
-            std::ranges::copy(
-                is_drawn_to_window_ ? inset_frame_blue_first : inset_frame, pixels_ + byte_at(x, y));
+            std::ranges::copy(is_drawn_to_window_ ? inset_frame_blue_first : inset_frame, pixels_ + byte_at(x, y));
         }
     }
     draw_into(plan, rect);
@@ -122,15 +107,11 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
     workers_->run(tiles.x * tiles.y, [&](int tile, int thread) {
         ThreadScratch& scratch = *thread_scratch_[static_cast<std::size_t>(thread)];
         TileJob job;
-        job.first_px =
-            glm::ivec2(tile % tiles.x, tile / tiles.x) * glm::ivec2(tile_width, tile_height);
-        job.size_px = glm::min(
-            glm::ivec2(tile_width, tile_height),
-            glm::ivec2(rect.width, rect.height) - job.first_px);
+        job.first_px = glm::ivec2(tile % tiles.x, tile / tiles.x) * glm::ivec2(tile_width, tile_height);
+        job.size_px = glm::min(glm::ivec2(tile_width, tile_height), glm::ivec2(rect.width, rect.height) - job.first_px);
         job.triangles = binner_.triangles_of(tile, scratch.triangles);
         job.overlay = binner_.overlay_of(tile, scratch.overlay);
-        job.background = {
-            byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
+        job.background = {byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
         job.ground = ground_ ? &*ground_ : nullptr;
         job.haze = haze_ahead(plan) * 255.0F;
         job.detail_texture = plan.detail_texture ? &binner_.detail_rays() : nullptr;
@@ -155,9 +136,7 @@ void Renderer::finish_and_copy(scene::Picture& picture) {
     picture.rgba.resize(byte_at(0, size_px_.y));
     std::copy_n(pixels_, picture.rgba.size(), picture.rgba.data());
     if (is_drawn_to_window_) { // where blue comes first
-        for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-            std::swap(picture.rgba[i], picture.rgba[i + 2]);
-        }
+        for (std::size_t i = 0; i < picture.rgba.size(); i += 4) { std::swap(picture.rgba[i], picture.rgba[i + 2]); }
     }
 }
 

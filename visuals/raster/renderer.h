@@ -1,8 +1,8 @@
 #pragma once
 
-#include "visuals/raster/triangle_binner.h"
 #include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/tile.h"
+#include "visuals/raster/triangle_binner.h"
 #include "visuals/raster/workers.h"
 #include "visuals/scene/renderer.h"
 #include "visuals/scene/window_picture.h"
@@ -16,18 +16,14 @@
 
 namespace octant::visuals::raster {
 
-/// Makes pictures of frame plans on the processor, without OpenGL: painting order walked backwards,
-/// from the nearest triangle to the farthest, so that each sample is coloured once and no depth is
-/// needed (README.md). The same plan gives the same bytes on any number of threads and any
-/// processor.
+/// Makes pictures of frame plans on the processor, without OpenGL: painting order walked backwards, from the nearest
+/// triangle to the farthest, so that each sample is coloured once and no depth is needed (README.md). The same plan
+/// gives the same bytes on any number of threads and any processor.
 class Renderer final : public scene::Renderer {
 public:
-    /// Picture size in pixels, at most 8,192 each way; 1, 4 or 16 samples a pixel. Pictures
-    /// that are aimed at a window are made in the memory of `window`.
-    Renderer(
-        std::shared_ptr<Workers> workers,
-        const glm::ivec2& size_px,
-        int samples,
+    /// Picture size in pixels, at most 8,192 each way; 1, 4 or 16 samples a pixel. Pictures that are aimed at a window
+    /// are made in the memory of `window`.
+    Renderer(std::shared_ptr<Workers> workers, const glm::ivec2& size_px, int samples,
         std::shared_ptr<scene::WindowPicture> window = nullptr);
 
     /// Which way painting order is walked.
@@ -93,9 +89,9 @@ private:
 
     std::vector<std::unique_ptr<ThreadScratch>> thread_scratch_;
     glm::ivec2 size_px_{0};
-    scene::Picture picture_; ///< any other one between finish_and_read() and the next draw()
+    scene::Picture picture_;         ///< any other one between finish_and_read() and the next draw()
     std::uint8_t* pixels_ = nullptr; ///< of the picture at hand: the window's or those of picture_
-    bool targets_window_ = false;          ///< at the window
+    bool targets_window_ = false;    ///< at the window
     bool is_drawn_to_window_ = false;
     int draw_calls_ = 0;
 };

@@ -1,5 +1,5 @@
-// Levels of a strip of 32 pixels, and the part of a tile that a triangle's strips lie in.
-// Included once for each instruction set.
+// Levels of a strip of 32 pixels, and the part of a tile that a triangle's strips lie in. Included once for each
+// instruction set.
 #if defined(OCTANT_RASTER_STRIP_LEVEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_STRIP_LEVEL_INL
 #undef OCTANT_RASTER_STRIP_LEVEL_INL
@@ -32,10 +32,10 @@ struct TileBox {
     int last_row;
 
     HWY_INLINE TileBox(const Triangle& triangle, const TileJob& job)
-        : left(std::max(triangle.left - job.first_px.x, 0))
-        , right(std::min(triangle.right - job.first_px.x, job.size_px.x - 1))
-        , first_row(std::max(triangle.first_row - job.first_px.y, 0))
-        , last_row(std::min(triangle.last_row - job.first_px.y, job.size_px.y - 1)) {}
+        : left(std::max(triangle.left - job.first_px.x, 0)),
+          right(std::min(triangle.right - job.first_px.x, job.size_px.x - 1)),
+          first_row(std::max(triangle.first_row - job.first_px.y, 0)),
+          last_row(std::min(triangle.last_row - job.first_px.y, job.size_px.y - 1)) {}
 
     /// A bit for each column from `left_column` on that belongs to it.
     std::uint32_t columns_of_strip(int left_column) const {
@@ -44,8 +44,7 @@ struct TileBox {
     }
 
     std::uint32_t rows() const {
-        return static_cast<std::uint32_t>(
-            (std::uint64_t{2} << last_row) - (std::uint64_t{1} << first_row));
+        return static_cast<std::uint32_t>((std::uint64_t{2} << last_row) - (std::uint64_t{1} << first_row));
     }
 };
 
@@ -72,10 +71,8 @@ struct StripGradient {
     /// The strip begins some columns right of a pixel from which columns are counted.
     HWY_INLINE
     StripGradient(const ColourGradients& gradients, std::size_t k, const glm::ivec2& from_px, int columns_right)
-        : at(first_level(gradients, k, from_px))
-        , per_row(static_cast<std::uint32_t>(gradients.per_y[k]))
-        , least(hn::Set(StripSigned(), gradients.least[k]))
-        , most(hn::Set(StripSigned(), gradients.most[k])) {
+        : at(first_level(gradients, k, from_px)), per_row(static_cast<std::uint32_t>(gradients.per_y[k])),
+          least(hn::Set(StripSigned(), gradients.least[k])), most(hn::Set(StripSigned(), gradients.most[k])) {
         const StripSigned sign;
         const auto per_column = hn::Set(sign, gradients.per_column[k]);
         for (std::size_t i = 0; i < strip_parts; ++i) {
@@ -96,27 +93,22 @@ struct StripGradient {
 };
 
 /// Red, green and blue of a triangle over a strip.
-HWY_INLINE std::array<StripGradient, 3>
-strip_gradients(const ColourGradients& gradients, const glm::ivec2& from_px, int columns_right) {
-    const auto level = [&](std::size_t k)
-                           HWY_ATTR { return StripGradient(gradients, k, from_px, columns_right); };
+HWY_INLINE std::array<StripGradient, 3> strip_gradients(
+    const ColourGradients& gradients, const glm::ivec2& from_px, int columns_right) {
+    const auto level = [&](std::size_t k) HWY_ATTR { return StripGradient(gradients, k, from_px, columns_right); };
     return {level(0), level(1), level(2)};
 }
 
 /// A bit for each pixel of so many parts of a strip that has a value.
 template <std::size_t parts>
-HWY_INLINE std::uint32_t
-bits_equal_to(const std::array<hn::Vec<Strip>, parts>& values, std::uint16_t value) {
-    const auto is_equal = [&](std::size_t part)
-                              HWY_ATTR { return hn::Eq(values[part], hn::Set(Strip(), value)); };
+HWY_INLINE std::uint32_t bits_equal_to(const std::array<hn::Vec<Strip>, parts>& values, std::uint16_t value) {
+    const auto is_equal = [&](std::size_t part) HWY_ATTR { return hn::Eq(values[part], hn::Set(Strip(), value)); };
 #if HWY_TARGET == HWY_AVX2
     // Written to memory part by part and read as one, they would come late.
     const __m256i bytes = _mm256_packs_epi16(
-        hn::VecFromMask(Strip(), is_equal(0)).raw,
-        hn::VecFromMask(Strip(), is_equal(parts - 1)).raw);
+        hn::VecFromMask(Strip(), is_equal(0)).raw, hn::VecFromMask(Strip(), is_equal(parts - 1)).raw);
     constexpr int in_order = 0xd8; // of four times eight
-    const auto bits =
-        static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, in_order)));
+    const auto bits = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, in_order)));
     return bits & bits_of_parts<parts>;
 #else
     alignas(8) std::array<std::uint8_t, 16> bytes;

@@ -1,5 +1,5 @@
-// The walk over a strip's rows that triangles of levels and textured ones share: takes what is
-// free. Included once for each instruction set.
+// The walk over a strip's rows that triangles of levels and textured ones share: takes what is free. Included once for
+// each instruction set.
 #if defined(OCTANT_RASTER_STRIP_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_STRIP_WALK_INL
 #undef OCTANT_RASTER_STRIP_WALK_INL
@@ -39,19 +39,11 @@ HWY_INLINE void with_parts_of_strip(const TileBox& box, int left, const Paint& p
     paint(std::integral_constant<std::size_t, strip_parts>());
 }
 
-/// Covers what is free of a triangle in parts of the strip that begins at a column of the tile.
-/// Calls paint(row, samples of the parts, those of them that are fresh) where some may be, and
-/// next_row() after each row.
+/// Covers what is free of a triangle in parts of the strip that begins at a column of the tile. Calls paint(row,
+/// samples of the parts, those of them that are fresh) where some may be, and next_row() after each row.
 template <std::size_t parts, class Paint, class NextRow>
-HWY_INLINE void walk_strip(
-    const Triangle& triangle,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    const TileBox& box,
-    int left,
-    TileBuffer& buffer,
-    const Paint& paint,
-    const NextRow& next_row) {
+HWY_INLINE void walk_strip(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box,
+    int left, TileBuffer& buffer, const Paint& paint, const NextRow& next_row) {
     const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t wide_columns = std::uint64_t{columns} << left;
     const std::uint64_t full_row = job.full_row();

@@ -1,6 +1,5 @@
-// Pixels of a textured triangle that wait for their colours, in windows of eight: a register is
-// filled with windows of whichever rows.
-// Included once for each instruction set.
+// Pixels of a textured triangle that wait for their colours, in windows of eight: a register is filled with windows of
+// whichever rows. Included once for each instruction set.
 #if defined(OCTANT_RASTER_TEXTURE_WINDOWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_TEXTURE_WINDOWS_INL
 #undef OCTANT_RASTER_TEXTURE_WINDOWS_INL
@@ -28,31 +27,24 @@ using TextureWindow = hn::CappedTag<std::uint16_t, texture_window_px>;
 struct TextureWindows {
     const std::uint16_t* begin; ///< each one's first pixel, from the strip's first one
 
-    HWY_INLINE hn::Vec<Strip> load(const std::uint16_t* from) const {
-        return load(Strip(), from, begin);
-    }
+    HWY_INLINE hn::Vec<Strip> load(const std::uint16_t* from) const { return load(Strip(), from, begin); }
 
     /// In painting order: what lies beyond the end of a row is as it was.
-    HWY_INLINE void store(hn::Vec<Strip> values, std::uint16_t* to) const {
-        store(Strip(), values, to, begin);
-    }
+    HWY_INLINE void store(hn::Vec<Strip> values, std::uint16_t* to) const { store(Strip(), values, to, begin); }
 
 private:
     template <class Tag>
-    static HWY_INLINE hn::Vec<Tag>
-    load(Tag tag, const std::uint16_t* from, const std::uint16_t* windows) {
+    static HWY_INLINE hn::Vec<Tag> load(Tag tag, const std::uint16_t* from, const std::uint16_t* windows) {
         if constexpr (hn::MaxLanes(tag) == texture_window_px) {
             return hn::LoadU(tag, from + *windows);
         } else {
             const hn::Half<Tag> half;
-            return hn::Combine(
-                tag, load(half, from, windows + windows_of(half)), load(half, from, windows));
+            return hn::Combine(tag, load(half, from, windows + windows_of(half)), load(half, from, windows));
         }
     }
 
     template <class Tag>
-    static HWY_INLINE void
-    store(Tag tag, hn::Vec<Tag> values, std::uint16_t* to, const std::uint16_t* windows) {
+    static HWY_INLINE void store(Tag tag, hn::Vec<Tag> values, std::uint16_t* to, const std::uint16_t* windows) {
         if constexpr (hn::MaxLanes(tag) == texture_window_px) {
             hn::StoreU(values, tag, to + *windows);
         } else {
@@ -71,8 +63,7 @@ private:
 /// The windows of a strip of a triangle that have new samples.
 class TextureQueue {
 public:
-    /// A row's new samples in parts of the strip; a window may reach beyond them. `row`: from the
-    /// triangle's first.
+    /// A row's new samples in parts of the strip; a window may reach beyond them. `row`: from the triangle's first.
     template <std::size_t parts>
     HWY_INLINE void add_row(std::size_t row, const std::array<hn::Vec<Strip>, parts>& fresh) {
         const std::size_t row_begin = row * tile_width;
@@ -89,8 +80,7 @@ public:
         }
     }
 
-    /// Fills the last register with windows of a row in which nothing is new. `rows`: how many the
-    /// triangle has.
+    /// Fills the last register with windows of a row in which nothing is new. `rows`: how many the triangle has.
     HWY_INLINE void finish(std::size_t rows) {
         const std::size_t row_begin = rows * tile_width;
         put_none(row_begin);
@@ -103,9 +93,7 @@ public:
 
     TextureWindows windows(std::size_t first) const { return {windows_.data() + first}; }
 
-    HWY_INLINE hn::Vec<Strip> fresh(const TextureWindows& windows) const {
-        return windows.load(fresh_.data());
-    }
+    HWY_INLINE hn::Vec<Strip> fresh(const TextureWindows& windows) const { return windows.load(fresh_.data()); }
 
 private:
     static constexpr std::size_t max_of_row = strip_px / texture_window_px;
@@ -121,8 +109,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Four planes of a triangle over the windows of a strip, four lanes for a window: two of places in
-/// the texture, then light and haze.
+/// Four planes of a triangle over the windows of a strip, four lanes for a window: two of places in the texture, then
+/// light and haze.
 class WindowPlanes {
 public:
     using Blocks = hn::Repartition<std::int32_t, Strip>;
@@ -131,8 +119,7 @@ public:
     WindowPlanes(const ColourGradients& gradients, const TileJob& job, const TileBox& box, int left) {
         alignas(16) static constexpr std::array<std::int32_t, 4> share_lanes{0, 0, -1, -1};
         // To the middle level, and what rounds levels to 1/128.
-        alignas(16) static constexpr std::array<std::int32_t, 4> more{
-            128 * 65536, 128 * 65536, 256, 256};
+        alignas(16) static constexpr std::array<std::int32_t, 4> more{128 * 65536, 128 * 65536, 256, 256};
         const Blocks blocks;
         const auto set = [&](int value) HWY_ATTR { return hn::Set(blocks, value); };
         is_share_ = hn::LoadDup128(blocks, share_lanes.data());
@@ -140,20 +127,17 @@ public:
         right_ = hn::And(set(left - box.left), is_share_);
         const auto per_x = hn::LoadDup128(blocks, gradients.per_x.data());
         per_row_ = hn::LoadDup128(blocks, gradients.per_y.data());
-        const auto base = hn::Add(
-            hn::LoadDup128(blocks, gradients.base.data()), hn::LoadDup128(blocks, more.data()));
+        const auto base = hn::Add(hn::LoadDup128(blocks, gradients.base.data()), hn::LoadDup128(blocks, more.data()));
         const auto first_column = hn::Sub(set(job.first_px.x + left), right_);
         const auto first_row = set(job.first_px.y + box.first_row);
         at_ = hn::Add(hn::Add(base, hn::Mul(per_x, first_column)), hn::Mul(per_row_, first_row));
         const auto steps = hn::LoadDup128(StripSigned(), gradients.per_column.data());
-        per_column_ = hn::IfVecThenElse(
-            is_share_,
-            hn::BitCast(blocks, hn::InterleaveLower(StripSigned(), steps, steps)),
-            per_x);
+        per_column_ =
+            hn::IfVecThenElse(is_share_, hn::BitCast(blocks, hn::InterleaveLower(StripSigned(), steps, steps)), per_x);
     }
 
-    /// At the windows' first pixels: 2^-16 texel, and in the lower halves of lanes 1/128 level from
-    /// the level 128, wrapping.
+    /// At the windows' first pixels: 2^-16 texel, and in the lower halves of lanes 1/128 level from the level 128,
+    /// wrapping.
     HWY_INLINE hn::Vec<Blocks> at(const TextureWindows& windows) const {
         constexpr std::uint8_t none = 0x80;
         alignas(64) static constexpr auto to_blocks = [] {
@@ -166,8 +150,7 @@ public:
         const Blocks blocks;
         const hn::Repartition<std::uint8_t, Blocks> bytes;
         const auto eight = hn::BitCast(bytes, hn::LoadDup128(Strip(), windows.begin));
-        const auto window =
-            hn::BitCast(blocks, hn::TableLookupBytesOr0(eight, hn::Load(bytes, to_blocks.data())));
+        const auto window = hn::BitCast(blocks, hn::TableLookupBytesOr0(eight, hn::Load(bytes, to_blocks.data())));
         static_assert(tile_width == 64);
         const auto row = hn::ShiftRight<6>(window);
         const auto column = hn::Add(hn::And(window, hn::Set(blocks, tile_width - 1)), right_);
@@ -196,8 +179,7 @@ struct ShareSteps {
     hn::Vec<StripSigned> most;
 
     HWY_INLINE ShareSteps(const ColourGradients& gradients, std::size_t k)
-        : least(hn::Set(StripSigned(), gradients.least[k]))
-        , most(hn::Set(StripSigned(), gradients.most[k])) {
+        : least(hn::Set(StripSigned(), gradients.least[k])), most(hn::Set(StripSigned(), gradients.most[k])) {
         const StripSigned sign;
         const auto px = hn::Set(sign, static_cast<std::int16_t>(texture_window_px - 1));
         steps = hn::Mul(hn::And(lane_indices_from(sign, 0), px), hn::Set(sign, gradients.per_column[k]));

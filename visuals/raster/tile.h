@@ -31,14 +31,14 @@ struct TileJob {
     std::span<const TileTriangle> triangles; ///< in painting order
     std::span<const TileTriangle> overlay;   ///< in painting order, over all others
     std::array<std::uint8_t, 3> background{};
-    const LitGroundTexture* ground = nullptr; ///< for textures
-    glm::vec3 haze{0.0F};                ///< levels, for textures
-    const DetailRays* detail_texture = nullptr;    ///< none in a picture without
-    const Light* light = nullptr;        ///< for Fill::Lit
-    bool tints_mesh_levels = false;      ///< for Fill::Mesh
-    bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel
-    bool blue_first = false;             ///< in each pixel; else red
-    std::uint8_t* rgba = nullptr;        ///< of its upper left pixel
+    const LitGroundTexture* ground = nullptr;   ///< for textures
+    glm::vec3 haze{0.0F};                       ///< levels, for textures
+    const DetailRays* detail_texture = nullptr; ///< none in a picture without
+    const Light* light = nullptr;               ///< for Fill::Lit
+    bool tints_mesh_levels = false;             ///< for Fill::Mesh
+    bool far_to_near = false;                   ///< each triangle over what is there; one sample a pixel
+    bool blue_first = false;                    ///< in each pixel; else red
+    std::uint8_t* rgba = nullptr;               ///< of its upper left pixel
     std::size_t row_bytes = 0;
 
     /// TileBuffer::full of a row that is covered whole.
@@ -53,8 +53,8 @@ struct SampleLanes {
     explicit SampleLanes(const SamplePattern& pattern);
 
     alignas(64) std::array<std::int32_t, SamplePattern::lanes> down{}; ///< 1/32 pixel
-    /// What makes a crossing, in 2^-16 pixel, the first column whose sample is not left of it, when
-    /// it is added and the fraction is dropped.
+    /// What makes a crossing, in 2^-16 pixel, the first column whose sample is not left of it, when it is added and the
+    /// fraction is dropped.
     alignas(64) std::array<std::int32_t, SamplePattern::lanes> round_up{};
     alignas(64) std::array<float, SamplePattern::lanes> x_px{};
     alignas(64) std::array<float, SamplePattern::lanes> y_px{};
@@ -63,8 +63,7 @@ struct SampleLanes {
     bool are_one = false; ///< all lie in the pixel's middle
 };
 
-/// Pixels that TileBuffer::masks holds masks of: blocks of sixteen from the first column of each
-/// row on.
+/// Pixels that TileBuffer::masks holds masks of: blocks of sixteen from the first column of each row on.
 struct Coverage {
     struct Row {
         int first; ///< column
@@ -92,20 +91,20 @@ struct TransparentPixel {
     }
 };
 
-/// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile.
-/// Rows of sums follow each other without gaps: a block of sixteen pixels may begin anywhere, and
-/// what it reads of the next row it writes back unchanged.
+/// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile. Rows of sums follow
+/// each other without gaps: a block of sixteen pixels may begin anywhere, and what it reads of the next row it writes
+/// back unchanged.
 struct TileBuffer {
     static constexpr std::size_t pixels = std::size_t{tile_width} * tile_height;
     static constexpr std::size_t padding = 2 * tile_width; ///< two rows may be at hand at once
 
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
-    /// Red, green, blue, 1/256 level; and, where the picture has grain, how many samples show
-    /// anything but ground that has it.
+    /// Red, green, blue, 1/256 level; and, where the picture has grain, how many samples show anything but ground that
+    /// has it.
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
-    /// Where the picture has grain: of the first pixel, third, and so on of the first row, third,
-    /// and so on, the PackedGround that was painted there last; 0: none. Rows follow each other
-    /// without gaps; there is room before the first one and behind the last.
+    /// Where the picture has grain: of the first pixel, third, and so on of the first row, third, and so on, the
+    /// PackedGround that was painted there last; 0: none. Rows follow each other without gaps; there is room before the
+    /// first one and behind the last.
     static constexpr std::size_t ground_room = 16;
     alignas(64) std::array<std::uint32_t, pixels / 4 + 2 * ground_room> ground{};
     /// A bit for each column that is covered whole; one row more than there are.
@@ -118,11 +117,10 @@ struct TileBuffer {
     // Of groups that are drawn by depth: a value for each sample.
     std::vector<float> depth;
     std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
-    /// What is seen of clear triangles: those of the nearest group first, in a group in painting
-    /// order.
+    /// What is seen of clear triangles: those of the nearest group first, in a group in painting order.
     std::vector<TransparentPixel> transparent_pixels;
     std::vector<std::size_t> group_first_transparent; ///< of each group that has any
-    std::vector<std::uint32_t> last_transparent; ///< of each pixel: place in `clear`, from 1; 0: none
+    std::vector<std::uint32_t> last_transparent;      ///< of each pixel: place in `clear`, from 1; 0: none
     // Of the overlay: what waits to be blended.
     std::vector<std::uint16_t> pending;
     std::vector<std::uint32_t> pending_colours;
@@ -132,13 +130,11 @@ struct TileBuffer {
         return ground.data() + ground_room + static_cast<std::size_t>(row) * (tile_width / 4);
     }
 
-    const std::uint32_t* ground_of_row(int row) const {
-        return const_cast<TileBuffer*>(this)->ground_of_row(row);
-    }
+    const std::uint32_t* ground_of_row(int row) const { return const_cast<TileBuffer*>(this)->ground_of_row(row); }
 };
 
-/// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples
-/// that nothing nearer covers.
+/// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples that nothing nearer
+/// covers.
 void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer);
 
 } // namespace octant::visuals::raster

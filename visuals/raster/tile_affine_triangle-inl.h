@@ -1,5 +1,5 @@
-// Paints a triangle whose texture lies even on it: places in the texture, light and haze as planes.
-// Included once for each instruction set.
+// Paints a triangle whose texture lies even on it: places in the texture, light and haze as planes. Included once for
+// each instruction set.
 #if defined(OCTANT_RASTER_EVEN_TEXTURE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_EVEN_TEXTURE_INL
 #undef OCTANT_RASTER_EVEN_TEXTURE_INL
@@ -9,8 +9,8 @@
 
 #include "visuals/raster/strip_gradient-inl.h"
 #include "visuals/raster/strip_walk-inl.h"
-#include "visuals/raster/texture_windows-inl.h"
 #include "visuals/raster/texel_fetch-inl.h"
+#include "visuals/raster/texture_windows-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@ struct TextureCoords {
     std::array<TexelCoords, 2> y;
 };
 
-/// Two rows' places, from those of a register's first pixel in each: of its even lanes, then of its
-/// odd ones. `px`: after how many a row begins.
+/// Two rows' places, from those of a register's first pixel in each: of its even lanes, then of its odd ones. `px`:
+/// after how many a row begins.
 struct TextureCoordSteps {
     TexelCoords of_even;
     TexelCoords to_odd;
@@ -52,8 +52,7 @@ struct TextureCoordSteps {
 };
 
 /// `weight`: of the other one, 2^-16.
-HWY_INLINE hn::Vec<Strip>
-interpolated(hn::Vec<Strip> from, hn::Vec<Strip> to, hn::Vec<Strip> weight) {
+HWY_INLINE hn::Vec<Strip> interpolated(hn::Vec<Strip> from, hn::Vec<Strip> to, hn::Vec<Strip> weight) {
     return hn::Add(hn::Sub(from, hn::MulHigh(from, weight)), hn::MulHigh(to, weight));
 }
 
@@ -80,11 +79,10 @@ struct TextureSampler {
     std::array<std::uint16_t, 3> haze;
 
     HWY_INLINE TextureSampler(const MipSelection& levels, const TileJob& job)
-        : fine(job.ground->levels()[levels.fine])
-        , coarse(job.ground->levels()[levels.fine + (levels.coarse_share > 0 ? 1U : 0U)])
-        , has_coarse(levels.coarse_share > 0)
-        , coarse_share(hn::Set(Strip(), levels.coarse_share))
-        , probes(levels, levels.fine) {
+        : fine(job.ground->levels()[levels.fine]),
+          coarse(job.ground->levels()[levels.fine + (levels.coarse_share > 0 ? 1U : 0U)]),
+          has_coarse(levels.coarse_share > 0), coarse_share(hn::Set(Strip(), levels.coarse_share)),
+          probes(levels, levels.fine) {
         for (std::size_t k = 0; k < haze.size(); ++k) {
             haze[k] = static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F);
         }
@@ -95,9 +93,7 @@ struct TextureSampler {
         Colours colours = colours_at(fine, places);
         if (has_coarse) {
             const Colours next = colours_at(coarse, coarser(places));
-            for (std::size_t k = 0; k < 3; ++k) {
-                colours[k] = interpolated(colours[k], next[k], coarse_share);
-            }
+            for (std::size_t k = 0; k < 3; ++k) { colours[k] = interpolated(colours[k], next[k], coarse_share); }
         }
         return colours;
     }
@@ -106,9 +102,7 @@ struct TextureSampler {
         const hn::RebindToSigned<Texels> whole;
         const auto x = hn::Set(whole, dx);
         const auto y = hn::Set(whole, dy);
-        return {
-            {hn::Add(places.x[0], x), hn::Add(places.x[1], x)},
-            {hn::Add(places.y[0], y), hn::Add(places.y[1], y)}};
+        return {{hn::Add(places.x[0], x), hn::Add(places.x[1], x)}, {hn::Add(places.y[0], y), hn::Add(places.y[1], y)}};
     }
 
     /// Whether a pixel takes one place of one level, as most do.
@@ -116,8 +110,7 @@ struct TextureSampler {
 
     /// The mean of a pixel's places, 1/128 level.
     HWY_INLINE Colours around(const TextureCoords& places) const {
-        return probes.mean<Strip>([&](std::int32_t dx, std::int32_t dy)
-                                      HWY_ATTR { return at(moved(places, dx, dy)); });
+        return probes.mean<Strip>([&](std::int32_t dx, std::int32_t dy) HWY_ATTR { return at(moved(places, dx, dy)); });
     }
 
     /// The same, of a pixel that is_single() says takes one place where it is.
@@ -131,8 +124,7 @@ struct TextureSampler {
     }
 
     /// Under light and behind haze, 1/16 level.
-    HWY_INLINE Colours
-    seen(const Colours& colours, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
+    HWY_INLINE Colours seen(const Colours& colours, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
         const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
         const auto of = [&](std::size_t k) HWY_ATTR {
             const auto own = hn::MulHigh(colours[k], seen_share);
@@ -146,32 +138,19 @@ struct TextureSampler {
 
 /// Covers what is free of a triangle in a strip; what is new waits for its colours.
 template <std::size_t parts>
-HWY_INLINE void cover_texture_strip(
-    const Triangle& triangle,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    const TileBox& box,
-    int left,
-    TileBuffer& buffer,
-    TextureQueue& queue) {
+HWY_INLINE void cover_texture_strip(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes,
+    const TileBox& box, int left, TileBuffer& buffer, TextureQueue& queue) {
     using Values = PartValues<parts>;
-    const auto wait = [&](int row, const Values& /*masks*/, const Values& fresh) HWY_ATTR {
-        queue.add_row(static_cast<std::size_t>(row - box.first_row), fresh);
-    };
+    const auto wait = [&](int row, const Values& /*masks*/, const Values& fresh)
+                          HWY_ATTR { queue.add_row(static_cast<std::size_t>(row - box.first_row), fresh); };
     walk_strip<parts>(triangle, job, lanes, box, left, buffer, wait, []() HWY_ATTR {});
     queue.finish(static_cast<std::size_t>(box.last_row - box.first_row + 1));
 }
 
 /// Colours what waits of a strip that begins at a column of the tile.
 template <bool is_single>
-HWY_INLINE void colour_windows(
-    const Triangle& triangle,
-    const TileJob& job,
-    const TextureSampler& look,
-    const TileBox& box,
-    int left,
-    const TextureQueue& queue,
-    TileBuffer& buffer) {
+HWY_INLINE void colour_windows(const Triangle& triangle, const TileJob& job, const TextureSampler& look,
+    const TileBox& box, int left, const TextureQueue& queue, TileBuffer& buffer) {
     const ColourGradients& levels = triangle.gradients;
     const WindowPlanes planes(levels, job, box, left);
     const TextureCoordSteps x(levels.per_x[0], texture_window_px);
@@ -184,10 +163,8 @@ HWY_INLINE void colour_windows(
         const auto first = planes.at(windows);
         const auto halves = hn::BitCast(StripSigned(), first);
         const TextureCoords places{x.from(hn::Broadcast<0>(first)), y.from(hn::Broadcast<1>(first))};
-        const Colours colours = look.seen(
-            look.template texture<is_single>(places),
-            light.share(hn::Broadcast<4>(halves)),
-            haze.share(hn::Broadcast<6>(halves)));
+        const Colours colours = look.seen(look.template texture<is_single>(places),
+            light.share(hn::Broadcast<4>(halves)), haze.share(hn::Broadcast<6>(halves)));
         const auto counts = hn::PopulationCount(queue.fresh(windows));
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint16_t* const sums = buffer.sums[k].data() + strip_begin;
@@ -197,16 +174,9 @@ HWY_INLINE void colour_windows(
 }
 
 /// Colours what waits of a strip.
-HWY_INLINE void colour_pending(
-    const Triangle& triangle,
-    const TileJob& job,
-    const TileBox& box,
-    int left,
-    const TextureQueue& queue,
-    TileBuffer& buffer) {
-    if (queue.count() == 0) {
-        return;
-    }
+HWY_INLINE void colour_pending(const Triangle& triangle, const TileJob& job, const TileBox& box, int left,
+    const TextureQueue& queue, TileBuffer& buffer) {
+    if (queue.count() == 0) { return; }
     const TextureSampler look(triangle.texture, job);
     if (look.is_single()) {
         colour_windows<true>(triangle, job, look, box, left, queue, buffer);
@@ -219,14 +189,11 @@ HWY_INLINE void colour_pending(
 HWY_NOINLINE void paint_affine_triangle(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const TileBox box(triangle, job);
-    if ((box.rows() & ~buffer.full_rows) == 0) {
-        return;
-    }
+    if ((box.rows() & ~buffer.full_rows) == 0) { return; }
     for (int left = box.left; left <= box.right; left += strip_px) {
         TextureQueue queue;
-        with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
-            cover_texture_strip<parts>(triangle, job, lanes, box, left, buffer, queue);
-        });
+        with_parts_of_strip(box, left,
+            [&](auto parts) HWY_ATTR { cover_texture_strip<parts>(triangle, job, lanes, box, left, buffer, queue); });
         colour_pending(triangle, job, box, left, queue, buffer);
     }
 }

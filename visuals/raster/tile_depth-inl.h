@@ -1,6 +1,5 @@
-// Groups of triangles that are drawn by depth: sample by sample, from first to last; what is seen
-// of a group is then coloured like any triangle, where nothing nearer covers it.
-// Included once for each instruction set.
+// Groups of triangles that are drawn by depth: sample by sample, from first to last; what is seen of a group is then
+// coloured like any triangle, where nothing nearer covers it. Included once for each instruction set.
 #if defined(OCTANT_RASTER_DEPTH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_DEPTH_INL
 #undef OCTANT_RASTER_DEPTH_INL
@@ -80,25 +79,17 @@ struct DepthStepper {
 };
 
 /// Draws the covered samples of a pixel by depth.
-HWY_INLINE void draw_pixel(
-    std::uint32_t mask,
-    float pixel_depth,
-    const DepthStepper& walk,
-    scene::DepthUse use,
-    std::uint32_t name,
-    float* depth,
-    std::uint32_t* seen) {
+HWY_INLINE void draw_pixel(std::uint32_t mask, float pixel_depth, const DepthStepper& walk, scene::DepthUse use,
+    std::uint32_t name, float* depth, std::uint32_t* seen) {
     using Use = scene::DepthUse;
     const Depths real;
     const Seen whole;
     const std::size_t at_once = hn::Lanes(real);
     for (std::size_t lane = 0; lane < samples; lane += at_once) {
         const auto bit = hn::Shl(hn::Set(whole, 1U), lane_indices_from(whole, lane));
-        const auto covered =
-            hn::RebindMask(real, hn::Ne(hn::And(hn::Set(whole, mask), bit), hn::Zero(whole)));
+        const auto covered = hn::RebindMask(real, hn::Ne(hn::And(hn::Set(whole, mask), bit), hn::Zero(whole)));
         const auto before = hn::LoadU(real, depth + lane);
-        const auto here =
-            hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
+        const auto here = hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
         auto passes = covered;
         if (use == Use::OnGround || use == Use::InfinitelyFar) {
             passes = hn::And(covered, hn::Ge(here, before));
@@ -110,55 +101,38 @@ HWY_INLINE void draw_pixel(
         }
         if (use != Use::DepthOnly) {
             const auto last = hn::LoadU(whole, seen + lane);
-            hn::StoreU(
-                hn::IfThenElse(hn::RebindMask(whole, passes), hn::Set(whole, name), last),
-                whole,
-                seen + lane);
+            hn::StoreU(hn::IfThenElse(hn::RebindMask(whole, passes), hn::Set(whole, name), last), whole, seen + lane);
         }
     }
 }
 
 HWY_INLINE void draw_by_depth(
-    const TileTriangle& one,
-    std::uint32_t name,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    TileBuffer& buffer) {
+    const TileTriangle& one, std::uint32_t name, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const DepthStepper walk(*one.extra, job, lanes);
     const scene::DepthUse use = one.triangle->depth;
     const Coverage& coverage = buffer.coverage;
     for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
         const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
         const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-        const std::uint16_t* const masks =
-            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
         for (int column = places.first; column < end; ++column) {
             const std::uint32_t mask = masks[column];
-            if (mask == 0) {
-                continue;
-            }
+            if (mask == 0) { continue; }
             const auto sample = static_cast<std::size_t>(row * tile_width + column) * samples;
             draw_pixel(
-                mask,
-                walk.at(column, row),
-                walk,
-                use,
-                name,
-                buffer.depth.data() + sample,
-                buffer.seen.data() + sample);
+                mask, walk.at(column, row), walk, use, name, buffer.depth.data() + sample, buffer.seen.data() + sample);
         }
     }
 }
 
 /// The covered samples of a pixel where a clear triangle is nearer than what is there.
-HWY_INLINE std::uint32_t
-nearer_samples(std::uint32_t mask, float pixel_depth, const DepthStepper& walk, const float* depth) {
+HWY_INLINE std::uint32_t nearer_samples(
+    std::uint32_t mask, float pixel_depth, const DepthStepper& walk, const float* depth) {
     const Depths real;
     std::uint32_t nearer = 0;
     for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(real)) {
         alignas(8) std::array<std::uint8_t, 8> some{};
-        const auto here =
-            hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
+        const auto here = hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
         hn::StoreMaskBits(real, hn::Gt(here, hn::LoadU(real, depth + lane)), some.data());
         nearer |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
     }
@@ -173,22 +147,18 @@ HWY_INLINE void record_transparent_surface(
     for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
         const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
         const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-        const std::uint16_t* const masks =
-            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
         for (int column = places.first; column < end; ++column) {
             const auto pixel = static_cast<std::size_t>(row * tile_width + column);
             const auto free = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
-            if (free == 0) {
-                continue;
-            }
-            const std::uint32_t seen = nearer_samples(
-                free, walk.at(column, row), walk, buffer.depth.data() + pixel * samples);
+            if (free == 0) { continue; }
+            const std::uint32_t seen =
+                nearer_samples(free, walk.at(column, row), walk, buffer.depth.data() + pixel * samples);
             if (seen != 0) {
                 buffer.transparent_pixels.push_back(
-                    {static_cast<std::uint16_t>(pixel),
-                     static_cast<std::uint16_t>(seen),
-                     colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
-                     TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
+                    {static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                        colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
+                        TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
             }
         }
     }
@@ -200,22 +170,19 @@ HWY_INLINE std::uint16_t samples_showing(std::uint32_t name, const std::uint32_t
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(whole)) {
         alignas(8) std::array<std::uint8_t, 8> some{};
-        hn::StoreMaskBits(
-            whole, hn::Eq(hn::LoadU(whole, seen + lane), hn::Set(whole, name)), some.data());
+        hn::StoreMaskBits(whole, hn::Eq(hn::LoadU(whole, seen + lane), hn::Set(whole, name)), some.data());
         bits |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
     }
     return static_cast<std::uint16_t>(bits);
 }
 
 /// Makes what is seen of a triangle of a group its coverage.
-HWY_INLINE void
-cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
+HWY_INLINE void cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
     const TileBox box(*one.triangle, job);
     buffer.coverage.first_row = box.first_row;
     buffer.coverage.last_row = box.last_row;
     for (int row = box.first_row; row <= box.last_row; ++row) {
-        std::uint16_t* const masks =
-            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
         int first = box.right + 1;
         int last = box.left - 1;
         for (int column = box.left; column <= box.right; ++column) {
@@ -232,15 +199,10 @@ cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, Tile
 
 /// Triangles first .. end - 1 of the job are a group.
 HWY_INLINE void paint_group(
-    const TileJob& job,
-    const std::array<std::size_t, 2>& range,
-    const SampleLanes& lanes,
-    TileBuffer& buffer) {
+    const TileJob& job, const std::array<std::size_t, 2>& range, const SampleLanes& lanes, TileBuffer& buffer) {
     const auto group = job.triangles.subspan(range[0], range[1] - range[0]);
     const GroupBox box = box_of(group, job);
-    if (box.left > box.right || box.first_row > box.last_row) {
-        return;
-    }
+    if (box.left > box.right || box.first_row > box.last_row) { return; }
     clear_group(box, buffer);
     const std::size_t clear_before = buffer.transparent_pixels.size();
     for (std::size_t i = 0; i < group.size(); ++i) {
@@ -251,9 +213,7 @@ HWY_INLINE void paint_group(
             draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
         }
     }
-    if (buffer.transparent_pixels.size() > clear_before) {
-        buffer.group_first_transparent.push_back(clear_before);
-    }
+    if (buffer.transparent_pixels.size() > clear_before) { buffer.group_first_transparent.push_back(clear_before); }
     // Each of its samples shows one triangle: they are coloured in any order.
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);

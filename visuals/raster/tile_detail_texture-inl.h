@@ -1,7 +1,6 @@
-// The fine pattern of near ground, once for each pixel when a tile's triangles are painted: how
-// near the ground is there says where the pixel looks in the pattern, and what its neighbours see
-// says at which level. The pattern is taken at every second pixel, and even in between. Included
-// once for each instruction set.
+// The fine pattern of near ground, once for each pixel when a tile's triangles are painted: how near the ground is
+// there says where the pixel looks in the pattern, and what its neighbours see says at which level. The pattern is
+// taken at every second pixel, and even in between. Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_INL
 #undef OCTANT_RASTER_GRAIN_INL
@@ -25,12 +24,8 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
 /// Changes colours of a row of pixels of a tile by the pattern. `ground`: of its pairs of pixels.
-HWY_INLINE void change_row(
-    const DetailRow& detail_texture,
-    const std::uint32_t* ground,
-    const std::uint32_t* table,
-    int row,
-    TileBuffer& buffer) {
+HWY_INLINE void change_row(const DetailRow& detail_texture, const std::uint32_t* ground, const std::uint32_t* table,
+    int row, TileBuffer& buffer) {
     const PixelPairBits bits;
     const PixelPairHalves halves;
     const hn::RebindToUnsigned<PixelPairHalves> values;
@@ -40,9 +35,7 @@ HWY_INLINE void change_row(
     const bool is_full = (buffer.full_rows >> row & 1U) != 0;
     for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
         const auto seen = hn::Load(bits, &detail_texture.seen[two]);
-        if (hn::AllTrue(bits, hn::Eq(seen, hn::Zero(bits)))) {
-            continue;
-        }
+        if (hn::AllTrue(bits, hn::Eq(seen, hn::Zero(bits)))) { continue; }
         const std::size_t at = static_cast<std::size_t>(row) * tile_width + 2 * two;
         const PairContrast contrast(
             seen, hn::LoadU(bits, &detail_texture.seen[two + 1]), hn::LoadU(bits, ground + two), table);
@@ -58,10 +51,8 @@ HWY_INLINE void change_row(
         }
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint16_t* const sums = buffer.sums[k].data() + at;
-            const auto change =
-                hn::MulFixedPoint15(contrast.part[k], hn::BitCast(halves, of_ground));
-            const auto half =
-                hn::MulHigh(hn::LoadU(values, sums), hn::Xor(hn::BitCast(values, change), middle));
+            const auto change = hn::MulFixedPoint15(contrast.part[k], hn::BitCast(halves, of_ground));
+            const auto half = hn::MulHigh(hn::LoadU(values, sums), hn::Xor(hn::BitCast(values, change), middle));
             hn::StoreU(hn::Min(hn::SaturatedAdd(half, half), white), values, sums);
         }
     }
@@ -71,9 +62,7 @@ HWY_INLINE void change_row(
 class DetailApplier {
 public:
     HWY_INLINE DetailApplier(const TileJob& job, const TileInverseDepths& inverse_depth, TileBuffer& buffer)
-        : job_(job)
-        , inverse_depths_(inverse_depth)
-        , buffer_(buffer) {}
+        : job_(job), inverse_depths_(inverse_depth), buffer_(buffer) {}
 
     /// The pixels between a row of pairs and the one above it, and its own.
     HWY_NOINLINE void change(int row, const DetailRow& above, const DetailRow& own) {
@@ -83,9 +72,7 @@ public:
             between.put_between(above, own);
             change_pixels(2 * row - 1, between);
         }
-        if (is_seen && 2 * row < job_.size_px.y) {
-            change_pixels(2 * row, own);
-        }
+        if (is_seen && 2 * row < job_.size_px.y) { change_pixels(2 * row, own); }
     }
 
 private:
@@ -98,13 +85,10 @@ private:
     TileBuffer& buffer_;
 };
 
-/// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are
-/// painted.
+/// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are painted.
 HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
     const TileInverseDepths inverse_depth(job, buffer);
-    if (!inverse_depth.has_ground()) {
-        return;
-    }
+    if (!inverse_depth.has_ground()) { return; }
     const TileDetailSampler look(job, inverse_depth);
     std::array<DetailPositionRow, 2> places;
     std::array<DetailRow, tile_height / 2 + 1> seen;
@@ -113,8 +97,7 @@ HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
     const int last = job.size_px.y / 2;
     const auto look_up = [&](int row) HWY_ATTR {
         if (inverse_depth.has_ground(row)) {
-            look.look(
-                row, *above, row % 2 == 0 ? *above : *below, seen[static_cast<std::size_t>(row)]);
+            look.look(row, *above, row % 2 == 0 ? *above : *below, seen[static_cast<std::size_t>(row)]);
         }
     };
     // Places are written a while before they are read.
@@ -130,9 +113,7 @@ HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
         }
         std::swap(above, below);
     }
-    if (last % 2 == 0) {
-        look_up(last);
-    }
+    if (last % 2 == 0) { look_up(last); }
     DetailApplier walk(job, inverse_depth, buffer);
     for (int row = 0; row <= last; ++row) {
         const auto at = static_cast<std::size_t>(row);

@@ -1,6 +1,5 @@
-// Paints a triangle whose colour is planes of levels: masks and colours of 32 pixels at once, with
-// as few choices on the way as can be. Nearly all triangles are of this kind, and small.
-// Included once for each instruction set.
+// Paints a triangle whose colour is planes of levels: masks and colours of 32 pixels at once, with as few choices on
+// the way as can be. Nearly all triangles are of this kind, and small. Included once for each instruction set.
 #if defined(OCTANT_RASTER_LEVELS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_LEVELS_INL
 #undef OCTANT_RASTER_LEVELS_INL
@@ -28,8 +27,7 @@ template <PaintAs kind, std::size_t parts>
 HWY_INLINE auto ground_of_parts(const Triangle& triangle, const TileJob& job, int left) {
     if constexpr (kind == PaintAs::Ground) {
         return [&]<std::size_t... part>(std::index_sequence<part...>) HWY_ATTR {
-            return std::array{
-                GroundOfColumns<Strip>(triangle, job, left + static_cast<int>(part * part_px))...};
+            return std::array{GroundOfColumns<Strip>(triangle, job, left + static_cast<int>(part * part_px))...};
         }
         (std::make_index_sequence<parts>());
     } else {
@@ -37,16 +35,10 @@ HWY_INLINE auto ground_of_parts(const Triangle& triangle, const TileJob& job, in
     }
 }
 
-/// Paints the strip of a triangle that begins at a column of the tile, or as many parts of it as
-/// have columns.
+/// Paints the strip of a triangle that begins at a column of the tile, or as many parts of it as have columns.
 template <PaintAs kind, std::size_t parts>
-HWY_INLINE void paint_strip(
-    const Triangle& triangle,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    const TileBox& box,
-    int left,
-    TileBuffer& buffer) {
+HWY_INLINE void paint_strip(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box,
+    int left, TileBuffer& buffer) {
     const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
     auto gradients = strip_gradients(triangle.gradients, box_px, left - box.left);
     [[maybe_unused]] const auto ground = ground_of_parts<kind, parts>(triangle, job, left);
@@ -62,18 +54,14 @@ HWY_INLINE void paint_strip(
                 hn::StoreU(sum, Strip(), sums);
             }
             if constexpr (kind == PaintAs::Ground) {
-                if (row % 2 == 0) {
-                    ground[i].put(row, fresh[i], buffer);
-                }
+                if (row % 2 == 0) { ground[i].put(row, fresh[i], buffer); }
             } else if constexpr (kind == PaintAs::Beside) {
                 count_other_than_ground(Strip(), at, counts, buffer);
             }
         }
     };
     walk_strip<parts>(triangle, job, lanes, box, left, buffer, paint, [&]() HWY_ATTR {
-        for (StripGradient& level : gradients) {
-            level.at += level.per_row;
-        }
+        for (StripGradient& level : gradients) { level.at += level.per_row; }
     });
 }
 
@@ -83,8 +71,7 @@ struct MiddleEdge {
     std::uint64_t slope;
 
     HWY_INLINE MiddleEdge(const Edge& edge, std::int32_t top, const glm::ivec2& first_px)
-        : x(strip_edge_x(edge, top, first_px))
-        , slope(static_cast<std::uint64_t>(edge.slope)) {}
+        : x(strip_edge_x(edge, top, first_px)), slope(static_cast<std::uint64_t>(edge.slope)) {}
 
     /// The strip's pixels from the first on whose middle is not left of the edge.
     HWY_INLINE std::uint32_t pixels_from() const {
@@ -93,15 +80,10 @@ struct MiddleEdge {
     }
 };
 
-/// paint_strip() where all lanes of a pixel share its middle: a triangle covers a pixel or does
-/// not.
+/// paint_strip() where all lanes of a pixel share its middle: a triangle covers a pixel or does not.
 template <PaintAs kind>
 HWY_INLINE void paint_strip_of_middles(
-    const Triangle& triangle,
-    const TileJob& job,
-    const TileBox& box,
-    int left,
-    TileBuffer& buffer) {
+    const Triangle& triangle, const TileJob& job, const TileBox& box, int left, TileBuffer& buffer) {
     const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t full_row = job.full_row();
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
@@ -117,8 +99,7 @@ HWY_INLINE void paint_strip_of_middles(
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
         const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();
         const std::uint32_t through = whole.pixels_from();
-        const std::uint32_t between =
-            (bent ^ through) & (through ^ (bends_left & (bent ^ through)));
+        const std::uint32_t between = (bent ^ through) & (through ^ (bends_left & (bent ^ through)));
         const std::uint32_t fresh = between & columns & ~static_cast<std::uint32_t>(full >> left);
         if (fresh != 0) {
             full |= std::uint64_t{fresh} << left;
@@ -130,25 +111,18 @@ HWY_INLINE void paint_strip_of_middles(
                 const auto is_fresh = hn::LoadMaskBits(Strip(), bits.data() + i * part_px / 8);
                 std::uint16_t* const covered = buffer.covered.data() + at;
                 const auto all = hn::Set(Strip(), 0xffff);
-                hn::StoreU(
-                    hn::IfThenElse(is_fresh, all, hn::LoadU(Strip(), covered)), Strip(), covered);
+                hn::StoreU(hn::IfThenElse(is_fresh, all, hn::LoadU(Strip(), covered)), Strip(), covered);
                 for (std::size_t k = 0; k < gradients.size(); ++k) {
                     std::uint16_t* const sums = buffer.sums[k].data() + at;
                     const auto sixteen = hn::ShiftLeft<4>(gradients[k].colour(i));
-                    hn::StoreU(
-                        hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
+                    hn::StoreU(hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
                 }
                 if constexpr (kind == PaintAs::Beside) {
                     const auto sixteen = hn::Set(Strip(), std::uint16_t{16});
                     count_other_than_ground(Strip(), at, hn::IfThenElseZero(is_fresh, sixteen), buffer);
                 } else if constexpr (kind == PaintAs::Ground) {
                     const auto columns_right = static_cast<int>(i * part_px);
-                    put_ground(
-                        Strip(),
-                        triangle,
-                        job,
-                        {left + columns_right, row},
-                        hn::VecFromMask(Strip(), is_fresh),
+                    put_ground(Strip(), triangle, job, {left + columns_right, row}, hn::VecFromMask(Strip(), is_fresh),
                         buffer);
                 }
             }
@@ -156,9 +130,7 @@ HWY_INLINE void paint_strip_of_middles(
         whole.x += whole.slope;
         upper.x += upper.slope;
         lower.x += lower.slope;
-        for (StripGradient& level : gradients) {
-            level.at += level.per_row;
-        }
+        for (StripGradient& level : gradients) { level.at += level.per_row; }
     }
 }
 
@@ -167,17 +139,13 @@ template <PaintAs kind>
 HWY_NOINLINE void paint_gouraud(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     TileBox box(triangle, job);
-    if ((box.rows() & ~buffer.full_rows) == 0) {
-        return;
-    }
+    if ((box.rows() & ~buffer.full_rows) == 0) { return; }
     if constexpr (kind == PaintAs::Ground) {
         box.left &= ~1; // where the ground is noted
     }
     if constexpr (has_pairs_of_rows) {
         if (!lanes.are_one && box.right - box.left < window_px) {
-            if constexpr (kind == PaintAs::Ground) {
-                box.first_row &= ~1;
-            }
+            if constexpr (kind == PaintAs::Ground) { box.first_row &= ~1; }
             paint_gouraud_in_pairs<kind>(triangle, job, lanes, box, buffer);
             return;
         }
@@ -187,9 +155,8 @@ HWY_NOINLINE void paint_gouraud(
             paint_strip_of_middles<kind>(triangle, job, box, left, buffer);
             continue;
         }
-        with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
-            paint_strip<kind, parts>(triangle, job, lanes, box, left, buffer);
-        });
+        with_parts_of_strip(
+            box, left, [&](auto parts) HWY_ATTR { paint_strip<kind, parts>(triangle, job, lanes, box, left, buffer); });
     }
 }
 

@@ -1,5 +1,4 @@
-// From a tile's sums to its pixels in the picture, and what lies over them.
-// Included once for each instruction set.
+// From a tile's sums to its pixels in the picture, and what lies over them. Included once for each instruction set.
 #if defined(OCTANT_RASTER_PICTURE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_PICTURE_INL
 #undef OCTANT_RASTER_PICTURE_INL
@@ -21,9 +20,7 @@ namespace HWY_NAMESPACE {
 
 HWY_NOINLINE void clear(const TileJob& job, TileBuffer& buffer) {
     buffer.covered.fill(0);
-    for (std::size_t k = 0; k < 3; ++k) {
-        buffer.sums[k].fill(0);
-    }
+    for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k].fill(0); }
     if (job.detail_texture != nullptr) {
         buffer.sums[3].fill(0);
         buffer.ground.fill(0);
@@ -51,8 +48,7 @@ using ColourPlanes = std::array<ColourPlane, 3>;
 
 /// Pixels from their sums; what is left free has the background.
 template <bool has_free>
-HWY_INLINE hn::Vec<Words>
-pixels_of(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t first) {
+HWY_INLINE hn::Vec<Words> pixels_of(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t first) {
     const Words words;
     const HalfWords halves;
     const auto half_level = hn::Set(halves, 128);
@@ -69,23 +65,21 @@ pixels_of(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t firs
     const auto high_byte = hn::Set(halves, 0xff00);
     const auto first_two = hn::Or(hn::ShiftRight<8>(rounded(0)), hn::And(rounded(1), high_byte));
     const auto last_two = hn::Or(hn::ShiftRight<8>(rounded(2)), high_byte);
-    return hn::Or(
-        hn::PromoteTo(words, first_two), hn::ShiftLeft<16>(hn::PromoteTo(words, last_two)));
+    return hn::Or(hn::PromoteTo(words, first_two), hn::ShiftLeft<16>(hn::PromoteTo(words, last_two)));
 }
 
 using Line = std::array<std::uint32_t, tile_width>;
 
 template <bool has_free>
-HWY_INLINE void
-resolve_row(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t first, Line& line) {
+HWY_INLINE void resolve_row(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t first, Line& line) {
     for (std::size_t column = 0; column < tile_width; column += hn::Lanes(Words())) {
         const auto pixels = pixels_of<has_free>(planes, buffer, first + column);
         hn::Store(pixels, Words(), line.data() + column);
     }
 }
 
-/// Writes a whole line past the caches: the picture is too large for them, and the next tile wants
-/// them. Parts of the caches' lines would be read from memory first.
+/// Writes a whole line past the caches: the picture is too large for them, and the next tile wants them. Parts of the
+/// caches' lines would be read from memory first.
 HWY_INLINE void stream(const Line& line, std::uint8_t* to) {
     const Words words;
     for (std::size_t i = 0; i < tile_width; i += hn::Lanes(words)) {
@@ -98,8 +92,7 @@ HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
     alignas(64) Line line;
     ColourPlanes planes;
     for (std::size_t k = 0; k < 3; ++k) {
-        planes[byte_of_colour(job, k)] = {
-            buffer.sums[k].data(), static_cast<std::uint16_t>(job.background[k] * 16)};
+        planes[byte_of_colour(job, k)] = {buffer.sums[k].data(), static_cast<std::uint16_t>(job.background[k] * 16)};
     }
     constexpr std::uintptr_t alignment = 64; // a line of the caches
     const bool may_stream = job.size_px.x == tile_width && job.row_bytes % alignment == 0 &&
@@ -127,8 +120,8 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
     const std::uint32_t colour = buffer.pending_colours[pixel];
     const auto samples_covered = static_cast<std::uint32_t>(std::popcount(buffer.pending[pixel]));
     const std::uint32_t share = (colour >> 24U) * samples_covered; // of 255 * 16
-    std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes +
-                             static_cast<std::size_t>(column) * 4;
+    std::uint8_t* const to =
+        job.rgba + static_cast<std::size_t>(row) * job.row_bytes + static_cast<std::size_t>(column) * 4;
     for (unsigned k = 0; k < 3; ++k) {
         const std::uint32_t over = colour >> (8 * k) & 0xffU;
         std::uint8_t& under = to[byte_of_colour(job, k)];
@@ -143,8 +136,8 @@ HWY_INLINE void blend_transparent_pixel(const TileJob& job, const TransparentPix
     const std::uint32_t share = clear.share;
     const int row = clear.pixel / tile_width;
     const int column = clear.pixel % tile_width;
-    std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes +
-                             static_cast<std::size_t>(column) * 4;
+    std::uint8_t* const to =
+        job.rgba + static_cast<std::size_t>(row) * job.row_bytes + static_cast<std::size_t>(column) * 4;
     for (std::size_t k = 0; k < 3; ++k) {
         std::uint8_t& under = to[byte_of_colour(job, k)];
         const std::uint32_t there = under * std::uint32_t{16};
@@ -158,19 +151,15 @@ HWY_INLINE void blend_transparent(const TileJob& job, const TileBuffer& buffer) 
     std::size_t end = buffer.transparent_pixels.size();
     for (std::size_t group = buffer.group_first_transparent.size(); group > 0; --group) {
         const std::size_t first = buffer.group_first_transparent[group - 1];
-        for (std::size_t i = first; i < end; ++i) {
-            blend_transparent_pixel(job, buffer.transparent_pixels[i]);
-        }
+        for (std::size_t i = first; i < end; ++i) { blend_transparent_pixel(job, buffer.transparent_pixels[i]); }
         end = first;
     }
 }
 
-/// Triangles over the picture, blended by their alpha. Neighbours of one colour that share a pixel
-/// are blended as one, so that no line shows between them.
+/// Triangles over the picture, blended by their alpha. Neighbours of one colour that share a pixel are blended as one,
+/// so that no line shows between them.
 HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    if (job.overlay.empty()) {
-        return;
-    }
+    if (job.overlay.empty()) { return; }
     buffer.full.fill(0);
     buffer.full_rows = 0;
     buffer.pending.assign(TileBuffer::pixels, 0);
@@ -185,14 +174,11 @@ HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, Tile
                 buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
             for (int column = places.first; column < end; ++column) {
                 const std::uint16_t mask = masks[column];
-                if (mask == 0) {
-                    continue;
-                }
+                if (mask == 0) { continue; }
                 const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-                const std::uint32_t colour =
-                    overlay_colour_of(one, job.first_px.x + column, job.first_px.y + row);
-                if (buffer.pending[pixel] != 0 && (buffer.pending_colours[pixel] != colour ||
-                                                   (buffer.pending[pixel] & mask) != 0)) {
+                const std::uint32_t colour = overlay_colour_of(one, job.first_px.x + column, job.first_px.y + row);
+                if (buffer.pending[pixel] != 0 &&
+                    (buffer.pending_colours[pixel] != colour || (buffer.pending[pixel] & mask) != 0)) {
                     blend(job, column, row, buffer);
                 }
                 buffer.pending[pixel] = static_cast<std::uint16_t>(buffer.pending[pixel] | mask);

@@ -1,6 +1,5 @@
-// Which samples of a strip of 32 pixels a triangle covers: whole strips at once, whatever the
-// triangle's corners do within the row.
-// Included once for each instruction set.
+// Which samples of a strip of 32 pixels a triangle covers: whole strips at once, whatever the triangle's corners do
+// within the row. Included once for each instruction set.
 #if defined(OCTANT_RASTER_STRIP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_STRIP_INL
 #undef OCTANT_RASTER_STRIP_INL
@@ -39,16 +38,13 @@ using StripValues = std::array<hn::Vec<Strip>, strip_parts>;
 
 HWY_INLINE LaneValues load_lanes(const std::int32_t* table) {
     LaneValues values;
-    for (std::size_t i = 0; i < lane_parts; ++i) {
-        values[i] = hn::Load(Lanes(), table + i * hn::MaxLanes(Lanes()));
-    }
+    for (std::size_t i = 0; i < lane_parts; ++i) { values[i] = hn::Load(Lanes(), table + i * hn::MaxLanes(Lanes())); }
     return values;
 }
 
-/// Where an edge crosses the middle of a row, from a column on, 2^-32 pixel, as StripEdge::x.
-/// `top`: of the edge, 1/256 pixel. `first_px`: column and row of the picture.
-HWY_INLINE std::uint64_t
-strip_edge_x(const Edge& edge, std::int32_t top, const glm::ivec2& first_px) {
+/// Where an edge crosses the middle of a row, from a column on, 2^-32 pixel, as StripEdge::x. `top`: of the edge, 1/256
+/// pixel. `first_px`: column and row of the picture.
+HWY_INLINE std::uint64_t strip_edge_x(const Edge& edge, std::int32_t top, const glm::ivec2& first_px) {
     // Less than the least distance of a crossing from a column's middle where it is not on it.
     constexpr std::uint64_t on_it = std::uint64_t{1} << 10;
     const auto rows = static_cast<std::uint64_t>(std::int64_t{first_px.y - first_row_of(top)});
@@ -62,14 +58,9 @@ struct StripEdge {
     std::uint64_t slope;
     LaneValues offsets; ///< of each lane's crossing from the row's, 2^-16 pixel, and what rounds up
 
-    HWY_INLINE StripEdge(
-        const Edge& edge,
-        std::int32_t top,
-        const glm::ivec2& first_px,
-        const LaneValues& down,
+    HWY_INLINE StripEdge(const Edge& edge, std::int32_t top, const glm::ivec2& first_px, const LaneValues& down,
         const LaneValues& round_up)
-        : x(strip_edge_x(edge, top, first_px))
-        , slope(static_cast<std::uint64_t>(edge.slope)) {
+        : x(strip_edge_x(edge, top, first_px)), slope(static_cast<std::uint64_t>(edge.slope)) {
         const auto slope_32nd = hn::Set(Lanes(), static_cast<std::int32_t>(edge.slope >> 21));
         for (std::size_t i = 0; i < lane_parts; ++i) {
             offsets[i] = hn::Add(hn::Mul(down[i], slope_32nd), round_up[i]);
@@ -125,9 +116,7 @@ HWY_INLINE hn::Vec<Strip> paired(hn::Vec<Words> rows) {
     const hn::Repartition<std::uint8_t, Words> bytes;
     alignas(16) static constexpr std::array<std::uint8_t, 16> order{
         0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15};
-    return hn::BitCast(
-        Strip(),
-        hn::TableLookupBytes(hn::BitCast(bytes, rows), hn::LoadDup128(bytes, order.data())));
+    return hn::BitCast(Strip(), hn::TableLookupBytes(hn::BitCast(bytes, rows), hn::LoadDup128(bytes, order.data())));
 }
 
 #if HWY_TARGET == HWY_AVX3_DL
@@ -153,30 +142,24 @@ HWY_INLINE StripValues samples_of_pixels(const LaneMasks& lanes) {
 
 /// From a bit for each pixel in sixteen lanes to a bit for each lane in 32 pixels.
 template <std::size_t parts>
-HWY_INLINE std::array<hn::Vec<Strip>, parts>
-samples_of_pixels(const std::array<hn::Vec<LaneBits>, parts>& lanes) {
+HWY_INLINE std::array<hn::Vec<Strip>, parts> samples_of_pixels(const std::array<hn::Vec<LaneBits>, parts>& lanes) {
     const hn::Repartition<std::uint8_t, LaneBits> bytes;
     const hn::Repartition<std::uint64_t, LaneBits> words;
     using Words = decltype(words);
     alignas(16) static constexpr std::array<std::uint8_t, 16> by_eight_pixels{
         0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15};
-    std::array<hn::Vec<LaneBits>, parts>
-        fours; // the bytes of four lanes that hold the same pixels, next to each other
+    std::array<hn::Vec<LaneBits>, parts> fours; // the bytes of four lanes that hold the same pixels, next to each other
     for (std::size_t i = 0; i < parts; ++i) {
-        fours[i] = hn::BitCast(
-            LaneBits(),
-            hn::TableLookupBytes(
-                hn::BitCast(bytes, lanes[i]), hn::LoadDup128(bytes, by_eight_pixels.data())));
+        fours[i] = hn::BitCast(LaneBits(),
+            hn::TableLookupBytes(hn::BitCast(bytes, lanes[i]), hn::LoadDup128(bytes, by_eight_pixels.data())));
     }
     const auto as_words = [&](hn::Vec<LaneBits> from) HWY_ATTR { return hn::BitCast(words, from); };
-    const auto finished = [&](hn::Vec<Words> rows)
-                              HWY_ATTR { return paired<Words>(turned<Words>(rows)); };
+    const auto finished = [&](hn::Vec<Words> rows) HWY_ATTR { return paired<Words>(turned<Words>(rows)); };
     if constexpr (parts == 1) {
         alignas(64) static constexpr std::array<std::int32_t, 16> across{
             0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15};
         const LaneBits bits;
-        return {finished(
-            as_words(hn::TableLookupLanes(fours[0], hn::SetTableIndices(bits, across.data()))))};
+        return {finished(as_words(hn::TableLookupLanes(fours[0], hn::SetTableIndices(bits, across.data()))))};
     } else if constexpr (parts == 2) {
         alignas(32) static constexpr std::array<std::int32_t, 8> across{0, 4, 1, 5, 2, 6, 3, 7};
         const LaneBits bits;
@@ -192,11 +175,8 @@ samples_of_pixels(const std::array<hn::Vec<LaneBits>, parts>& lanes) {
         const auto low_b = as_words(hn::InterleaveLower(bits, fours[2], fours[3]));
         const auto high_a = as_words(hn::InterleaveUpper(bits, fours[0], fours[1]));
         const auto high_b = as_words(hn::InterleaveUpper(bits, fours[2], fours[3]));
-        return {
-            finished(hn::InterleaveLower(words, low_a, low_b)),
-            finished(hn::InterleaveUpper(words, low_a, low_b)),
-            finished(hn::InterleaveLower(words, high_a, high_b)),
-            finished(hn::InterleaveUpper(words, high_a, high_b))};
+        return {finished(hn::InterleaveLower(words, low_a, low_b)), finished(hn::InterleaveUpper(words, low_a, low_b)),
+            finished(hn::InterleaveLower(words, high_a, high_b)), finished(hn::InterleaveUpper(words, high_a, high_b))};
     }
 }
 
@@ -204,8 +184,8 @@ samples_of_pixels(const std::array<hn::Vec<LaneBits>, parts>& lanes) {
 
 #if HWY_TARGET == HWY_AVX2
 
-/// From a bit for each pixel of a strip's first half in sixteen lanes to a bit for each lane in 16
-/// pixels. No lane has pixels beyond.
+/// From a bit for each pixel of a strip's first half in sixteen lanes to a bit for each lane in 16 pixels. No lane has
+/// pixels beyond.
 HWY_INLINE hn::Vec<Strip> samples_of_half(const LaneMasks& lanes) {
     const hn::Repartition<std::uint8_t, LaneBits> bytes;
     const hn::Repartition<std::uint64_t, LaneBits> words;
@@ -214,10 +194,9 @@ HWY_INLINE hn::Vec<Strip> samples_of_half(const LaneMasks& lanes) {
     alignas(32) static constexpr std::array<std::int32_t, 8> across{0, 4, 2, 6, 1, 5, 3, 7};
     // Lanes 0 to 3, 8 to 11, 4 to 7, 12 to 15.
     const hn::Vec<decltype(bytes)> packed{_mm256_packus_epi32(lanes[0].raw, lanes[1].raw)};
-    const auto fours = hn::BitCast(
-        LaneBits(), hn::TableLookupBytes(packed, hn::LoadDup128(bytes, by_eight_pixels.data())));
-    const auto rows = hn::BitCast(
-        words, hn::TableLookupLanes(fours, hn::SetTableIndices(LaneBits(), across.data())));
+    const auto fours =
+        hn::BitCast(LaneBits(), hn::TableLookupBytes(packed, hn::LoadDup128(bytes, by_eight_pixels.data())));
+    const auto rows = hn::BitCast(words, hn::TableLookupLanes(fours, hn::SetTableIndices(LaneBits(), across.data())));
     return paired<decltype(words)>(turned<decltype(words)>(rows));
 }
 
@@ -226,23 +205,17 @@ HWY_INLINE hn::Vec<Strip> samples_of_half(const LaneMasks& lanes) {
 /// The samples of the strips of a triangle's rows, one row after the other.
 class StripCoverage {
 public:
-    /// `first_px`: the strip's first column and row in the picture. Only columns whose bits are in
-    /// `columns` count.
+    /// `first_px`: the strip's first column and row in the picture. Only columns whose bits are in `columns` count.
     HWY_INLINE StripCoverage(
-        const Triangle& triangle,
-        const glm::ivec2& first_px,
-        std::uint32_t columns,
-        const SampleLanes& lanes)
-        : down_(load_lanes(lanes.down.data()))
-        , round_up_(load_lanes(lanes.round_up.data()))
-        , whole_(triangle.whole, triangle.top, first_px, down_, round_up_)
-        , upper_(triangle.upper, triangle.top, first_px, down_, round_up_)
-        , lower_(triangle.lower, triangle.middle, first_px, down_, round_up_)
-        , columns_(columns)
-        , bends_left_(triangle.middle_is_left ? ~std::uint32_t{0} : 0U)
-        , top_(hn::Set(Lanes(), triangle.top - first_px.y * 256))
-        , middle_(hn::Set(Lanes(), triangle.middle - first_px.y * 256))
-        , bottom_(hn::Set(Lanes(), triangle.bottom - first_px.y * 256)) {
+        const Triangle& triangle, const glm::ivec2& first_px, std::uint32_t columns, const SampleLanes& lanes)
+        : down_(load_lanes(lanes.down.data())), round_up_(load_lanes(lanes.round_up.data())),
+          whole_(triangle.whole, triangle.top, first_px, down_, round_up_),
+          upper_(triangle.upper, triangle.top, first_px, down_, round_up_),
+          lower_(triangle.lower, triangle.middle, first_px, down_, round_up_), columns_(columns),
+          bends_left_(triangle.middle_is_left ? ~std::uint32_t{0} : 0U),
+          top_(hn::Set(Lanes(), triangle.top - first_px.y * 256)),
+          middle_(hn::Set(Lanes(), triangle.middle - first_px.y * 256)),
+          bottom_(hn::Set(Lanes(), triangle.bottom - first_px.y * 256)) {
         for (std::size_t i = 0; i < lane_parts; ++i) {
             y_[i] = hn::ShiftLeft<3>(down_[i]); // 1/256 pixel
         }
@@ -252,22 +225,16 @@ public:
     template <std::size_t parts>
     HWY_INLINE std::array<hn::Vec<Strip>, parts> samples() const {
 #if HWY_TARGET == HWY_AVX2
-        if constexpr (parts == 1) {
-            return {samples_of_half(lanes())};
-        }
+        if constexpr (parts == 1) { return {samples_of_half(lanes())}; }
 #endif
-        if constexpr (parts == strip_parts) {
-            return samples_of_pixels(lanes());
-        }
+        if constexpr (parts == strip_parts) { return samples_of_pixels(lanes()); }
     }
 
     HWY_INLINE void next_row() {
         whole_.x += whole_.slope;
         upper_.x += upper_.slope;
         lower_.x += lower_.slope;
-        for (std::size_t i = 0; i < lane_parts; ++i) {
-            y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256));
-        }
+        for (std::size_t i = 0; i < lane_parts; ++i) { y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256)); }
     }
 
 private:
@@ -279,14 +246,12 @@ private:
         LaneMasks masks;
         for (std::size_t i = 0; i < lane_parts; ++i) {
             const auto is_before = [&](hn::Vec<Lanes> y) HWY_ATTR { return hn::Lt(y_[i], y); };
-            const auto bent =
-                pixels_from(hn::IfThenElse(is_before(middle_), upper_.column(i), lower_.column(i)));
+            const auto bent = pixels_from(hn::IfThenElse(is_before(middle_), upper_.column(i), lower_.column(i)));
             const auto whole = pixels_from(whole_.column(i));
             // From the left edge on, but not from the right edge on.
-            const auto between = hn::And(
-                hn::Xor(bent, whole), hn::Xor(whole, hn::And(bends_left, hn::Xor(bent, whole))));
-            const auto in_height =
-                hn::RebindMask(bits, hn::AndNot(is_before(top_), is_before(bottom_)));
+            const auto between =
+                hn::And(hn::Xor(bent, whole), hn::Xor(whole, hn::And(bends_left, hn::Xor(bent, whole))));
+            const auto in_height = hn::RebindMask(bits, hn::AndNot(is_before(top_), is_before(bottom_)));
             masks[i] = hn::IfThenElseZero(in_height, hn::And(between, columns));
         }
         return masks;

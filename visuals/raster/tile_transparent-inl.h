@@ -1,6 +1,6 @@
-// Veils: triangles that are blended over what lies farther. Walked from near to far, a veil covers
-// nothing; where nothing nearer covers it is noted, and blended once what lies behind it is known.
-// Included once for each instruction set.
+// Veils: triangles that are blended over what lies farther. Walked from near to far, a veil covers nothing; where
+// nothing nearer covers it is noted, and blended once what lies behind it is known. Included once for each instruction
+// set.
 #if defined(OCTANT_RASTER_VEIL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_VEIL_INL
 #undef OCTANT_RASTER_VEIL_INL
@@ -18,9 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE bool is_transparent_fill(const TileTriangle& one) {
-    return one.triangle->fill == Fill::Transparent;
-}
+HWY_INLINE bool is_transparent_fill(const TileTriangle& one) { return one.triangle->fill == Fill::Transparent; }
 
 /// A plane of levels along a row of pixels, as overlay_colour_of() has it.
 struct TransparentColourStep {
@@ -33,16 +31,13 @@ struct TransparentColourStep {
         : at(static_cast<std::int32_t>(
               static_cast<std::uint32_t>(gradients.base[k]) + 256U +
               static_cast<std::uint32_t>(gradients.per_x[k]) * static_cast<std::uint32_t>(column) +
-              static_cast<std::uint32_t>(gradients.per_y[k]) * static_cast<std::uint32_t>(row)))
-        , per_px(gradients.per_x[k])
-        , least(gradients.least[k])
-        , most(gradients.most[k]) {}
+              static_cast<std::uint32_t>(gradients.per_y[k]) * static_cast<std::uint32_t>(row))),
+          per_px(gradients.per_x[k]), least(gradients.least[k]), most(gradients.most[k]) {}
 
     /// In 1/16 level, so many pixels on.
     HWY_INLINE std::uint32_t sixteenths(int pixels) const {
         const auto here = static_cast<std::int32_t>(
-            static_cast<std::uint32_t>(at) +
-            static_cast<std::uint32_t>(per_px) * static_cast<std::uint32_t>(pixels));
+            static_cast<std::uint32_t>(at) + static_cast<std::uint32_t>(per_px) * static_cast<std::uint32_t>(pixels));
         const std::int32_t level = std::clamp(here >> 9, least, most);
         return static_cast<std::uint32_t>(level + 128 * 128 + 4) >> 3;
     }
@@ -54,8 +49,7 @@ HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transp
     const std::uint32_t all = own + neighbour.share;
     transparent.mask = static_cast<std::uint16_t>(transparent.mask | neighbour.mask);
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t sum =
-            own * transparent.colour[k] + std::uint32_t{neighbour.share} * neighbour.colour[k];
+        const std::uint32_t sum = own * transparent.colour[k] + std::uint32_t{neighbour.share} * neighbour.colour[k];
         transparent.colour[k] = static_cast<std::uint16_t>((sum + all / 2) / all);
     }
     transparent.share = static_cast<std::uint16_t>(all);
@@ -63,10 +57,7 @@ HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transp
 
 /// Notes where veils that follow each other in the tile's list are seen.
 HWY_NOINLINE void record_transparent(
-    std::span<const TileTriangle> transparents,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    TileBuffer& buffer) {
+    std::span<const TileTriangle> transparents, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const std::size_t first = buffer.transparent_pixels.size();
     buffer.group_first_transparent.push_back(first);
     buffer.last_transparent.resize(TileBuffer::pixels, 0);
@@ -87,18 +78,12 @@ HWY_NOINLINE void record_transparent(
                 TransparentColourStep(gradients, 3, first_column, job.first_px.y + row)};
             for (int column = places.first; column < end; ++column) {
                 const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-                const auto seen =
-                    static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
-                if (seen == 0) {
-                    continue;
-                }
+                const auto seen = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
+                if (seen == 0) { continue; }
                 const int on = column - places.first;
                 const auto alpha = (level[3].sixteenths(on) * 4096U + 2040U) / 4080U;
-                const std::uint32_t share =
-                    alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
-                if (share == 0) {
-                    continue;
-                }
+                const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
+                if (share == 0) { continue; }
                 TransparentPixel transparent;
                 transparent.pixel = static_cast<std::uint16_t>(pixel);
                 transparent.mask = static_cast<std::uint16_t>(seen);

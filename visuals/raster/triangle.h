@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/raster/screen_vertex.h"
 #include "visuals/raster/mip_selection.h"
+#include "visuals/raster/screen_vertex.h"
 #include "visuals/scene/paint_step.h"
 
 #include <glm/vec2.hpp>
@@ -13,22 +13,19 @@
 
 namespace octant::visuals::raster {
 
-/// Where an edge crosses the rows of pixels, from its top to its bottom whichever triangle it
-/// belongs to: two triangles that share it compute the same crossings, bit for bit. Sums and
-/// products wrap; within the edge's own rows they are right.
+/// Where an edge crosses the rows of pixels, from its top to its bottom whichever triangle it belongs to: two triangles
+/// that share it compute the same crossings, bit for bit. Sums and products wrap; within the edge's own rows they are
+/// right.
 struct Edge {
     std::int64_t x = 0;     ///< at the middle of the row first_row_of(its top), 2^-32 pixel
     std::int64_t slope = 0; ///< x a row
 };
 
 /// The first row of pixels whose middle is not above a place, 1/256 pixel.
-constexpr std::int32_t first_row_of(std::int32_t y) {
-    return (y + 255) >> 8;
-}
+constexpr std::int32_t first_row_of(std::int32_t y) { return (y + 255) >> 8; }
 
-/// Red, green, blue and a fourth value over the picture: base + per_x * column + per_y * row at
-/// pixel middles, wrapping. The fourth is alpha over the picture, on the ground the number of its
-/// covers.
+/// Red, green, blue and a fourth value over the picture: base + per_x * column + per_y * row at pixel middles,
+/// wrapping. The fourth is alpha over the picture, on the ground the number of its covers.
 struct ColourGradients {
     alignas(16) std::array<std::int32_t, 4> base{}; ///< 2^-16 level, from the level 128
     alignas(16) std::array<std::int32_t, 4> per_x{};
@@ -55,8 +52,8 @@ struct ClipLine {
     double c = 0.0;
 };
 
-/// One over the depth along the line of sight within a triangle, 1/m: at pixel middles from its
-/// column `left` and row `first_row` on, and no less and no more than at its corners.
+/// One over the depth along the line of sight within a triangle, 1/m: at pixel middles from its column `left` and row
+/// `first_row` on, and no less and no more than at its corners.
 struct InverseDepthPlane {
     float first = 0.0F;
     float per_x = 0.0F;
@@ -67,18 +64,18 @@ struct InverseDepthPlane {
 
 /// How the colour of a triangle's pixels is found.
 enum class Fill : std::uint8_t {
-    Gouraud,      ///< three planes of levels
+    Gouraud,     ///< three planes of levels
     Perspective, ///< as Levels, corrected for perspective
     Texture,     ///< places in the texture, light and haze as planes: AffineTexturedTriangle
     TextureInPerspective,
-    Mesh, ///< levels, and lines along the edges
-    Lit,  ///< by light and normal in each pixel
-    Transparent  ///< levels, blended by their alpha over what lies farther
+    Mesh,       ///< levels, and lines along the edges
+    Lit,        ///< by light and normal in each pixel
+    Transparent ///< levels, blended by their alpha over what lies farther
 };
 
 /// What only some triangles need.
 struct TriangleExtra {
-    AttributePlane depth;          ///< reversed: greater is nearer
+    AttributePlane depth;     ///< reversed: greater is nearer
     float depth_share = 1.0F; ///< times this: nearer or farther by a share of itself
     float opacity = 1.0F;     ///< as scene::PaintStep
     /// value / w of each value, then 1 / w.
@@ -86,8 +83,8 @@ struct TriangleExtra {
     std::array<ClipLine, scene::Clip::max_planes> cuts{};
     int cut_count = 0;
     std::array<AttributePlane, 3> from_edges{}; ///< over w; 1 at the corner opposite the edge
-    std::array<const LitVertex*, 3> lit{}; ///< of from_edges, for Fill::Lit
-    float mesh_level = 0.0F; ///< how many times the longest edge is twice the sample spacing
+    std::array<const LitVertex*, 3> lit{};      ///< of from_edges, for Fill::Lit
+    float mesh_level = 0.0F;                    ///< how many times the longest edge is twice the sample spacing
 };
 
 /// A triangle on the picture.
@@ -105,18 +102,18 @@ struct Triangle {
     std::int32_t first_row = 0; ///< rows that may be covered: first_row to last_row
     std::int32_t last_row = 0;
     ColourGradients gradients;
-    std::uint32_t extra = none; ///< index into the chunk's extras
-    MipSelection texture;      ///< for Fill::Texture
-    InverseDepthPlane inverse_depth;     ///< of one with grain
-    std::uint16_t group = 0;    ///< depth group, from 1; 0: painted without depth
+    std::uint32_t extra = none;      ///< index into the chunk's extras
+    MipSelection texture;            ///< for Fill::Texture
+    InverseDepthPlane inverse_depth; ///< of one with grain
+    std::uint16_t group = 0;         ///< depth group, from 1; 0: painted without depth
     scene::DepthUse depth = scene::DepthUse::None;
     Fill fill = Fill::Gouraud;
-    bool middle_is_left = false; ///< the middle corner lies left of the whole edge
-    bool has_detail_texture = false;      ///< the fine pattern, by the levels' fourth value
+    bool middle_is_left = false;     ///< the middle corner lies left of the whole edge
+    bool has_detail_texture = false; ///< the fine pattern, by the levels' fourth value
 };
 
-/// Ground with the fine pattern at a pixel: one over its depth, 1/m, whose lowest bits are half the
-/// number of its covers. Without them it is right to 2^-16 of itself: a tenth of a pixel's width.
+/// Ground with the fine pattern at a pixel: one over its depth, 1/m, whose lowest bits are half the number of its
+/// covers. Without them it is right to 2^-16 of itself: a tenth of a pixel's width.
 struct PackedGround {
     static constexpr std::uint32_t cover_bits = 0x7f;
     static constexpr int cover_shift = 17; ///< from 2^-16 level
@@ -129,9 +126,7 @@ struct PackedGround {
     }
 
     /// Levels' least or most in the same unit.
-    static constexpr std::int32_t limit(std::int16_t level) {
-        return (std::int32_t{level} + 128 * 128) * 512;
-    }
+    static constexpr std::int32_t limit(std::int16_t level) { return (std::int32_t{level} + 128 * 128) * 512; }
 };
 
 /// A PackedGround of a triangle with grain at a pixel of the picture.
@@ -141,10 +136,9 @@ inline std::uint32_t ground_at(const Triangle& triangle, int column, int row) {
     const float value = in_row + static_cast<float>(column - triangle.left) * plane.per_x;
     const float near = std::min(std::max(value, plane.least), plane.most);
     const ColourGradients& gradients = triangle.gradients;
-    const std::int32_t cover = std::clamp(
-        static_cast<std::int32_t>(PackedGround::first_cover(gradients, {column, row})),
-        PackedGround::limit(gradients.least[3]),
-        PackedGround::limit(gradients.most[3]));
+    const std::int32_t cover =
+        std::clamp(static_cast<std::int32_t>(PackedGround::first_cover(gradients, {column, row})),
+            PackedGround::limit(gradients.least[3]), PackedGround::limit(gradients.most[3]));
     return (std::bit_cast<std::uint32_t>(near) & ~PackedGround::cover_bits) |
            (static_cast<std::uint32_t>(cover) >> PackedGround::cover_shift);
 }

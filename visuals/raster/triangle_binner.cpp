@@ -1,4 +1,5 @@
 #include "visuals/raster/triangle_binner.h"
+
 #include "visuals/raster/ground_vertices.h"
 #include "visuals/scene/paint_step.h"
 
@@ -19,10 +20,9 @@ namespace octant::visuals::raster {
 
 namespace {
 
-/// The depth group of each step, from 1; 0 = drawn without depth. A group begins where depth is
-/// cleared, or where it is first used, and ends with the last step that uses it before it is
-/// cleared again; what is drawn without depth in between belongs to it, since its samples may be
-/// drawn over.
+/// The depth group of each step, from 1; 0 = drawn without depth. A group begins where depth is cleared, or where it is
+/// first used, and ends with the last step that uses it before it is cleared again; what is drawn without depth in
+/// between belongs to it, since its samples may be drawn over.
 std::vector<std::uint16_t> depth_groups(std::span<const scene::PaintStep> steps) {
     using scene::PaintStep;
     std::vector<std::uint16_t> groups(steps.size(), 0);
@@ -34,10 +34,8 @@ std::vector<std::uint16_t> depth_groups(std::span<const scene::PaintStep> steps)
             last = steps.size();
         } else if (steps[i].depth != scene::DepthUse::None) {
             const std::size_t from = last == steps.size() ? i : last + 1;
-            std::fill(
-                groups.begin() + static_cast<std::ptrdiff_t>(from),
-                groups.begin() + static_cast<std::ptrdiff_t>(i + 1),
-                group);
+            std::fill(groups.begin() + static_cast<std::ptrdiff_t>(from),
+                groups.begin() + static_cast<std::ptrdiff_t>(i + 1), group);
             last = i;
         }
     }
@@ -52,9 +50,7 @@ using scene::PaintStep;
 namespace {
 
 /// Whether a corner of textured ground has its own colour: FramePlan::ground_texture.
-bool has_own_colour(const models::ColourVertex& vertex) {
-    return vertex.colour >> 24U == 0;
-}
+bool has_own_colour(const models::ColourVertex& vertex) { return vertex.colour >> 24U == 0; }
 
 } // namespace
 
@@ -94,15 +90,12 @@ void FrameDraws::add_step(const FrameInput& input, const PaintStep& step, DrawSt
         break;
     case PaintStep::Content::Transparent:
         style.fill = Fill::Transparent;
-        add_slice(
-            {.indices = plan.overlay.indices.subspan(step.first, step.count), .style = style});
+        add_slice({.indices = plan.overlay.indices.subspan(step.first, step.count), .style = style});
         break;
     case PaintStep::Content::Sky:
         style.has_detail_texture = plan.detail_texture.has_value();
         add_slice(
-            {.indices = plan.sky.indices.subspan(step.first, step.count),
-             .style = style,
-             .first_vertex = first_sky_});
+            {.indices = plan.sky.indices.subspan(step.first, step.count), .style = style, .first_vertex = first_sky_});
         break;
     case PaintStep::Content::Ground:
         add_ground(plan, plan.ground.indices.subspan(step.first, step.count), style);
@@ -120,39 +113,32 @@ void FrameDraws::add_step(const FrameInput& input, const PaintStep& step, DrawSt
         style.culls_back_faces = true;
         for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
             const scene::RefinedDraw& draw = plan.refined[i];
-            const AircraftDrawState look{
-                std::span(plan.parts).subspan(draw.first_part),
-                std::span(plan.smooth).subspan(draw.first_smooth),
-                draw.tints};
+            const AircraftDrawState look{std::span(plan.parts).subspan(draw.first_part),
+                std::span(plan.smooth).subspan(draw.first_smooth), draw.tints};
             add_mesh(std::array{draw.indices}, draw.vertices, look, style);
         }
         break;
     }
 }
 
-/// Corners of what lies on the ground, whose numbers follow those of the ground's own. On textured
-/// ground each run of them that have their own colours is a block.
-void FrameDraws::add_on_ground(
-    VertexBlock::Kind ground, std::span<const models::ColourVertex> corners) {
+/// Corners of what lies on the ground, whose numbers follow those of the ground's own. On textured ground each run of
+/// them that have their own colours is a block.
+void FrameDraws::add_on_ground(VertexBlock::Kind ground, std::span<const models::ColourVertex> corners) {
     while (!corners.empty()) {
         const bool is_paint = ground == VertexBlock::Kind::Textured && has_own_colour(corners[0]);
         const auto end = std::ranges::find_if(corners, [&](const models::ColourVertex& corner) {
             return ground == VertexBlock::Kind::Textured && has_own_colour(corner) != is_paint;
         });
         const auto count = static_cast<std::size_t>(end - corners.begin());
-        add_block(is_paint ? VertexBlock::Kind::Ground : ground, count).coloured =
-            corners.first(count);
+        add_block(is_paint ? VertexBlock::Kind::Ground : ground, count).coloured = corners.first(count);
         corners = corners.subspan(count);
         has_paint_ = has_paint_ || is_paint;
     }
 }
 
-void FrameDraws::add_ground(
-    const FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style) {
+void FrameDraws::add_ground(const FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style) {
     const bool shows_mesh = plan.mesh_display != scene::MeshDisplay::None;
-    const Fill usual = shows_mesh            ? Fill::Mesh
-                       : plan.ground_texture ? Fill::TextureInPerspective
-                                             : Fill::Gouraud;
+    const Fill usual = shows_mesh ? Fill::Mesh : plan.ground_texture ? Fill::TextureInPerspective : Fill::Gouraud;
     const std::size_t own = plan.ground.vertices.size();
     const auto is_paint = [&](std::size_t i) {
         return indices[i] >= own && has_own_colour(plan.shadow_vertices[indices[i] - own]);
@@ -161,9 +147,7 @@ void FrameDraws::add_ground(
     while (first < indices.size()) {
         const bool painted = has_paint_ && is_paint(first);
         std::size_t end = has_paint_ ? first + 3 : indices.size();
-        while (end < indices.size() && is_paint(end) == painted) {
-            end += 3;
-        }
+        while (end < indices.size() && is_paint(end) == painted) { end += 3; }
         style.fill = painted && !shows_mesh ? Fill::Gouraud : usual;
         style.has_detail_texture = style.fill == Fill::Gouraud && plan.detail_texture;
         add_slice({.indices = indices.subspan(first, end - first), .style = style});
@@ -181,13 +165,10 @@ VertexBlock& FrameDraws::add_block(VertexBlock::Kind kind, std::size_t corners) 
     return block;
 }
 
-void FrameDraws::add_aircraft(
-    const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style) {
+void FrameDraws::add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style) {
     const scene::ModelBuffers& model = input.models[draw.model];
-    const AircraftDrawState look{
-        std::span(input.plan.parts).subspan(draw.first_part),
-        std::span(input.plan.smooth).subspan(draw.first_smooth),
-        draw.tints};
+    const AircraftDrawState look{std::span(input.plan.parts).subspan(draw.first_part),
+        std::span(input.plan.smooth).subspan(draw.first_smooth), draw.tints};
     const std::span<const std::uint32_t> all(model.indices);
     if (draw.ranges.empty()) {
         const auto indices = all.subspan(draw.first_index, draw.index_count);
@@ -201,13 +182,10 @@ void FrameDraws::add_aircraft(
     add_mesh(ranges_, model.vertices, look, style);
 }
 
-/// The corners between the first and the last that the triangles name are placed, once for all
-/// ranges: of an order by parts there may be thousands.
-void FrameDraws::add_mesh(
-    std::span<const std::span<const std::uint32_t>> ranges,
-    std::span<const scene::ModelVertex> vertices,
-    const AircraftDrawState& look,
-    const DrawStyle& style) {
+/// The corners between the first and the last that the triangles name are placed, once for all ranges: of an order by
+/// parts there may be thousands.
+void FrameDraws::add_mesh(std::span<const std::span<const std::uint32_t>> ranges,
+    std::span<const scene::ModelVertex> vertices, const AircraftDrawState& look, const DrawStyle& style) {
     std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t most = 0;
     for (const std::span<const std::uint32_t> indices : ranges) {
@@ -222,8 +200,7 @@ void FrameDraws::add_mesh(
     VertexBlock& block = add_block(VertexBlock::Kind::Aircraft, most - least + 1);
     block.of_model = vertices.subspan(least, most - least + 1);
     block.look = look;
-    DrawSlice slice{
-        .indices = {},
+    DrawSlice slice{.indices = {},
         .style = style,
         .first_vertex = static_cast<std::int64_t>(block.first) - least,
         .first_flat = static_cast<std::int64_t>(block.first_flat) - least,
@@ -267,23 +244,17 @@ ScreenVertex overlay_vertex(const scene::OverlayVertex& from) {
 }
 
 /// Appends triangles of the overlay.
-void add_overlay(
-    const scene::OverlayDraw& overlay,
-    std::span<const std::uint32_t> indices,
-    TriangleSetup& setup,
+void add_overlay(const scene::OverlayDraw& overlay, std::span<const std::uint32_t> indices, TriangleSetup& setup,
     TriangleList& list) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         std::array<ScreenVertex, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = overlay_vertex(overlay.vertices[indices[i + k]]);
-        }
+        for (std::size_t k = 0; k < 3; ++k) { corners[k] = overlay_vertex(overlay.vertices[indices[i + k]]); }
         setup.add_overlay(corners[0], corners[1], corners[2], list);
     }
 }
 
 /// How many times the longest edge of a triangle is twice the ground's sample spacing.
-float mesh_level(
-    const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, float sample_spacing_m) {
+float mesh_level(const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, float sample_spacing_m) {
     const auto across_m = [](const glm::vec3& from_m, const glm::vec3& to_m) {
         return glm::length(glm::vec2(to_m - from_m));
     };
@@ -297,8 +268,7 @@ void TriangleBinner::prepare(const FrameInput& input) {
     projection_ = projection_of(input.plan, input.size_px);
     light_ = light_of(input.plan);
     detail_rays_ = input.plan.detail_texture ? raster::detail_rays(input.plan, projection_) : DetailRays();
-    tiles_ = (input.size_px + glm::ivec2(tile_width - 1, tile_height - 1)) /
-             glm::ivec2(tile_width, tile_height);
+    tiles_ = (input.size_px + glm::ivec2(tile_width - 1, tile_height - 1)) / glm::ivec2(tile_width, tile_height);
     slices_.collect(input);
     vertices_.resize(slices_.vertex_count());
     clip_.resize(slices_.vertex_count());
@@ -306,18 +276,11 @@ void TriangleBinner::prepare(const FrameInput& input) {
     lit_.resize(input.plan.lights_pixels ? slices_.vertex_count() : 0);
     project_vertices(input);
     make_batches();
-    std::vector<TriangleSetup> setups(
-        static_cast<std::size_t>(workers_.threads()),
+    std::vector<TriangleSetup> setups(static_cast<std::size_t>(workers_.threads()),
         TriangleSetup(
-            projection_,
-            input.plan,
-            samples_,
-            input.plan.ground_texture ? input.ground->levels().size() : 0));
+            projection_, input.plan, samples_, input.plan.ground_texture ? input.ground->levels().size() : 0));
     workers_.run(static_cast<int>(batch_count_), [&](int batch, int thread) {
-        set_up(
-            input,
-            *batches_[static_cast<std::size_t>(batch)],
-            setups[static_cast<std::size_t>(thread)]);
+        set_up(input, *batches_[static_cast<std::size_t>(batch)], setups[static_cast<std::size_t>(thread)]);
     });
     set_up_overlay(input);
 }
@@ -346,29 +309,22 @@ void TriangleBinner::project_vertices(const FrameInput& input) {
     workers_.run(static_cast<int>(tasks.size()), [&](int number, int) {
         const Task& task = tasks[static_cast<std::size_t>(number)];
         const VertexBlock& block = *task.block;
-        VertexOutputs to{
-            std::span(vertices_).subspan(block.first + task.from, task.count),
-            std::span(clip_).subspan(block.first + task.from, task.count),
-            {}};
+        VertexOutputs to{std::span(vertices_).subspan(block.first + task.from, task.count),
+            std::span(clip_).subspan(block.first + task.from, task.count), {}};
         switch (block.kind) {
         case VertexBlock::Kind::Ground:
             project_coloured(block.coloured.subspan(task.from, task.count), projection_, light_, to);
             break;
         case VertexBlock::Kind::Sky:
-            project_coloured(
-                block.coloured.subspan(task.from, task.count), projection_, clear_sky, to);
+            project_coloured(block.coloured.subspan(task.from, task.count), projection_, clear_sky, to);
             break;
         case VertexBlock::Kind::Textured:
-            project_textured(
-                block.coloured.subspan(task.from, task.count), projection_, light_, to_texels, to);
+            project_textured(block.coloured.subspan(task.from, task.count), projection_, light_, to_texels, to);
             break;
         case VertexBlock::Kind::Aircraft:
             to.flat = std::span(flat_).subspan(block.first_flat + task.from, task.count);
-            if (!lit_.empty()) {
-                to.lit = std::span(lit_).subspan(block.first + task.from, task.count);
-            }
-            project_aircraft(
-                block.of_model.subspan(task.from, task.count), block.look, projection_, light_, to);
+            if (!lit_.empty()) { to.lit = std::span(lit_).subspan(block.first + task.from, task.count); }
+            project_aircraft(block.of_model.subspan(task.from, task.count), block.look, projection_, light_, to);
             break;
         }
     });
@@ -380,9 +336,7 @@ void TriangleBinner::make_batches() {
     const std::vector<DrawSlice>& slices = slices_.slices();
     for (std::size_t i = 0; i < slices.size(); ++i) {
         if (batch_count_ == 0 || indices + slices[i].indices.size() > 3 * batch_triangles) {
-            if (batch_count_ == batches_.size()) {
-                batches_.push_back(std::make_unique<Batch>());
-            }
+            if (batch_count_ == batches_.size()) { batches_.push_back(std::make_unique<Batch>()); }
             batches_[batch_count_]->first = i;
             ++batch_count_;
             indices = 0;
@@ -409,20 +363,16 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
             continue;
         }
         const VertexOutputs corners{vertices_, clip_, {}, lit_};
-        const auto vertex = [&](std::uint32_t index) {
-            return static_cast<std::uint32_t>(slice.first_vertex + index);
-        };
+        const auto vertex = [&](std::uint32_t index) { return static_cast<std::uint32_t>(slice.first_vertex + index); };
         for (std::size_t i = 0; i + 2 < slice.indices.size(); i += 3) {
             const std::uint32_t a = slice.indices[i];
             const std::uint32_t b = slice.indices[i + 1];
             const std::uint32_t c = slice.indices[i + 2];
             if (slice.style.fill == Fill::Mesh) {
-                setup.set_mesh_level(
-                    mesh_level(position_m(a), position_m(b), position_m(c), plan.sample_spacing_m));
+                setup.set_mesh_level(mesh_level(position_m(a), position_m(b), position_m(c), plan.sample_spacing_m));
             }
             const FlatColour* const flat =
-                slice.is_aircraft ? &flat_[static_cast<std::size_t>(slice.first_flat + a)]
-                                  : nullptr;
+                slice.is_aircraft ? &flat_[static_cast<std::size_t>(slice.first_flat + a)] : nullptr;
             setup.add(corners, {vertex(a), vertex(b), vertex(c)}, flat, batch.list);
         }
     }
@@ -443,9 +393,7 @@ void TriangleBinner::set_up_overlay(const FrameInput& input) {
     }
     TriangleSetup setup(projection_, input.plan, samples_, 0);
     setup.begin_step({});
-    if (first < end) {
-        add_overlay(overlay, overlay.indices.subspan(first, end - first), setup, overlay_.list);
-    }
+    if (first < end) { add_overlay(overlay, overlay.indices.subspan(first, end - first), setup, overlay_.list); }
     bin(overlay_);
 }
 
@@ -465,19 +413,13 @@ void TriangleBinner::bin(Batch& batch) const {
     for (const Triangle& triangle : batch.list.triangles) {
         for_each_tile(triangle, [&](std::size_t tile) { ++batch.tile_first[tile + 1]; });
     }
-    for (std::size_t tile = 0; tile < tiles; ++tile) {
-        batch.tile_first[tile + 1] += batch.tile_first[tile];
-    }
+    for (std::size_t tile = 0; tile < tiles; ++tile) { batch.tile_first[tile + 1] += batch.tile_first[tile]; }
     batch.by_tile.resize(batch.tile_first[tiles]);
     for (std::uint32_t i = 0; i < batch.list.triangles.size(); ++i) {
-        for_each_tile(batch.list.triangles[i], [&](std::size_t tile) {
-            batch.by_tile[batch.tile_first[tile]++] = i;
-        });
+        for_each_tile(batch.list.triangles[i], [&](std::size_t tile) { batch.by_tile[batch.tile_first[tile]++] = i; });
     }
     // Each place has moved to the beginning of the next tile.
-    for (std::size_t tile = tiles; tile > 0; --tile) {
-        batch.tile_first[tile] = batch.tile_first[tile - 1];
-    }
+    for (std::size_t tile = tiles; tile > 0; --tile) { batch.tile_first[tile] = batch.tile_first[tile - 1]; }
     batch.tile_first[0] = 0;
 }
 
@@ -485,23 +427,17 @@ void TriangleBinner::append(const Batch& batch, int tile, std::vector<TileTriang
     const auto i = static_cast<std::size_t>(tile);
     for (std::uint32_t k = batch.tile_first[i]; k < batch.tile_first[i + 1]; ++k) {
         const Triangle& triangle = batch.list.triangles[batch.by_tile[k]];
-        list.push_back(
-            {&triangle,
-             triangle.extra == Triangle::none ? nullptr : &batch.list.extras[triangle.extra]});
+        list.push_back({&triangle, triangle.extra == Triangle::none ? nullptr : &batch.list.extras[triangle.extra]});
     }
 }
 
-std::span<const TileTriangle>
-TriangleBinner::triangles_of(int tile, std::vector<TileTriangle>& list) const {
+std::span<const TileTriangle> TriangleBinner::triangles_of(int tile, std::vector<TileTriangle>& list) const {
     list.clear();
-    for (std::size_t i = 0; i < batch_count_; ++i) {
-        append(*batches_[i], tile, list);
-    }
+    for (std::size_t i = 0; i < batch_count_; ++i) { append(*batches_[i], tile, list); }
     return list;
 }
 
-std::span<const TileTriangle>
-TriangleBinner::overlay_of(int tile, std::vector<TileTriangle>& list) const {
+std::span<const TileTriangle> TriangleBinner::overlay_of(int tile, std::vector<TileTriangle>& list) const {
     list.clear();
     append(overlay_, tile, list);
     return list;

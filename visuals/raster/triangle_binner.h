@@ -50,8 +50,8 @@ struct DrawSlice {
     bool is_aircraft = false;
 };
 
-/// The steps of a plan as slices in painting order, and the corners that they name. Spans point
-/// into the plan and the models.
+/// The steps of a plan as slices in painting order, and the corners that they name. Spans point into the plan and the
+/// models.
 class FrameDraws {
 public:
     void collect(const FrameInput& input);
@@ -67,16 +67,11 @@ public:
 private:
     void add_step(const FrameInput& input, const scene::PaintStep& step, DrawStyle style);
     void add_on_ground(VertexBlock::Kind ground, std::span<const models::ColourVertex> corners);
-    void add_ground(
-        const scene::FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style);
+    void add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style);
     VertexBlock& add_block(VertexBlock::Kind kind, std::size_t corners);
-    void
-    add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
-    void add_mesh(
-        std::span<const std::span<const std::uint32_t>> ranges,
-        std::span<const scene::ModelVertex> vertices,
-        const AircraftDrawState& look,
-        const DrawStyle& style);
+    void add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
+    void add_mesh(std::span<const std::span<const std::uint32_t>> ranges, std::span<const scene::ModelVertex> vertices,
+        const AircraftDrawState& look, const DrawStyle& style);
     void add_slice(const DrawSlice& slice);
 
     std::vector<VertexBlock> blocks_;
@@ -90,15 +85,12 @@ private:
 
 /// The triangles of one picture, sorted into tiles. Keeps its memory from picture to picture.
 ///
-/// A plan becomes slices: triangles of one step with one list of corners. Corners are placed by all
-/// threads, then slices in batches of about two thousand triangles are set up and binned, each
-/// batch by itself; since batches follow each other in painting order, so do the triangles of a
-/// tile, on however many threads.
+/// A plan becomes slices: triangles of one step with one list of corners. Corners are placed by all threads, then
+/// slices in batches of about two thousand triangles are set up and binned, each batch by itself; since batches follow
+/// each other in painting order, so do the triangles of a tile, on however many threads.
 class TriangleBinner {
 public:
-    TriangleBinner(const SamplePattern& samples, Workers& workers)
-        : samples_(samples)
-        , workers_(workers) {}
+    TriangleBinner(const SamplePattern& samples, Workers& workers) : samples_(samples), workers_(workers) {}
 
     /// The plan's memory is not read any more after this.
     void prepare(const FrameInput& input);

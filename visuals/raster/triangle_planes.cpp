@@ -1,6 +1,5 @@
-// Edges and levels of one triangle: both edges at once, then all its values. Compiled once for each
-// instruction set; all give the same bits, because real numbers are summed and multiplied one by
-// one.
+// Edges and levels of one triangle: both edges at once, then all its values. Compiled once for each instruction set;
+// all give the same bits, because real numbers are summed and multiplied one by one.
 #include "visuals/raster/triangle_planes.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.
@@ -38,9 +37,7 @@ HWY_INLINE hn::Vec<Tag> to_cut(hn::Vec<Tag> value) {
     return hn::Add(value, hn::CopySign(hn::Set(Tag(), 0.5), value));
 }
 
-HWY_INLINE hn::Vec<Whole> rounded(hn::Vec<Reals> value) {
-    return hn::DemoteTo(Whole(), to_cut<Reals>(value));
-}
+HWY_INLINE hn::Vec<Whole> rounded(hn::Vec<Reals> value) { return hn::DemoteTo(Whole(), to_cut<Reals>(value)); }
 
 /// Two corners' distance, x and y.
 HWY_INLINE hn::Vec<Pair> distance(const ScreenVertex& from, const ScreenVertex& to) {
@@ -60,8 +57,7 @@ struct EdgePair {
         constexpr double one = 4294967296.0; // 2^32
         const std::int32_t down = first_row_of(top.y) * ScreenVertex::per_px - top.y;
         const auto at_row = hn::Add(
-            hn::Set(real, static_cast<double>(top.x)),
-            hn::Mul(slopes, hn::Set(real, static_cast<double>(down))));
+            hn::Set(real, static_cast<double>(top.x)), hn::Mul(slopes, hn::Set(real, static_cast<double>(down))));
         const auto has_none = hn::Eq(heights, hn::Zero(real));
         const auto fixed = [&](hn::Vec<Pair> value) HWY_ATTR {
             return hn::ConvertTo(whole, hn::IfThenZeroElse(has_none, to_cut<Pair>(value)));
@@ -98,9 +94,7 @@ HWY_INLINE PlaneBase edges_of(const TopDownVertices& vertices, Triangle& triangl
     const auto one_px = hn::Set(real, static_cast<double>(ScreenVertex::per_px));
     const auto from_top_heights = hn::InterleaveUpper(real, whole, upper);
     const EdgePair from_top(
-        hn::Div(hn::InterleaveLower(real, whole, upper), from_top_heights),
-        from_top_heights,
-        vertices.top);
+        hn::Div(hn::InterleaveLower(real, whole, upper), from_top_heights), from_top_heights, vertices.top);
     from_top.store_first(triangle.whole);
     from_top.store_second(triangle.upper);
     // Beside the lower edge's slope: one pixel over the doubled area.
@@ -126,9 +120,8 @@ HWY_INLINE hn::Vec<Whole> from_origin(hn::Vec<Whole> x, hn::Vec<Whole> y, const 
         const auto sum = hn::Add(hn::MulEven(a, at_x), hn::MulEven(b, at_y));
         return hn::ShiftRight<8>(hn::BitCast(wide, sum));
     };
-    const auto odd_to_even = [&](hn::Vec<Whole> a) HWY_ATTR {
-        return hn::BitCast(whole, hn::ShiftRight<32>(hn::BitCast(wide, a)));
-    };
+    const auto odd_to_even = [&](hn::Vec<Whole> a)
+                                 HWY_ATTR { return hn::BitCast(whole, hn::ShiftRight<32>(hn::BitCast(wide, a))); };
     const auto low = hn::And(even(x, y), hn::Set(wide, std::uint64_t{0xffffffff}));
     const auto high = hn::ShiftLeft<32>(even(odd_to_even(x), odd_to_even(y)));
     return hn::BitCast(whole, hn::Or(low, high));
@@ -140,11 +133,7 @@ HWY_INLINE void store_short(hn::Vec<Whole> value, std::int16_t* to) {
 }
 
 /// Values i, i + 1 ... of the corners as planes.
-HWY_INLINE void set_gradients(
-    const TopDownVertices& vertices,
-    const PlaneBase& base,
-    double max_per_px,
-    std::size_t i,
+HWY_INLINE void set_gradients(const TopDownVertices& vertices, const PlaneBase& base, double max_per_px, std::size_t i,
     ColourGradients& gradients) {
     const Reals real;
     const Floats floats;
@@ -171,20 +160,15 @@ HWY_INLINE void set_gradients(
     const auto per_y = rounded(hn::IfThenZeroElse(is_sliver, times(real_y, level_fraction)));
     hn::StoreU(per_x, whole, gradients.per_x.data() + i);
     hn::StoreU(per_y, whole, gradients.per_y.data() + i);
-    store_short(
-        hn::ShiftRight<9>(hn::Add(per_x, hn::Set(whole, 256))), gradients.per_column.data() + i);
+    store_short(hn::ShiftRight<9>(hn::Add(per_x, hn::Set(whole, 256))), gradients.per_column.data() + i);
     const auto mean = hn::Sub(hn::Div(hn::Add(hn::Add(a, b), c), hn::Set(floats, 3.0F)), middle);
-    const auto at_base = hn::IfThenElse(
-        is_sliver, hn::PromoteTo(real, mean), hn::PromoteTo(real, hn::Sub(a, middle)));
-    hn::StoreU(
-        hn::Sub(rounded(times(at_base, level_fraction)), from_origin(per_x, per_y, vertices.top)),
-        whole,
+    const auto at_base = hn::IfThenElse(is_sliver, hn::PromoteTo(real, mean), hn::PromoteTo(real, hn::Sub(a, middle)));
+    hn::StoreU(hn::Sub(rounded(times(at_base, level_fraction)), from_origin(per_x, per_y, vertices.top)), whole,
         gradients.base.data() + i);
 }
 
 /// One over the depth in a triangle of ground. A sliver has the corners' mean.
-HWY_INLINE void
-set_inverse_depth(const TopDownVertices& vertices, const PlaneBase& base, Triangle& triangle) {
+HWY_INLINE void set_inverse_depth(const TopDownVertices& vertices, const PlaneBase& base, Triangle& triangle) {
     const ScreenVertex& top = vertices.top;
     const auto at_top = static_cast<double>(top.inverse_w);
     const double to_middle = static_cast<double>(vertices.middle.inverse_w) - at_top;
@@ -192,10 +176,8 @@ set_inverse_depth(const TopDownVertices& vertices, const PlaneBase& base, Triang
     const double per_x = to_middle * base.bottom_y - to_bottom * base.middle_y;
     const double per_y = to_bottom * base.middle_x - to_middle * base.bottom_x;
     InverseDepthPlane& plane = triangle.inverse_depth;
-    plane.least =
-        std::min(std::min(top.inverse_w, vertices.middle.inverse_w), vertices.bottom.inverse_w);
-    plane.most =
-        std::max(std::max(top.inverse_w, vertices.middle.inverse_w), vertices.bottom.inverse_w);
+    plane.least = std::min(std::min(top.inverse_w, vertices.middle.inverse_w), vertices.bottom.inverse_w);
+    plane.most = std::max(std::max(top.inverse_w, vertices.middle.inverse_w), vertices.bottom.inverse_w);
     const double range = static_cast<double>(plane.most) - static_cast<double>(plane.least);
     if (std::max(std::abs(per_x), std::abs(per_y)) > range) {
         plane.first = static_cast<float>(at_top + (to_middle + to_bottom) / 3.0);
@@ -205,17 +187,14 @@ set_inverse_depth(const TopDownVertices& vertices, const PlaneBase& base, Triang
     }
     constexpr double px_a_step = 1.0 / ScreenVertex::per_px;
     plane.first = static_cast<float>(
-        at_top + per_x * (triangle.left - top.x * px_a_step) +
-        per_y * (triangle.first_row - top.y * px_a_step));
+        at_top + per_x * (triangle.left - top.x * px_a_step) + per_y * (triangle.first_row - top.y * px_a_step));
     plane.per_x = static_cast<float>(per_x);
     plane.per_y = static_cast<float>(per_y);
 }
 
 void SetEdges(const TopDownVertices& vertices, Triangle& triangle) {
     const PlaneBase base = edges_of(vertices, triangle);
-    if (triangle.has_detail_texture) {
-        set_inverse_depth(vertices, base, triangle);
-    }
+    if (triangle.has_detail_texture) { set_inverse_depth(vertices, base, triangle); }
 }
 
 void SetEdgesAndGradients(const TopDownVertices& vertices, double max_per_px, Triangle& triangle) {
@@ -223,9 +202,7 @@ void SetEdgesAndGradients(const TopDownVertices& vertices, double max_per_px, Tr
     for (std::size_t i = 0; i < vertices.top.value.size(); i += hn::Lanes(Reals())) {
         set_gradients(vertices, base, max_per_px, i, triangle.gradients);
     }
-    if (triangle.has_detail_texture) {
-        set_inverse_depth(vertices, base, triangle);
-    }
+    if (triangle.has_detail_texture) { set_inverse_depth(vertices, base, triangle); }
 }
 
 } // namespace HWY_NAMESPACE
@@ -249,9 +226,7 @@ void set_edges_and_gradients(const TopDownVertices& vertices, double max_per_px,
 
 ColourGradients constant_gradients(const std::array<float, 3>& rgb) {
     ColourGradients gradients;
-    const auto rounded = [](double value) {
-        return static_cast<std::int32_t>(value + (value < 0.0 ? -0.5 : 0.5));
-    };
+    const auto rounded = [](double value) { return static_cast<std::int32_t>(value + (value < 0.0 ? -0.5 : 0.5)); };
     for (std::size_t i = 0; i < rgb.size(); ++i) {
         const auto level = static_cast<double>(rgb[i] - 128.0F);
         gradients.base[i] = rounded(level * 65536.0);

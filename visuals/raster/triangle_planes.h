@@ -8,8 +8,7 @@
 
 namespace octant::visuals::raster {
 
-/// Levels a pixel above which a triangle counts as a sliver, whose colours beyond its edges mean
-/// nothing.
+/// Levels a pixel above which a triangle counts as a sliver, whose colours beyond its edges mean nothing.
 constexpr double sliver_per_px = 64.0;
 
 constexpr double any_per_px = 16000.0; ///< no triangle counts as a sliver
@@ -26,8 +25,8 @@ struct TopDownVertices {
 /// Fills in the edges of a triangle, and of one with grain how near it is; its box is known.
 void set_edges(const TopDownVertices& vertices, Triangle& triangle);
 
-/// Fills in these and the four values at the corners as planes of levels. Where a level would
-/// change by more than `max_per_px` it is the corners' mean.
+/// Fills in these and the four values at the corners as planes of levels. Where a level would change by more than
+/// `max_per_px` it is the corners' mean.
 void set_edges_and_gradients(const TopDownVertices& vertices, double max_per_px, Triangle& triangle);
 
 /// The levels of a triangle that has one colour everywhere.

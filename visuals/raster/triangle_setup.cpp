@@ -1,4 +1,5 @@
 #include "visuals/raster/triangle_setup.h"
+
 #include "visuals/raster/affine_textured_triangle.h"
 #include "visuals/raster/projection.h"
 #include "visuals/raster/triangle.h"
@@ -23,8 +24,8 @@ namespace octant::visuals::raster {
 
 namespace {
 
-/// Makes planes over the picture from values at the three corners of a triangle, wherever these
-/// lie, behind the eye, too.
+/// Makes planes over the picture from values at the three corners of a triangle, wherever these lie, behind the eye,
+/// too.
 class PlaneSolver {
 public:
     PlaneSolver(const std::array<ClipPosition, 3>& vertices, const Projection& projection);
@@ -37,8 +38,8 @@ private:
     glm::dvec2 half_px_{0.0};
 };
 
-// As OpenGL's polygon offset in visuals/gl: a shadow piece lies in the plane of ground triangles,
-// but for the rounding of its corners and depths.
+// As OpenGL's polygon offset in visuals/gl: a shadow piece lies in the plane of ground triangles, but for the rounding
+// of its corners and depths.
 constexpr double towards_eye_px = 1.0;
 constexpr double towards_eye_share = 0x1p-19; ///< of the depth
 // What is edge-on has depths without meaning and closes holes: it is pushed back.
@@ -54,9 +55,7 @@ PlaneSolver::PlaneSolver(const std::array<ClipPosition, 3>& vertices, const Proj
         rows[2][i] = static_cast<double>(vertex.w);
     }
     const double determinant = glm::determinant(rows);
-    if (determinant != 0.0) {
-        from_values_ = glm::inverse(rows);
-    }
+    if (determinant != 0.0) { from_values_ = glm::inverse(rows); }
 }
 
 AttributePlane PlaneSolver::plane(const glm::dvec3& values) const {
@@ -70,10 +69,7 @@ AttributePlane PlaneSolver::plane(const glm::dvec3& values) const {
 
 /// Fills in a triangle's depth, from the plane of 1 / w, as the style uses it.
 void set_depth(
-    TriangleExtra& extra,
-    const AttributePlane& over_w,
-    const DrawStyle& style,
-    const Projection& projection) {
+    TriangleExtra& extra, const AttributePlane& over_w, const DrawStyle& style, const Projection& projection) {
     const auto near_m = static_cast<double>(projection.near_m);
     if (style.depth == scene::DepthUse::InfinitelyFar) {
         extra.depth = {};
@@ -91,12 +87,8 @@ void set_depth(
 
 /// Where a triangle lies in front of a plane in world axes with the eye subtracted.
 ClipLine clip_line(
-    const glm::vec4& plane,
-    const AttributePlane& over_w,
-    const scene::FramePlan& plan,
-    const Projection& projection) {
-    const glm::dvec3 normal =
-        glm::dmat3(glm::mat3(plan.world_to_view)) * glm::dvec3(glm::vec3(plane));
+    const glm::vec4& plane, const AttributePlane& over_w, const scene::FramePlan& plan, const Projection& projection) {
+    const glm::dvec3 normal = glm::dmat3(glm::mat3(plan.world_to_view)) * glm::dvec3(glm::vec3(plane));
     const double across = 1.0 / static_cast<double>(plan.view_to_clip[0][0]);
     const double up = 1.0 / static_cast<double>(plan.view_to_clip[1][1]);
     const auto offset = static_cast<double>(plane.w);
@@ -121,48 +113,30 @@ constexpr float min_correction = 1.0F;
 /// Of an even texture: texels a pixel above which a triangle counts as a sliver.
 constexpr double texture_per_px = 8.0;
 
-bool is_above(const ScreenVertex& a, const ScreenVertex& b) {
-    return a.y != b.y ? a.y < b.y : a.x < b.x;
-}
+bool is_above(const ScreenVertex& a, const ScreenVertex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-/// Twice the area, in 1/256 pixel squared; positive when the corners go round clockwise as seen
-/// (y down), which is how back faces do.
+/// Twice the area, in 1/256 pixel squared; positive when the corners go round clockwise as seen (y down), which is how
+/// back faces do.
 std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
     return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{c.x - a.x} * (b.y - a.y);
 }
 
 } // namespace
 
-TriangleSetup::TriangleSetup(
-    const Projection& projection,
-    const scene::FramePlan& plan,
-    const SamplePattern& samples,
+TriangleSetup::TriangleSetup(const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples,
     std::size_t texture_levels)
-    : projection_(projection)
-    , plan_(plan)
-    , reach_(samples.reach * per_px / SamplePattern::unit)
-    , texture_levels_(texture_levels) {}
+    : projection_(projection), plan_(plan), reach_(samples.reach * per_px / SamplePattern::unit),
+      texture_levels_(texture_levels) {}
 
-void TriangleSetup::add(
-    const VertexOutputs& corners,
-    const std::array<std::uint32_t, 3>& triangle,
-    const FlatColour* flat,
-    TriangleList& list) {
-    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing) {
-        return;
-    }
+void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle,
+    const FlatColour* flat, TriangleList& list) {
+    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing) { return; }
     const auto& vertices = corners.vertices;
     const auto [a, b, c] = triangle;
     constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;
-    if ((vertices[a].outcode & vertices[b].outcode & vertices[c].outcode & sides) != 0) {
-        return;
-    }
-    const bool is_cut =
-        ((vertices[a].outcode | vertices[b].outcode | vertices[c].outcode) & beyond_range) != 0;
-    if (!is_cut && style_.culls_back_faces &&
-        doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) {
-        return;
-    }
+    if ((vertices[a].outcode & vertices[b].outcode & vertices[c].outcode & sides) != 0) { return; }
+    const bool is_cut = ((vertices[a].outcode | vertices[b].outcode | vertices[c].outcode) & beyond_range) != 0;
+    if (!is_cut && style_.culls_back_faces && doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) { return; }
     flat_ = flat != nullptr && !flat->is_smooth ? flat : nullptr;
     extra_ = Triangle::none;
     fill_ = fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
@@ -180,13 +154,9 @@ void TriangleSetup::add(
             return;
         }
     }
-    const std::array<ClipVertex, 3> three{
-        ClipVertex{vertices[a], corners.clip[a]},
-        ClipVertex{vertices[b], corners.clip[b]},
-        ClipVertex{vertices[c], corners.clip[c]}};
-    if (style_.group != 0 || fill_ != Fill::Gouraud || !style_.clip_planes.empty()) {
-        add_extra(three, list);
-    }
+    const std::array<ClipVertex, 3> three{ClipVertex{vertices[a], corners.clip[a]},
+        ClipVertex{vertices[b], corners.clip[b]}, ClipVertex{vertices[c], corners.clip[c]}};
+    if (style_.group != 0 || fill_ != Fill::Gouraud || !style_.clip_planes.empty()) { add_extra(three, list); }
     if (is_cut) {
         add_cut(three, list);
     } else {
@@ -195,12 +165,9 @@ void TriangleSetup::add(
 }
 
 /// Adds a textured triangle if perspective need not be looked at.
-bool TriangleSetup::add_affine_triangle(
-    const std::array<const ScreenVertex*, 3>& corners, TriangleList& list) {
+bool TriangleSetup::add_affine_triangle(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list) {
     const std::optional<AffineTexturedTriangle> even = fit_affine_texture(corners, texture_levels_);
-    if (!even) {
-        return false;
-    }
+    if (!even) { return false; }
     fill_ = Fill::Texture;
     mip_selection_ = even->mip_selection;
     add_placed(even->vertices[0], even->vertices[1], even->vertices[2], list);
@@ -209,9 +176,7 @@ bool TriangleSetup::add_affine_triangle(
 
 void TriangleSetup::add_overlay(
     const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list) {
-    if (((a.outcode | b.outcode | c.outcode) & beyond_range) != 0) {
-        return;
-    }
+    if (((a.outcode | b.outcode | c.outcode) & beyond_range) != 0) { return; }
     fill_ = style_.fill;
     flat_ = nullptr;
     extra_ = Triangle::none;
@@ -223,19 +188,13 @@ void TriangleSetup::add_overlay(
 /// Whether straight lines over the picture are good enough for the levels between the corners.
 Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const {
     const auto [a, b, c] = corners;
-    if (style_.fill != Fill::Gouraud || flat_ != nullptr) {
-        return style_.fill;
-    }
-    if (is_cut) {
-        return Fill::Perspective;
-    }
+    if (style_.fill != Fill::Gouraud || flat_ != nullptr) { return style_.fill; }
+    if (is_cut) { return Fill::Perspective; }
     const float min_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
     const float max_over_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
     // At the middle of an edge the line is wrong by range * correction.
     const float correction = (max_over_w - min_by_w) / (2.0F * (max_over_w + min_by_w));
-    if (correction * 255.0F <= min_correction) {
-        return Fill::Gouraud;
-    }
+    if (correction * 255.0F <= min_correction) { return Fill::Gouraud; }
     float range = 0.0F;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto [least, most] = std::minmax({a->value[i], b->value[i], c->value[i]});
@@ -255,34 +214,28 @@ void TriangleSetup::add_extra(std::span<const ClipVertex, 3> corners, TriangleLi
     }
     if (fill_ != Fill::Gouraud && fill_ != Fill::Lit) {
         for (std::size_t i = 0; i < 4; ++i) {
-            extra.over_w[i] = solver.plane(
-                {static_cast<double>(corners[0].vertex.value[i]),
-                 static_cast<double>(corners[1].vertex.value[i]),
-                 static_cast<double>(corners[2].vertex.value[i])});
+            extra.over_w[i] = solver.plane({static_cast<double>(corners[0].vertex.value[i]),
+                static_cast<double>(corners[1].vertex.value[i]), static_cast<double>(corners[2].vertex.value[i])});
         }
     }
     if (fill_ == Fill::Mesh || fill_ == Fill::Lit) {
         extra.from_edges = {
-            solver.plane({1.0, 0.0, 0.0}),
-            solver.plane({0.0, 1.0, 0.0}),
-            solver.plane({0.0, 0.0, 1.0})};
+            solver.plane({1.0, 0.0, 0.0}), solver.plane({0.0, 1.0, 0.0}), solver.plane({0.0, 0.0, 1.0})};
         extra.mesh_level = mesh_level_;
         extra.lit = lit_;
     }
     for (const glm::vec4& plane : style_.clip_planes) {
-        extra.cuts[static_cast<std::size_t>(extra.cut_count++)] =
-            clip_line(plane, over_w, plan_, projection_);
+        extra.cuts[static_cast<std::size_t>(extra.cut_count++)] = clip_line(plane, over_w, plan_, projection_);
     }
     extra_ = static_cast<std::uint32_t>(list.extras.size());
     list.extras.push_back(extra);
 }
 
-/// Keeps what has dot(by_clip, (x, y, w)) + offset >= 0. A cut edge is cut from its kept end, so
-/// that both triangles that share it get the same corner.
+/// Keeps what has dot(by_clip, (x, y, w)) + offset >= 0. A cut edge is cut from its kept end, so that both triangles
+/// that share it get the same corner.
 void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
     const auto inside = [&](const ClipVertex& corner) {
-        return by_clip.x * static_cast<double>(corner.clip.x) +
-               by_clip.y * static_cast<double>(corner.clip.y) +
+        return by_clip.x * static_cast<double>(corner.clip.x) + by_clip.y * static_cast<double>(corner.clip.y) +
                by_clip.z * static_cast<double>(corner.clip.w) + offset;
     };
     scratch_.clear();
@@ -291,12 +244,8 @@ void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
         const ClipVertex& to = polygon_[i + 1 < polygon_.size() ? i + 1 : 0];
         const double from_inside = inside(from);
         const double to_inside = inside(to);
-        if (from_inside >= 0.0) {
-            scratch_.push_back(from);
-        }
-        if ((from_inside >= 0.0) == (to_inside >= 0.0)) {
-            continue;
-        }
+        if (from_inside >= 0.0) { scratch_.push_back(from); }
+        if ((from_inside >= 0.0) == (to_inside >= 0.0)) { continue; }
         const bool keeps_from = from_inside >= 0.0;
         const ClipVertex& kept = keeps_from ? from : to;
         const ClipVertex& lost = keeps_from ? to : from;
@@ -305,8 +254,7 @@ void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
         const double share = kept_inside / (kept_inside - lost_inside);
         const auto between = [&](float at_kept, float at_lost) {
             const auto from_value = static_cast<double>(at_kept);
-            return static_cast<float>(
-                from_value + share * (static_cast<double>(at_lost) - from_value));
+            return static_cast<float>(from_value + share * (static_cast<double>(at_lost) - from_value));
         };
         ClipVertex corner;
         corner.clip.x = between(kept.clip.x, lost.clip.x);
@@ -339,23 +287,17 @@ void TriangleSetup::add_cut(std::span<const ClipVertex> corners, TriangleList& l
         const auto& a = polygon_[0].vertex;
         const auto& b = polygon_[i].vertex;
         const auto& c = polygon_[i + 1].vertex;
-        if (!style_.culls_back_faces || doubled_area(a, b, c) < 0) {
-            add_placed(a, b, c, list);
-        }
+        if (!style_.culls_back_faces || doubled_area(a, b, c) < 0) { add_placed(a, b, c, list); }
     }
 }
 
 void TriangleSetup::add_placed(
     const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list) {
     std::array<const ScreenVertex*, 3> order{&a, &b, &c};
-    if (is_above(*order[1], *order[0])) {
-        std::swap(order[0], order[1]);
-    }
+    if (is_above(*order[1], *order[0])) { std::swap(order[0], order[1]); }
     if (is_above(*order[2], *order[1])) {
         std::swap(order[1], order[2]);
-        if (is_above(*order[1], *order[0])) {
-            std::swap(order[0], order[1]);
-        }
+        if (is_above(*order[1], *order[0])) { std::swap(order[0], order[1]); }
     }
     const ScreenVertex& top = *order[0];
     const ScreenVertex& middle = *order[1];
@@ -366,9 +308,7 @@ void TriangleSetup::add_placed(
     const std::int32_t first = std::max(first_row_of(top.y - reach_), 0);
     const std::int32_t last = std::min((bottom.y - 1 + reach_) >> 8, projection_.size_px.y - 1);
     const std::int64_t area = doubled_area(top, middle, bottom);
-    if (left > right || first > last || area == 0) {
-        return;
-    }
+    if (left > right || first > last || area == 0) { return; }
     Triangle& triangle = list.triangles.emplace_back();
     triangle.top = top.y;
     triangle.middle = middle.y;
@@ -395,9 +335,9 @@ void TriangleSetup::add_placed(
         triangle.texture = mip_selection_;
         set_edges_and_gradients(corners, texture_per_px, triangle);
     } else {
-        // With one sample every pixel that is coloured has its middle within the triangle. Soft
-        // edges of what lies over the picture are as narrow as a pixel: their alpha changes fast,
-        // and is looked at only within the triangle's own.
+        // With one sample every pixel that is coloured has its middle within the triangle. Soft edges of what lies over
+        // the picture are as narrow as a pixel: their alpha changes fast, and is looked at only within the triangle's
+        // own.
         const bool has_slivers = reach_ > 0 && !is_overlay_;
         set_edges_and_gradients(corners, has_slivers ? sliver_per_px : any_per_px, triangle);
     }

@@ -23,7 +23,7 @@ struct DrawStyle {
     scene::DepthUse depth = scene::DepthUse::None;
     std::uint16_t group = 0; ///< depth group, from 1
     bool culls_back_faces = false;
-    bool has_detail_texture = false;                   ///< ground whose corners say their share of it
+    bool has_detail_texture = false;          ///< ground whose corners say their share of it
     float opacity = 1.0F;                     ///< as scene::PaintStep
     std::span<const glm::vec4> clip_planes{}; ///< as scene::Clip
 };
@@ -38,10 +38,7 @@ struct TriangleList {
 class TriangleSetup {
 public:
     /// The ground's texture has so many levels, if there is one.
-    TriangleSetup(
-        const Projection& projection,
-        const scene::FramePlan& plan,
-        const SamplePattern& samples,
+    TriangleSetup(const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples,
         std::size_t texture_levels);
 
     void begin_step(const DrawStyle& style) { style_ = style; }
@@ -49,18 +46,14 @@ public:
     /// Of the triangles that are added from now on: FramePlan::mesh_display's.
     void set_mesh_level(float level) { mesh_level_ = level; }
 
-    /// Appends a triangle, its corners by index, if any of it may be seen; several where the view
-    /// cuts it. `flat` is that of its first corner; none for what is no aircraft.
-    void
-    add(const VertexOutputs& corners,
-        const std::array<std::uint32_t, 3>& triangle,
-        const FlatColour* flat,
+    /// Appends a triangle, its corners by index, if any of it may be seen; several where the view cuts it. `flat` is
+    /// that of its first corner; none for what is no aircraft.
+    void add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle, const FlatColour* flat,
         TriangleList& list);
 
-    /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Levels for what
-    /// lies over the picture, else Fill::Veil.
-    void add_overlay(
-        const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
+    /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Levels for what lies over the picture,
+    /// else Fill::Veil.
+    void add_overlay(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
 
 private:
     struct ClipVertex {
@@ -69,8 +62,7 @@ private:
     };
 
     void add_cut(std::span<const ClipVertex> corners, TriangleList& list);
-    void add_placed(
-        const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
+    void add_placed(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
     void cut(const glm::dvec3& by_clip, double offset);
     bool add_affine_triangle(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list);
     Fill fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const;

@@ -13,8 +13,8 @@ namespace octant::visuals::raster {
 namespace {
 
 constexpr float max_level = 255.0F;
-/// Cosine between a line of sight and a polygon's normal above which its back is seen: a hundred
-/// times what rounding leaves open.
+/// Cosine between a line of sight and a polygon's normal above which its back is seen: a hundred times what rounding
+/// leaves open.
 constexpr float min_turn = 1e-5F;
 
 glm::vec4 unpacked(std::uint32_t colour) {
@@ -30,8 +30,7 @@ struct Air {
 
 /// As scene::Haze says.
 Air air_before(const glm::vec3& place_m, const Light& light) {
-    const float distance_m =
-        std::sqrt(place_m.x * place_m.x + place_m.y * place_m.y + place_m.z * place_m.z);
+    const float distance_m = std::sqrt(place_m.x * place_m.x + place_m.y * place_m.y + place_m.z * place_m.z);
     const float haze_density_exponent = place_m.z * light.falloff_per_m;
     const float size = std::abs(haze_density_exponent);
     float density = 1.0F - 0.5F * haze_density_exponent;
@@ -41,27 +40,22 @@ Air air_before(const glm::vec3& place_m, const Light& light) {
     }
     const float level_m = place_m.x * light.horizontal_to_sun.x + place_m.y * light.horizontal_to_sun.y;
     const float towards = std::max(level_m / std::max(distance_m, 1e-6F), 0.0F);
-    return {
-        glm::mix(light.haze, light.sunward_colour, towards * towards) * max_level,
+    return {glm::mix(light.haze, light.sunward_colour, towards * towards) * max_level,
         1.0F - exp_of_minus(distance_m * light.per_m * density)};
 }
 
 /// A colour under the light on a surface that faces `outwards`, levels.
 glm::vec3 lit(const glm::vec3& rgb_255, const glm::vec3& outwards, const Light& light) {
-    const glm::vec3 sum =
-        light.ambient + light.sunlight * std::max(glm::dot(outwards, light.to_sun), 0.0F);
+    const glm::vec3 sum = light.ambient + light.sunlight * std::max(glm::dot(outwards, light.to_sun), 0.0F);
     return glm::min(rgb_255 * sum, glm::vec3(max_level));
 }
 
 /// The colour over which a tint lies, if its alpha says so; levels.
 glm::vec3 tinted(std::uint32_t colour, std::uint32_t tint) {
     const glm::vec4 own = unpacked(colour);
-    if (tint == 0) {
-        return {own.x, own.y, own.z};
-    }
+    if (tint == 0) { return {own.x, own.y, own.z}; }
     const glm::vec4 over = unpacked(tint);
-    return glm::mix(
-        glm::vec3(own.x, own.y, own.z), glm::vec3(over.x, over.y, over.z), over.w / max_level);
+    return glm::mix(glm::vec3(own.x, own.y, own.z), glm::vec3(over.x, over.y, over.z), over.w / max_level);
 }
 
 void set_three(const glm::vec3& from, std::span<float> to) {
@@ -74,23 +68,13 @@ void set_three(const glm::vec3& from, std::span<float> to) {
 
 Light light_of(const scene::FramePlan& plan) {
     const float visibility_m = plan.haze.visibility_m;
-    return {
-        plan.ambient,
-        plan.sunlight,
-        plan.to_sun,
-        plan.haze.colour,
-        visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F,
-        plan.haze.falloff_per_m,
-        plan.haze.horizontal_to_sun,
+    return {plan.ambient, plan.sunlight, plan.to_sun, plan.haze.colour,
+        visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F, plan.haze.falloff_per_m, plan.haze.horizontal_to_sun,
         plan.haze.sunward_colour};
 }
 
-void project_aircraft(
-    std::span<const scene::ModelVertex> from,
-    const AircraftDrawState& look,
-    const Projection& projection,
-    const Light& light,
-    const VertexOutputs& to) {
+void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& look,
+    const Projection& projection, const Light& light, const VertexOutputs& to) {
     assert(to.vertices.size() == from.size() && to.flat.size() == from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
         const scene::ModelVertex& vertex = from[i];
@@ -99,20 +83,16 @@ void project_aircraft(
         to.clip[i] = clip_position(projection, at_m);
         place(projection, to.clip[i], to.vertices[i]);
         const std::uint32_t word = vertex.polygon / 32U;
-        const bool smooth =
-            word < look.smooth.size() && (look.smooth[word] >> (vertex.polygon % 32U) & 1U) != 0;
+        const bool smooth = word < look.smooth.size() && (look.smooth[word] >> (vertex.polygon % 32U) & 1U) != 0;
         const Air air = air_before(at_m, light);
-        const auto coloured =
-            [&](std::uint32_t colour, std::uint32_t tint, const glm::vec3& normal) {
-                const glm::vec3 outwards = glm::mat3(turn) * normal;
-                return glm::mix(lit(tinted(colour, tint), outwards, light), air.rgb_255, air.share);
-            };
+        const auto coloured = [&](std::uint32_t colour, std::uint32_t tint, const glm::vec3& normal) {
+            const glm::vec3 outwards = glm::mat3(turn) * normal;
+            return glm::mix(lit(tinted(colour, tint), outwards, light), air.rgb_255, air.share);
+        };
         set_three(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;
-        to.flat[i].is_back_facing =
-            glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > min_turn * glm::length(at_m);
-        set_three(
-            coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
+        to.flat[i].is_back_facing = glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > min_turn * glm::length(at_m);
+        set_three(coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
         if (!to.lit.empty()) {
             LitVertex& lit = to.lit[i];
             set_three(glm::mat3(turn) * vertex.normal, lit.normal);

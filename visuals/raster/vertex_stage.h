@@ -24,8 +24,7 @@ struct Light {
     glm::vec3 sunward_colour{0.0F}; ///< display values 0..1
 };
 
-// Where the fall of the haze's density is looked at as a straight line, and where it ends; powers
-// of e.
+// Where the fall of the haze's density is looked at as a straight line, and where it ends; powers of e.
 constexpr float min_haze_fall = 4e-3F;
 constexpr float max_haze_fall = 60.0F;
 
@@ -52,11 +51,7 @@ struct AircraftDrawState {
     scene::PolygonTints tints{};
 };
 
-void project_aircraft(
-    std::span<const scene::ModelVertex> from,
-    const AircraftDrawState& look,
-    const Projection& projection,
-    const Light& light,
-    const VertexOutputs& to);
+void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& look,
+    const Projection& projection, const Light& light, const VertexOutputs& to);
 
 } // namespace octant::visuals::raster

@@ -26,15 +26,11 @@ Workers::~Workers() {
         ends_ = true;
     }
     begun_.notify_all();
-    for (std::thread& helper : helpers_) {
-        helper.join();
-    }
+    for (std::thread& helper : helpers_) { helper.join(); }
 }
 
 void Workers::run(int tasks, const std::function<void(int task, int thread)>& work) {
-    if (tasks <= 0) {
-        return;
-    }
+    if (tasks <= 0) { return; }
     const auto run = std::make_shared<Run>();
     run->work = &work;
     run->tasks = tasks;
@@ -53,10 +49,7 @@ void Workers::run(int tasks, const std::function<void(int task, int thread)>& wo
 }
 
 bool Workers::begin_on_idle_thread(std::function<void()> work) {
-    if (helpers_.empty() ||
-        static_cast<unsigned>(threads()) < std::thread::hardware_concurrency()) {
-        return false;
-    }
+    if (helpers_.empty() || static_cast<unsigned>(threads()) < std::thread::hardware_concurrency()) { return false; }
     {
         const std::lock_guard lock(mutex_);
         idle_tasks_.push_back(std::move(work));
@@ -68,9 +61,7 @@ bool Workers::begin_on_idle_thread(std::function<void()> work) {
 void Workers::take_tasks(Run& run, int thread) {
     for (int task = run.next++; task < run.tasks; task = run.next++) {
         (*run.work)(task, thread);
-        if (--run.unfinished_tasks == 0) {
-            run.unfinished_tasks.notify_all();
-        }
+        if (--run.unfinished_tasks == 0) { run.unfinished_tasks.notify_all(); }
     }
 }
 
@@ -87,9 +78,7 @@ void Workers::help(int thread) {
             lock.lock();
             continue;
         }
-        if (ends_) {
-            return;
-        }
+        if (ends_) { return; }
         seen = run_;
         lock.unlock();
         take_tasks(*seen, thread);

@@ -10,8 +10,8 @@
 
 namespace octant::visuals::raster {
 
-/// Threads that share the tasks of one loop after the other. They sleep in between: waiting threads
-/// that spin would take time from those that plan the next frame.
+/// Threads that share the tasks of one loop after the other. They sleep in between: waiting threads that spin would
+/// take time from those that plan the next frame.
 class Workers {
 public:
     /// The thread that calls run() counts as one.
@@ -24,14 +24,13 @@ public:
 
     int threads() const { return static_cast<int>(helpers_.size()) + 1; }
 
-    /// Calls work(task, thread) once for each task 0 .. tasks - 1, each thread taking the next one
-    /// that is left, and returns when all are done. Threads that wake up too late are not waited
-    /// for. `work` must not throw.
+    /// Calls work(task, thread) once for each task 0 .. tasks - 1, each thread taking the next one that is left, and
+    /// returns when all are done. Threads that wake up too late are not waited for. `work` must not throw.
     void run(int tasks, const std::function<void(int task, int thread)>& work);
 
-    /// Does other work on one of the threads, before what is left of loops: more threads than cores
-    /// would push each other aside, and a loop waits for the last of its tasks. False, and nothing
-    /// is done, where the caller is alone or cores are left over. `work` must not throw.
+    /// Does other work on one of the threads, before what is left of loops: more threads than cores would push each
+    /// other aside, and a loop waits for the last of its tasks. False, and nothing is done, where the caller is alone
+    /// or cores are left over. `work` must not throw.
     bool begin_on_idle_thread(std::function<void()> work);
 
 private:

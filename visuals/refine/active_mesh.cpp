@@ -10,36 +10,27 @@ namespace {
 std::vector<std::uint32_t> slots_in_order(const SelectiveRefiner& refiner) {
     std::vector<std::uint32_t> slots;
     for (std::uint32_t slot = 0; slot < refiner.vertices().size(); ++slot) {
-        if (refiner.node_at(slot) != none) {
-            slots.push_back(slot);
-        }
+        if (refiner.node_at(slot) != none) { slots.push_back(slot); }
     }
-    std::ranges::sort(slots, {}, [&](std::uint32_t slot) {
-        return refiner.mesh().sequence_number(refiner.node_at(slot));
-    });
+    std::ranges::sort(
+        slots, {}, [&](std::uint32_t slot) { return refiner.mesh().sequence_number(refiner.node_at(slot)); });
     return slots;
 }
 
-/// Adds the active faces to `mesh`, ordered by their original faces. `vertices` gives for each slot
-/// its vertex in `mesh`.
+/// Adds the active faces to `mesh`, ordered by their original faces. `vertices` gives for each slot its vertex in
+/// `mesh`.
 void add_triangles(
-    const SelectiveRefiner& refiner,
-    const std::vector<std::uint32_t>& vertices,
-    models::TriangleMesh& mesh) {
+    const SelectiveRefiner& refiner, const std::vector<std::uint32_t>& vertices, models::TriangleMesh& mesh) {
     const ProgressiveMeshData& parts = refiner.mesh().parts();
     std::vector<std::uint32_t> places;
     for (std::uint32_t place = 0; 3 * std::size_t{place} < refiner.indices().size(); ++place) {
-        if (refiner.face_at(place) != none) {
-            places.push_back(place);
-        }
+        if (refiner.face_at(place) != none) { places.push_back(place); }
     }
-    std::ranges::sort(places, {}, [&](std::uint32_t place) {
-        return refiner.mesh().original_face(refiner.face_at(place));
-    });
+    std::ranges::sort(
+        places, {}, [&](std::uint32_t place) { return refiner.mesh().original_face(refiner.face_at(place)); });
     for (const std::uint32_t place : places) {
         const auto corners = refiner.indices().subspan(3 * std::size_t{place}, 3);
-        mesh.triangles.push_back(
-            {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]});
+        mesh.triangles.push_back({vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]});
         if (!parts.face_materials.empty()) {
             mesh.triangle_materials.push_back(parts.face_materials[refiner.face_at(place)]);
         }
@@ -60,9 +51,7 @@ ActiveMesh active_mesh(const SelectiveRefiner& refiner) {
         vertices[slot] = static_cast<std::uint32_t>(active.nodes.size());
         active.nodes.push_back(hierarchy.sequence_number(node));
         active.mesh.vertices_m.push_back(glm::dvec3(hierarchy.position_m(node)) + parts.origin_m);
-        if (hierarchy.has_colours()) {
-            active.mesh.colours.push_back(unpacked(hierarchy.packed_colour(node)));
-        }
+        if (hierarchy.has_colours()) { active.mesh.colours.push_back(unpacked(hierarchy.packed_colour(node))); }
     }
     add_triangles(refiner, vertices, active.mesh);
     active.originals.resize(active.nodes.size());
@@ -70,9 +59,7 @@ ActiveMesh active_mesh(const SelectiveRefiner& refiner) {
         const std::uint32_t slot = refiner.slot(refiner.active_ancestor(leaf));
         active.originals[vertices[slot]].push_back(parts.original_vertices[leaf]);
     }
-    for (std::vector<std::uint32_t>& below : active.originals) {
-        std::ranges::sort(below);
-    }
+    for (std::vector<std::uint32_t>& below : active.originals) { std::ranges::sort(below); }
     return active;
 }
 

@@ -8,21 +8,18 @@
 
 namespace octant::visuals::refine {
 
-/// The triangle mesh that a front of active nodes stands for, each vertex at its node's own
-/// position (without geomorphs). Positions are in the axes of the original file, metres.
+/// The triangle mesh that a front of active nodes stands for, each vertex at its node's own position (without
+/// geomorphs). Positions are in the axes of the original file, metres.
 struct ActiveMesh {
     models::TriangleMesh mesh; ///< Triangles come in the order of their original faces.
-    /// For each vertex the sequence number of its node (ProgressiveMesh::sequence_number),
-    /// ascending.
+    /// For each vertex the sequence number of its node (ProgressiveMesh::sequence_number), ascending.
     std::vector<std::uint32_t> nodes;
-    /// For each vertex the numbers of the original vertices below its node, ascending: the region
-    /// S(v) of the paper.
+    /// For each vertex the numbers of the original vertices below its node, ascending: the region S(v) of the paper.
     std::vector<std::vector<std::uint32_t>> originals;
 };
 
-/// Extracts the active mesh. With the list of nodes anyone can check it against the original file:
-/// its faces are {(A(a), A(b), A(c))} over the original faces whose three active ancestors A
-/// differ.
+/// Extracts the active mesh. With the list of nodes anyone can check it against the original file: its faces are
+/// {(A(a), A(b), A(c))} over the original faces whose three active ancestors A differ.
 ActiveMesh active_mesh(const SelectiveRefiner& refiner);
 
 } // namespace octant::visuals::refine

@@ -9,8 +9,8 @@
 
 namespace octant::visuals::refine {
 
-/// A unit vector in 32 bits by octahedral coding: it is projected onto an octahedron, which is
-/// unfolded into a square with 16 bits an axis. The error is below 1e-4 rad.
+/// A unit vector in 32 bits by octahedral coding: it is projected onto an octahedron, which is unfolded into a square
+/// with 16 bits an axis. The error is below 1e-4 rad.
 struct PackedNormal {
     std::int16_t x = 0;
     std::int16_t y = 0;
@@ -21,9 +21,7 @@ struct PackedNormal {
 /// Packs a vector of any length. A zero vector becomes +z.
 inline PackedNormal packed(const glm::vec3& normal) {
     const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-    if (!(sum > 0.0F)) {
-        return {};
-    }
+    if (!(sum > 0.0F)) { return {}; }
     float x = normal.x / sum;
     float y = normal.y / sum;
     if (normal.z < 0.0F) {
@@ -31,9 +29,7 @@ inline PackedNormal packed(const glm::vec3& normal) {
         y = (1.0F - std::abs(x)) * (y < 0.0F ? -1.0F : 1.0F);
         x = folded_x;
     }
-    return {
-        static_cast<std::int16_t>(std::lround(x * 32767.0F)),
-        static_cast<std::int16_t>(std::lround(y * 32767.0F))};
+    return {static_cast<std::int16_t>(std::lround(x * 32767.0F)), static_cast<std::int16_t>(std::lround(y * 32767.0F))};
 }
 
 /// The unit vector that was packed.

@@ -1,7 +1,6 @@
-// Pictures of what selective refinement does: J. Kim, S. Lee, "Truly Selective Refinement of
-// Progressive Meshes", Graphics Interface 2001, section 3, where an active mesh is explained as the
-// partition of the original vertices among the active nodes. Used by `octant refine --colour-by`
-// and `--out-partition`.
+// Pictures of what selective refinement does: J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes",
+// Graphics Interface 2001, section 3, where an active mesh is explained as the partition of the original vertices among
+// the active nodes. Used by `octant refine --colour-by` and `--out-partition`.
 #include "visuals/refine/partition_mesh.h"
 
 #include <glm/common.hpp>
@@ -25,8 +24,8 @@ glm::vec3 hue(float turn) {
     return {part(0.0F), part(2.0F / 3.0F), part(1.0F / 3.0F)};
 }
 
-/// A colour for a node. Successive numbers get hues that are far apart, because the golden ratio
-/// spreads them evenly over the circle.
+/// A colour for a node. Successive numbers get hues that are far apart, because the golden ratio spreads them evenly
+/// over the circle.
 glm::vec3 region_colour(std::uint32_t node) {
     constexpr double golden = 0.6180339887498949;
     const auto turn = static_cast<float>(std::fmod(golden * node, 1.0));
@@ -44,8 +43,7 @@ glm::vec3 level_colour(std::size_t originals) {
 }
 
 glm::vec3 colour_of(const ActiveMesh& active, std::size_t vertex, ColourBy by) {
-    return by == ColourBy::Region ? region_colour(active.nodes[vertex])
-                                  : level_colour(active.originals[vertex].size());
+    return by == ColourBy::Region ? region_colour(active.nodes[vertex]) : level_colour(active.originals[vertex].size());
 }
 
 } // namespace
@@ -68,19 +66,15 @@ models::TriangleMesh partition_mesh(const SelectiveRefiner& refiner, ColourBy by
     mesh.name = parts.name;
     mesh.vertices_m.resize(hierarchy.leaf_count());
     for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
-        mesh.vertices_m[parts.original_vertices[leaf]] =
-            glm::dvec3(hierarchy.position_m(leaf)) + parts.origin_m;
+        mesh.vertices_m[parts.original_vertices[leaf]] = glm::dvec3(hierarchy.position_m(leaf)) + parts.origin_m;
     }
     mesh.triangles.resize(hierarchy.face_count());
     for (std::uint32_t face = 0; face < hierarchy.face_count(); ++face) {
         models::Triangle& triangle = mesh.triangles[hierarchy.original_face(face)];
-        std::ranges::transform(hierarchy.faces()[face], triangle.begin(), [&](std::uint32_t leaf) {
-            return parts.original_vertices[leaf];
-        });
+        std::ranges::transform(hierarchy.faces()[face], triangle.begin(),
+            [&](std::uint32_t leaf) { return parts.original_vertices[leaf]; });
     }
-    if (by == ColourBy::Nothing) {
-        return mesh;
-    }
+    if (by == ColourBy::Nothing) { return mesh; }
     mesh.colours.resize(hierarchy.leaf_count());
     for (std::size_t vertex = 0; vertex < active.nodes.size(); ++vertex) {
         for (const std::uint32_t original : active.originals[vertex]) {

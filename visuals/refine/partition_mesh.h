@@ -16,11 +16,9 @@ enum class ColourBy {
 /// The active mesh with coloured vertices.
 models::TriangleMesh coloured_mesh(ActiveMesh active, ColourBy by);
 
-/// The original mesh, vertices and faces numbered as in its file, where each vertex has the colour
-/// of its active ancestor. This shows the paper's partition of the original into the regions S(v),
-/// one for each active vertex; the active mesh is the graph of their adjacency. Materials and
-/// normals are left out.
-models::TriangleMesh
-partition_mesh(const SelectiveRefiner& refiner, ColourBy by = ColourBy::Region);
+/// The original mesh, vertices and faces numbered as in its file, where each vertex has the colour of its active
+/// ancestor. This shows the paper's partition of the original into the regions S(v), one for each active vertex; the
+/// active mesh is the graph of their adjacency. Materials and normals are left out.
+models::TriangleMesh partition_mesh(const SelectiveRefiner& refiner, ColourBy by = ColourBy::Region);
 
 } // namespace octant::visuals::refine

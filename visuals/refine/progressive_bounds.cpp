@@ -17,23 +17,18 @@ constexpr float pi = std::numbers::pi_v<float>;
 /// A factor that makes up for the rounding of distances taken in float.
 constexpr float rounding = 1.0F + 4e-6F;
 
-float angle_rad(const glm::vec3& a, const glm::vec3& b) {
-    return std::acos(glm::clamp(glm::dot(a, b), -1.0F, 1.0F));
-}
+float angle_rad(const glm::vec3& a, const glm::vec3& b) { return std::acos(glm::clamp(glm::dot(a, b), -1.0F, 1.0F)); }
 
 /// An angle in steps of pi / 65535, rounded up so that a cone never gets too narrow.
 std::uint16_t packed_angle(float angle_rad) {
-    return static_cast<std::uint16_t>(
-        std::min(65535.0F, std::ceil(angle_rad / pi * 65535.0F + 0.01F)));
+    return static_cast<std::uint16_t>(std::min(65535.0F, std::ceil(angle_rad / pi * 65535.0F + 0.01F)));
 }
 
 } // namespace
 
 /// Finds centre and diagonal of the bounding box.
 void ProgressiveMesh::bound_all() {
-    if (leaf_count() == 0) {
-        return;
-    }
+    if (leaf_count() == 0) { return; }
     glm::vec3 min_m = position_m(0);
     glm::vec3 max_m = min_m;
     for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
@@ -44,8 +39,7 @@ void ProgressiveMesh::bound_all() {
     half_diagonal_m_ = 0.5 * glm::distance(glm::dvec3(min_m), glm::dvec3(max_m));
 }
 
-/// Bounds each leaf by its adjacent original faces: their corners by a sphere, their normals by a
-/// cone.
+/// Bounds each leaf by its adjacent original faces: their corners by a sphere, their normals by a cone.
 void ProgressiveMesh::bound_leaves() {
     for (std::uint32_t face = 0; face < face_count(); ++face) {
         const glm::vec3 normal_of_face = face_normal(face);
@@ -54,8 +48,7 @@ void ProgressiveMesh::bound_leaves() {
         for (const std::uint32_t leaf : corners) {
             NodeGeometry& here = shape(leaf);
             for (const std::uint32_t other : corners) {
-                here.radius_m = std::max(
-                    here.radius_m, rounding * glm::distance(here.position_m, position_m(other)));
+                here.radius_m = std::max(here.radius_m, rounding * glm::distance(here.position_m, position_m(other)));
             }
             const float angle = flat ? 0.0F : angle_rad(normal(leaf), normal_of_face);
             here.cone = std::max(here.cone, packed_angle(angle));

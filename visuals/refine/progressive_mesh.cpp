@@ -1,14 +1,14 @@
-// The vertex hierarchy and its fundamental cut vertices: J. Kim, S. Lee, "Truly Selective
-// Refinement of Progressive Meshes", Graphics Interface 2001, section 3.
+// The vertex hierarchy and its fundamental cut vertices: J. Kim, S. Lee, "Truly Selective Refinement of Progressive
+// Meshes", Graphics Interface 2001, section 3.
 //
-// The constructor orders faces and nodes for locality, finds the two fundamental cut vertices vs.l^
-// and vs.r^ of each node, and bounds each node (progressive_bounds.cpp).
+// The constructor orders faces and nodes for locality, finds the two fundamental cut vertices vs.l^ and vs.r^ of each
+// node, and bounds each node (progressive_bounds.cpp).
 //
-// Deviation: the paper searches the fundamental cut vertices along the common border of the regions
-// S(vu) and S(vt). Here none is searched: every face of an active mesh is one original face with
-// its corners replaced by their active ancestors, so the cut vertices are the third corners of the
-// two original faces that the collapse removes.
+// Deviation: the paper searches the fundamental cut vertices along the common border of the regions S(vu) and S(vt).
+// Here none is searched: every face of an active mesh is one original face with its corners replaced by their active
+// ancestors, so the cut vertices are the third corners of the two original faces that the collapse removes.
 #include "visuals/refine/progressive_mesh.h"
+
 #include "models/collapse_sequence.h"
 #include "sim/base/error.h"
 #include "visuals/refine/progressive_mesh_data.h"
@@ -26,29 +26,25 @@ namespace octant::visuals::refine {
 
 namespace {
 
-// From a sequence of edge collapses to the parts of a vertex hierarchy: J. Kim, S. Lee, "Truly
-// Selective Refinement of Progressive Meshes", Graphics Interface 2001, section 3 (vertex
-// hierarchy). The sequence names nodes by vertex and collapse numbers; here leaves are renumbered
-// in depth-first order, so that the region S(v) of any node is a range of leaves.
+// From a sequence of edge collapses to the parts of a vertex hierarchy: J. Kim, S. Lee, "Truly Selective Refinement of
+// Progressive Meshes", Graphics Interface 2001, section 3 (vertex hierarchy). The sequence names nodes by vertex and
+// collapse numbers; here leaves are renumbered in depth-first order, so that the region S(v) of any node is a range of
+// leaves.
 
 using models::Collapse;
 using models::CollapseSequence;
 using models::TriangleMesh;
 
-/// A unit normal times the area of the surface that it was averaged over (twice the area, to be
-/// exact).
+/// A unit normal times the area of the surface that it was averaged over (twice the area, to be exact).
 using WeightedNormal = glm::dvec3;
 
 /// Whether every coordinate of the original is a float already, so that it can be kept bit for bit.
 bool all_floats(const CollapseSequence& sequence) {
-    const auto is_float = [](const glm::dvec3& point_m) {
-        return glm::dvec3(glm::vec3(point_m)) == point_m;
-    };
+    const auto is_float = [](const glm::dvec3& point_m) { return glm::dvec3(glm::vec3(point_m)) == point_m; };
     return std::ranges::all_of(sequence.original.vertices_m, is_float);
 }
 
-/// For each original vertex its leaf number, in an order in which the leaves below any node are
-/// consecutive.
+/// For each original vertex its leaf number, in an order in which the leaves below any node are consecutive.
 std::vector<std::uint32_t> leaf_order(const CollapseSequence& sequence) {
     const std::size_t leaves = sequence.original.vertices_m.size();
     const std::size_t nodes = leaves + sequence.collapses.size();
@@ -77,16 +73,15 @@ std::vector<std::uint32_t> leaf_order(const CollapseSequence& sequence) {
     return begins;
 }
 
-/// For each original vertex the sum of its given corner normals weighted by area, or of the normals
-/// of its faces where it has none.
+/// For each original vertex the sum of its given corner normals weighted by area, or of the normals of its faces where
+/// it has none.
 std::vector<WeightedNormal> vertex_normals(const TriangleMesh& mesh) {
     std::vector<WeightedNormal> from_faces(mesh.vertices_m.size(), WeightedNormal(0.0));
     std::vector<glm::dvec3> given(mesh.normals.empty() ? 0 : mesh.vertices_m.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& corners = mesh.triangles[t];
         const glm::dvec3& a_m = mesh.vertices_m[corners[0]];
-        const glm::dvec3 area =
-            glm::cross(mesh.vertices_m[corners[1]] - a_m, mesh.vertices_m[corners[2]] - a_m);
+        const glm::dvec3 area = glm::cross(mesh.vertices_m[corners[1]] - a_m, mesh.vertices_m[corners[2]] - a_m);
         for (std::size_t k = 0; k < 3; ++k) {
             from_faces[corners[k]] += area;
             if (!given.empty()) {
@@ -110,55 +105,35 @@ void add_leaves(const CollapseSequence& sequence, ProgressiveMeshData& parts) {
     const TriangleMesh& mesh = sequence.original;
     for (const std::uint32_t vertex : parts.original_vertices) {
         parts.positions_m.emplace_back(mesh.vertices_m[vertex] - parts.origin_m);
-        if (!mesh.colours.empty()) {
-            parts.colours.push_back(packed_rgb16(mesh.colours[vertex]));
-        }
+        if (!mesh.colours.empty()) { parts.colours.push_back(packed_rgb16(mesh.colours[vertex])); }
     }
 }
 
 void add_splits(
-    const CollapseSequence& sequence,
-    const std::vector<std::uint32_t>& places,
-    ProgressiveMeshData& parts) {
+    const CollapseSequence& sequence, const std::vector<std::uint32_t>& places, ProgressiveMeshData& parts) {
     const std::size_t leaves = places.size();
-    const auto node_of = [&](std::uint32_t vertex) {
-        return vertex < leaves ? places[vertex] : vertex;
-    };
+    const auto node_of = [&](std::uint32_t vertex) { return vertex < leaves ? places[vertex] : vertex; };
     parts.splits.reserve(sequence.collapses.size());
     for (const Collapse& collapse : sequence.collapses) {
-        parts.splits.push_back(
-            {node_of(collapse.first),
-             node_of(collapse.second),
-             collapse.left,
-             collapse.right,
-             static_cast<float>(collapse.error_m)});
+        parts.splits.push_back({node_of(collapse.first), node_of(collapse.second), collapse.left, collapse.right,
+            static_cast<float>(collapse.error_m)});
         parts.positions_m.emplace_back(collapse.position_m - parts.origin_m);
-        if (!sequence.original.colours.empty()) {
-            parts.colours.push_back(packed_rgb16(collapse.colour));
-        }
+        if (!sequence.original.colours.empty()) { parts.colours.push_back(packed_rgb16(collapse.colour)); }
     }
 }
 
-/// Adds the normals of leaves and of inner nodes; an inner node's is the area-weighted mean of its
-/// leaves'.
+/// Adds the normals of leaves and of inner nodes; an inner node's is the area-weighted mean of its leaves'.
 void add_normals(const TriangleMesh& mesh, ProgressiveMeshData& parts) {
     const std::vector<WeightedNormal> by_vertex = vertex_normals(mesh);
     std::vector<WeightedNormal> sums;
     sums.reserve(parts.positions_m.size());
-    for (const std::uint32_t vertex : parts.original_vertices) {
-        sums.push_back(by_vertex[vertex]);
-    }
-    for (const VertexSplit& split : parts.splits) {
-        sums.push_back(sums[split.first] + sums[split.second]);
-    }
+    for (const std::uint32_t vertex : parts.original_vertices) { sums.push_back(by_vertex[vertex]); }
+    for (const VertexSplit& split : parts.splits) { sums.push_back(sums[split.first] + sums[split.second]); }
     parts.normals.reserve(sums.size());
-    for (const WeightedNormal& sum : sums) {
-        parts.normals.push_back(packed_direction(sum));
-    }
+    for (const WeightedNormal& sum : sums) { parts.normals.push_back(packed_direction(sum)); }
 }
 
-void add_faces(
-    const TriangleMesh& mesh, const std::vector<std::uint32_t>& places, ProgressiveMeshData& parts) {
+void add_faces(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places, ProgressiveMeshData& parts) {
     parts.faces.reserve(mesh.triangles.size());
     for (const Triangle& corners : mesh.triangles) {
         parts.faces.push_back({places[corners[0]], places[corners[1]], places[corners[2]]});
@@ -167,8 +142,8 @@ void add_faces(
     parts.face_materials.assign(mesh.triangle_materials.begin(), mesh.triangle_materials.end());
 }
 
-/// The parts of a hierarchy from a simplification's sequence of collapses. The leaves are
-/// renumbered so that those below any node are consecutive, and every node gets a normal.
+/// The parts of a hierarchy from a simplification's sequence of collapses. The leaves are renumbered so that those
+/// below any node are consecutive, and every node gets a normal.
 ProgressiveMeshData mesh_data_of(const CollapseSequence& sequence) {
     const TriangleMesh& mesh = sequence.original;
     assert(mesh.materials.size() < 65536);
@@ -196,9 +171,7 @@ ProgressiveMeshData mesh_data_of(const CollapseSequence& sequence) {
 /// The corner of a face that is not one of the leaves [begin, end).
 std::uint32_t third_corner(const Triangle& face, std::uint32_t begin, std::uint32_t end) {
     for (const std::uint32_t corner : face) {
-        if (corner < begin || corner >= end) {
-            return corner;
-        }
+        if (corner < begin || corner >= end) { return corner; }
     }
     assert(false);
     return none;
@@ -211,18 +184,12 @@ std::size_t bytes_of(const std::vector<Item>& items) {
 
 } // namespace
 
-ProgressiveMesh::ProgressiveMesh(ProgressiveMeshData parts)
-    : parts_(std::move(parts)) {
+ProgressiveMesh::ProgressiveMesh(ProgressiveMeshData parts) : parts_(std::move(parts)) {
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
     if (face_count() > max_faces || leaf_count() > max_leaves) {
-        throw Error(fmt::format(
-            "{}: expected at most {} faces and {} vertices to refine, got {} and {}",
-            parts_.name,
-            max_faces,
-            max_leaves,
-            face_count(),
-            leaf_count()));
+        throw Error(fmt::format("{}: expected at most {} faces and {} vertices to refine, got {} and {}", parts_.name,
+            max_faces, max_leaves, face_count(), leaf_count()));
     }
     order_faces();
     order_nodes();
@@ -232,11 +199,9 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveMeshData parts)
     bound_all();
 }
 
-ProgressiveMesh::ProgressiveMesh(const models::CollapseSequence& sequence)
-    : ProgressiveMesh(mesh_data_of(sequence)) {}
+ProgressiveMesh::ProgressiveMesh(const models::CollapseSequence& sequence) : ProgressiveMesh(mesh_data_of(sequence)) {}
 
-/// Sorts the faces by their corners' leaf numbers, so that a split finds its faces close together
-/// in memory.
+/// Sorts the faces by their corners' leaf numbers, so that a split finds its faces close together in memory.
 void ProgressiveMesh::order_faces() {
     const auto key = [&](std::uint32_t face) {
         Triangle corners = parts_.faces[face];
@@ -253,11 +218,8 @@ void ProgressiveMesh::order_faces() {
     for (const std::uint32_t face : order) {
         places[face] = static_cast<std::uint32_t>(ordered.faces.size());
         ordered.faces.push_back(parts_.faces[face]);
-        ordered.original_faces.push_back(
-            parts_.original_faces.empty() ? face : parts_.original_faces[face]);
-        if (!parts_.face_materials.empty()) {
-            ordered.face_materials.push_back(parts_.face_materials[face]);
-        }
+        ordered.original_faces.push_back(parts_.original_faces.empty() ? face : parts_.original_faces[face]);
+        if (!parts_.face_materials.empty()) { ordered.face_materials.push_back(parts_.face_materials[face]); }
     }
     ordered.face_materials.shrink_to_fit();
     parts_.faces = std::move(ordered.faces);
@@ -270,8 +232,7 @@ void ProgressiveMesh::order_faces() {
     }
 }
 
-/// Finds the roots, makes errors monotone towards them, and gives the inner nodes their final
-/// numbers.
+/// Finds the roots, makes errors monotone towards them, and gives the inner nodes their final numbers.
 void ProgressiveMesh::order_nodes() {
     const auto leaves = static_cast<std::uint32_t>(leaf_count());
     std::vector<std::uint32_t> first_leaves(parts_.positions_m.size());
@@ -292,36 +253,25 @@ void ProgressiveMesh::order_nodes() {
         ++node;
     }
     for (node = 0; node < has_parent.size(); ++node) {
-        if (!has_parent[node]) {
-            roots_.push_back(node);
-        }
+        if (!has_parent[node]) { roots_.push_back(node); }
     }
     std::ranges::sort(roots_, {}, [&](std::uint32_t root) { return first_leaves[root]; });
     const std::vector<std::uint32_t> numbers = new_numbers();
-    for (std::uint32_t& root : roots_) {
-        root = numbers[root];
-    }
+    for (std::uint32_t& root : roots_) { root = numbers[root]; }
     packed_splits_.resize(parts_.splits.size());
     sequence_numbers_.resize(packed_splits_.size());
     for (node = leaves; node < numbers.size(); ++node) {
         const VertexSplit& split = parts_.splits[node - leaves];
         sequence_numbers_[numbers[node] - leaves] = node;
-        packed_splits_[numbers[node] - leaves] = {
-            split.first_leaf,
-            split.middle & 0x7fffffffU,
-            split.second < leaves ? 1U : 0U,
-            split.left_face,
-            split.right_face,
-            none,
-            none,
-            split.error_m};
+        packed_splits_[numbers[node] - leaves] = {split.first_leaf, split.middle & 0x7fffffffU,
+            split.second < leaves ? 1U : 0U, split.left_face, split.right_face, none, none, split.error_m};
     }
     parts_.splits = {};
     place_shapes(numbers);
 }
 
-/// For each node of the parts its final number: a preorder walk that hands out numbers from the
-/// highest down. roots_ and splits still have the old numbers.
+/// For each node of the parts its final number: a preorder walk that hands out numbers from the highest down. roots_
+/// and splits still have the old numbers.
 std::vector<std::uint32_t> ProgressiveMesh::new_numbers() const {
     const std::size_t leaves = leaf_count();
     std::vector<std::uint32_t> numbers(parts_.positions_m.size());
@@ -343,8 +293,7 @@ std::vector<std::uint32_t> ProgressiveMesh::new_numbers() const {
 std::vector<std::uint32_t> ProgressiveMesh::coarsest_first() const {
     std::vector<std::uint32_t> nodes(packed_splits_.size());
     for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-        nodes[node_count() - 1 - sequence_numbers_[i]] =
-            static_cast<std::uint32_t>(leaf_count()) + i;
+        nodes[node_count() - 1 - sequence_numbers_[i]] = static_cast<std::uint32_t>(leaf_count()) + i;
     }
     return nodes;
 }
@@ -353,22 +302,17 @@ std::vector<bool> ProgressiveMesh::base_faces() const {
     std::vector<bool> base(face_count(), true);
     for (const PackedSplit& fork : packed_splits_) {
         for (const std::uint32_t face : {fork.left_face, fork.right_face}) {
-            if (face != none) {
-                base[face] = false;
-            }
+            if (face != none) { base[face] = false; }
         }
     }
     return base;
 }
 
-/// Lays the shapes out with siblings side by side. `numbers` maps the numbers of the parts to the
-/// final ones.
+/// Lays the shapes out with siblings side by side. `numbers` maps the numbers of the parts to the final ones.
 void ProgressiveMesh::place_shapes(const std::vector<std::uint32_t>& numbers) {
     places_.resize(numbers.size());
     shapes_.resize(numbers.size());
-    for (std::uint32_t i = 0; i < roots_.size(); ++i) {
-        places_[roots_[i]] = i;
-    }
+    for (std::uint32_t i = 0; i < roots_.size(); ++i) { places_[roots_[i]] = i; }
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < places_.size(); ++node) {
         const std::size_t place = first_child_place(node);
         places_[split_of(node).first] = static_cast<std::uint32_t>(place);
@@ -379,9 +323,7 @@ void ProgressiveMesh::place_shapes(const std::vector<std::uint32_t>& numbers) {
         NodeGeometry& here = shape(numbers[i]);
         here.position_m = parts_.positions_m[i];
         here.normal = parts_.normals[i];
-        if (has_colours_) {
-            here.colour = parts_.colours[i];
-        }
+        if (has_colours_) { here.colour = parts_.colours[i]; }
     }
     parts_.positions_m = {};
     parts_.normals = {};
@@ -394,23 +336,15 @@ ProgressiveMeshData ProgressiveMesh::full_data() const {
     std::iota(nodes.begin(), nodes.end(), 0U);
     const std::vector<std::uint32_t> inner = coarsest_first();
     nodes.insert(nodes.end(), inner.rbegin(), inner.rend());
-    const auto old_number = [&](std::uint32_t node) {
-        return is_leaf(node) ? node : sequence_number(node);
-    };
+    const auto old_number = [&](std::uint32_t node) { return is_leaf(node) ? node : sequence_number(node); };
     for (const std::uint32_t node : nodes) {
         parts.positions_m.push_back(shape(node).position_m);
         parts.normals.push_back(shape(node).normal);
-        if (has_colours_) {
-            parts.colours.push_back(shape(node).colour);
-        }
+        if (has_colours_) { parts.colours.push_back(shape(node).colour); }
         if (!is_leaf(node)) {
             const VertexSplit split = split_of(node);
             parts.splits.push_back(
-                {old_number(split.first),
-                 old_number(split.second),
-                 split.left_face,
-                 split.right_face,
-                 split.error_m});
+                {old_number(split.first), old_number(split.second), split.left_face, split.right_face, split.error_m});
         }
     }
     return parts;
@@ -425,8 +359,7 @@ void ProgressiveMesh::find_cuts() {
         const std::uint32_t second = split_of(node).second;
         ends[i] = is_leaf(second) ? second + 1 : ends[second - leaf_count()];
         const auto cut = [&](std::uint32_t face) {
-            return face == none ? none
-                                : third_corner(parts_.faces[face], packed_splits_[i].first_leaf, ends[i]);
+            return face == none ? none : third_corner(parts_.faces[face], packed_splits_[i].first_leaf, ends[i]);
         };
         packed_splits_[i].left_cut = cut(packed_splits_[i].left_face);
         packed_splits_[i].right_cut = cut(packed_splits_[i].right_face);
@@ -435,9 +368,8 @@ void ProgressiveMesh::find_cuts() {
 
 std::size_t ProgressiveMesh::bytes() const {
     return sizeof(*this) + bytes_of(packed_splits_) + bytes_of(sequence_numbers_) + bytes_of(parts_.faces) +
-           bytes_of(parts_.face_materials) + bytes_of(parts_.original_faces) +
-           bytes_of(parts_.original_vertices) + bytes_of(roots_) + bytes_of(places_) +
-           bytes_of(shapes_);
+           bytes_of(parts_.face_materials) + bytes_of(parts_.original_faces) + bytes_of(parts_.original_vertices) +
+           bytes_of(roots_) + bytes_of(places_) + bytes_of(shapes_);
 }
 
 } // namespace octant::visuals::refine

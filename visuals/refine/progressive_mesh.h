@@ -14,8 +14,8 @@
 
 namespace octant::visuals::refine {
 
-/// All that is needed to draw a node and to judge its error. 28 bytes; siblings lie side by side in
-/// memory, because a split reads both.
+/// All that is needed to draw a node and to judge its error. 28 bytes; siblings lie side by side in memory, because a
+/// split reads both.
 struct NodeGeometry {
     glm::vec3 position_m{0.0F};
     PackedNormal normal;
@@ -25,24 +25,22 @@ struct NodeGeometry {
     std::uint16_t cone = 0;
 };
 
-/// A mesh with the vertex hierarchy that simplifying it made: a forest whose leaves are the
-/// original vertices and whose roots are the vertices of the base mesh. It never changes and may be
-/// shared by any number of fronts (SelectiveRefiner). About 130 bytes an original vertex, see
-/// bytes().
+/// A mesh with the vertex hierarchy that simplifying it made: a forest whose leaves are the original vertices and whose
+/// roots are the vertices of the base mesh. It never changes and may be shared by any number of fronts
+/// (SelectiveRefiner). About 130 bytes an original vertex, see bytes().
 ///
-/// Numbers: first the leaves, then the inner nodes. Walking from the highest number down, a node is
-/// followed by the whole subtree of its first child and then by that of its second (a preorder). So
-/// what is close on the surface is close in memory, and parents come before their children.
+/// Numbers: first the leaves, then the inner nodes. Walking from the highest number down, a node is followed by the
+/// whole subtree of its first child and then by that of its second (a preorder). So what is close on the surface is
+/// close in memory, and parents come before their children.
 class ProgressiveMesh {
 public:
-    /// The parts must keep the promises stated at ProgressiveMeshData (asserted where that is cheap).
-    /// Throws Error for more faces than `max_faces` or more leaves than `max_leaves`.
+    /// The parts must keep the promises stated at ProgressiveMeshData (asserted where that is cheap). Throws Error for
+    /// more faces than `max_faces` or more leaves than `max_leaves`.
     explicit ProgressiveMesh(ProgressiveMeshData parts);
 
-    /// Makes a hierarchy from a simplification. Positions that are floats already are kept bit for
-    /// bit; others are rounded to float relative to the middle of the mesh. Colours keep 16 bits a
-    /// part. Corner normals of the original are averaged into one a vertex; where there are none,
-    /// face normals weighted by area are used.
+    /// Makes a hierarchy from a simplification. Positions that are floats already are kept bit for bit; others are
+    /// rounded to float relative to the middle of the mesh. Colours keep 16 bits a part. Corner normals of the original
+    /// are averaged into one a vertex; where there are none, face normals weighted by area are used.
     explicit ProgressiveMesh(const models::CollapseSequence& sequence);
 
     /// A front numbers its corners in 24 bits.
@@ -60,9 +58,8 @@ public:
     /// The parent of a node; `none` for a root.
     std::uint32_t parent(std::uint32_t node) const {
         const std::size_t place = places_[node];
-        return place < roots_.size()
-                   ? none
-                   : static_cast<std::uint32_t>(node_count() - 1 - (place - roots_.size()) / 2);
+        return place < roots_.size() ? none
+                                     : static_cast<std::uint32_t>(node_count() - 1 - (place - roots_.size()) / 2);
     }
 
     /// The vertex split of an inner node.
@@ -82,8 +79,7 @@ public:
         return split;
     }
 
-    /// All inner nodes in the order in which a progressive mesh splits them: the last collapse
-    /// first.
+    /// All inner nodes in the order in which a progressive mesh splits them: the last collapse first.
     std::vector<std::uint32_t> coarsest_first() const;
 
     /// One flag for each face: whether it belongs to the base mesh.
@@ -96,9 +92,7 @@ public:
 
     /// The last of the leaves below a node.
     std::uint32_t last_leaf(std::uint32_t node) const {
-        while (!is_leaf(node)) {
-            node = split_of(node).second;
-        }
+        while (!is_leaf(node)) { node = split_of(node).second; }
         return node;
     }
 
@@ -119,22 +113,22 @@ public:
 
     bool has_colours() const { return has_colours_; }
 
-    /// How far the surface is from the original where this node is active, metres. It is 0 for
-    /// leaves and never decreases towards the root.
+    /// How far the surface is from the original where this node is active, metres. It is 0 for leaves and never
+    /// decreases towards the root.
     float error_m(std::uint32_t node) const {
         return is_leaf(node) ? 0.0F : packed_splits_[node - leaf_count()].error_m;
     }
 
-    /// The radius of a sphere about the node's position that holds the positions of all nodes below
-    /// it, the original faces at the leaves, and the spheres of its children.
+    /// The radius of a sphere about the node's position that holds the positions of all nodes below it, the original
+    /// faces at the leaves, and the spheres of its children.
     float radius_m(std::uint32_t node) const { return shape(node).radius_m; }
 
-    /// The half-angle of the cone about normal(node) that holds the normals of all original faces
-    /// at the leaves below; pi means all directions.
+    /// The half-angle of the cone about normal(node) that holds the normals of all original faces at the leaves below;
+    /// pi means all directions.
     float cone_rad(std::uint32_t node) const;
 
-    /// The original faces with leaves as corners, ordered so that neighbours in memory are
-    /// neighbours on the surface. original_face tells their numbers in the file.
+    /// The original faces with leaves as corners, ordered so that neighbours in memory are neighbours on the surface.
+    /// original_face tells their numbers in the file.
     std::span<const Triangle> faces() const { return parts_.faces; }
 
     std::uint32_t original_face(std::uint32_t face) const { return parts_.original_faces[face]; }
@@ -148,18 +142,17 @@ public:
     /// Half the diagonal of that bounding box.
     double half_diagonal_m() const { return half_diagonal_m_; }
 
-    /// The data it was made from, without splits, positions, normals and colours: these have moved
-    /// into split_of() and shape().
+    /// The data it was made from, without splits, positions, normals and colours: these have moved into split_of() and
+    /// shape().
     const ProgressiveMeshData& parts() const { return parts_; }
 
     /// Complete parts, from which an equal hierarchy can be made.
     ProgressiveMeshData full_data() const;
 
-    /// The number of a node in the CollapseSequence: for a leaf that of its vertex in the original
-    /// mesh, for an inner node the vertex count plus the index of its collapse.
+    /// The number of a node in the CollapseSequence: for a leaf that of its vertex in the original mesh, for an inner
+    /// node the vertex count plus the index of its collapse.
     std::uint32_t sequence_number(std::uint32_t node) const {
-        return is_leaf(node) ? parts_.original_vertices[node]
-                             : sequence_numbers_[node - leaf_count()];
+        return is_leaf(node) ? parts_.original_vertices[node] : sequence_numbers_[node - leaf_count()];
     }
 
     /// The unit normal of an original face; zero for one without area.
@@ -191,14 +184,12 @@ private:
     void bound_all();
 
     ProgressiveMeshData parts_;
-    std::vector<PackedSplit> packed_splits_;                     ///< One for each inner node.
+    std::vector<PackedSplit> packed_splits_;      ///< One for each inner node.
     std::vector<std::uint32_t> sequence_numbers_; ///< One for each inner node.
 
-    /// The index in shapes_ of an inner node's first child. The roots come first, then the pairs of
-    /// children, those of the highest node first.
-    std::size_t first_child_place(std::uint32_t node) const {
-        return roots_.size() + 2 * (node_count() - 1 - node);
-    }
+    /// The index in shapes_ of an inner node's first child. The roots come first, then the pairs of children, those of
+    /// the highest node first.
+    std::size_t first_child_place(std::uint32_t node) const { return roots_.size() + 2 * (node_count() - 1 - node); }
 
     NodeGeometry& shape(std::uint32_t node) { return shapes_[places_[node]]; }
 

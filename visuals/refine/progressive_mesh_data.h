@@ -16,9 +16,8 @@ namespace octant::visuals::refine {
 using models::none;
 using models::Triangle;
 
-/// A node of the vertex hierarchy with its two children: the vertex split that replaces it by them,
-/// and the edge collapse that undoes the split. In the paper's words the node is vs, `first` is vu
-/// and `second` is vt.
+/// A node of the vertex hierarchy with its two children: the vertex split that replaces it by them, and the edge
+/// collapse that undoes the split. In the paper's words the node is vs, `first` is vu and `second` is vt.
 struct VertexSplit {
     std::uint32_t first = none;
     std::uint32_t second = none;
@@ -40,18 +39,17 @@ struct VertexSplit {
     std::uint32_t middle = 0;
 };
 
-/// The data that a vertex hierarchy is made from. Nodes are numbered with the leaves first and then
-/// one inner node for each split, children before parents, so the finest split comes first
-/// (ProgressiveMesh renumbers the inner nodes). Leaves are numbered so that those below any node
-/// are consecutive, those of its first child first.
+/// The data that a vertex hierarchy is made from. Nodes are numbered with the leaves first and then one inner node for
+/// each split, children before parents, so the finest split comes first (ProgressiveMesh renumbers the inner nodes).
+/// Leaves are numbered so that those below any node are consecutive, those of its first child first.
 struct ProgressiveMeshData {
     std::string name;
-    glm::dvec3 origin_m{0.0}; ///< Positions are relative to this point of the file's axes.
+    glm::dvec3 origin_m{0.0};           ///< Positions are relative to this point of the file's axes.
     std::vector<glm::vec3> positions_m; ///< One for each node.
     std::vector<PackedNormal> normals;  ///< One for each node.
     std::vector<PackedColour> colours;  ///< One for each node, or empty.
-    std::vector<VertexSplit> splits;          ///< One for each inner node.
-    std::vector<Triangle> faces; ///< The faces of the original mesh; their corners are leaves.
+    std::vector<VertexSplit> splits;    ///< One for each inner node.
+    std::vector<Triangle> faces;        ///< The faces of the original mesh; their corners are leaves.
     /// For each face its number in the original mesh; empty = in order.
     std::vector<std::uint32_t> original_faces;
     std::vector<std::uint16_t> face_materials; ///< One for each face, or empty.

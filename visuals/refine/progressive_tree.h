@@ -27,8 +27,8 @@ struct TreeFace {
     std::uint16_t material = 0;
 };
 
-/// A vertex split as a file describes it: of the active node whose leaves begin at `begin`. The
-/// leaves of its second child begin at `middle`.
+/// A vertex split as a file describes it: of the active node whose leaves begin at `begin`. The leaves of its second
+/// child begin at `middle`.
 struct TreeSplit {
     std::uint32_t begin = 0;
     std::uint32_t middle = 0;
@@ -39,15 +39,14 @@ struct TreeSplit {
     std::optional<TreeFace> right;
 };
 
-/// A hierarchy that grows split by split from its roots, coarsest first, and may end anywhere: what
-/// a reader builds while it reads. Each step returns whether the data is one that a hierarchy can
-/// have; after a false the tree must not be used.
+/// A hierarchy that grows split by split from its roots, coarsest first, and may end anywhere: what a reader builds
+/// while it reads. Each step returns whether the data is one that a hierarchy can have; after a false the tree must not
+/// be used.
 class ProgressiveTree {
 public:
     bool add_root(const TreeNode& root);
 
-    /// To be called after the last root. Returns whether the roots' ranges cover all leaves, each
-    /// once.
+    /// To be called after the last root. Returns whether the roots' ranges cover all leaves, each once.
     bool roots_cover_leaves(std::uint32_t leaves);
 
     bool add_base_face(const TreeFace& face);
@@ -61,12 +60,12 @@ public:
         return nodes_.size() - splits_.size() == leaves && faces_.size() == faces;
     }
 
-    /// Sets the original numbers of leaves and faces, in the order in which they were added.
-    /// Returns whether each is a permutation.
+    /// Sets the original numbers of leaves and faces, in the order in which they were added. Returns whether each is a
+    /// permutation.
     bool number(std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces);
 
-    /// The hierarchy as far as it has grown. Without number() its leaves and faces are numbered in
-    /// the order in which they come.
+    /// The hierarchy as far as it has grown. Without number() its leaves and faces are numbered in the order in which
+    /// they come.
     ProgressiveMeshData parts() const;
 
 private:

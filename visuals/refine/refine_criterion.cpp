@@ -1,13 +1,11 @@
-// The view criterion: H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 4
-// (view frustum, surface orientation, screen-space geometric error), over the bounding spheres and
-// normal cones of the hierarchy.
+// The view criterion: H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 4 (view frustum,
+// surface orientation, screen-space geometric error), over the bounding spheres and normal cones of the hierarchy.
 //
-// projected error = focal length in pixels * error of the node / distance to its bounding sphere *
-// weight for orientation * weight for the frustum.
+// projected error = focal length in pixels * error of the node / distance to its bounding sphere * weight for
+// orientation * weight for the frustum.
 //
-// Deviations: each node has one error for all directions, which the simplifier brings, instead of
-// two fitted to samples; the silhouette has a weight of its own; weights change gradually over
-// `ramp_rad` instead of in a step.
+// Deviations: each node has one error for all directions, which the simplifier brings, instead of two fitted to
+// samples; the silhouette has a weight of its own; weights change gradually over `ramp_rad` instead of in a step.
 #include "visuals/refine/refine_criterion.h"
 
 #include <glm/geometric.hpp>
@@ -21,48 +19,37 @@ namespace octant::visuals::refine {
 namespace {
 
 constexpr double right_angle_rad = 0.5 * std::numbers::pi;
-/// The angle over which weights change. With a step in their place, nodes would be split and merged
-/// again and again while the eye moves.
+/// The angle over which weights change. With a step in their place, nodes would be split and merged again and again
+/// while the eye moves.
 constexpr double ramp_rad = 0.26;
 
-/// The weight for orientation, by the largest and least angle between any normal below the node and
-/// the direction to the eye. It is monotone towards the root, because spheres and cones are nested.
+/// The weight for orientation, by the largest and least angle between any normal below the node and the direction to
+/// the eye. It is monotone towards the root, because spheres and cones are nested.
 double facing_weight(
-    const ProgressiveMesh& mesh,
-    std::uint32_t node,
-    const glm::dvec3& to_eye_m,
-    const CriterionOptions& options) {
+    const ProgressiveMesh& mesh, std::uint32_t node, const glm::dvec3& to_eye_m, const CriterionOptions& options) {
     const double distance_m = glm::length(to_eye_m);
     const double radius_m = static_cast<double>(mesh.radius_m(node));
-    if (distance_m <= radius_m) {
-        return options.silhouette_weight;
-    }
+    if (distance_m <= radius_m) { return options.silhouette_weight; }
     const double cosine = glm::dot(glm::dvec3(mesh.normal(node)), to_eye_m) / distance_m;
     const double angle_rad = std::acos(std::clamp(cosine, -1.0, 1.0));
-    const double angle_margin_rad = static_cast<double>(mesh.cone_rad(node)) +
-                            std::asin(radius_m / distance_m) + options.angle_margin_rad;
-    // Largest and least angle between a normal below the node and the way to the eye; monotone
-    // up the tree, and so is the weight.
+    const double angle_margin_rad =
+        static_cast<double>(mesh.cone_rad(node)) + std::asin(radius_m / distance_m) + options.angle_margin_rad;
+    // Largest and least angle between a normal below the node and the way to the eye; monotone up the tree, and so is
+    // the weight.
     const double most = (angle_rad + angle_margin_rad - right_angle_rad) / ramp_rad;
     const double least = (angle_rad - angle_margin_rad - right_angle_rad) / ramp_rad;
     const double outline = std::clamp(1.0 + most, 0.0, 1.0);
     const double turned = std::clamp(least, 0.0, 1.0);
-    const double weight =
-        options.front_weight + outline * (options.silhouette_weight - options.front_weight);
+    const double weight = options.front_weight + outline * (options.silhouette_weight - options.front_weight);
     return weight + turned * (options.back_weight - weight);
 }
 
-/// The weight for the view frustum, by the largest angle by which the whole bounding sphere lies
-/// outside one of its sides.
+/// The weight for the view frustum, by the largest angle by which the whole bounding sphere lies outside one of its
+/// sides.
 double picture_weight(
-    double radius_m,
-    const glm::dvec3& to_eye_m,
-    const RefineView& view,
-    const CriterionOptions& options) {
+    double radius_m, const glm::dvec3& to_eye_m, const RefineView& view, const CriterionOptions& options) {
     const double distance_m = glm::length(to_eye_m);
-    if (distance_m <= radius_m) {
-        return 1.0;
-    }
+    if (distance_m <= radius_m) { return 1.0; }
     const double angle_margin_rad = std::asin(radius_m / distance_m) + options.angle_margin_rad;
     double outside_rad = 0.0;
     for (const glm::dvec3& normal : view.side_normals) {
@@ -74,13 +61,8 @@ double picture_weight(
 
 } // namespace
 
-RefineView picture_view(
-    const glm::dvec3& eye_m,
-    const glm::dvec3& look_m,
-    const glm::dvec3& up,
-    double fov_rad,
-    double width_px,
-    double height_px) {
+RefineView picture_view(const glm::dvec3& eye_m, const glm::dvec3& look_m, const glm::dvec3& up, double fov_rad,
+    double width_px, double height_px) {
     RefineView view;
     view.eye_m = eye_m;
     view.forward = glm::normalize(look_m - eye_m);
@@ -89,26 +71,19 @@ RefineView picture_view(
     const double half_height = std::tan(0.5 * fov_rad);
     const double half_width = half_height * width_px / height_px;
     view.focal_px = 0.5 * height_px / half_height;
-    view.side_normals = {
-        glm::normalize(half_width * view.forward - right),
-        glm::normalize(half_width * view.forward + right),
-        glm::normalize(half_height * view.forward - above),
+    view.side_normals = {glm::normalize(half_width * view.forward - right),
+        glm::normalize(half_width * view.forward + right), glm::normalize(half_height * view.forward - above),
         glm::normalize(half_height * view.forward + above)};
     return view;
 }
 
 double projected_error_px(
-    const ProgressiveMesh& mesh,
-    std::uint32_t node,
-    const RefineView& view,
-    const CriterionOptions& options) {
-    const glm::dvec3 to_eye_m =
-        view.eye_m - (glm::dvec3(mesh.position_m(node)) + mesh.parts().origin_m);
+    const ProgressiveMesh& mesh, std::uint32_t node, const RefineView& view, const CriterionOptions& options) {
+    const glm::dvec3 to_eye_m = view.eye_m - (glm::dvec3(mesh.position_m(node)) + mesh.parts().origin_m);
     const double radius_m = static_cast<double>(mesh.radius_m(node));
     const double away_m = std::max(glm::length(to_eye_m) - radius_m, view.near_m);
     const double error_px = view.focal_px * static_cast<double>(mesh.error_m(node)) / away_m;
-    return facing_weight(mesh, node, to_eye_m, options) *
-           picture_weight(radius_m, to_eye_m, view, options) * error_px;
+    return facing_weight(mesh, node, to_eye_m, options) * picture_weight(radius_m, to_eye_m, view, options) * error_px;
 }
 
 } // namespace octant::visuals::refine

@@ -13,8 +13,8 @@ namespace octant::visuals::refine {
 struct RefineView {
     glm::dvec3 eye_m{0.0};
     glm::dvec3 forward{0.0, 1.0, 0.0}; ///< A unit vector along the line of sight.
-    /// The unit normals of the view frustum's four side planes, which pass through the eye,
-    /// pointing inwards; zero means that there is no such side.
+    /// The unit normals of the view frustum's four side planes, which pass through the eye, pointing inwards; zero
+    /// means that there is no such side.
     std::array<glm::dvec3, 4> side_normals{};
     double focal_px = 869.1; ///< How many pixels an object of 1 m covers at a distance of 1 m.
     double near_m = 0.01;    ///< Anything nearer counts as being this far away.
@@ -22,18 +22,12 @@ struct RefineView {
     bool operator==(const RefineView&) const = default;
 };
 
-/// A view with a frustum for a picture of the given size. `up` need not be perpendicular to the
-/// line of sight but must not be along it. `fov_rad` is the vertical field of view.
-RefineView picture_view(
-    const glm::dvec3& eye_m,
-    const glm::dvec3& look_m,
-    const glm::dvec3& up,
-    double fov_rad,
-    double width_px,
-    double height_px);
+/// A view with a frustum for a picture of the given size. `up` need not be perpendicular to the line of sight but must
+/// not be along it. `fov_rad` is the vertical field of view.
+RefineView picture_view(const glm::dvec3& eye_m, const glm::dvec3& look_m, const glm::dvec3& up, double fov_rad,
+    double width_px, double height_px);
 
-/// How much an error counts, depending on where it is. silhouette_weight >= front_weight >=
-/// back_weight.
+/// How much an error counts, depending on where it is. silhouette_weight >= front_weight >= back_weight.
 struct CriterionOptions {
     /// The weight where the silhouette may run, because errors show most there.
     double silhouette_weight = 2.0; ///< of errors where the outline may run: they show most
@@ -42,18 +36,13 @@ struct CriterionOptions {
     double back_weight = 0.0; ///< of what is turned away as a whole
     /// The weight outside the view frustum; it is not 0, because the node may soon be inside.
     double outside_weight = 0.1; ///< of what is not in the picture: it may be soon
-    /// Weights are taken as the largest within this angle, so that they do not change at once when
-    /// the eye moves.
+    /// Weights are taken as the largest within this angle, so that they do not change at once when the eye moves.
     double angle_margin_rad = 0.0; ///< weights are the largest for directions so far off
 };
 
-/// The screen-space error of an inner node in pixels, weighted by its orientation and place. A
-/// node's is never more than its parent's, so the nodes above a threshold always form the top of
-/// each tree.
+/// The screen-space error of an inner node in pixels, weighted by its orientation and place. A node's is never more
+/// than its parent's, so the nodes above a threshold always form the top of each tree.
 double projected_error_px(
-    const ProgressiveMesh& mesh,
-    std::uint32_t node,
-    const RefineView& view,
-    const CriterionOptions& options = {});
+    const ProgressiveMesh& mesh, std::uint32_t node, const RefineView& view, const CriterionOptions& options = {});
 
 } // namespace octant::visuals::refine

@@ -18,9 +18,9 @@ namespace octant::visuals::refine {
 
 namespace {
 
-// Marks on vertices; the first three are set only while satisfies_link_condition runs. `once`: seen in one face
-// of the first vertex; `twice`: seen in two; `seen`: met at the second vertex; `changed`: its faces
-// have changed since repair() last looked at them.
+// Marks on vertices; the first three are set only while satisfies_link_condition runs. `once`: seen in one face of the
+// first vertex; `twice`: seen in two; `seen`: met at the second vertex; `changed`: its faces have changed since
+// repair() last looked at them.
 constexpr std::uint32_t once = 1;
 constexpr std::uint32_t twice = 2;
 constexpr std::uint32_t seen = 4;
@@ -28,25 +28,22 @@ constexpr std::uint32_t changed = 8;
 constexpr std::uint32_t link_bits = once | twice | seen;
 
 /// Whether a triangle's normal is more than 90 degrees off another one.
-bool is_against(
-    const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, const glm::vec3& normal) {
+bool is_against(const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, const glm::vec3& normal) {
     const glm::dvec3 a(a_m);
     return glm::dot(glm::cross(glm::dvec3(b_m) - a, glm::dvec3(c_m) - a), glm::dvec3(normal)) < 0.0;
 }
 
 } // namespace
 
-/// Whether collapsing the edge between two vertices leaves a manifold of the same topology: they
-/// have no common neighbours but the third corners of the one or two faces between them, they are
-/// not both on a boundary unless the edge is, and their component is more than a lone tetrahedron
-/// or triangle.
+/// Whether collapsing the edge between two vertices leaves a manifold of the same topology: they have no common
+/// neighbours but the third corners of the one or two faces between them, they are not both on a boundary unless the
+/// edge is, and their component is more than a lone tetrahedron or triangle.
 bool SelectiveRefiner::satisfies_link_condition(std::uint32_t first_slot, std::uint32_t second_slot) {
     std::size_t first_faces = 0;
     int first_open = 0; // The number of its boundary edges.
     faces_.for_each_corner(first_slot, [&](std::uint32_t corner) {
         ++first_faces;
-        for (const std::uint32_t at :
-             {FaceLists::next_in_face(corner), FaceLists::previous_in_face(corner)}) {
+        for (const std::uint32_t at : {FaceLists::next_in_face(corner), FaceLists::previous_in_face(corner)}) {
             const std::uint32_t other = faces_.vertex(at);
             const bool is_new = (faces_.marks(other) & once) == 0;
             first_open += is_new ? 1 : -1;
@@ -59,8 +56,7 @@ bool SelectiveRefiner::satisfies_link_condition(std::uint32_t first_slot, std::u
     std::size_t between = 0;
     faces_.for_each_corner(second_slot, [&](std::uint32_t corner) {
         ++second_faces;
-        for (const std::uint32_t at :
-             {FaceLists::next_in_face(corner), FaceLists::previous_in_face(corner)}) {
+        for (const std::uint32_t at : {FaceLists::next_in_face(corner), FaceLists::previous_in_face(corner)}) {
             const std::uint32_t other = faces_.vertex(at);
             between += static_cast<std::size_t>(other == first_slot);
             if ((faces_.marks(other) & seen) == 0) {
@@ -73,8 +69,7 @@ bool SelectiveRefiner::satisfies_link_condition(std::uint32_t first_slot, std::u
     clear_link_marks(first_slot);
     clear_link_marks(second_slot);
     const bool both_open = first_open > 0 && second_neighbours > second_faces;
-    const bool alone = between == 2 ? first_open == 0 && first_faces == 3 && second_faces == 3 &&
-                                          second_neighbours == 3
+    const bool alone = between == 2 ? first_open == 0 && first_faces == 3 && second_faces == 3 && second_neighbours == 3
                                     : first_faces == 1 && second_faces == 1;
     return common == between && !(both_open && between == 2) && !alone;
 }
@@ -99,20 +94,16 @@ const glm::vec3& SelectiveRefiner::position_at(std::uint32_t corner) const {
     return mesh_->position_m(node_at(faces_.vertex(corner)));
 }
 
-/// Whether any face at `slot` that does not touch `other` would turn over against its original when
-/// the slot's vertex moved to the position of `node`.
-bool SelectiveRefiner::flips_faces(
-    std::uint32_t slot, std::uint32_t other, std::uint32_t node) const {
+/// Whether any face at `slot` that does not touch `other` would turn over against its original when the slot's vertex
+/// moved to the position of `node`.
+bool SelectiveRefiner::flips_faces(std::uint32_t slot, std::uint32_t other, std::uint32_t node) const {
     bool turns = false;
     faces_.for_each_corner(slot, [&](std::uint32_t corner) {
         const std::uint32_t b = faces_.vertex(FaceLists::next_in_face(corner));
         const std::uint32_t c = faces_.vertex(FaceLists::previous_in_face(corner));
         turns = turns || (b != other && c != other &&
-                          is_against(
-                              mesh_->position_m(node),
-                              mesh_->position_m(node_at(b)),
-                              mesh_->position_m(node_at(c)),
-                              mesh_->face_normal(faces_.label(corner / 3))));
+                             is_against(mesh_->position_m(node), mesh_->position_m(node_at(b)),
+                                 mesh_->position_m(node_at(c)), mesh_->face_normal(faces_.label(corner / 3))));
     });
     return turns;
 }
@@ -120,10 +111,7 @@ bool SelectiveRefiner::flips_faces(
 /// Whether the face at a place of the index list is more than 90 degrees off its original.
 bool SelectiveRefiner::is_flipped(std::uint32_t place) const {
     const std::uint32_t face = faces_.label(place);
-    return face != none && is_against(
-                               position_at(3 * place),
-                               position_at(3 * place + 1),
-                               position_at(3 * place + 2),
+    return face != none && is_against(position_at(3 * place), position_at(3 * place + 1), position_at(3 * place + 2),
                                mesh_->face_normal(face));
 }
 
@@ -135,22 +123,18 @@ std::size_t SelectiveRefiner::flipped_faces() const {
     return turned;
 }
 
-/// The inner node with the largest error at the corners of a face, one that is_protected(node) does not
-/// want spared if there is any; `none` when all corners are original vertices.
+/// The inner node with the largest error at the corners of a face, one that is_protected(node) does not want spared if
+/// there is any; `none` when all corners are original vertices.
 std::uint32_t SelectiveRefiner::coarsest_corner(
     std::uint32_t place, const std::function<bool(std::uint32_t)>& is_protected) const {
     // the coarsest of all corners, and of those that are not spared
     std::array<std::uint32_t, 2> coarsest{none, none};
     for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t node = node_at(faces_.vertex(3 * place + k));
-        if (mesh_->is_leaf(node)) {
-            continue;
-        }
+        if (mesh_->is_leaf(node)) { continue; }
         const bool spared = is_protected && is_protected(node);
         for (std::size_t i = 0; i < (spared ? 1U : 2U); ++i) {
-            if (coarsest[i] == none || mesh_->error_m(node) > mesh_->error_m(coarsest[i])) {
-                coarsest[i] = node;
-            }
+            if (coarsest[i] == none || mesh_->error_m(node) > mesh_->error_m(coarsest[i])) { coarsest[i] = node; }
         }
     }
     return coarsest[1] != none ? coarsest[1] : coarsest[0];
@@ -179,20 +163,14 @@ std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& i
     return done;
 }
 
-/// Splits the coarsest corner of one turned face at a slot, if there is one, and has the slot
-/// looked at again after that.
-void SelectiveRefiner::repair_around(
-    std::uint32_t slot, const std::function<bool(std::uint32_t)>& is_protected) {
-    if (node_at(slot) == none) {
-        return;
-    }
+/// Splits the coarsest corner of one turned face at a slot, if there is one, and has the slot looked at again after
+/// that.
+void SelectiveRefiner::repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& is_protected) {
+    if (node_at(slot) == none) { return; }
     std::uint32_t turned = none;
-    faces_.for_each_corner(slot, [&](std::uint32_t corner) {
-        turned = turned == none && is_flipped(corner / 3) ? corner / 3 : turned;
-    });
-    if (turned == none) {
-        return;
-    }
+    faces_.for_each_corner(
+        slot, [&](std::uint32_t corner) { turned = turned == none && is_flipped(corner / 3) ? corner / 3 : turned; });
+    if (turned == none) { return; }
     const std::uint32_t coarsest = coarsest_corner(turned, is_protected);
     if (coarsest == none) {
         return; // An original face that turned by rounding only; nothing is left to split.
@@ -201,8 +179,7 @@ void SelectiveRefiner::repair_around(
     split(coarsest);
 }
 
-void SelectiveRefiner::find_forced_splits(
-    std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
+void SelectiveRefiner::find_forced_splits(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
     // In hierarchies that a simplification made, a few nodes are the rule.
     constexpr std::size_t most = 200;
     forced.clear();
@@ -225,8 +202,7 @@ void SelectiveRefiner::find_forced_splits(
 }
 
 /// The active ancestor of a leaf as it will be once the nodes in `split` have been split.
-std::uint32_t
-SelectiveRefiner::ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const {
+std::uint32_t SelectiveRefiner::ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const {
     std::uint32_t node = active_ancestor(leaf);
     while (std::ranges::find(split, node) != split.end()) {
         const VertexSplit done = mesh_->split_of(node);

@@ -1,11 +1,10 @@
-// Selective refinement: J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes",
-// Graphics Interface 2001, section 4, with vsplit(vs, vt, vu, val, var) and ecol(vs, vt, vu), where
-// val = ActiveAncestor(vs.l^) and var = ActiveAncestor(vs.r^) are the active cut vertices. A split
-// is legal when val != var; else that vertex splits first.
+// Selective refinement: J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes", Graphics Interface 2001,
+// section 4, with vsplit(vs, vt, vu, val, var) and ecol(vs, vt, vu), where val = ActiveAncestor(vs.l^) and var =
+// ActiveAncestor(vs.r^) are the active cut vertices. A split is legal when val != var; else that vertex splits first.
 //
-// A split gives vs's slot to its first child, a new slot to the second, and moves those corners to
-// the new slot whose original corners lie below the second child. A collapse does the reverse. Both
-// touch only the faces around the vertex.
+// A split gives vs's slot to its first child, a new slot to the second, and moves those corners to the new slot whose
+// original corners lie below the second child. A collapse does the reverse. Both touch only the faces around the
+// vertex.
 //
 // Deviations:
 // - The paper collapses wherever both children are active. In a state that no simplification went
@@ -25,13 +24,12 @@
 
 namespace octant::visuals::refine {
 
-// Corner lists of a mesh that changes all the time. A vertex split moves some corners of one vertex
-// to a new one and adds two faces; an edge collapse does the reverse. Both touch only the corners
-// at these vertices, and that is what the lists make cheap.
+// Corner lists of a mesh that changes all the time. A vertex split moves some corners of one vertex to a new one and
+// adds two faces; an edge collapse does the reverse. Both touch only the corners at these vertices, and that is what
+// the lists make cheap.
 
 FaceLists::FaceLists(std::size_t vertex_capacity, std::size_t face_capacity)
-    : vertices_at_max_(vertex_capacity)
-    , faces_at_max_(face_capacity) {
+    : vertices_at_max_(vertex_capacity), faces_at_max_(face_capacity) {
     assert(3 * face_capacity < no_corner);
 }
 
@@ -121,9 +119,7 @@ void FaceLists::remove(std::uint32_t face) {
 
 std::uint32_t FaceLists::find(std::uint32_t vertex, std::uint32_t label) const {
     for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) {
-        if (this->label(c / 3) == label) {
-            return c / 3;
-        }
+        if (this->label(c / 3) == label) { return c / 3; }
     }
     return none;
 }
@@ -133,24 +129,22 @@ std::size_t FaceLists::bytes() const {
            sizeof(Link) * links_.capacity();
 }
 
-// What two earlier rules of selective refinement remember of a collapse: J. C. Xia, A. Varshney,
-// "Dynamic View-Dependent Simplification for Polygonal Models", 1996 (the 1-ring), and H. Hoppe,
-// "View-Dependent Refinement of Progressive Meshes", 1997, section 3 (four faces).
+// What two earlier rules of selective refinement remember of a collapse: J. C. Xia, A. Varshney, "Dynamic
+// View-Dependent Simplification for Polygonal Models", 1996 (the 1-ring), and H. Hoppe, "View-Dependent Refinement of
+// Progressive Meshes", 1997, section 3 (four faces).
 //
-// The constructor starts from the original mesh and performs all collapses, finest first, on a
-// FaceLists whose vertices are nodes, and notes the neighbourhood of each collapse. Only the study
-// and `octant refine --rule` use this, to count the splits that each rule forces.
+// The constructor starts from the original mesh and performs all collapses, finest first, on a FaceLists whose vertices
+// are nodes, and notes the neighbourhood of each collapse. Only the study and `octant refine --rule` use this, to count
+// the splits that each rule forces.
 
 namespace {
 
 /// The face other than `except` at the edge between two nodes; `none` on a boundary.
-std::uint32_t
-face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t except) {
+std::uint32_t face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t except) {
     std::uint32_t across = none;
     faces.for_each_corner(node, [&](std::uint32_t corner) {
-        if (faces.label(corner / 3) != except &&
-            (faces.vertex(FaceLists::next_in_face(corner)) == other ||
-             faces.vertex(FaceLists::previous_in_face(corner)) == other)) {
+        if (faces.label(corner / 3) != except && (faces.vertex(FaceLists::next_in_face(corner)) == other ||
+                                                     faces.vertex(FaceLists::previous_in_face(corner)) == other)) {
             across = faces.label(corner / 3);
         }
     });
@@ -158,8 +152,7 @@ face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std
 }
 
 /// The corner of `face` that is neither `node` nor `other`.
-std::uint32_t
-third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t face) {
+std::uint32_t third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t face) {
     std::uint32_t third = none;
     faces.for_each_corner(node, [&](std::uint32_t corner) {
         if (faces.label(corner / 3) == face) {
@@ -173,15 +166,10 @@ third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, st
 } // namespace
 
 ClassicSplitRules::ClassicSplitRules(const ProgressiveMesh& mesh)
-    : leaves_(static_cast<std::uint32_t>(mesh.leaf_count()))
-    , introducers_(mesh.face_count(), none) {
+    : leaves_(static_cast<std::uint32_t>(mesh.leaf_count())), introducers_(mesh.face_count(), none) {
     FaceLists faces(mesh.node_count(), mesh.face_count());
-    for (std::uint32_t node = 0; node < mesh.node_count(); ++node) {
-        faces.add_vertex();
-    }
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        faces.add(mesh.faces()[face], face);
-    }
+    for (std::uint32_t node = 0; node < mesh.node_count(); ++node) { faces.add_vertex(); }
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) { faces.add(mesh.faces()[face], face); }
     adjacent_faces_.resize(mesh.node_count() - leaves_);
     rings_.resize(adjacent_faces_.size());
     const std::vector<std::uint32_t> order = mesh.coarsest_first();
@@ -217,16 +205,12 @@ ClassicSplitRules::ClassicSplitRules(const ProgressiveMesh& mesh)
 
 namespace {
 
-RefinedVertex drawn(const NodeGeometry& shape) {
-    return {shape.position_m, shape.normal, packed_rgba8(shape.colour)};
-}
+RefinedVertex drawn(const NodeGeometry& shape) { return {shape.position_m, shape.normal, packed_rgba8(shape.colour)}; }
 
 /// The given nodes without repetition in descending order, by a bitmap over all nodes.
 std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::size_t node_count) {
     std::vector<std::uint64_t> wanted(node_count / 64 + 1, 0);
-    for (const std::uint32_t node : nodes) {
-        wanted[node / 64] |= std::uint64_t{1} << node % 64;
-    }
+    for (const std::uint32_t node : nodes) { wanted[node / 64] |= std::uint64_t{1} << node % 64; }
     std::vector<std::uint32_t> ordered;
     ordered.reserve(nodes.size());
     for (std::size_t word = wanted.size(); word-- > 0;) {
@@ -241,11 +225,8 @@ std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::si
 
 } // namespace
 
-SelectiveRefiner::SelectiveRefiner(
-    std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
-    : mesh_(std::move(mesh))
-    , options_(std::move(options))
-    , faces_(mesh_->leaf_count(), mesh_->face_count()) {
+SelectiveRefiner::SelectiveRefiner(std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
+    : mesh_(std::move(mesh)), options_(std::move(options)), faces_(mesh_->leaf_count(), mesh_->face_count()) {
     if (options_.rule != SplitRule::Selective && !options_.classic_rules) {
         options_.classic_rules = std::make_shared<const ClassicSplitRules>(*mesh_);
     }
@@ -273,9 +254,7 @@ void SelectiveRefiner::restart() {
     for (std::uint32_t face = 0; face < base.size(); ++face) {
         if (base[face]) {
             std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
-            for (std::uint32_t& corner : corners) {
-                corner = slot_above(corner);
-            }
+            for (std::uint32_t& corner : corners) { corner = slot_above(corner); }
             dirty_faces_.mark(faces_.add(corners, face));
         }
     }
@@ -297,12 +276,10 @@ void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeGeo
     vertices_[slot] = drawn(shape);
 }
 
-std::size_t SelectiveRefiner::split(std::uint32_t node) {
-    return split_single(node, nullptr);
-}
+std::size_t SelectiveRefiner::split(std::uint32_t node) { return split_single(node, nullptr); }
 
-/// As split(); adds the nodes that the rule demanded to `forced` unless that is null. The common
-/// case, an active node with two different cut vertices, takes no detour.
+/// As split(); adds the nodes that the rule demanded to `forced` unless that is null. The common case, an active node
+/// with two different cut vertices, takes no detour.
 std::size_t SelectiveRefiner::split_single(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     assert(!mesh_->is_leaf(node));
     const std::uint32_t leaf = mesh_->first_leaf(node);
@@ -321,14 +298,12 @@ std::size_t SelectiveRefiner::split_single(std::uint32_t node, std::vector<std::
     return counts_.splits - before;
 }
 
-/// Splits an inner node that is not split yet, after its ancestors and whatever the rule demands.
-/// Works on a stack of nodes, each of which waits for the one above it.
+/// Splits an inner node that is not split yet, after its ancestors and whatever the rule demands. Works on a stack of
+/// nodes, each of which waits for the one above it.
 void SelectiveRefiner::split_with_prerequisites(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     // The node itself and its ancestors were asked for; every other split counts as forced.
     path_.clear();
-    for (std::uint32_t at = node; at != none && !is_split(at); at = mesh_->parent(at)) {
-        path_.push_back(at);
-    }
+    for (std::uint32_t at = node; at != none && !is_split(at); at = mesh_->parent(at)) { path_.push_back(at); }
     stack_.push_back(node);
     while (!stack_.empty()) {
         const std::uint32_t next = stack_.back();
@@ -345,29 +320,24 @@ void SelectiveRefiner::split_with_prerequisites(std::uint32_t node, std::vector<
             stack_.pop_back();
             if (std::ranges::find(path_, next) == path_.end()) {
                 ++counts_.forced_by_rule;
-                if (forced != nullptr) {
-                    forced->push_back(next);
-                }
+                if (forced != nullptr) { forced->push_back(next); }
             }
         }
     }
 }
 
-/// Splits in descending order of node numbers. By the numbering of ProgressiveMesh parents then
-/// come before children, and each split finds most of what it reads in the cache.
+/// Splits in descending order of node numbers. By the numbering of ProgressiveMesh parents then come before children,
+/// and each split finds most of what it reads in the cache.
 std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
     const std::size_t before = counts_.splits;
     const std::vector<std::uint32_t> ordered = falling(nodes, mesh_->node_count());
     std::vector<std::uint32_t> forced;
-    for (const std::uint32_t node : ordered) {
-        split_single(node, &forced);
-    }
+    for (const std::uint32_t node : ordered) { split_single(node, &forced); }
     // A forced split was asked for after all when one of the given nodes lies below it.
     for (const std::uint32_t node : forced) {
         const auto next = std::ranges::lower_bound(ordered, node, std::greater{});
         const std::uint32_t below = mesh_->last_leaf(node) - mesh_->first_leaf(node);
-        counts_.forced_by_rule -=
-            static_cast<std::size_t>(next != ordered.end() && *next + below > node);
+        counts_.forced_by_rule -= static_cast<std::size_t>(next != ordered.end() && *next + below > node);
     }
     return counts_.splits - before;
 }
@@ -376,13 +346,10 @@ std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
 SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
     const std::uint32_t left = mesh_->split_of(node).left_cut;
     const std::uint32_t right = mesh_->split_of(node).right_cut;
-    return {
-        left == none ? none : starts_.last_up_to(left),
-        right == none ? none - 1 : starts_.last_up_to(right)};
+    return {left == none ? none : starts_.last_up_to(left), right == none ? none - 1 : starts_.last_up_to(right)};
 }
 
-/// A node that the rule Hoppe or Xia wants to be split before an active node; `none` when the node
-/// may split.
+/// A node that the rule Hoppe or Xia wants to be split before an active node; `none` when the node may split.
 std::uint32_t SelectiveRefiner::required_split(std::uint32_t node) const {
     switch (options_.rule) {
     case SplitRule::Hoppe:
@@ -395,17 +362,12 @@ std::uint32_t SelectiveRefiner::required_split(std::uint32_t node) const {
     return none;
 }
 
-/// The introducer of one of the four faces beside the node's edge that is not in the active mesh
-/// yet.
+/// The introducer of one of the four faces beside the node's edge that is not in the active mesh yet.
 std::uint32_t SelectiveRefiner::split_required_by_hoppe(std::uint32_t node) const {
     for (const std::uint32_t face : options_.classic_rules->adjacent_faces(node)) {
-        if (face == none) {
-            continue;
-        }
+        if (face == none) { continue; }
         const std::uint32_t introducer = options_.classic_rules->introducer(face);
-        if (introducer != none && !is_split(introducer)) {
-            return introducer;
-        }
+        if (introducer != none && !is_split(introducer)) { return introducer; }
     }
     return none;
 }
@@ -414,15 +376,12 @@ std::uint32_t SelectiveRefiner::split_required_by_hoppe(std::uint32_t node) cons
 std::uint32_t SelectiveRefiner::split_required_by_xia(std::uint32_t node) const {
     for (const std::uint32_t around : options_.classic_rules->ring(node)) {
         const std::uint32_t parent = mesh_->parent(around);
-        if (parent != none && !is_split(parent)) {
-            return parent;
-        }
+        if (parent != none && !is_split(parent)) { return parent; }
     }
     return none;
 }
 
-/// vsplit: replaces an active node by its children, given its active cut vertices, which must
-/// differ.
+/// vsplit: replaces an active node by its children, given its active cut vertices, which must differ.
 void SelectiveRefiner::apply_split(std::uint32_t node, const Cuts& cuts) {
     const VertexSplit split = mesh_->split_of(node);
     const std::uint32_t middle = split.middle;
@@ -432,9 +391,7 @@ void SelectiveRefiner::apply_split(std::uint32_t node, const Cuts& cuts) {
     slots_.set(middle, second_slot);
     ++active_count_;
     ++counts_.splits;
-    if (options_.records_splits) {
-        recent_splits_.push_back(node);
-    }
+    if (options_.records_splits) { recent_splits_.push_back(node); }
     const auto shapes = mesh_->child_shapes(node);
     put(first_slot, split.first, shapes[0]);
     put(second_slot, split.second, shapes[1]);
@@ -452,12 +409,8 @@ void SelectiveRefiner::apply_split(std::uint32_t node, const Cuts& cuts) {
         }
         dirty_faces_.mark(faces_.add(corners, face));
     };
-    if (split.left_face != none) {
-        add_face(split.left_face, split.left_cut, cuts.left);
-    }
-    if (split.right_face != none) {
-        add_face(split.right_face, split.right_cut, cuts.right);
-    }
+    if (split.left_face != none) { add_face(split.left_face, split.left_cut, cuts.left); }
+    if (split.right_face != none) { add_face(split.right_face, split.right_cut, cuts.right); }
     mark_changed(first_slot);
     mark_changed(second_slot);
 }
@@ -465,14 +418,12 @@ void SelectiveRefiner::apply_split(std::uint32_t node, const Cuts& cuts) {
 bool SelectiveRefiner::can_collapse(std::uint32_t node) {
     assert(!mesh_->is_leaf(node));
     const VertexSplit split = mesh_->split_of(node);
-    if (!is_active(split.first) || !is_active(split.second)) {
-        return false;
-    }
+    if (!is_active(split.first) || !is_active(split.second)) { return false; }
     const std::uint32_t first_slot = slot(split.first);
     const std::uint32_t second_slot = slot(split.second);
     return satisfies_link_condition(first_slot, second_slot) &&
-           !(options_.repair && (flips_faces(first_slot, second_slot, node) ||
-                                 flips_faces(second_slot, first_slot, node)));
+           !(options_.repair &&
+               (flips_faces(first_slot, second_slot, node) || flips_faces(second_slot, first_slot, node)));
 }
 
 bool SelectiveRefiner::collapse(std::uint32_t node) {
@@ -509,9 +460,7 @@ void SelectiveRefiner::apply_collapse(std::uint32_t node) {
     mark_changed(first_slot);
 }
 
-RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const {
-    return drawn(mesh_->shape(node));
-}
+RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const { return drawn(mesh_->shape(node)); }
 
 void SelectiveRefiner::set_drawn_vertex(std::uint32_t slot, const RefinedVertex& vertex) {
     vertices_[slot] = vertex;
@@ -527,10 +476,9 @@ void SelectiveRefiner::take_dirty_faces(std::vector<SlotRange>& ranges) {
 }
 
 std::size_t SelectiveRefiner::bytes() const {
-    const std::size_t numbers =
-        stack_.capacity() + path_.capacity() + changed_.capacity() + recent_splits_.capacity();
-    return sizeof(*this) + faces_.bytes() + starts_.bytes() + slots_.bytes() +
-           sizeof(std::uint32_t) * numbers + dirty_vertices_.bytes() + dirty_faces_.bytes();
+    const std::size_t numbers = stack_.capacity() + path_.capacity() + changed_.capacity() + recent_splits_.capacity();
+    return sizeof(*this) + faces_.bytes() + starts_.bytes() + slots_.bytes() + sizeof(std::uint32_t) * numbers +
+           dirty_vertices_.bytes() + dirty_faces_.bytes();
 }
 
 } // namespace octant::visuals::refine

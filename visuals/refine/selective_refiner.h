@@ -42,36 +42,33 @@ private:
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Reserves room for `count` items. The vector grows by a quarter at a time instead of doubling,
-/// and never beyond `most` items, to keep memory small.
+/// Reserves room for `count` items. The vector grows by a quarter at a time instead of doubling, and never beyond
+/// `most` items, to keep memory small.
 template <class Item>
 void reserve_up_to(std::vector<Item>& items, std::size_t count, std::size_t most) {
-    if (count > items.capacity()) {
-        items.reserve(std::max(count, std::min(count + count / 4, most)));
-    }
+    if (count > items.capacity()) { items.reserve(std::max(count, std::min(count + count / 4, most))); }
 }
 
-/// Triangles between numbered vertices, with a linked list of the corners at each vertex. The links
-/// are stored with the corners, so that adding and removing needs no memory once there was as much
-/// before. Corner 3 f + k is the k-th corner of face f. A removed face leaves a degenerate one
-/// behind (all corners at vertex 0), which draws nothing, until its place is used again.
+/// Triangles between numbered vertices, with a linked list of the corners at each vertex. The links are stored with the
+/// corners, so that adding and removing needs no memory once there was as much before. Corner 3 f + k is the k-th
+/// corner of face f. A removed face leaves a degenerate one behind (all corners at vertex 0), which draws nothing,
+/// until its place is used again.
 ///
-/// Memory: 24 bytes a face, half of them the index list that the renderer uses, and 8 bytes a
-/// vertex. For that, corner numbers and face labels have 24 bits.
+/// Memory: 24 bytes a face, half of them the index list that the renderer uses, and 8 bytes a vertex. For that, corner
+/// numbers and face labels have 24 bits.
 class FaceLists {
 public:
     static constexpr std::uint32_t none = models::none;
 
-    /// `vertex_capacity` and `face_capacity` limit how many there may be at a time. Corner numbers
-    /// and face labels must stay below 2^24 - 1 (asserted).
+    /// `vertex_capacity` and `face_capacity` limit how many there may be at a time. Corner numbers and face labels must
+    /// stay below 2^24 - 1 (asserted).
     FaceLists(std::size_t vertex_capacity, std::size_t face_capacity);
 
     /// Removes all vertices and faces but keeps the memory.
     void clear();
 
-    /// Adds a vertex without faces whose label is `none`, and returns its number. The number of the
-    /// vertex that was removed last is used again (and keeps its marks); otherwise it is the next
-    /// one.
+    /// Adds a vertex without faces whose label is `none`, and returns its number. The number of the vertex that was
+    /// removed last is used again (and keeps its marks); otherwise it is the next one.
     std::uint32_t add_vertex();
 
     /// Removes a vertex that has no faces (asserted).
@@ -83,16 +80,12 @@ public:
     /// A number that the caller keeps with a vertex.
     std::uint32_t vertex_label(std::uint32_t vertex) const { return vertices_[vertex].label; }
 
-    void set_vertex_label(std::uint32_t vertex, std::uint32_t label) {
-        vertices_[vertex].label = label;
-    }
+    void set_vertex_label(std::uint32_t vertex, std::uint32_t label) { vertices_[vertex].label = label; }
 
     /// Eight bits that the caller keeps with a vertex.
     std::uint32_t marks(std::uint32_t vertex) const { return vertices_[vertex].marks; }
 
-    void set_marks(std::uint32_t vertex, std::uint32_t marks) {
-        vertices_[vertex].marks = marks & 0xffU;
-    }
+    void set_marks(std::uint32_t vertex, std::uint32_t marks) { vertices_[vertex].marks = marks & 0xffU; }
 
     /// Adds a face and returns its number. `label` is a number that the caller keeps with the face.
     std::uint32_t add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label);
@@ -102,14 +95,12 @@ public:
     /// Calls use(corner) for each corner at a vertex.
     template <class Use>
     void for_each_corner(std::uint32_t vertex, const Use& use) const {
-        for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) {
-            use(c);
-        }
+        for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) { use(c); }
     }
 
-    /// Moves those corners of vertex `from` for which moves(corner) is true to vertex `to`, in
-    /// front of that vertex's own corners. The loop has no branch on what moves, because the
-    /// outcome is as good as random and would be mispredicted half of the time.
+    /// Moves those corners of vertex `from` for which moves(corner) is true to vertex `to`, in front of that vertex's
+    /// own corners. The loop has no branch on what moves, because the outcome is as good as random and would be
+    /// mispredicted half of the time.
     template <class Moves>
     void move_corners(std::uint32_t from, std::uint32_t to, const Moves& moves) {
         std::array<std::uint32_t, 2> heads{no_corner, vertices_[to].first};
@@ -133,20 +124,15 @@ public:
     std::uint32_t vertex(std::uint32_t corner) const { return indices_[corner]; }
 
     /// The next corner of the same face, counter-clockwise.
-    static std::uint32_t next_in_face(std::uint32_t corner) {
-        return corner % 3 == 2 ? corner - 2 : corner + 1;
-    }
+    static std::uint32_t next_in_face(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
     /// The previous corner of the same face, counter-clockwise.
-    static std::uint32_t previous_in_face(std::uint32_t corner) {
-        return corner % 3 == 0 ? corner + 2 : corner - 1;
-    }
+    static std::uint32_t previous_in_face(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
     /// The label of a face; `none` for a place without a face.
     std::uint32_t label(std::uint32_t face) const {
         const Link* links = &links_[3 * std::size_t{face}];
-        const std::uint32_t label = std::uint32_t{links[0].label_part} |
-                                    std::uint32_t{links[1].label_part} << 8U |
+        const std::uint32_t label = std::uint32_t{links[0].label_part} | std::uint32_t{links[1].label_part} << 8U |
                                     std::uint32_t{links[2].label_part} << 16U;
         return label == no_corner ? none : label;
     }
@@ -170,8 +156,7 @@ private:
         std::uint32_t label = none;
     };
 
-    /// What is kept with a corner. The three corners of a face hold its 24-bit label together, 8
-    /// bits each.
+    /// What is kept with a corner. The three corners of a face hold its 24-bit label together, 8 bits each.
     struct Link {
         std::uint32_t next : 24; ///< The next corner at the same vertex.
         std::uint32_t label_part : 8;
@@ -200,34 +185,28 @@ struct SlotRange {
     bool operator==(const SlotRange&) const = default;
 };
 
-/// Remembers which blocks of an array were written since take() was last called, so that only these
-/// are uploaded to the graphics card.
+/// Remembers which blocks of an array were written since take() was last called, so that only these are uploaded to the
+/// graphics card.
 class DirtyBlocks {
 public:
     static constexpr std::size_t block_size = 64;
 
     void mark(std::size_t place) {
         const std::size_t block = place / block_size;
-        if (block >= marks_.size()) {
-            marks_.resize(block + 1, 0);
-        }
+        if (block >= marks_.size()) { marks_.resize(block + 1, 0); }
         marks_[block] = 1;
     }
 
-    /// Marks the block of a place when `written` is true, without a branch. The block must have
-    /// been marked at some time before, so that its mark exists.
-    void mark_if(std::size_t place, bool written) {
-        marks_[place / block_size] |= static_cast<std::uint8_t>(written);
-    }
+    /// Marks the block of a place when `written` is true, without a branch. The block must have been marked at some
+    /// time before, so that its mark exists.
+    void mark_if(std::size_t place, bool written) { marks_[place / block_size] |= static_cast<std::uint8_t>(written); }
 
-    /// Puts the maximal runs of marked blocks into `ranges`, ascending and cut off at `size`
-    /// places, and clears all marks.
+    /// Puts the maximal runs of marked blocks into `ranges`, ascending and cut off at `size` places, and clears all
+    /// marks.
     void take(std::size_t size, std::vector<SlotRange>& ranges) {
         ranges.clear();
         for (std::size_t block = 0; block < marks_.size(); ++block) {
-            if (marks_[block] == 0) {
-                continue;
-            }
+            if (marks_[block] == 0) { continue; }
             marks_[block] = 0;
             const std::size_t first = block * block_size;
             const std::size_t end = first + block_size < size ? first + block_size : size;
@@ -252,25 +231,22 @@ enum class SplitRule {
     Xia        ///< Xia & Varshney 1996: all vertices of the 1-ring at collapse time.
 };
 
-/// The neighbourhoods that the two earlier rules store for each collapse. They are here so that the
-/// three rules can be compared over one hierarchy. Found by replaying all collapses of the mesh
-/// once.
+/// The neighbourhoods that the two earlier rules store for each collapse. They are here so that the three rules can be
+/// compared over one hierarchy. Found by replaying all collapses of the mesh once.
 class ClassicSplitRules {
 public:
     explicit ClassicSplitRules(const ProgressiveMesh& mesh);
 
-    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the
-    /// two faces that the collapse removed; `none` on a boundary. `node` is an inner node.
+    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the two faces that the
+    /// collapse removed; `none` on a boundary. `node` is an inner node.
     const std::array<std::uint32_t, 4>& adjacent_faces(std::uint32_t node) const {
         return adjacent_faces_[node - leaves_];
     }
 
-    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed,
-    /// ascending.
+    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed, ascending.
     std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
 
-    /// The inner node whose split adds an original face to the active mesh; `none` for a face of
-    /// the base mesh.
+    /// The inner node whose split adds an original face to the active mesh; `none` for a face of the base mesh.
     std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
 
 private:
@@ -291,10 +267,9 @@ struct RefinedVertex {
 struct RefinerOptions {
     SplitRule rule = SplitRule::Selective;
     bool records_splits = false; ///< Fills recent_splits().
-    bool repair = true;           ///< Mends fold-overs and refuses collapses that would make any.
+    bool repair = true;          ///< Mends fold-overs and refuses collapses that would make any.
     /// What the rules Hoppe and Xia need; made by the constructor when null. Not used by Selective.
-    std::shared_ptr<const ClassicSplitRules>
-        classic_rules{}; ///< for the rules Hoppe and Xia only; null = made
+    std::shared_ptr<const ClassicSplitRules> classic_rules{}; ///< for the rules Hoppe and Xia only; null = made
 };
 
 /// How many operations were done since the front was made.
@@ -306,10 +281,9 @@ struct RefinerCounts {
     std::size_t blocked = 0; ///< Collapses that were asked for and refused.
 };
 
-/// A front of active nodes over a shared hierarchy, and the active mesh that it stands for: those
-/// original faces whose corners lie below three different active nodes. It starts as the base mesh.
-/// Splits and collapses may come in any order; the mesh stays an oriented manifold of the same
-/// topology.
+/// A front of active nodes over a shared hierarchy, and the active mesh that it stands for: those original faces whose
+/// corners lie below three different active nodes. It starts as the base mesh. Splits and collapses may come in any
+/// order; the mesh stays an oriented manifold of the same topology.
 ///
 /// The rule decides how many further splits a split forces:
 /// - Selective: none, unless both cut vertices of the node lie below one active node. Then that
@@ -317,37 +291,34 @@ struct RefinerCounts {
 ///   the one that needs it. The collapse of a boundary edge has one cut vertex and forces none.
 /// - Hoppe, Xia: every split that brings back the neighbourhood at collapse time.
 ///
-/// Vertices and faces live in numbered slots and places that are used again; a split changes only
-/// the faces around its vertex. No memory is allocated once the front has been as large before,
-/// except by split_all.
+/// Vertices and faces live in numbered slots and places that are used again; a split changes only the faces around its
+/// vertex. No memory is allocated once the front has been as large before, except by split_all.
 class SelectiveRefiner {
 public:
-    explicit SelectiveRefiner(
-        std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options = {});
+    explicit SelectiveRefiner(std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options = {});
 
     const ProgressiveMesh& mesh() const { return *mesh_; }
 
     const RefinerOptions& options() const { return options_; }
 
-    /// Splits an inner node, and before it those of its ancestors that are not split yet. Returns
-    /// how many splits were done; 0 when the node is split already.
+    /// Splits an inner node, and before it those of its ancestors that are not split yet. Returns how many splits were
+    /// done; 0 when the node is split already.
     std::size_t split(std::uint32_t node);
 
-    /// Splits each of these inner nodes, in the order that takes the least time. Returns how many
-    /// splits were done. In the counts a split is forced only if it was not asked for.
+    /// Splits each of these inner nodes, in the order that takes the least time. Returns how many splits were done. In
+    /// the counts a split is forced only if it was not asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
 
-    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order,
-    /// for the rule Selective. At most 200 are found.
+    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order, for the rule
+    /// Selective. At most 200 are found.
     void find_forced_splits(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
     /// Returns to the base mesh. Memory is kept and the counts go on.
     void restart();
 
-    /// Collapses the two children of an inner node into it. Does nothing and returns false when
-    /// they are not both active, when the result would not be a manifold (link condition), or, with
-    /// repair, when a face would turn over. It is worth another try when the neighbourhood has
-    /// changed.
+    /// Collapses the two children of an inner node into it. Does nothing and returns false when they are not both
+    /// active, when the result would not be a manifold (link condition), or, with repair, when a face would turn over.
+    /// It is worth another try when the neighbourhood has changed.
     bool collapse(std::uint32_t node);
 
     /// Whether collapse(node) would succeed now.
@@ -359,14 +330,13 @@ public:
 
     void clear_recent_splits() { recent_splits_.clear(); }
 
-    /// Splits the coarsest corner of each face that is turned over against its original, until
-    /// there is none. Only faces that changed since the last call are looked at. Returns how many
-    /// splits were done. Does nothing without options().repair. Nodes for which is_protected(node) is true
-    /// are split only where no other corner can be.
+    /// Splits the coarsest corner of each face that is turned over against its original, until there is none. Only
+    /// faces that changed since the last call are looked at. Returns how many splits were done. Does nothing without
+    /// options().repair. Nodes for which is_protected(node) is true are split only where no other corner can be.
     std::size_t repair(const std::function<bool(std::uint32_t)>& is_protected = {});
 
-    /// How many faces of the active mesh are turned over: their normals are more than 90 degrees
-    /// off those of their original faces.
+    /// How many faces of the active mesh are turned over: their normals are more than 90 degrees off those of their
+    /// original faces.
     std::size_t flipped_faces() const;
 
     bool is_active(std::uint32_t node) const {
@@ -374,8 +344,8 @@ public:
         return starts_.has(leaf) && node_at(slots_[leaf]) == node;
     }
 
-    /// Whether a node is above the front: the active node at its first leaf then lies below it and
-    /// has a smaller number.
+    /// Whether a node is above the front: the active node at its first leaf then lies below it and has a smaller
+    /// number.
     bool is_split(std::uint32_t node) const {
         const std::uint32_t leaf = mesh_->first_leaf(node);
         return starts_.has(leaf) && node_at(slots_[leaf]) < node;
@@ -385,9 +355,7 @@ public:
     std::uint32_t active_ancestor(std::uint32_t leaf) const { return node_at(slot_above(leaf)); }
 
     /// The slot of a leaf's active ancestor.
-    std::uint32_t slot_above(std::uint32_t leaf) const {
-        return slots_[starts_.last_up_to(leaf)];
-    }
+    std::uint32_t slot_above(std::uint32_t leaf) const { return slots_[starts_.last_up_to(leaf)]; }
 
     std::size_t active_count() const { return active_count_; }
 
@@ -395,11 +363,8 @@ public:
 
     const RefinerCounts& counts() const { return counts_; }
 
-    /// The slot of an active node: its index in vertices(). When a node is split, its first child
-    /// takes over its slot.
-    std::uint32_t slot(std::uint32_t active_node) const {
-        return slots_[mesh_->first_leaf(active_node)];
-    }
+    /// The slot of an active node: its index in vertices(). When a node is split, its first child takes over its slot.
+    std::uint32_t slot(std::uint32_t active_node) const { return slots_[mesh_->first_leaf(active_node)]; }
 
     /// The slot of the active node at the first leaf of a node that is split.
     std::uint32_t slot_below(std::uint32_t split_node) const { return slot(split_node); }
@@ -410,17 +375,15 @@ public:
     /// The vertex array for drawing, indexed by slot, empty slots included.
     std::span<const RefinedVertex> vertices() const { return vertices_; }
 
-    /// The index list for drawing: three slots for each place, counter-clockwise seen from outside.
-    /// Places without a face are (0, 0, 0).
+    /// The index list for drawing: three slots for each place, counter-clockwise seen from outside. Places without a
+    /// face are (0, 0, 0).
     std::span<const std::uint32_t> indices() const { return faces_.indices(); }
 
     /// The number of the original face at a place of the index list; `none` for an empty place.
-    std::uint32_t face_at(std::size_t place) const {
-        return faces_.label(static_cast<std::uint32_t>(place));
-    }
+    std::uint32_t face_at(std::size_t place) const { return faces_.label(static_cast<std::uint32_t>(place)); }
 
-    /// Sets a vertex as it is drawn, for geomorphs. The next split or collapse of its node puts it
-    /// back to the node's position.
+    /// Sets a vertex as it is drawn, for geomorphs. The next split or collapse of its node puts it back to the node's
+    /// position.
     void set_drawn_vertex(std::uint32_t slot, const RefinedVertex& vertex);
 
     /// The vertex of a node at the node's own position.
@@ -435,9 +398,8 @@ public:
     std::size_t bytes() const;
 
 private:
-    /// The first leaves of the active cut vertices val and var of a node that is to be split. They
-    /// are `none` and `none - 1` where the boundary has no cut vertex, so that they never compare
-    /// as equal.
+    /// The first leaves of the active cut vertices val and var of a node that is to be split. They are `none` and `none
+    /// - 1` where the boundary has no cut vertex, so that they never compare as equal.
     struct Cuts {
         std::uint32_t left = none;
         std::uint32_t right = none;
@@ -463,16 +425,14 @@ private:
     void repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& is_protected);
     std::uint32_t ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const;
     bool is_flipped(std::uint32_t place) const;
-    std::uint32_t
-    coarsest_corner(std::uint32_t place, const std::function<bool(std::uint32_t)>& is_protected) const;
+    std::uint32_t coarsest_corner(std::uint32_t place, const std::function<bool(std::uint32_t)>& is_protected) const;
 
     std::shared_ptr<const ProgressiveMesh> mesh_;
     RefinerOptions options_;
-    /// Its vertices are slots labelled with their nodes; its faces are labelled with the original
-    /// faces.
+    /// Its vertices are slots labelled with their nodes; its faces are labelled with the original faces.
     FaceLists faces_;
     std::vector<RefinedVertex> vertices_; ///< One for each slot.
-    ActiveLeafSet starts_;                 ///< The first leaves of the active nodes.
+    ActiveLeafSet starts_;                ///< The first leaves of the active nodes.
     /// For the first leaf of each active node its slot; other entries mean nothing.
     Uint24Array slots_;
     std::vector<std::uint32_t> stack_;   ///< Nodes that wait to be split; the last one is next.

@@ -23,8 +23,7 @@ public:
         bytes_.append(bytes, sizeof(Number));
     }
 
-    /// Writes an unsigned number in 7 bits a byte, the lowest bits first (LEB128), so that small
-    /// numbers take one byte.
+    /// Writes an unsigned number in 7 bits a byte, the lowest bits first (LEB128), so that small numbers take one byte.
     void put_varint(std::uint64_t number) {
         while (number >= 128) {
             bytes_.push_back(static_cast<char>(number % 128 + 128));
@@ -33,13 +32,11 @@ public:
         bytes_.push_back(static_cast<char>(number));
     }
 
-    /// Writes `number` - `from`, which may be negative, with the sign in the lowest bit (zigzag
-    /// coding) and then as put_varint does.
+    /// Writes `number` - `from`, which may be negative, with the sign in the lowest bit (zigzag coding) and then as
+    /// put_varint does.
     void put_delta(std::uint32_t number, std::uint32_t from) {
-        const std::int64_t difference =
-            static_cast<std::int64_t>(number) - static_cast<std::int64_t>(from);
-        put_varint(
-            static_cast<std::uint64_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
+        const std::int64_t difference = static_cast<std::int64_t>(number) - static_cast<std::int64_t>(from);
+        put_varint(static_cast<std::uint64_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
     }
 
     void put_text(std::string_view text) {
@@ -53,12 +50,11 @@ private:
     std::string bytes_;
 };
 
-/// Reads what VarintWriter wrote. It never reads beyond the end: what is asked for there is 0, and
-/// good() is false from then on, so that callers may check once after several reads.
+/// Reads what VarintWriter wrote. It never reads beyond the end: what is asked for there is 0, and good() is false from
+/// then on, so that callers may check once after several reads.
 class VarintReader {
 public:
-    explicit VarintReader(std::string_view bytes)
-        : bytes_(bytes) {}
+    explicit VarintReader(std::string_view bytes) : bytes_(bytes) {}
 
     template <class Number>
     Number take() {
@@ -78,9 +74,7 @@ public:
         for (unsigned shift = 0; shift < 63; shift += 7) {
             const auto byte = take<std::uint8_t>();
             number |= static_cast<std::uint64_t>(byte & 127U) << shift;
-            if (byte < 128) {
-                return number;
-            }
+            if (byte < 128) { return number; }
         }
         fail();
         return 0;
@@ -99,8 +93,7 @@ public:
     std::uint32_t take_delta(std::uint32_t from) {
         const std::uint64_t coded = take_varint();
         const auto half = static_cast<std::int64_t>(coded / 2);
-        const std::int64_t number =
-            static_cast<std::int64_t>(from) + (coded % 2 == 0 ? half : -half - 1);
+        const std::int64_t number = static_cast<std::int64_t>(from) + (coded % 2 == 0 ? half : -half - 1);
         if (number < 0 || number > 0xffffffff) {
             fail();
             return 0;

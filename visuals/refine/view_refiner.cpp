@@ -1,14 +1,13 @@
-// View-dependent refinement frame by frame, with J. Kim and S. Lee's splits (2001, section 4) and
-// H. Hoppe's criterion (1997, section 4).
+// View-dependent refinement frame by frame, with J. Kim and S. Lee's splits (2001, section 4) and H. Hoppe's criterion
+// (1997, section 4).
 //
-// A frame splits every active node whose projected error exceeds error_px, the largest error first,
-// and merges siblings whose parent would show less than merge_error_ratio of it, the smallest error
-// first. Three things keep nodes from being split and merged in turns: the gap between the two
-// thresholds, weights that look ahead by an angle (merge_angle_margin_rad), and a rest of some frames after
-// each operation.
+// A frame splits every active node whose projected error exceeds error_px, the largest error first, and merges siblings
+// whose parent would show less than merge_error_ratio of it, the smallest error first. Three things keep nodes from
+// being split and merged in turns: the gap between the two thresholds, weights that look ahead by an angle
+// (merge_angle_margin_rad), and a rest of some frames after each operation.
 //
-// Merging takes several frames: geomorphs first carry both vertices to the parent's position, then
-// the edge is collapsed. If the error grows in the meantime, they turn back.
+// Merging takes several frames: geomorphs first carry both vertices to the parent's position, then the edge is
+// collapsed. If the error grows in the meantime, they turn back.
 #include "visuals/refine/view_refiner.h"
 
 #include <glm/common.hpp>
@@ -21,12 +20,12 @@
 
 namespace octant::visuals::refine {
 
-// Geomorphs after H. Hoppe, "Progressive Meshes", 1996, section 3.1: positions, normals and colours
-// are mixed linearly between two places.
+// Geomorphs after H. Hoppe, "Progressive Meshes", 1996, section 3.1: positions, normals and colours are mixed linearly
+// between two places.
 //
-// Deviation: the share of the way follows from the screen, not from the clock. In each frame a
-// vertex covers at most step_px pixels, as seen from the present eye, so that near vertices take
-// longer than far ones and no motion catches the eye.
+// Deviation: the share of the way follows from the screen, not from the clock. In each frame a vertex covers at most
+// step_px pixels, as seen from the present eye, so that near vertices take longer than far ones and no motion catches
+// the eye.
 
 namespace {
 
@@ -43,15 +42,12 @@ std::uint32_t mixed_colour(std::uint32_t from, std::uint32_t to, double share) {
 RefinedVertex mixed(const RefinedVertex& from, const RefinedVertex& to, double share) {
     const auto part = static_cast<float>(share);
     const glm::vec3 normal = glm::mix(unpacked(from.normal), unpacked(to.normal), part);
-    return {
-        glm::mix(from.position_m, to.position_m, part),
-        glm::length(normal) > 0.01F ? packed(normal) : to.normal,
+    return {glm::mix(from.position_m, to.position_m, part), glm::length(normal) > 0.01F ? packed(normal) : to.normal,
         mixed_colour(from.colour, to.colour, share)};
 }
 
-/// How far a vertex may move in one frame, metres, so that it moves by `step_px` pixels at most in
-/// any direction. Outside the picture the scale of its corners is used, about 60 degrees off the
-/// middle.
+/// How far a vertex may move in one frame, metres, so that it moves by `step_px` pixels at most in any direction.
+/// Outside the picture the scale of its corners is used, about 60 degrees off the middle.
 double step_m(const glm::dvec3& from_eye_m, const RefineView& view, double step_px) {
     const double distance_m = std::max(glm::length(from_eye_m), view.near_m);
     const double depth_m = std::max(glm::dot(from_eye_m, view.forward), 0.5 * distance_m);
@@ -69,17 +65,13 @@ void Geomorphs::add(const Move& move) {
         *known = move;
         return;
     }
-    if (move.slot >= places_.size()) {
-        places_.resize(move.slot + 1, none);
-    }
+    if (move.slot >= places_.size()) { places_.resize(move.slot + 1, none); }
     places_[move.slot] = static_cast<std::uint32_t>(moves_.size());
     moves_.push_back(move);
 }
 
 void Geomorphs::forget(std::uint32_t slot) {
-    if (find(slot) == nullptr) {
-        return;
-    }
+    if (find(slot) == nullptr) { return; }
     const std::uint32_t place = places_[slot];
     places_[slot] = none;
     if (place + 1 < moves_.size()) {
@@ -97,19 +89,15 @@ void Geomorphs::start(const SelectiveRefiner& refiner, std::uint32_t split_node)
     const VertexSplit split = refiner.mesh().split_of(split_node);
     const std::uint32_t first = refiner.slot_below(split.first);
     const Move* known = find(first);
-    const RefinedVertex from =
-        known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(split_node);
+    const RefinedVertex from = known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(split_node);
     add({first, split.first, from, 0.0});
     add({refiner.slot_below(split.second), split.second, from, 0.0});
 }
 
 void Geomorphs::retarget(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target) {
     const Move* known = find(slot);
-    if (known != nullptr && known->target == target) {
-        return;
-    }
-    const RefinedVertex from =
-        known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(refiner.node_at(slot));
+    if (known != nullptr && known->target == target) { return; }
+    const RefinedVertex from = known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(refiner.node_at(slot));
     add({slot, target, from, 0.0});
 }
 
@@ -129,32 +117,24 @@ std::size_t Geomorphs::move(SelectiveRefiner& refiner, const RefineView& view) {
         if (move.share < 1.0) {
             const RefinedVertex to = refiner.vertex_of(move.target);
             const glm::dvec3 at_m(mixed(move.from, to, move.share).position_m);
-            const auto way_m =
-                static_cast<double>(glm::distance(move.from.position_m, to.position_m));
+            const auto way_m = static_cast<double>(glm::distance(move.from.position_m, to.position_m));
             const double max_m = step_m(at_m - eye_m, view, options_.step_px);
-            const double step = way_m > 0.0 ? std::min(max_m / way_m, 1.0 / options_.frames)
-                                            : 1.0 / options_.frames;
+            const double step = way_m > 0.0 ? std::min(max_m / way_m, 1.0 / options_.frames) : 1.0 / options_.frames;
             move.share = std::min(1.0, move.share + step);
             ++moved;
         }
         refiner.set_drawn_vertex(move.slot, drawn(refiner, move));
-        if (move.share >= 1.0 && move.target == refiner.node_at(move.slot)) {
-            forget(move.slot);
-        }
+        if (move.share >= 1.0 && move.target == refiner.node_at(move.slot)) { forget(move.slot); }
     }
     return moved;
 }
 
-ViewRefiner::ViewRefiner(
-    std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options)
-    : options_(options)
-    , refiner_(std::move(mesh), {.records_splits = true, .repair = options.repair})
-    , moves_(options.geomorph) {}
+ViewRefiner::ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options)
+    : options_(options), refiner_(std::move(mesh), {.records_splits = true, .repair = options.repair}),
+      moves_(options.geomorph) {}
 
 RefinedFrame ViewRefiner::update(const RefineView& view) {
-    if (settled_ && has_view_ && view == view_) {
-        return {};
-    }
+    if (settled_ && has_view_ && view == view_) { return {}; }
     view_ = view;
     has_view_ = true;
     ++frame_;
@@ -183,39 +163,31 @@ void ViewRefiner::refine_fully(const RefineView& view) {
     options_.operations = std::numeric_limits<std::size_t>::max();
     options_.merge_delay_frames = 0;
     settled_ = false;
-    for (int round = 0; round < max_rounds && !update(view).settled; ++round) {
-    }
+    for (int round = 0; round < max_rounds && !update(view).settled; ++round) {}
     options_ = kept;
 }
 
-/// Fills splits_ with the nodes to split, and merges_ with the parents whose children may be
-/// merged.
+/// Fills splits_ with the nodes to split, and merges_ with the parents whose children may be merged.
 void ViewRefiner::collect_candidates() {
     splits_.clear();
     merges_.clear();
     const ProgressiveMesh& mesh = refiner_.mesh();
     for (std::uint32_t slot = 0; slot < refiner_.vertices().size(); ++slot) {
         const std::uint32_t node = refiner_.node_at(slot);
-        if (node == none) {
-            continue;
-        }
+        if (node == none) { continue; }
         consider_split(node);
         const std::uint32_t parent = mesh.parent(node);
         if (parent == none || mesh.split_of(parent).first != node ||
             !refiner_.is_active(mesh.split_of(parent).second)) {
             continue;
         }
-        if (!keeps_split(parent)) {
-            merges_.push_back({merged_error_px(parent), parent});
-        }
+        if (!keeps_split(parent)) { merges_.push_back({merged_error_px(parent), parent}); }
     }
 }
 
 /// Adds a node to splits_ when its error is too large.
 void ViewRefiner::consider_split(std::uint32_t node) {
-    if (refiner_.mesh().is_leaf(node)) {
-        return;
-    }
+    if (refiner_.mesh().is_leaf(node)) { return; }
     const double shown_px = error_px(node);
     if (shown_px > options_.error_px) {
         splits_.push_back({shown_px, node});
@@ -246,9 +218,7 @@ void ViewRefiner::split_worst() {
         --left;
         const VertexSplit split = refiner_.mesh().split_of(node);
         for (const std::uint32_t child : {split.first, split.second}) {
-            if (refiner_.is_active(child)) {
-                consider_split(child);
-            }
+            if (refiner_.is_active(child)) { consider_split(child); }
         }
     }
     waiting_ = waiting_ || !splits_.empty();
@@ -261,9 +231,7 @@ void ViewRefiner::start_moves() {
         const VertexSplit split = refiner_.mesh().split_of(node);
         split_frames_[refiner_.slot_below(split.first)] = frame_;
         split_frames_[refiner_.slot_below(split.second)] = frame_;
-        if (options_.geomorphs) {
-            moves_.start(refiner_, node);
-        }
+        if (options_.geomorphs) { moves_.start(refiner_, node); }
     }
     refiner_.clear_recent_splits();
 }
@@ -273,18 +241,14 @@ void ViewRefiner::reverse_moves() {
     turning_.clear();
     moves_.each([&](std::uint32_t slot, std::uint32_t target) {
         const std::uint32_t node = refiner_.node_at(slot);
-        if (target == node) {
-            return;
-        }
+        if (target == node) { return; }
         const VertexSplit split = refiner_.mesh().split_of(target);
         if (!refiner_.is_active(split.first) || !refiner_.is_active(split.second) ||
             error_px(target) > options_.error_px || !refiner_.can_collapse(target)) {
             turning_.push_back(slot);
         }
     });
-    for (const std::uint32_t slot : turning_) {
-        moves_.retarget(refiner_, slot, refiner_.node_at(slot));
-    }
+    for (const std::uint32_t slot : turning_) { moves_.retarget(refiner_, slot, refiner_.node_at(slot)); }
 }
 
 /// Merges the candidates of merges_, smallest error first.
@@ -321,30 +285,24 @@ bool ViewRefiner::is_split_delayed(std::uint32_t node) const {
            frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.merge_delay_frames);
 }
 
-/// Whether splitting an active node would split one that rests after its merge: itself or a forced
-/// one.
+/// Whether splitting an active node would split one that rests after its merge: itself or a forced one.
 bool ViewRefiner::needs_resting(std::uint32_t node) {
-    if (is_split_delayed(node)) {
-        return true;
-    }
+    if (is_split_delayed(node)) { return true; }
     refiner_.find_forced_splits(node, forced_);
-    return std::ranges::any_of(forced_, [this](std::uint32_t forced) {
-        return refiner_.is_active(forced) && is_split_delayed(forced);
-    });
+    return std::ranges::any_of(
+        forced_, [this](std::uint32_t forced) { return refiner_.is_active(forced) && is_split_delayed(forced); });
 }
 
-/// Merges a node's children, or with geomorphs sends them to the node's position until they have
-/// arrived. Returns false when that is not possible now.
+/// Merges a node's children, or with geomorphs sends them to the node's position until they have arrived. Returns false
+/// when that is not possible now.
 bool ViewRefiner::merge(std::uint32_t node) {
     const VertexSplit split = refiner_.mesh().split_of(node);
     const std::uint32_t first = refiner_.slot(split.first);
     const std::uint32_t second = refiner_.slot(split.second);
-    const bool there = moves_.target(first) == node && moves_.target(second) == node &&
-                       moves_.has_arrived(first) && moves_.has_arrived(second);
+    const bool there = moves_.target(first) == node && moves_.target(second) == node && moves_.has_arrived(first) &&
+                       moves_.has_arrived(second);
     if (!options_.geomorphs || there) {
-        if (!refiner_.collapse(node)) {
-            return false;
-        }
+        if (!refiner_.collapse(node)) { return false; }
         moves_.forget(first);
         moves_.forget(second);
         split_frames_[first] = 0;
@@ -352,9 +310,7 @@ bool ViewRefiner::merge(std::uint32_t node) {
         merged_[first] = {node, frame_};
         return true;
     }
-    if (!refiner_.can_collapse(node)) {
-        return false;
-    }
+    if (!refiner_.can_collapse(node)) { return false; }
     moves_.retarget(refiner_, first, node);
     moves_.retarget(refiner_, second, node);
     return true;

@@ -18,21 +18,18 @@ struct GeomorphOptions {
     double frames = 8.0; ///< a move takes at least so many
 };
 
-/// The vertices that are in motion (H. Hoppe's geomorphs), so that splits and collapses do not pop.
-/// After a split, both children start where their parent was drawn and travel to their own
-/// positions. Before a collapse, both travel to the parent's position, and only then is the edge
-/// collapsed.
+/// The vertices that are in motion (H. Hoppe's geomorphs), so that splits and collapses do not pop. After a split, both
+/// children start where their parent was drawn and travel to their own positions. Before a collapse, both travel to the
+/// parent's position, and only then is the edge collapsed.
 class Geomorphs {
 public:
-    explicit Geomorphs(GeomorphOptions options)
-        : options_(options) {}
+    explicit Geomorphs(GeomorphOptions options) : options_(options) {}
 
-    /// Starts the two vertices of a node that was just split from where that node's vertex was
-    /// drawn. To be called once for each split, in the order of the splits.
+    /// Starts the two vertices of a node that was just split from where that node's vertex was drawn. To be called once
+    /// for each split, in the order of the splits.
     void start(const SelectiveRefiner& refiner, std::uint32_t split_node);
 
-    /// Sends the vertex of an active node to the position of node `target`, which is the node
-    /// itself or its parent.
+    /// Sends the vertex of an active node to the position of node `target`, which is the node itself or its parent.
     void retarget(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target);
 
     /// The node to whose position a slot's vertex travels; `none` when it rests at its own node.
@@ -44,16 +41,14 @@ public:
     /// Ends the motion of a slot's vertex: it is drawn at its node from now on.
     void forget(std::uint32_t slot);
 
-    /// Advances all vertices in motion by one frame and puts them into the refiner's vertex array.
-    /// Returns how many have moved.
+    /// Advances all vertices in motion by one frame and puts them into the refiner's vertex array. Returns how many
+    /// have moved.
     std::size_t move(SelectiveRefiner& refiner, const RefineView& view);
 
     /// Calls use(slot, target) for each vertex in motion.
     template <class Use>
     void each(const Use& use) const {
-        for (const Move& move : moves_) {
-            use(move.slot, move.target);
-        }
+        for (const Move& move : moves_) { use(move.slot, move.target); }
     }
 
 private:
@@ -82,9 +77,8 @@ struct ViewRefinerOptions {
     double merge_angle_margin_rad = 0.2; ///< criterion.angle_margin_rad for merges: what comes into sight keeps
     /// A node that was split is not merged for this many frames.
     int merge_delay_frames = 10; ///< a node that was split is not merged for so many
-    /// A node that was merged is not split again for merge_delay_frames either, nor is one that would
-    /// force it to split, unless its error is more than this many times error_px or nothing else
-    /// mends a turned face.
+    /// A node that was merged is not split again for merge_delay_frames either, nor is one that would force it to
+    /// split, unless its error is more than this many times error_px or nothing else mends a turned face.
     double resplit_error_ratio = 3.0;
     /// At most this many splits and this many collapses are begun in one frame.
     std::size_t operations = 2000; ///< splits and collapses asked for in a frame, at most
@@ -103,20 +97,18 @@ struct RefinedFrame {
     bool settled = true;    ///< Nothing is left to do for this view.
 };
 
-/// Keeps a front as fine as a view demands, frame after frame, with geomorphs. Several refiners may
-/// share a hierarchy. The same sequence of views gives the same meshes.
+/// Keeps a front as fine as a view demands, frame after frame, with geomorphs. Several refiners may share a hierarchy.
+/// The same sequence of views gives the same meshes.
 class ViewRefiner {
 public:
-    explicit ViewRefiner(
-        std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options = {});
+    explicit ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options = {});
 
-    /// Advances by one frame: splits the largest errors, mends fold-overs, merges the smallest
-    /// errors and moves vertices. While the view does not change and everything is settled, nothing
-    /// is computed.
+    /// Advances by one frame: splits the largest errors, mends fold-overs, merges the smallest errors and moves
+    /// vertices. While the view does not change and everything is settled, nothing is computed.
     RefinedFrame update(const RefineView& view);
 
-    /// Makes the mesh fit a view at once, without geomorphs and with any number of operations: for
-    /// the first picture that shows it.
+    /// Makes the mesh fit a view at once, without geomorphs and with any number of operations: for the first picture
+    /// that shows it.
     void refine_fully(const RefineView& view);
 
     const SelectiveRefiner& front() const { return refiner_; }
@@ -139,8 +131,7 @@ private:
         return projected_error_px(refiner_.mesh(), node, view_, options_.criterion);
     }
 
-    /// The projected error that a node would have once its children are merged into it; with
-    /// merge_angle_margin_rad.
+    /// The projected error that a node would have once its children are merged into it; with merge_angle_margin_rad.
     double merged_error_px(std::uint32_t node) const {
         CriterionOptions criterion = options_.criterion;
         criterion.angle_margin_rad += options_.merge_angle_margin_rad;

@@ -1,4 +1,5 @@
 #include "visuals/roads/road_network.h"
+
 #include "sim/base/hash.h"
 
 #include <glm/common.hpp>
@@ -24,7 +25,7 @@ namespace {
 constexpr double default_cell_m = 100.0;
 constexpr double max_cell_m = 600.0;
 constexpr int max_cells = 512; ///< a side
-constexpr int min_cells = 12; ///< a side
+constexpr int min_cells = 12;  ///< a side
 constexpr double valley_radius_m = 1500.0;
 constexpr int min_water_samples = 8; ///< for water, along each side of a cell, if there are samples
 constexpr double water_clearance_m = 0.5;
@@ -58,9 +59,7 @@ RoadCostGrid::RoadCostGrid(const terrain::GroundSamples& ground, const RoadConst
     const int stride = stride_of(ground);
     const glm::ivec2 cells = (glm::ivec2(ground.columns(), ground.rows()) - 1) / stride;
     cell_m_ = stride * ground.spacing_m();
-    if (cell_m_ > max_cell_m || std::min(cells.x, cells.y) < min_cells) {
-        return;
-    }
+    if (cell_m_ > max_cell_m || std::min(cells.x, cells.y) < min_cells) { return; }
     columns_ = cells.x;
     rows_ = cells.y;
     first_m_ = glm::dvec2(ground.sample_m(0, 0)) + 0.5 * cell_m_;
@@ -82,8 +81,7 @@ void RoadCostGrid::read(const terrain::GroundSamples& ground, int stride, const 
             int seen = 0;
             for (int north = 0; north <= stride; north += step) {
                 for (int east = 0; east <= stride; east += step) {
-                    const double height_m =
-                        ground.height_m(column * stride + east, row * stride + north);
+                    const double height_m = ground.height_m(column * stride + east, row * stride + north);
                     lowest_m = std::min(lowest_m, height_m);
                     highest_m = std::max(highest_m, height_m);
                     sum_m += height_m;
@@ -107,10 +105,8 @@ void RoadCostGrid::find_slopes() {
             const int east = std::min(column + 1, columns_ - 1);
             const int south = std::max(row - 1, 0);
             const int north = std::min(row + 1, rows_ - 1);
-            const glm::dvec2 rise(
-                (heights_m_[cell(east, row)] - heights_m_[cell(west, row)]) / (east - west),
-                (heights_m_[cell(column, north)] - heights_m_[cell(column, south)]) /
-                    (north - south));
+            const glm::dvec2 rise((heights_m_[cell(east, row)] - heights_m_[cell(west, row)]) / (east - west),
+                (heights_m_[cell(column, north)] - heights_m_[cell(column, south)]) / (north - south));
             slopes_.push_back(glm::length(rise) / cell_m_);
         }
     }
@@ -125,13 +121,9 @@ void RoadCostGrid::find_valley_floors() {
     const auto spread = [&](int lines, int length, const auto& cell_of) {
         for (int i = 0; i < lines; ++i) {
             line.clear();
-            for (int j = 0; j < length; ++j) {
-                line.push_back(valley_floors_m_[cell_of(i, j)]);
-            }
+            for (int j = 0; j < length; ++j) { line.push_back(valley_floors_m_[cell_of(i, j)]); }
             spread_minimum(line, reach, least);
-            for (int j = 0; j < length; ++j) {
-                valley_floors_m_[cell_of(i, j)] = least[static_cast<std::size_t>(j)];
-            }
+            for (int j = 0; j < length; ++j) { valley_floors_m_[cell_of(i, j)] = least[static_cast<std::size_t>(j)]; }
         }
     };
     spread(rows_, columns_, [this](int row, int column) { return cell(column, row); });
@@ -145,7 +137,7 @@ double RoadCostGrid::cost_m(std::size_t from, std::size_t to) const {
     const double slope = 0.5 * (slopes_[from] + slopes_[to]);
     const double above_m = 0.5 * (height_above_valley_m(from) + height_above_valley_m(to));
     return length_m * (1.0 + squared(climb / doubling_climb) + squared(slope / doubling_slope) +
-                       above_m / doubling_above_valley_m);
+                          above_m / doubling_above_valley_m);
 }
 
 namespace {
@@ -154,30 +146,15 @@ constexpr double min_block_m = 4000.0;
 constexpr int max_blocks = 20; ///< a side
 constexpr double max_town_slope = 0.1;
 constexpr double max_town_above_m = 90.0;
-constexpr double max_climb = 0.25;     ///< from one cell of a road to the next
-constexpr double max_mean_cost = 9.0;  ///< of a road, over that of one on even ground
+constexpr double max_climb = 0.25;       ///< from one cell of a road to the next
+constexpr double max_mean_cost = 9.0;    ///< of a road, over that of one on even ground
 constexpr double max_detour_ratio = 2.2; ///< over the way by a road of its own
 constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Neighbours and knight's moves.
-constexpr std::array<glm::ivec2, 16> moves = {
-    glm::ivec2(1, 0),
-    {0, 1},
-    {-1, 0},
-    {0, -1},
-    {1, 1},
-    {-1, 1},
-    {-1, -1},
-    {1, -1},
-    {2, 1},
-    {1, 2},
-    {-1, 2},
-    {-2, 1},
-    {-2, -1},
-    {-1, -2},
-    {1, -2},
-    {2, -1}};
+constexpr std::array<glm::ivec2, 16> moves = {glm::ivec2(1, 0), {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1},
+    {1, -1}, {2, 1}, {1, 2}, {-1, 2}, {-2, 1}, {-2, -1}, {-1, -2}, {1, -2}, {2, -1}};
 
 /// Calls `visit` with each cell that a road may go to next.
 template <class Visit>
@@ -185,38 +162,30 @@ void for_each_neighbour(const RoadCostGrid& ground, std::size_t cell, const Visi
     const glm::ivec2 at = ground.column_row(cell);
     for (const glm::ivec2& move : moves) {
         const glm::ivec2 next = at + move;
-        if (next.x < 0 || next.y < 0 || next.x >= ground.columns() || next.y >= ground.rows()) {
-            continue;
-        }
+        if (next.x < 0 || next.y < 0 || next.x >= ground.columns() || next.y >= ground.rows()) { continue; }
         const std::size_t to = ground.cell(next.x, next.y);
         // A knight's move goes between two cells, of which none may be water.
         const bool is_knight = std::abs(move.x) + std::abs(move.y) == 3;
         const glm::ivec2 half = move / 2;
         const bool is_free =
-            ground.is_free(to) &&
-            (!is_knight || (ground.is_free(ground.cell(at.x + half.x, at.y + half.y)) &&
-                            ground.is_free(ground.cell(next.x - half.x, next.y - half.y))));
+            ground.is_free(to) && (!is_knight || (ground.is_free(ground.cell(at.x + half.x, at.y + half.y)) &&
+                                                     ground.is_free(ground.cell(next.x - half.x, next.y - half.y))));
         const double climb_m = std::abs(ground.height_m(to) - ground.height_m(cell));
         const double length_m = glm::distance(ground.place_m(cell), ground.place_m(to));
-        if (is_free && climb_m <= max_climb * length_m) {
-            visit(to);
-        }
+        if (is_free && climb_m <= max_climb * length_m) { visit(to); }
     }
 }
 
 /// From each cell the cheapest way to a town.
 struct TownDistances {
     std::vector<double> cost_m;
-    std::vector<std::size_t> town;   ///< place in the list of towns
+    std::vector<std::size_t> town;        ///< place in the list of towns
     std::vector<std::size_t> predecessor; ///< the next cell on the way
 };
 
 TownDistances town_distances(const RoadCostGrid& ground, const std::vector<std::size_t>& towns) {
-    const std::size_t count =
-        static_cast<std::size_t>(ground.columns()) * static_cast<std::size_t>(ground.rows());
-    TownDistances distances{
-        std::vector<double>(count, infinite),
-        std::vector<std::size_t>(count, no_cell),
+    const std::size_t count = static_cast<std::size_t>(ground.columns()) * static_cast<std::size_t>(ground.rows());
+    TownDistances distances{std::vector<double>(count, infinite), std::vector<std::size_t>(count, no_cell),
         std::vector<std::size_t>(count, no_cell)};
     using QueueEntry = std::pair<double, std::size_t>;
     std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;
@@ -228,9 +197,7 @@ TownDistances town_distances(const RoadCostGrid& ground, const std::vector<std::
     while (!open.empty()) {
         const auto [cost_m, cell] = open.top();
         open.pop();
-        if (cost_m > distances.cost_m[cell]) {
-            continue;
-        }
+        if (cost_m > distances.cost_m[cell]) { continue; }
         for_each_neighbour(ground, cell, [&, from = cell, so_far_m = cost_m](std::size_t to) {
             const double through_m = so_far_m + ground.cost_m(from, to);
             if (through_m < distances.cost_m[to]) {
@@ -244,8 +211,7 @@ TownDistances town_distances(const RoadCostGrid& ground, const std::vector<std::
     return distances;
 }
 
-/// The cheapest road from one town's surroundings to another's: where it goes over from the one to
-/// the other.
+/// The cheapest road from one town's surroundings to another's: where it goes over from the one to the other.
 struct TownLink {
     double cost_m = infinite;
     std::size_t from = no_cell;
@@ -257,9 +223,7 @@ struct TownLink {
 std::vector<TownLink> links_between(const RoadCostGrid& ground, const TownDistances& distances) {
     std::map<std::array<std::size_t, 2>, TownLink> best;
     for (std::size_t cell = 0; cell < distances.town.size(); ++cell) {
-        if (distances.town[cell] == no_cell) {
-            continue;
-        }
+        if (distances.town[cell] == no_cell) { continue; }
         for_each_neighbour(ground, cell, [&](std::size_t to) {
             const std::array towns{distances.town[cell], distances.town[to]};
             if (towns[0] >= towns[1]) {
@@ -267,15 +231,11 @@ std::vector<TownLink> links_between(const RoadCostGrid& ground, const TownDistan
             }
             TownLink& link = best[towns];
             const double cost_m = distances.cost_m[cell] + ground.cost_m(cell, to) + distances.cost_m[to];
-            if (cost_m < link.cost_m) {
-                link = {cost_m, cell, to, towns};
-            }
+            if (cost_m < link.cost_m) { link = {cost_m, cell, to, towns}; }
         });
     }
     std::vector<TownLink> links;
-    for (const auto& [towns, link] : best) {
-        links.push_back(link);
-    }
+    for (const auto& [towns, link] : best) { links.push_back(link); }
     std::ranges::stable_sort(links, {}, &TownLink::cost_m);
     return links;
 }
@@ -283,13 +243,9 @@ std::vector<TownLink> links_between(const RoadCostGrid& ground, const TownDistan
 /// The cells of a link from town to town.
 Route cells_of(const TownLink& link, const TownDistances& distances) {
     Route cells;
-    for (std::size_t at = link.from; at != no_cell; at = distances.predecessor[at]) {
-        cells.push_back(at);
-    }
+    for (std::size_t at = link.from; at != no_cell; at = distances.predecessor[at]) { cells.push_back(at); }
     std::ranges::reverse(cells);
-    for (std::size_t at = link.to; at != no_cell; at = distances.predecessor[at]) {
-        cells.push_back(at);
-    }
+    for (std::size_t at = link.to; at != no_cell; at = distances.predecessor[at]) { cells.push_back(at); }
     return cells;
 }
 
@@ -302,10 +258,8 @@ double length_m(const RoadCostGrid& ground, const Route& cells) {
 }
 
 /// The cheapest way by links that are built from town to town.
-double shortest_detour_m(
-    const std::vector<std::vector<std::pair<std::size_t, double>>>& built,
-    const std::array<std::size_t, 2>& towns,
-    double max_detour_m) {
+double shortest_detour_m(const std::vector<std::vector<std::pair<std::size_t, double>>>& built,
+    const std::array<std::size_t, 2>& towns, double max_detour_m) {
     std::vector<double> cost_m(built.size(), infinite);
     using QueueEntry = std::pair<double, std::size_t>;
     std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;
@@ -313,32 +267,23 @@ double shortest_detour_m(
     while (!open.empty()) {
         const auto [so_far_m, town] = open.top();
         open.pop();
-        if (town == towns[1] || so_far_m > max_detour_m) {
-            return so_far_m;
-        }
+        if (town == towns[1] || so_far_m > max_detour_m) { return so_far_m; }
         for (const auto& [next, link_m] : built[town]) {
-            if (so_far_m + link_m < cost_m[next]) {
-                open.emplace(cost_m[next] = so_far_m + link_m, next);
-            }
+            if (so_far_m + link_m < cost_m[next]) { open.emplace(cost_m[next] = so_far_m + link_m, next); }
         }
     }
     return infinite;
 }
 
 /// Cheap links first: each that joins what is not joined or saves a long way around.
-std::vector<Route>
-routes_of_links(const RoadCostGrid& ground, const TownDistances& distances, std::size_t town_count) {
+std::vector<Route> routes_of_links(const RoadCostGrid& ground, const TownDistances& distances, std::size_t town_count) {
     std::vector<Route> routes;
     std::vector<std::vector<std::pair<std::size_t, double>>> built(town_count);
     for (const TownLink& link : links_between(ground, distances)) {
         const double max_detour_m = max_detour_ratio * link.cost_m;
-        if (shortest_detour_m(built, link.towns, max_detour_m) <= max_detour_m) {
-            continue;
-        }
+        if (shortest_detour_m(built, link.towns, max_detour_m) <= max_detour_m) { continue; }
         Route cells = cells_of(link, distances);
-        if (link.cost_m > max_mean_cost * length_m(ground, cells)) {
-            continue;
-        }
+        if (link.cost_m > max_mean_cost * length_m(ground, cells)) { continue; }
         built[link.towns[0]].emplace_back(link.towns[1], link.cost_m);
         built[link.towns[1]].emplace_back(link.towns[0], link.cost_m);
         routes.push_back(std::move(cells));
@@ -360,10 +305,8 @@ CellGraph graph_of(const std::vector<Route>& routes) {
     return graph;
 }
 
-/// Follows a road from one cell by the next to one of the `ends`, or around to where it began, and
-/// forgets it.
-Route extract_route(
-    CellGraph& graph, const std::vector<std::size_t>& ends, std::size_t first, std::size_t next) {
+/// Follows a road from one cell by the next to one of the `ends`, or around to where it began, and forgets it.
+Route extract_route(CellGraph& graph, const std::vector<std::size_t>& ends, std::size_t first, std::size_t next) {
     Route route{first};
     const auto go_to = [&](std::size_t to) {
         graph[route.back()].erase(to);
@@ -380,9 +323,7 @@ Route extract_route(
 } // namespace
 
 std::vector<std::size_t> find_towns(const RoadCostGrid& ground, const RoadConstraints& constraints) {
-    if (ground.columns() == 0) {
-        return {};
-    }
+    if (ground.columns() == 0) { return {}; }
     const double extent_m = ground.cell_m() * std::max(ground.columns(), ground.rows());
     const double block_m = std::max(min_block_m, extent_m / max_blocks);
     const int block = std::max(static_cast<int>(block_m / ground.cell_m()), 2);
@@ -393,25 +334,21 @@ std::vector<std::size_t> find_towns(const RoadCostGrid& ground, const RoadConstr
     };
     const auto site_penalty = [&](std::size_t cell) {
         const double dice = scrambled(static_cast<std::uint32_t>(cell)) * 0x1p-32;
-        return ground.slope(cell) / max_town_slope +
-               ground.height_above_valley_m(cell) / max_town_above_m + 0.3 * dice;
+        return ground.slope(cell) / max_town_slope + ground.height_above_valley_m(cell) / max_town_above_m + 0.3 * dice;
     };
     std::vector<std::size_t> towns;
     for (int south = 0; south < ground.rows(); south += block) {
         for (int west = 0; west < ground.columns(); west += block) {
             std::size_t best = no_cell;
             for (int row = south; row < std::min(south + block, ground.rows()); ++row) {
-                for (int column = west; column < std::min(west + block, ground.columns());
-                     ++column) {
+                for (int column = west; column < std::min(west + block, ground.columns()); ++column) {
                     const std::size_t cell = ground.cell(column, row);
                     if (is_habitable(cell) && (best == no_cell || site_penalty(cell) < site_penalty(best))) {
                         best = cell;
                     }
                 }
             }
-            if (best != no_cell) {
-                towns.push_back(best);
-            }
+            if (best != no_cell) { towns.push_back(best); }
         }
     }
     return towns;
@@ -422,15 +359,11 @@ std::vector<Route> find_routes(const RoadCostGrid& ground, const std::vector<std
     CellGraph graph = graph_of(routes_of_links(ground, distances, towns.size()));
     std::vector<std::size_t> ends;
     for (const auto& [cell, joined] : graph) {
-        if (joined.size() != 2) {
-            ends.push_back(cell);
-        }
+        if (joined.size() != 2) { ends.push_back(cell); }
     }
     std::vector<Route> routes;
     const auto take_all_from = [&](std::size_t cell) {
-        while (!graph[cell].empty()) {
-            routes.push_back(extract_route(graph, ends, cell, *graph[cell].begin()));
-        }
+        while (!graph[cell].empty()) { routes.push_back(extract_route(graph, ends, cell, *graph[cell].begin())); }
     };
     std::ranges::for_each(ends, take_all_from);
     for (const auto& [cell, joined] : graph) { // what is left are rings
@@ -453,8 +386,7 @@ std::vector<glm::dvec2> resampled(std::span<const glm::dvec2> places_m, double s
         const double length_m = glm::distance(places_m[i - 1], places_m[i]);
         const int steps = std::max(static_cast<int>(std::lround(length_m / step_m)), 1);
         for (int step = 0; step < steps; ++step) {
-            line_m.push_back(
-                glm::mix(places_m[i - 1], places_m[i], static_cast<double>(step) / steps));
+            line_m.push_back(glm::mix(places_m[i - 1], places_m[i], static_cast<double>(step) / steps));
         }
     }
     line_m.push_back(places_m.back());
@@ -468,9 +400,7 @@ std::vector<glm::dvec2> smoothed(const std::vector<glm::dvec2>& line_m, std::siz
     for (std::size_t i = 0; i < line_m.size(); ++i) {
         const std::size_t around = std::min({reach, i, line_m.size() - 1 - i});
         glm::dvec2 sum_m(0.0);
-        for (std::size_t j = i - around; j <= i + around; ++j) {
-            sum_m += line_m[j];
-        }
+        for (std::size_t j = i - around; j <= i + around; ++j) { sum_m += line_m[j]; }
         smooth_m.push_back(sum_m / static_cast<double>(2 * around + 1));
     }
     return smooth_m;
@@ -491,21 +421,16 @@ glm::dvec2 left_edge_offset_m(const glm::dvec2& before, const glm::dvec2& after)
 }
 
 /// The points of a level; at the ends edges go on as on the whole line.
-std::vector<RoadPoint> level_points(
-    std::span<const glm::dvec2> piece_m,
-    std::size_t number,
-    const glm::dvec2& first_left_m,
-    const glm::dvec2& last_left_m) {
-    const std::vector<std::size_t> kept =
-        simplify_line(piece_m, level_error_m[number], max_segment_length_m[number]);
+std::vector<RoadPoint> level_points(std::span<const glm::dvec2> piece_m, std::size_t number,
+    const glm::dvec2& first_left_m, const glm::dvec2& last_left_m) {
+    const std::vector<std::size_t> kept = simplify_line(piece_m, level_error_m[number], max_segment_length_m[number]);
     std::vector<RoadPoint> level;
     for (std::size_t i = 0; i < kept.size(); ++i) {
         const glm::dvec2& at_m = piece_m[kept[i]];
         if (i == 0 || i + 1 == kept.size()) {
             level.push_back({at_m, i == 0 ? first_left_m : last_left_m});
         } else {
-            level.push_back(
-                {at_m, left_edge_offset_m(at_m - piece_m[kept[i - 1]], piece_m[kept[i + 1]] - at_m)});
+            level.push_back({at_m, left_edge_offset_m(at_m - piece_m[kept[i - 1]], piece_m[kept[i + 1]] - at_m)});
         }
     }
     return level;
@@ -525,8 +450,7 @@ void update_bounds(RoadSection& section) {
 
 } // namespace
 
-double
-distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m) {
+double distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m) {
     const glm::dvec2 way_m = to_m - from_m;
     const double squared_m2 = std::max(glm::dot(way_m, way_m), 1e-12);
     const double share = std::clamp(glm::dot(at_m - from_m, way_m) / squared_m2, 0.0, 1.0);
@@ -534,29 +458,19 @@ distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const gl
 }
 
 std::vector<glm::dvec2> smooth_centre_line(
-    std::span<const glm::dvec2> places_m,
-    double cell_m,
-    const std::function<bool(const glm::dvec2&)>& is_free) {
-    const std::vector<glm::dvec2> straight_m =
-        resampled(places_m, cell_m / static_cast<double>(steps_per_cell));
+    std::span<const glm::dvec2> places_m, double cell_m, const std::function<bool(const glm::dvec2&)>& is_free) {
+    const std::vector<glm::dvec2> straight_m = resampled(places_m, cell_m / static_cast<double>(steps_per_cell));
     for (const std::size_t reach : {steps_per_cell, steps_per_cell / 2}) {
         std::vector<glm::dvec2> line_m = straight_m;
-        for (int pass = 0; pass < smoothing_passes; ++pass) {
-            line_m = smoothed(line_m, reach);
-        }
-        if (std::ranges::all_of(line_m, is_free)) {
-            return line_m;
-        }
+        for (int pass = 0; pass < smoothing_passes; ++pass) { line_m = smoothed(line_m, reach); }
+        if (std::ranges::all_of(line_m, is_free)) { return line_m; }
     }
     std::vector<glm::dvec2> nearly_straight_m = smoothed(straight_m, 1);
-    if (!std::ranges::all_of(nearly_straight_m, is_free)) {
-        nearly_straight_m.clear();
-    }
+    if (!std::ranges::all_of(nearly_straight_m, is_free)) { nearly_straight_m.clear(); }
     return nearly_straight_m;
 }
 
-std::vector<std::size_t>
-simplify_line(std::span<const glm::dvec2> line_m, double error_m, double max_gap_m) {
+std::vector<std::size_t> simplify_line(std::span<const glm::dvec2> line_m, double error_m, double max_gap_m) {
     std::vector<std::size_t> kept{0};
     std::vector<std::size_t> open{line_m.size() - 1}; // ends of stretches, the nearest last
     while (!open.empty()) {
@@ -592,8 +506,7 @@ void append_sections(std::vector<glm::dvec2> line_m, std::vector<RoadSection>& s
     line_m[last] += last_way * half_width_m;
     const auto to_left_edge_m = [&](std::size_t i) {
         return left_edge_offset_m(
-            i > 0 ? line_m[i] - line_m[i - 1] : first_way,
-            i < last ? line_m[i + 1] - line_m[i] : last_way);
+            i > 0 ? line_m[i] - line_m[i - 1] : first_way, i < last ? line_m[i + 1] - line_m[i] : last_way);
     };
     for (std::size_t first = 0; first < last;) {
         // No short piece is left over.
@@ -616,8 +529,7 @@ constexpr double max_squares = 700.0; ///< a side
 /// Height between samples; those of the border beyond it.
 double height_at(const terrain::GroundSamples& ground, const glm::dvec2& place_m) {
     const glm::dvec2 last(ground.columns() - 2, ground.rows() - 2);
-    const glm::dvec2 grid =
-        glm::clamp(ground.grid_from_world(place_m.x, place_m.y), glm::dvec2(0.0), last);
+    const glm::dvec2 grid = glm::clamp(ground.grid_from_world(place_m.x, place_m.y), glm::dvec2(0.0), last);
     const glm::ivec2 cell(grid);
     const glm::dvec2 part = grid - glm::dvec2(cell);
     const auto along = [&](int row) {
@@ -630,9 +542,7 @@ double height_at(const terrain::GroundSamples& ground, const glm::dvec2& place_m
 bool is_nearer(const RoadSection& section, const glm::dvec2& place_m, double distance_m) {
     const std::vector<RoadPoint>& line = section.levels[0];
     for (std::size_t i = 1; i < line.size(); ++i) {
-        if (distance_to_segment_m(place_m, line[i - 1].at_m, line[i].at_m) < distance_m) {
-            return true;
-        }
+        if (distance_to_segment_m(place_m, line[i - 1].at_m, line[i].at_m) < distance_m) { return true; }
     }
     return false;
 }
@@ -641,9 +551,7 @@ bool is_nearer(const RoadSection& section, const glm::dvec2& place_m, double dis
 
 RoadNetwork::RoadNetwork(const terrain::GroundSamples& ground, const RoadConstraints& constraints) {
     build(ground, constraints);
-    if (!sections_.empty()) {
-        index();
-    }
+    if (!sections_.empty()) { index(); }
 }
 
 void RoadNetwork::build(const terrain::GroundSamples& ground, const RoadConstraints& constraints) {
@@ -655,46 +563,34 @@ void RoadNetwork::build(const terrain::GroundSamples& ground, const RoadConstrai
     std::vector<glm::dvec2> places_m;
     for (const Route& route : find_routes(cells, find_towns(cells, constraints))) {
         places_m.clear();
-        for (const std::size_t cell : route) {
-            places_m.push_back(cells.place_m(cell));
-        }
+        for (const std::size_t cell : route) { places_m.push_back(cells.place_m(cell)); }
         std::vector<glm::dvec2> line_m = smooth_centre_line(places_m, cells.cell_m(), is_free);
-        if (!line_m.empty()) {
-            append_sections(std::move(line_m), sections_);
-        }
+        if (!line_m.empty()) { append_sections(std::move(line_m), sections_); }
     }
 }
 
 std::size_t RoadNetwork::grid_cell(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_size_.x) +
-           static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_size_.x) + static_cast<std::size_t>(column);
 }
 
-RoadNetwork::GridRange
-RoadNetwork::grid_range(const glm::dvec2& min_m, const glm::dvec2& max_m) const {
+RoadNetwork::GridRange RoadNetwork::grid_range(const glm::dvec2& min_m, const glm::dvec2& max_m) const {
     const glm::dvec2 end(grid_size_);
     const auto clamped = [&](const glm::dvec2& at_m) {
-        return glm::ivec2(
-            glm::clamp(glm::floor((at_m - first_m_) / grid_cell_m_), glm::dvec2(-1.0), end));
+        return glm::ivec2(glm::clamp(glm::floor((at_m - first_m_) / grid_cell_m_), glm::dvec2(-1.0), end));
     };
     return {glm::max(clamped(min_m), glm::ivec2(0)), glm::min(clamped(max_m), grid_size_ - 1)};
 }
 
 /// The squares that a stretch of a piece may touch.
-void RoadNetwork::add_cells(
-    const RoadPoint& from,
-    const RoadPoint& to,
-    std::uint32_t number,
+void RoadNetwork::add_cells(const RoadPoint& from, const RoadPoint& to, std::uint32_t number,
     std::vector<std::pair<std::uint32_t, std::uint32_t>>& places) const {
     const glm::dvec2 aside_m = glm::max(glm::abs(from.to_left_edge_m), glm::abs(to.to_left_edge_m));
     const double length_m = glm::distance(from.at_m, to.at_m);
     const int parts = std::max(static_cast<int>(std::ceil(length_m / grid_cell_m_)), 1);
     for (int part = 0; part < parts; ++part) {
         const glm::dvec2 first_m = glm::mix(from.at_m, to.at_m, static_cast<double>(part) / parts);
-        const glm::dvec2 last_m =
-            glm::mix(from.at_m, to.at_m, static_cast<double>(part + 1) / parts);
-        const GridRange own =
-            grid_range(glm::min(first_m, last_m) - aside_m, glm::max(first_m, last_m) + aside_m);
+        const glm::dvec2 last_m = glm::mix(from.at_m, to.at_m, static_cast<double>(part + 1) / parts);
+        const GridRange own = grid_range(glm::min(first_m, last_m) - aside_m, glm::max(first_m, last_m) + aside_m);
         for (int row = own.first.y; row <= own.last.y; ++row) {
             for (int column = own.first.x; column <= own.last.x; ++column) {
                 places.emplace_back(static_cast<std::uint32_t>(grid_cell(column, row)), number);
@@ -716,9 +612,7 @@ void RoadNetwork::index() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> places; // square, piece
     for (std::uint32_t number = 0; number < sections_.size(); ++number) {
         for (const std::vector<RoadPoint>& level : sections_[number].levels) {
-            for (std::size_t i = 1; i < level.size(); ++i) {
-                add_cells(level[i - 1], level[i], number, places);
-            }
+            for (std::size_t i = 1; i < level.size(); ++i) { add_cells(level[i - 1], level[i], number, places); }
         }
     }
     std::ranges::sort(places);
@@ -728,46 +622,33 @@ void RoadNetwork::index() {
         ++first_of_[grid_cell + 1];
         sections_by_cell_.push_back(number);
     }
-    for (std::size_t i = 1; i < first_of_.size(); ++i) {
-        first_of_[i] += first_of_[i - 1];
-    }
+    for (std::size_t i = 1; i < first_of_.size(); ++i) { first_of_[i] += first_of_[i - 1]; }
     const auto width = static_cast<std::size_t>(grid_size_.x) + 1;
     sums_.assign(width * (static_cast<std::size_t>(grid_size_.y) + 1), 0);
     for (int row = 0; row < grid_size_.y; ++row) {
         for (int column = 0; column < grid_size_.x; ++column) {
-            const std::size_t at =
-                static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+            const std::size_t at = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
             const std::size_t own = grid_cell(column, row);
-            sums_[at + width + 1] =
-                sums_[at + width] + sums_[at + 1] - sums_[at] + first_of_[own + 1] - first_of_[own];
+            sums_[at + width + 1] = sums_[at + width] + sums_[at + 1] - sums_[at] + first_of_[own + 1] - first_of_[own];
         }
     }
 }
 
 bool RoadNetwork::may_intersect(const glm::dvec2& min_m, const glm::dvec2& max_m) const {
-    if (sections_.empty()) {
-        return false;
-    }
+    if (sections_.empty()) { return false; }
     const GridRange in = grid_range(min_m, max_m);
-    if (in.first.x > in.last.x || in.first.y > in.last.y) {
-        return false;
-    }
+    if (in.first.x > in.last.x || in.first.y > in.last.y) { return false; }
     const auto sum = [&](int column, int row) {
-        return sums_
-            [static_cast<std::size_t>(row) * (static_cast<std::size_t>(grid_size_.x) + 1) +
-             static_cast<std::size_t>(column)];
+        return sums_[static_cast<std::size_t>(row) * (static_cast<std::size_t>(grid_size_.x) + 1) +
+                     static_cast<std::size_t>(column)];
     };
     return sum(in.last.x + 1, in.last.y + 1) + sum(in.first.x, in.first.y) !=
            sum(in.last.x + 1, in.first.y) + sum(in.first.x, in.last.y + 1);
 }
 
 void RoadNetwork::sections_in_box(
-    const glm::dvec2& min_m,
-    const glm::dvec2& max_m,
-    std::vector<std::uint32_t>& numbers) const {
-    if (sections_.empty()) {
-        return;
-    }
+    const glm::dvec2& min_m, const glm::dvec2& max_m, std::vector<std::uint32_t>& numbers) const {
+    if (sections_.empty()) { return; }
     const GridRange in = grid_range(min_m, max_m);
     for (int row = in.first.y; row <= in.last.y; ++row) {
         for (int column = in.first.x; column <= in.last.x; ++column) {
@@ -780,17 +661,13 @@ void RoadNetwork::sections_in_box(
 }
 
 bool RoadNetwork::is_near(const glm::dvec2& place_m, double distance_m) const {
-    if (sections_.empty()) {
-        return false;
-    }
+    if (sections_.empty()) { return false; }
     const GridRange in = grid_range(place_m - distance_m, place_m + distance_m);
     for (int row = in.first.y; row <= in.last.y; ++row) {
         for (int column = in.first.x; column <= in.last.x; ++column) {
             const std::size_t own = grid_cell(column, row);
             for (std::uint32_t i = first_of_[own]; i < first_of_[own + 1]; ++i) {
-                if (is_nearer(sections_[sections_by_cell_[i]], place_m, distance_m)) {
-                    return true;
-                }
+                if (is_nearer(sections_[sections_by_cell_[i]], place_m, distance_m)) { return true; }
             }
         }
     }

@@ -23,13 +23,12 @@ struct RoadConstraints {
     std::function<bool(const glm::dvec2& place_m)> is_blocked;
 };
 
-/// A ground as builders of roads see it: on cells some hundred metres wide, how steep it is, how
-/// high above the floor of its valley, and where nobody builds. Cells are numbered row after row
-/// from the south-west.
+/// A ground as builders of roads see it: on cells some hundred metres wide, how steep it is, how high above the floor
+/// of its valley, and where nobody builds. Cells are numbered row after row from the south-west.
 class RoadCostGrid {
 public:
-    /// The ground is needed by the constructor alone. Without cells where the ground is too small
-    /// or its cells would be too wide to show valleys.
+    /// The ground is needed by the constructor alone. Without cells where the ground is too small or its cells would be
+    /// too wide to show valleys.
     RoadCostGrid(const terrain::GroundSamples& ground, const RoadConstraints& constraints);
 
     int columns() const { return columns_; }
@@ -39,8 +38,7 @@ public:
     double cell_m() const { return cell_m_; }
 
     std::size_t cell(int column, int row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
     }
 
     glm::ivec2 column_row(std::size_t cell) const {
@@ -49,9 +47,7 @@ public:
     }
 
     /// The middle of a cell in world axes.
-    glm::dvec2 place_m(std::size_t cell) const {
-        return first_m_ + cell_m_ * glm::dvec2(column_row(cell));
-    }
+    glm::dvec2 place_m(std::size_t cell) const { return first_m_ + cell_m_ * glm::dvec2(column_row(cell)); }
 
     double height_m(std::size_t cell) const { return heights_m_[cell]; }
 
@@ -64,8 +60,8 @@ public:
     /// Neither water, a cliff nor taken.
     bool is_free(std::size_t cell) const { return free_[cell] != 0; }
 
-    /// Of a road between neighbouring free cells: its length on even ground in a valley, and more
-    /// where it climbs, lies across a slope or above the valley.
+    /// Of a road between neighbouring free cells: its length on even ground in a valley, and more where it climbs, lies
+    /// across a slope or above the valley.
     double cost_m(std::size_t from, std::size_t to) const;
 
 private:
@@ -83,17 +79,17 @@ private:
     std::vector<std::uint8_t> free_;
 };
 
-/// Cells that a road goes through, neighbours of the grid or a knight's move apart, from one place
-/// where roads end or meet to the next.
+/// Cells that a road goes through, neighbours of the grid or a knight's move apart, from one place where roads end or
+/// meet to the next.
 using Route = std::vector<std::size_t>;
 
-/// Where people live: the best cell of each block some kilometres wide that has a good one, low in
-/// its valley and level, at most a few hundred in all.
+/// Where people live: the best cell of each block some kilometres wide that has a good one, low in its valley and
+/// level, at most a few hundred in all.
 std::vector<std::size_t> find_towns(const RoadCostGrid& ground, const RoadConstraints& constraints);
 
-/// Roads between towns that are near each other, each by the cheapest way, as few as join all that
-/// can be joined, and some more where the way around would be long. No two run side by side in the
-/// same cells: what they share is a route of its own.
+/// Roads between towns that are near each other, each by the cheapest way, as few as join all that can be joined, and
+/// some more where the way around would be long. No two run side by side in the same cells: what they share is a route
+/// of its own.
 std::vector<Route> find_routes(const RoadCostGrid& ground, const std::vector<std::size_t>& towns);
 
 inline constexpr double half_width_m = 3.5;
@@ -108,44 +104,37 @@ struct RoadPoint {
 inline constexpr std::array<double, 4> level_error_m = {0.1, 0.5, 2.0, 8.0};
 
 /// No stretch of a level is longer, but for one step of the finest line: each has one light.
-inline constexpr std::array<double, level_error_m.size()> max_segment_length_m = {
-    25.0, 60.0, 150.0, 400.0};
+inline constexpr std::array<double, level_error_m.size()> max_segment_length_m = {25.0, 60.0, 150.0, 400.0};
 
-/// A piece of a road some hundred metres long, in levels of detail whose ends are the same. World
-/// axes.
+/// A piece of a road some hundred metres long, in levels of detail whose ends are the same. World axes.
 struct RoadSection {
     std::array<std::vector<RoadPoint>, level_error_m.size()> levels; ///< at least two points each
-    glm::dvec2 min_m{0.0};                                         ///< of its edges
+    glm::dvec2 min_m{0.0};                                           ///< of its edges
     glm::dvec2 max_m{0.0};
 };
 
-/// The middle line through these places, rounded like a road, its ends where they are. Where
-/// rounding would lead it over a place that `is_free` denies it goes nearly straight from place to
-/// place; empty where that is denied, too.
+/// The middle line through these places, rounded like a road, its ends where they are. Where rounding would lead it
+/// over a place that `is_free` denies it goes nearly straight from place to place; empty where that is denied, too.
 std::vector<glm::dvec2> smooth_centre_line(
-    std::span<const glm::dvec2> places_m,
-    double cell_m,
-    const std::function<bool(const glm::dvec2&)>& is_free);
+    std::span<const glm::dvec2> places_m, double cell_m, const std::function<bool(const glm::dvec2&)>& is_free);
 
 /// How far a place lies from the straight way from one place to another.
-double
-distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m);
+double distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m);
 
-/// Which points of a line, the first and the last among them, are enough for it to lie nowhere
-/// farther off than so much (Douglas and Peucker 1973), and for no two to lie farther apart than
-/// `max_gap_m` where there are others between them.
-std::vector<std::size_t>
-simplify_line(std::span<const glm::dvec2> line_m, double error_m, double max_gap_m);
+/// Which points of a line, the first and the last among them, are enough for it to lie nowhere farther off than so much
+/// (Douglas and Peucker 1973), and for no two to lie farther apart than `max_gap_m` where there are others between
+/// them.
+std::vector<std::size_t> simplify_line(std::span<const glm::dvec2> line_m, double error_m, double max_gap_m);
 
 /// A line in pieces; a half width longer at both ends, so that roads that meet there leave no gap.
 void append_sections(std::vector<glm::dvec2> line_m, std::vector<RoadSection>& sections);
 
-/// Made-up roads along the valleys of a ground. They follow from its heights alone, and from what
-/// they have to keep off.
+/// Made-up roads along the valleys of a ground. They follow from its heights alone, and from what they have to keep
+/// off.
 class RoadNetwork {
 public:
-    /// Loading work; the ground is needed by the constructor alone. Without roads where the ground
-    /// is too small, too coarse or too rough.
+    /// Loading work; the ground is needed by the constructor alone. Without roads where the ground is too small, too
+    /// coarse or too rough.
     RoadNetwork(const terrain::GroundSamples& ground, const RoadConstraints& constraints);
 
     std::span<const RoadSection> sections() const { return sections_; }
@@ -154,10 +143,7 @@ public:
     bool may_intersect(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
 
     /// Appends numbers of the pieces that may touch this box, some of them more than once.
-    void sections_in_box(
-        const glm::dvec2& min_m,
-        const glm::dvec2& max_m,
-        std::vector<std::uint32_t>& numbers) const;
+    void sections_in_box(const glm::dvec2& min_m, const glm::dvec2& max_m, std::vector<std::uint32_t>& numbers) const;
 
     /// Whether a road's middle line is nearer than so much.
     bool is_near(const glm::dvec2& place_m, double distance_m) const;
@@ -171,10 +157,7 @@ private:
 
     void build(const terrain::GroundSamples& ground, const RoadConstraints& constraints);
     void index();
-    void add_cells(
-        const RoadPoint& from,
-        const RoadPoint& to,
-        std::uint32_t number,
+    void add_cells(const RoadPoint& from, const RoadPoint& to, std::uint32_t number,
         std::vector<std::pair<std::uint32_t, std::uint32_t>>& places) const;
     GridRange grid_range(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
     std::size_t grid_cell(int column, int row) const;

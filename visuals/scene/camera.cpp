@@ -28,16 +28,13 @@ Plane plane_of(const Camera& camera, double aspect) {
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m) {
     const glm::dvec3 to_target_m = target_m - eye_m;
     const double distance_m = glm::length(to_target_m);
-    const glm::dvec3 ahead =
-        distance_m > 0.0 ? to_target_m / distance_m : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 ahead = distance_m > 0.0 ? to_target_m / distance_m : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 sideways = glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0));
     const bool vertical = glm::length(sideways) < 1e-9;
-    const glm::dvec3 right =
-        glm::normalize(vertical ? glm::cross(ahead, glm::dvec3(0.0, 1.0, 0.0)) : sideways);
+    const glm::dvec3 right = glm::normalize(vertical ? glm::cross(ahead, glm::dvec3(0.0, 1.0, 0.0)) : sideways);
     Camera camera;
     camera.eye_m = eye_m;
-    camera.view_to_world =
-        glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
+    camera.view_to_world = glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
     return camera;
 }
 
@@ -63,13 +60,11 @@ double focal_px(const Camera& camera, int picture_height_px) {
 }
 
 glm::dquat body_from_view() {
-    return glm::quat_cast(glm::dmat3(
-        glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0)));
+    return glm::quat_cast(
+        glm::dmat3(glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0)));
 }
 
-glm::dvec3 view_direction(const Camera& camera) {
-    return camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0);
-}
+glm::dvec3 view_direction(const Camera& camera) { return camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0); }
 
 double corner_cos(const Camera& camera, double aspect) {
     const Plane plane = plane_of(camera, aspect);
@@ -81,18 +76,12 @@ std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect) {
     const Plane plane = plane_of(camera, aspect);
     const glm::dvec2 least = plane.middle - plane.half;
     const glm::dvec2 most = plane.middle + plane.half;
-    const auto in_world = [&](const glm::dvec3& in_view) {
-        return camera.view_to_world * glm::normalize(in_view);
-    };
-    return {
-        in_world({1.0, 0.0, least.x}),
-        in_world({-1.0, 0.0, -most.x}),
-        in_world({0.0, 1.0, least.y}),
+    const auto in_world = [&](const glm::dvec3& in_view) { return camera.view_to_world * glm::normalize(in_view); };
+    return {in_world({1.0, 0.0, least.x}), in_world({-1.0, 0.0, -most.x}), in_world({0.0, 1.0, least.y}),
         in_world({0.0, -1.0, -most.y})};
 }
 
-bool in_view(
-    const glm::dvec3& centre_m, double radius_m, const std::array<glm::dvec3, 4>& frustum) {
+bool in_view(const glm::dvec3& centre_m, double radius_m, const std::array<glm::dvec3, 4>& frustum) {
     return std::ranges::all_of(
         frustum, [&](const glm::dvec3& normal) { return glm::dot(normal, centre_m) >= -radius_m; });
 }

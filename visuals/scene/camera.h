@@ -17,31 +17,31 @@ struct Camera {
     /// Usually 45 degrees.
     double vertical_fov_rad = 0.785398163397448;
     double near_m = 0.5;
-    /// Where the middle of the picture's plane lies right of and above straight ahead, in units of
-    /// its distance; the plane stays square to straight ahead. The field of view is that of a
-    /// picture in the middle: twice the tangent of its half is the height of the plane.
+    /// Where the middle of the picture's plane lies right of and above straight ahead, in units of its distance; the
+    /// plane stays square to straight ahead. The field of view is that of a picture in the middle: twice the tangent of
+    /// its half is the height of the plane.
     glm::dvec2 middle{0.0};
     /// Width over height of what a pixel covers.
     double pixel_aspect = 1.0;
 };
 
-/// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up;
-/// at itself, it looks north.
+/// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up; at itself, it looks
+/// north.
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
 
-/// Rotation from the view axes of a camera that looks ahead in a body (right, up, back) to that
-/// body's own (ahead, right, down).
+/// Rotation from the view axes of a camera that looks ahead in a body (right, up, back) to that body's own (ahead,
+/// right, down).
 glm::dquat body_from_view();
 
 /// Rotation part of the view: eye-relative world vectors to view axes.
 glm::mat4 world_to_view(const Camera& camera);
 
-/// Perspective with the depth reversed (1 at the near plane, 0 at infinity) and no far plane, for
-/// clip depth 0..1. `aspect` = width / height of the picture in pixels, here and below.
+/// Perspective with the depth reversed (1 at the near plane, 0 at infinity) and no far plane, for clip depth 0..1.
+/// `aspect` = width / height of the picture in pixels, here and below.
 glm::mat4 view_to_clip(const Camera& camera, double aspect);
 
-/// Pixels that a metre covers straight ahead, one metre before the eye, along the side of pixels
-/// that is the shorter one.
+/// Pixels that a metre covers straight ahead, one metre before the eye, along the side of pixels that is the shorter
+/// one.
 double focal_px(const Camera& camera, int picture_height_px);
 
 /// The direction in which a camera looks, world axes.
@@ -50,8 +50,8 @@ glm::dvec3 view_direction(const Camera& camera);
 /// The cosine of the angle between that and the farthest of the picture's corners.
 double corner_cos(const Camera& camera, double aspect);
 
-/// Planes of the view frustum through the eye, eye-relative world axes, unit normals pointing
-/// inside: left, right, bottom, top. A point is inside when every dot product is >= 0.
+/// Planes of the view frustum through the eye, eye-relative world axes, unit normals pointing inside: left, right,
+/// bottom, top. A point is inside when every dot product is >= 0.
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect);
 
 /// False only for a sphere, eye-relative, of which nothing is inside such planes.

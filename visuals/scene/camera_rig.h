@@ -34,16 +34,10 @@ struct RigState {
 /// Memory after one simulation step of the aircraft that is followed.
 RigState next_rig_state(const RigState& memory, const sim::AircraftState& state);
 
-/// The camera of a view at the state's time, turned and moved nearer as the settings say: the eye
-/// around the aircraft (chase, orbit; no nearer than the sphere around it), else the look. Neither
-/// is turned past straight up or down. The eye is lifted where it would be below the ground or
-/// within 2 m of it.
-Camera camera_of(
-    const ViewSettings& settings,
-    const sim::AircraftState& state,
-    const RigState& memory,
-    const Subject& subject,
-    const FixedViewpoints& points,
-    const GroundHeight& ground);
+/// The camera of a view at the state's time, turned and moved nearer as the settings say: the eye around the aircraft
+/// (chase, orbit; no nearer than the sphere around it), else the look. Neither is turned past straight up or down. The
+/// eye is lifted where it would be below the ground or within 2 m of it.
+Camera camera_of(const ViewSettings& settings, const sim::AircraftState& state, const RigState& memory,
+    const Subject& subject, const FixedViewpoints& points, const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

@@ -1,5 +1,5 @@
-// Sums of gradient noise (K. Perlin, "Improving Noise", SIGGRAPH 2002) whose lattices divide the
-// tile, so that it repeats without a seam.
+// Sums of gradient noise (K. Perlin, "Improving Noise", SIGGRAPH 2002) whose lattices divide the tile, so that it
+// repeats without a seam.
 #include "visuals/scene/detail_pattern.h"
 
 #include <algorithm>
@@ -16,46 +16,24 @@ struct Octave {
     float weight;
 };
 
-constexpr std::array octaves = {
-    Octave{2, 0.55F},
-    Octave{4, 0.8F},
-    Octave{8, 0.9F},
-    Octave{16, 0.8F},
-    Octave{32, 0.75F},
-    Octave{64, 0.6F},
-    Octave{128, 0.45F}};
+constexpr std::array octaves = {Octave{2, 0.55F}, Octave{4, 0.8F}, Octave{8, 0.9F}, Octave{16, 0.8F}, Octave{32, 0.75F},
+    Octave{64, 0.6F}, Octave{128, 0.45F}};
 
 /// Sixteen directions around, so that no lattice line is seen.
-constexpr std::array<glm::vec2, 16> directions = {
-    glm::vec2(1.0F, 0.0F),
-    {0.924F, 0.383F},
-    {0.707F, 0.707F},
-    {0.383F, 0.924F},
-    {0.0F, 1.0F},
-    {-0.383F, 0.924F},
-    {-0.707F, 0.707F},
-    {-0.924F, 0.383F},
-    {-1.0F, 0.0F},
-    {-0.924F, -0.383F},
-    {-0.707F, -0.707F},
-    {-0.383F, -0.924F},
-    {0.0F, -1.0F},
-    {0.383F, -0.924F},
-    {0.707F, -0.707F},
+constexpr std::array<glm::vec2, 16> directions = {glm::vec2(1.0F, 0.0F), {0.924F, 0.383F}, {0.707F, 0.707F},
+    {0.383F, 0.924F}, {0.0F, 1.0F}, {-0.383F, 0.924F}, {-0.707F, 0.707F}, {-0.924F, 0.383F}, {-1.0F, 0.0F},
+    {-0.924F, -0.383F}, {-0.707F, -0.707F}, {-0.383F, -0.924F}, {0.0F, -1.0F}, {0.383F, -0.924F}, {0.707F, -0.707F},
     {0.924F, -0.383F}};
 
 glm::vec2 direction_at(int column, int row, int salt) {
-    std::uint32_t h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^
-                      static_cast<std::uint32_t>(row) * 0x85ebca77U ^
+    std::uint32_t h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^ static_cast<std::uint32_t>(row) * 0x85ebca77U ^
                       static_cast<std::uint32_t>(salt) * 0xc2b2ae3dU;
     h = (h ^ (h >> 15U)) * 0x2c1b3c6dU;
     h = (h ^ (h >> 12U)) * 0x297a2d39U;
     return directions[(h ^ (h >> 15U)) >> 28U];
 }
 
-float eased(float t) {
-    return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
-}
+float eased(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
 
 /// Adds one octave's noise of a row of texels to their sums.
 void add_octave(const Octave& octave, int row, std::vector<float>& sums) {
@@ -74,12 +52,10 @@ void add_octave(const Octave& octave, int row, std::vector<float>& sums) {
         for (int i = 0; i < octave.cell_texels; ++i) {
             const float u = (static_cast<float>(i) + 0.5F) * by_cell;
             const float right = eased(u);
-            const float low =
-                (1.0F - right) * (a.x * u + a.y * v) + right * (b.x * (u - 1.0F) + b.y * v);
-            const float high = (1.0F - right) * (c.x * u + c.y * (v - 1.0F)) +
-                               right * (d.x * (u - 1.0F) + d.y * (v - 1.0F));
-            sums[static_cast<std::size_t>(cell * octave.cell_texels + i)] +=
-                octave.weight * (low + up * (high - low));
+            const float low = (1.0F - right) * (a.x * u + a.y * v) + right * (b.x * (u - 1.0F) + b.y * v);
+            const float high =
+                (1.0F - right) * (c.x * u + c.y * (v - 1.0F)) + right * (d.x * (u - 1.0F) + d.y * (v - 1.0F));
+            sums[static_cast<std::size_t>(cell * octave.cell_texels + i)] += octave.weight * (low + up * (high - low));
         }
     }
 }
@@ -92,9 +68,7 @@ std::vector<float> make_noise() {
     std::vector<float> sums(size);
     for (int row = 0; row < DetailPattern::side_texels; ++row) {
         std::ranges::fill(sums, 0.0F);
-        for (const Octave& octave : octaves) {
-            add_octave(octave, row, sums);
-        }
+        for (const Octave& octave : octaves) { add_octave(octave, row, sums); }
         noise.insert(noise.end(), sums.begin(), sums.end());
     }
     return noise;
@@ -105,15 +79,14 @@ std::vector<float> half_of(const std::vector<float>& noise, std::size_t size) {
     half.reserve(noise.size() / 4);
     for (std::size_t row = 0; row < size; row += 2) {
         for (std::size_t at = row * size; at < (row + 1) * size; at += 2) {
-            half.push_back(
-                0.25F * ((noise[at] + noise[at + 1]) + (noise[at + size] + noise[at + size + 1])));
+            half.push_back(0.25F * ((noise[at] + noise[at + 1]) + (noise[at + size] + noise[at + size + 1])));
         }
     }
     return half;
 }
 
-/// Bytes of the mean and the deviation that all levels have; what lies beyond a byte is cut, a few
-/// texels in a thousand.
+/// Bytes of the mean and the deviation that all levels have; what lies beyond a byte is cut, a few texels in a
+/// thousand.
 DetailPattern level_of(const std::vector<float>& noise, int size) {
     double sum = 0.0;
     double squares = 0.0;

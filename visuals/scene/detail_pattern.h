@@ -9,23 +9,22 @@
 
 namespace octant::visuals::scene {
 
-/// The fine pattern of ground: a square tile of texels that repeats each way without a seam. A
-/// texel of 128 is the mean. It is laid over the ground several times, from the finest scale on
-/// each `scale_step` times as wide as the one before and turned by a right angle: a pixel sees two
-/// of them, so that it has contrast however large it is.
+/// The fine pattern of ground: a square tile of texels that repeats each way without a seam. A texel of 128 is the
+/// mean. It is laid over the ground several times, from the finest scale on each `scale_step` times as wide as the one
+/// before and turned by a right angle: a pixel sees two of them, so that it has contrast however large it is.
 struct DetailPattern {
     static constexpr int side_texels = 512;
     static constexpr float texels_per_m = 8.0F; ///< at the finest scale
     static constexpr int scales = 4;
     static constexpr int levels_per_scale = 4; ///< halvings of size from one scale to the next
     static constexpr int scale_step = 1 << levels_per_scale;
-    /// How far a place moves east and north in the pattern for each metre that it lies higher, so
-    /// that steep ground has the pattern, too; at every second scale as far the other way: where
-    /// one of them runs in streaks down a slope, the next one does not.
+    /// How far a place moves east and north in the pattern for each metre that it lies higher, so that steep ground has
+    /// the pattern, too; at every second scale as far the other way: where one of them runs in streaks down a slope,
+    /// the next one does not.
     static constexpr glm::vec2 shift_per_height{0.22F, -0.27F};
-    /// Ground whose normal leans more than by this tangent from the vertical shows the pattern
-    /// upright, as on a wall that faces east or north, whichever is nearer: from above it would
-    /// run in streaks down the slope. At this tangent both are stretched alike, by 1.7 at most.
+    /// Ground whose normal leans more than by this tangent from the vertical shows the pattern upright, as on a wall
+    /// that faces east or north, whichever is nearer: from above it would run in streaks down the slope. At this
+    /// tangent both are stretched alike, by 1.7 at most.
     static constexpr float min_upright_slope = 0.8F;
     /// Standard deviation of all levels; the pattern goes from -1 to 1.
     static constexpr double deviation = 0.36;
@@ -35,10 +34,9 @@ struct DetailPattern {
     std::vector<std::uint8_t> texels;
 };
 
-/// The pattern with features between two and 128 texels, none of them stronger than the others;
-/// then levels with half as many texels a side each, the means of four with the contrast of the
-/// first, as many as a scale has. The same bytes on every machine. Made when they are first asked
-/// for.
+/// The pattern with features between two and 128 texels, none of them stronger than the others; then levels with half
+/// as many texels a side each, the means of four with the contrast of the first, as many as a scale has. The same bytes
+/// on every machine. Made when they are first asked for.
 const std::array<DetailPattern, DetailPattern::levels_per_scale + 1>& detail_mip_levels();
 
 /// How wide a tile of the pattern is at a scale.

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/detail_pattern.h"
 #include "visuals/scene/index_range.h"
+#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/model_buffers.h"
 #include "visuals/scene/paint_step.h"
 
@@ -20,8 +20,8 @@
 
 // The seam between deciding and drawing: the planner writes a FramePlan, a renderer draws it.
 //
-// All colours are display values (models/srgb.h), and all arithmetic is done on them
-// directly; README.md of this room says what that costs.
+// All colours are display values (models/srgb.h), and all arithmetic is done on them directly; README.md of this room
+// says what that costs.
 
 namespace octant::visuals::scene {
 
@@ -42,18 +42,15 @@ struct AircraftDraw {
     /// The word of FramePlan::smooth whose bit 0 is polygon 0.
     std::uint32_t first_smooth = 0;
     PolygonTints tints{};
-    /// Drawn one after the other in place of the range above, if there are any. Memory as
-    /// TriangleDraw.
+    /// Drawn one after the other in place of the range above, if there are any. Memory as TriangleDraw.
     std::span<const IndexRange> ranges{};
 };
 
-/// A mesh that is another one in each frame. Memory stays with the maker of the plan, as that of
-/// TriangleDraw.
+/// A mesh that is another one in each frame. Memory stays with the maker of the plan, as that of TriangleDraw.
 struct RefinedDraw {
     /// ModelVertex::polygon is 0 where a smooth triangle begins, 1 where a flat one does.
     std::span<const ModelVertex> vertices;
-    /// Triangles. A flat one's first corner belongs to it alone; a place without a triangle has
-    /// three equal ones.
+    /// Triangles. A flat one's first corner belongs to it alone; a place without a triangle has three equal ones.
     std::span<const std::uint32_t> indices;
     /// Index into FramePlan::parts.
     std::uint32_t first_part = 0;
@@ -62,8 +59,8 @@ struct RefinedDraw {
     PolygonTints tints{};
 };
 
-/// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the
-/// plan until the next plan.
+/// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the plan until the next
+/// plan.
 struct TriangleDraw {
     std::span<const models::ColourVertex> vertices;
     /// Triangles, counter-clockwise seen from above.
@@ -78,15 +75,14 @@ struct OverlayVertex {
     std::uint32_t colour = 0;
 };
 
-/// Triangles drawn over the picture in their order, either way round, blended by their alpha.
-/// Memory as TriangleDraw.
+/// Triangles drawn over the picture in their order, either way round, blended by their alpha. Memory as TriangleDraw.
 struct OverlayDraw {
     std::span<const OverlayVertex> vertices;
     std::span<const std::uint32_t> indices;
 };
 
-/// Where world axes with the eye subtracted lie in a texture: at_eye + position * per_m, in shares
-/// of its width from the west and of its height from the south.
+/// Where world axes with the eye subtracted lie in a texture: at_eye + position * per_m, in shares of its width from
+/// the west and of its height from the south.
 struct TextureTransform {
     glm::vec2 at_eye{0.0F};
     glm::vec2 per_m{0.0F};
@@ -98,10 +94,10 @@ struct GroundTextureTransforms {
     TextureTransform normal;
 };
 
-/// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-depth)), mixed in display
-/// values. Depth is distance / visibility times the mean density on the way over that at the eye.
-/// Density falls with exp(-height * falloff). The haze's colour is mix(colour, sunward, c^2), where
-/// c is the cosine of the way to the level direction of the sun, at least 0.
+/// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-depth)), mixed in display values. Depth is
+/// distance / visibility times the mean density on the way over that at the eye. Density falls with exp(-height *
+/// falloff). The haze's colour is mix(colour, sunward, c^2), where c is the cosine of the way to the level direction of
+/// the sun, at least 0.
 struct Haze {
     /// The colour of the haze away from the sun, display values 0..1.
     glm::vec3 colour{0.0F};
@@ -115,9 +111,8 @@ struct Haze {
     glm::vec3 sunward_colour{0.0F};
 };
 
-/// The fine pattern (grain_pattern.h) on ground that its vertices colour. By it and by a vertex's
-/// alpha, the number of a mixture of covers, a pixel differs from its colour, and by so much less
-/// as haze lies before it.
+/// The fine pattern (grain_pattern.h) on ground that its vertices colour. By it and by a vertex's alpha, the number of
+/// a mixture of covers, a pixel differs from its colour, and by so much less as haze lies before it.
 struct DetailTexture {
     /// Where the eye stands in the pattern at each scale, in tiles, 0..1.
     std::array<glm::vec2, DetailPattern::scales> at_eye{};
@@ -126,9 +121,8 @@ struct DetailTexture {
     std::shared_ptr<const LandCoverContrast> contrast;
 };
 
-/// What a surface that is lit in each pixel has beside the light of all others, where it faces the
-/// sun: white * sunlight * share * max(c, 0)^power, where c is the cosine between the mirrored
-/// light and the way to the eye.
+/// What a surface that is lit in each pixel has beside the light of all others, where it faces the sun: white *
+/// sunlight * share * max(c, 0)^power, where c is the cosine between the mirrored light and the way to the eye.
 struct Highlight {
     static constexpr float share = 0.4F;
     static constexpr int power = 24;
@@ -143,9 +137,9 @@ enum class MeshDisplay {
     Levels
 };
 
-/// Everything a renderer needs for one picture, and nothing of any graphics library. The picture
-/// begins as `background`; then each of `steps` is drawn over what is there, in their order. What
-/// no step names is not drawn: the other members say with what and under which light.
+/// Everything a renderer needs for one picture, and nothing of any graphics library. The picture begins as
+/// `background`; then each of `steps` is drawn over what is there, in their order. What no step names is not drawn: the
+/// other members say with what and under which light.
 struct FramePlan {
     /// A rotation only: positions are relative to the eye.
     glm::mat4 world_to_view{1.0F};
@@ -159,22 +153,22 @@ struct FramePlan {
     std::vector<PixelBox> depth_boxes;
 
     TriangleDraw sky;
-    /// Triangles that face the eye or are seen edge-on, in the order in which they are drawn, with
-    /// the pieces of shadows among them where these are painted in place.
+    /// Triangles that face the eye or are seen edge-on, in the order in which they are drawn, with the pieces of
+    /// shadows among them where these are painted in place.
     TriangleDraw ground;
-    /// Triangles of ground and shadows that are drawn after the ground: indices of
-    /// ground.vertices, then of shadow_vertices, as those of `ground` itself.
+    /// Triangles of ground and shadows that are drawn after the ground: indices of ground.vertices, then of
+    /// shadow_vertices, as those of `ground` itself.
     std::vector<std::uint32_t> repaint_indices;
-    /// The corners of each triangle of the ground have one colour, which has to reach the picture
-    /// to the last bit: polygon numbers.
+    /// The corners of each triangle of the ground have one colour, which has to reach the picture to the last bit:
+    /// polygon numbers.
     bool ground_has_polygon_numbers = false;
     std::vector<models::ColourVertex> shadow_vertices;
     MeshDisplay mesh_display = MeshDisplay::None;
     /// The spacing of the ground's samples, from which levels are counted.
     float sample_spacing_m = 1.0F;
-    /// Ground and shadows are coloured by the renderer's ground texture under `ambient` and
-    /// `sunlight`, times the vertices' alpha; nothing = by the vertices' colours. So is what is
-    /// painted on textured ground: a triangle of shadow_vertices whose alpha is 0.
+    /// Ground and shadows are coloured by the renderer's ground texture under `ambient` and `sunlight`, times the
+    /// vertices' alpha; nothing = by the vertices' colours. So is what is painted on textured ground: a triangle of
+    /// shadow_vertices whose alpha is 0.
     std::optional<GroundTextureTransforms> ground_texture;
     /// The fine pattern on ground and shadows without a texture; nothing = none.
     std::optional<DetailTexture> detail_texture;
@@ -184,20 +178,19 @@ struct FramePlan {
     std::vector<RefinedDraw> refined;
     /// What AircraftDraw::first_part counts in: the body, then each pivot of the model.
     std::vector<glm::mat4> parts;
-    /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat; and a word
-    /// for all that is refined.
+    /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat; and a word for all that is
+    /// refined.
     std::vector<std::uint32_t> smooth;
     /// Smooth polygons are lit in each pixel (Phong's shading) instead of at their corners.
     bool lights_pixels = false;
-    /// What is drawn on the picture without haze: veils, which lie behind what later steps draw,
-    /// and then what lies over the picture.
+    /// What is drawn on the picture without haze: veils, which lie behind what later steps draw, and then what lies
+    /// over the picture.
     OverlayDraw overlay;
 
     Haze haze;
     /// The direction to the sun: a unit vector, world axes.
     glm::vec3 to_sun{0.0F, 0.0F, 1.0F};
-    /// Light on what is lit here: a colour's display values times ambient + sunlight * cosine to
-    /// the sun, cut at 1.
+    /// Light on what is lit here: a colour's display values times ambient + sunlight * cosine to the sun, cut at 1.
     glm::vec3 ambient{0.45F};
     glm::vec3 sunlight{0.65F};
 };

@@ -25,9 +25,7 @@ double deviations_at(int pattern) {
 }
 
 /// The share of a normal distribution below a place, in its standard deviations.
-double share_below(double deviations) {
-    return 0.5 * std::erfc(-deviations * std::sqrt(0.5));
-}
+double share_below(double deviations) { return 0.5 * std::erfc(-deviations * std::sqrt(0.5)); }
 
 /// The place below which so much of a normal distribution lies, found by halving.
 double place_of_share(double share) {
@@ -52,8 +50,7 @@ Mixture mixture_of(int kind, const std::array<LandCover, LandCoverContrast::cove
     const double place = kind == last ? LandCoverContrast::covers : kind * 4.0 / LandCoverContrast::mixture_count;
     const int below = std::min(static_cast<int>(place), LandCoverContrast::covers - 1);
     const LandCover& second = covers[static_cast<std::size_t>(below)];
-    const LandCover first =
-        below == 0 ? LandCover{second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
+    const LandCover first = below == 0 ? LandCover{second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
     return {first, second, place_of_share(1.0 - (place - below))};
 }
 
@@ -90,9 +87,7 @@ Shares shares_of_mixture(const Mixture& mixture) {
         most = std::max({most, share.x, share.y, share.z});
     }
     // Less contrast rather than another mean.
-    for (glm::dvec3& share : shares) {
-        share *= max_share / most;
-    }
+    for (glm::dvec3& share : shares) { share *= max_share / most; }
     return shares;
 }
 

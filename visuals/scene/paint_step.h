@@ -30,8 +30,8 @@ struct PixelBox {
     glm::ivec2 most{0};
 };
 
-/// Planes that a draw is cut by: what lies in front of all of them is drawn. World axes with the
-/// eye subtracted; xyz = normal, w = offset.
+/// Planes that a draw is cut by: what lies in front of all of them is drawn. World axes with the eye subtracted; xyz =
+/// normal, w = offset.
 struct Clip {
     static constexpr int max_planes = 8;
     std::array<glm::vec4, max_planes> planes{};
@@ -53,8 +53,7 @@ struct PaintStep {
         Aircraft,
         /// Meshes of FramePlan::refined are drawn without their back faces.
         Refined,
-        /// Indices of FramePlan::overlay are drawn as Overlay draws them; what comes later is drawn
-        /// over it.
+        /// Indices of FramePlan::overlay are drawn as Overlay draws them; what comes later is drawn over it.
         Transparent,
         /// Indices of FramePlan::overlay are blended by their alpha, after all others.
         Overlay
@@ -67,9 +66,8 @@ struct PaintStep {
     /// Index into FramePlan::clips; `no_clip` = what is drawn is not cut.
     std::uint32_t clip = no_clip;
     DepthUse depth = DepthUse::None;
-    /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where
-    /// their depth, which is Nearest, says so, and depth is not written: clear surfaces, drawn
-    /// after all that they may be seen before.
+    /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where their depth, which
+    /// is Nearest, says so, and depth is not written: clear surfaces, drawn after all that they may be seen before.
     float opacity = 1.0F;
 };
 

@@ -7,8 +7,8 @@
 
 namespace octant::visuals::scene {
 
-/// Gives memory that begins where a line of the processor's caches does, so that whoever writes
-/// past the caches writes whole lines.
+/// Gives memory that begins where a line of the processor's caches does, so that whoever writes past the caches writes
+/// whole lines.
 template <class Value>
 struct CacheLineAllocator {
     using value_type = Value;
@@ -19,9 +19,7 @@ struct CacheLineAllocator {
     template <class Other>
     explicit CacheLineAllocator(const CacheLineAllocator<Other>& /*other*/) {}
 
-    Value* allocate(std::size_t count) {
-        return static_cast<Value*>(::operator new(count * sizeof(Value), line));
-    }
+    Value* allocate(std::size_t count) { return static_cast<Value*>(::operator new(count * sizeof(Value), line)); }
 
     void deallocate(Value* at, std::size_t /*count*/) { ::operator delete(at, line); }
 

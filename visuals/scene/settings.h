@@ -51,12 +51,11 @@ struct ViewSettings {
     std::optional<glm::dvec3> look_m;
     /// Vertical. Nothing: 45, and the tower zooms in on the aircraft.
     std::optional<double> fov_deg;
-    /// Chase and orbit: the eye turned around the aircraft, clockwise from above and upwards; else
-    /// the look turned right and up.
+    /// Chase and orbit: the eye turned around the aircraft, clockwise from above and upwards; else the look turned
+    /// right and up.
     double azimuth_deg = 0.0;
     double elevation_deg = 0.0;
-    /// In chase and orbit views, how many times nearer the eye is; in others, how many times larger
-    /// things look.
+    /// In chase and orbit views, how many times nearer the eye is; in others, how many times larger things look.
     double zoom = 1.0;
     /// A second view, drawn small into a corner of the picture.
     std::optional<View> inset;
@@ -77,8 +76,7 @@ struct SurfaceSettings {
     draworder::OrderMethod order_method = draworder::OrderMethod::Tree;
     /// About the most that the search for an order takes, on one core.
     double order_seconds = 20.0;
-    /// Where orders are kept: a folder, "user" for the user's own cache, or "none". The pictures are
-    /// the same.
+    /// Where orders are kept: a folder, "user" for the user's own cache, or "none". The pictures are the same.
     std::string order_cache = "user";
     /// Whether aircraft cast shadows on the ground.
     bool shadows = true;
@@ -154,8 +152,7 @@ struct AirSettings {
     double haze_height_m = 2500.0;
     /// Of the haze under a sun of 35 degrees, too.
     glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};
-    /// "YYYY-MM-DDTHH:MM" by the sun itself: whoever loads the scene sets the sun by it and the
-    /// place.
+    /// "YYYY-MM-DDTHH:MM" by the sun itself: whoever loads the scene sets the sun by it and the place.
     std::optional<std::string> time;
     /// The direction of the sun, clockwise from north.
     double sun_azimuth_deg = 225.0;
@@ -178,8 +175,7 @@ struct AirSettings {
     bool operator==(const AirSettings&) const = default;
 };
 
-/// Everything that decides what a picture of a scene shows, in parts: whoever needs one is handed
-/// that one.
+/// Everything that decides what a picture of a scene shows, in parts: whoever needs one is handed that one.
 struct Settings {
     ViewSettings view;
     SurfaceSettings surface;
@@ -191,14 +187,13 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 };
 
-/// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point
-/// roughness where something is asked for that only it has.
+/// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point roughness where
+/// something is asked for that only it has.
 inline GroundMetric ground_metric(const GroundSettings& settings) {
     const bool uses_paper_quadtree = settings.detail != DetailControl::Exact || settings.roughness_c ||
-                              settings.fans != GroundFans::Partial ||
-                              settings.propagation != Propagation::CrackFree;
-    return settings.mesh.value_or(
-        uses_paper_quadtree ? GroundMetric::Midpoint : GroundMetric::ScreenError);
+                                     settings.fans != GroundFans::Partial ||
+                                     settings.propagation != Propagation::CrackFree;
+    return settings.mesh.value_or(uses_paper_quadtree ? GroundMetric::Midpoint : GroundMetric::ScreenError);
 }
 
 /// Whether the detail of the ground is controlled alike, so that one goes on where the other was.
@@ -209,8 +204,8 @@ inline bool same_detail_control(const GroundSettings& a, const GroundSettings& b
 /// A triangle target beyond all meshes.
 inline constexpr int unlimited_triangles = 1000000000;
 
-/// Triangles of ground that are held, in the first frame where that number follows the clock; a
-/// number beyond all meshes where the error alone decides.
+/// Triangles of ground that are held, in the first frame where that number follows the clock; a number beyond all
+/// meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
     const bool uses_error_only = settings.ground.error_px && !settings.adapt.terrain;
     return settings.ground.triangles.value_or(uses_error_only ? unlimited_triangles : 20000);

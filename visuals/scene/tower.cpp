@@ -14,8 +14,8 @@ namespace octant::visuals::scene {
 
 namespace {
 
-/// Shares of the picture's height that the aircraft's sphere fills: as a rule, where the view
-/// widens for the skyline, and at the least where the lens must stay wide for the ground.
+/// Shares of the picture's height that the aircraft's sphere fills: as a rule, where the view widens for the skyline,
+/// and at the least where the lens must stay wide for the ground.
 constexpr double close_share = 0.5;
 constexpr double wide_share = 0.14;
 constexpr double min_share = 0.18;
@@ -31,17 +31,13 @@ double fov_for_share(double radius_m, double distance_m, double share) {
 } // namespace
 
 double skyline_rad(const Tower& tower, double heading_rad) {
-    if (tower.skyline_rad.empty()) {
-        return 0.0;
-    }
+    if (tower.skyline_rad.empty()) { return 0.0; }
     const auto count = static_cast<double>(tower.skyline_rad.size());
     const double turns = heading_rad / (2.0 * pi);
     const double place = (turns - std::floor(turns)) * count;
     const auto first = static_cast<std::size_t>(place) % tower.skyline_rad.size();
     const std::size_t next = (first + 1) % tower.skyline_rad.size();
-    return glm::mix(
-        static_cast<double>(tower.skyline_rad[first]),
-        static_cast<double>(tower.skyline_rad[next]),
+    return glm::mix(static_cast<double>(tower.skyline_rad[first]), static_cast<double>(tower.skyline_rad[next]),
         place - std::floor(place));
 }
 
@@ -49,8 +45,7 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     const glm::dvec3 to_aircraft_m = aircraft_m - tower.eye_m;
     const double distance_m = std::max(glm::length(to_aircraft_m), radius_m);
     const double elevation_rad = std::asin(std::clamp(to_aircraft_m.z / distance_m, -1.0, 1.0));
-    const double above_rad =
-        elevation_rad - skyline_rad(tower, std::atan2(to_aircraft_m.x, to_aircraft_m.y));
+    const double above_rad = elevation_rad - skyline_rad(tower, std::atan2(to_aircraft_m.x, to_aircraft_m.y));
 
     const double close_fov_rad = fov_for_share(radius_m, distance_m, close_share);
     const double wide_rad = fov_for_share(radius_m, distance_m, wide_share);
@@ -67,8 +62,7 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     camera.vertical_fov_rad = std::max(fov_rad, glm::mix(ground_fov_rad, lens_fov_rad, sky_share));
     const double max_rad = aircraft_offset * camera.vertical_fov_rad;
     const double tilt_rad = reach * std::clamp(0.5 * above_rad, -max_rad, max_rad);
-    camera.view_to_world =
-        glm::normalize(camera.view_to_world * glm::angleAxis(-tilt_rad, glm::dvec3(1.0, 0.0, 0.0)));
+    camera.view_to_world = glm::normalize(camera.view_to_world * glm::angleAxis(-tilt_rad, glm::dvec3(1.0, 0.0, 0.0)));
     return camera;
 }
 

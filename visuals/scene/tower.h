@@ -27,8 +27,8 @@ struct Tower {
 /// Elevation of the skyline at a heading, radians.
 double skyline_rad(const Tower& tower, double heading_rad);
 
-/// The tower's camera: near enough to know an aircraft of this radius, wider where that brings the
-/// skyline into the picture beside it, tilted towards the skyline by half the way.
+/// The tower's camera: near enough to know an aircraft of this radius, wider where that brings the skyline into the
+/// picture beside it, tilted towards the skyline by half the way.
 Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double radius_m);
 
 /// What a place for the tower is chosen by.
@@ -46,15 +46,14 @@ struct TowerRequest {
 /// A tower at an eye point, lifted out of the ground, for flights as in the wish.
 Tower tower_at(glm::dvec3 eye_m, const TowerRequest& request, const GroundHeight& ground);
 
-/// The tower on the ground from which the flight is seen best, as tower_score() has it; `fallback_m`
-/// where there is no ground beside the flight. The same wish gives the same tower. Loading work.
+/// The tower on the ground from which the flight is seen best, as tower_score() has it; `fallback_m` where there is no
+/// ground beside the flight. The same wish gives the same tower. Loading work.
 Tower tower_for(const TowerRequest& request, const GroundHeight& ground);
 
-/// How well a flight is seen from an eye point, 0..1: the mean over its times of how large the
-/// aircraft is, how near to the middle of the picture the skyline runs, so that relief and sky are
-/// seen, and how many samples of the ground behind it the picture spans. Times at which ground
-/// hides the aircraft, or no operator could follow it, count nothing, and the more of them there
-/// are the less the others count.
+/// How well a flight is seen from an eye point, 0..1: the mean over its times of how large the aircraft is, how near to
+/// the middle of the picture the skyline runs, so that relief and sky are seen, and how many samples of the ground
+/// behind it the picture spans. Times at which ground hides the aircraft, or no operator could follow it, count
+/// nothing, and the more of them there are the less the others count.
 double tower_score(const glm::dvec3& eye_m, const TowerRequest& request, const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

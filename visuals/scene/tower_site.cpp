@@ -11,9 +11,8 @@
 #include <cstddef>
 #include <utility>
 
-// Where the tower stands. Spots on the ground beside the flight, nearer and farther, are scored by
-// few looks at the flight along coarse lines of sight; the best of them once more by many looks
-// along fine ones.
+// Where the tower stands. Spots on the ground beside the flight, nearer and farther, are scored by few looks at the
+// flight along coarse lines of sight; the best of them once more by many looks along fine ones.
 
 namespace octant::visuals::scene {
 
@@ -33,8 +32,8 @@ constexpr double fast_turn_radps = 1.1;
 constexpr double steep_rad = rad_from_deg(35.0);
 /// The elevation of a look that shows nothing but sky.
 constexpr double upright_rad = rad_from_deg(65.0);
-/// The room between a line of sight and the ground below it; near the tower trees of that height
-/// may stand on it, which would fill a narrow lens.
+/// The room between a line of sight and the ground below it; near the tower trees of that height may stand on it, which
+/// would fill a narrow lens.
 constexpr double spare_m = 1.0;
 constexpr double trees_m = 16.0;
 constexpr double near_trees_m = 250.0;
@@ -53,9 +52,7 @@ constexpr std::size_t coarse_frame_count = 32;
 /// The number of spots that are then compared finely.
 constexpr std::size_t fine_candidate_count = 16;
 
-double rising(double low, double high, double value) {
-    return glm::smoothstep(low, high, value);
-}
+double rising(double low, double high, double value) { return glm::smoothstep(low, high, value); }
 
 /// What lies along a look at the aircraft and on beyond it.
 struct Sightline {
@@ -70,13 +67,8 @@ struct Sightline {
 };
 
 /// Walks from an eye at a heading; the aircraft is `aircraft_m` off, level, under this slope.
-Sightline trace_sightline(
-    const glm::dvec3& eye_m,
-    const glm::dvec2& level,
-    double aircraft_m,
-    double slope,
-    double walk,
-    const GroundHeight& ground) {
+Sightline trace_sightline(const glm::dvec3& eye_m, const glm::dvec2& level, double aircraft_m, double slope,
+    double walk, const GroundHeight& ground) {
     Sightline sightline;
     double highest = -1.0;
     for (double level_m = 4.0; level_m < farthest_m; level_m *= walk) {
@@ -111,54 +103,34 @@ double fov_for_samples(double distance_m, const TowerRequest& request) {
 }
 
 /// How well the aircraft is seen in one state, 0..1.
-double seen_from(
-    const glm::dvec3& eye_m,
-    const sim::AircraftState& state,
-    const TowerRequest& request,
-    double walk,
+double seen_from(const glm::dvec3& eye_m, const sim::AircraftState& state, const TowerRequest& request, double walk,
     const GroundHeight& ground) {
     const glm::dvec3 to_aircraft_m = state.position_m - eye_m;
     const double distance_m = glm::length(to_aircraft_m);
     const double level_m = glm::length(glm::dvec2(to_aircraft_m));
-    if (distance_m < 2.0 * request.radius_m || level_m < 1e-3) {
-        return 0.0;
-    }
-    const Sightline sightline = trace_sightline(
-        eye_m,
-        glm::dvec2(to_aircraft_m) / level_m,
-        level_m,
-        to_aircraft_m.z / level_m,
-        walk,
-        ground);
-    if (!sightline.free) {
-        return 0.0;
-    }
+    if (distance_m < 2.0 * request.radius_m || level_m < 1e-3) { return 0.0; }
+    const Sightline sightline =
+        trace_sightline(eye_m, glm::dvec2(to_aircraft_m) / level_m, level_m, to_aircraft_m.z / level_m, walk, ground);
+    if (!sightline.free) { return 0.0; }
     const double background_m = std::min(sightline.behind_m, sightline.skyline_m);
-    const Tower tower{
-        eye_m, {static_cast<float>(sightline.skyline_rad)}, fov_for_samples(background_m, request)};
+    const Tower tower{eye_m, {static_cast<float>(sightline.skyline_rad)}, fov_for_samples(background_m, request)};
     const Camera camera = tower_camera(tower, state.position_m, request.radius_m);
     const double fov_rad = camera.vertical_fov_rad;
     const double share = request.radius_m / (distance_m * std::tan(0.5 * fov_rad));
     const double off = std::abs(std::asin(view_direction(camera).z) - sightline.skyline_rad) / fov_rad;
-    const double samples =
-        request.spacing_m > 0.0 ? fov_rad * background_m / request.spacing_m : many_samples;
-    const double in_plane_mps =
-        glm::length(glm::cross(to_aircraft_m, state.velocity_mps)) / distance_m;
+    const double samples = request.spacing_m > 0.0 ? fov_rad * background_m / request.spacing_m : many_samples;
+    const double in_plane_mps = glm::length(glm::cross(to_aircraft_m, state.velocity_mps)) / distance_m;
     const double elevation_rad = std::asin(to_aircraft_m.z / distance_m);
     const double slowness = 1.0 - rising(slow_turn_radps, fast_turn_radps, in_plane_mps / distance_m);
     const double flat = 1.0 - 0.7 * rising(steep_rad, upright_rad, std::abs(elevation_rad));
     const double balance = 1.0 - rising(0.25, 0.5, off);
     return slowness * flat *
            (rising(0.08, 0.4, share) * (0.21 + 0.04 * balance) +
-            0.75 * balance * (0.3 + 0.7 * rising(few_samples, many_samples, samples)));
+               0.75 * balance * (0.3 + 0.7 * rising(few_samples, many_samples, samples)));
 }
 
 double score(
-    const glm::dvec3& eye_m,
-    const TowerRequest& request,
-    std::size_t looks,
-    double walk,
-    const GroundHeight& ground) {
+    const glm::dvec3& eye_m, const TowerRequest& request, std::size_t looks, double walk, const GroundHeight& ground) {
     const std::size_t stride = stride_for(request.flight.size(), looks);
     double sum = 0.0;
     int in_sight = 0;
@@ -185,13 +157,10 @@ std::vector<glm::dvec3> candidate_sites(const TowerRequest& request, const Groun
         for (const double radii : sideways_radii) {
             for (const double side : {-1.0, 1.0}) {
                 const glm::dvec2 at_m =
-                    glm::dvec2(state.position_m) +
-                    side * radii * request.radius_m * glm::dvec2(ahead.y, -ahead.x);
+                    glm::dvec2(state.position_m) + side * radii * request.radius_m * glm::dvec2(ahead.y, -ahead.x);
                 const auto height_m = ground(at_m.x, at_m.y);
                 for (const double above_m : heights_m) {
-                    if (height_m) {
-                        candidates.emplace_back(at_m, *height_m + above_m);
-                    }
+                    if (height_m) { candidates.emplace_back(at_m, *height_m + above_m); }
                 }
             }
         }
@@ -204,8 +173,7 @@ std::vector<float> skyline_of(const glm::dvec3& eye_m, const GroundHeight& groun
     std::vector<double> sharp_rad;
     for (int i = 0; i < headings; ++i) {
         const glm::dvec2 level(direction_from_heading(2.0 * pi * i / headings));
-        sharp_rad.push_back(
-            trace_sightline(eye_m, level, 0.0, 2.0 * farthest_m, fine_step_ratio, ground).skyline_rad);
+        sharp_rad.push_back(trace_sightline(eye_m, level, 0.0, 2.0 * farthest_m, fine_step_ratio, ground).skyline_rad);
     }
     constexpr int reach = 4;
     std::vector<float> even_rad;
@@ -232,9 +200,7 @@ double min_sampled_fov_rad(const glm::dvec3& eye_m, const TowerRequest& request,
         const Sightline sightline = trace_sightline(eye_m, level_m / size_m, size_m, slope, coarse_step_ratio, ground);
         behind_m.push_back(std::min(sightline.behind_m, sightline.skyline_m));
     }
-    if (behind_m.empty()) {
-        return min_lens_fov_rad;
-    }
+    if (behind_m.empty()) { return min_lens_fov_rad; }
     const auto middle = behind_m.begin() + static_cast<std::ptrdiff_t>(behind_m.size() / 2);
     std::nth_element(behind_m.begin(), middle, behind_m.end());
     return fov_for_samples(*middle, request);
@@ -263,11 +229,9 @@ Tower tower_for(const TowerRequest& request, const GroundHeight& ground) {
     }
     std::ranges::stable_sort(candidates, [](const auto& a, const auto& b) { return a.first > b.first; });
     candidates.resize(std::min(candidates.size(), fine_candidate_count));
-    for (auto& [value, site_m] : candidates) {
-        value = tower_score(site_m, request, ground);
-    }
-    const auto best = std::ranges::max_element(
-        candidates, [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [value, site_m] : candidates) { value = tower_score(site_m, request, ground); }
+    const auto best =
+        std::ranges::max_element(candidates, [](const auto& a, const auto& b) { return a.first < b.first; });
     return tower_at(best->second, request, ground);
 }
 

@@ -15,9 +15,9 @@ public:
     WindowPicture(WindowPicture&&) = delete;
     WindowPicture& operator=(WindowPicture&&) = delete;
 
-    /// Room for the next picture, valid until the next call: blue, green, red and a byte that means
-    /// nothing for each pixel, rows from the top, no gaps, from a line of the caches on. Waits
-    /// until the window has done with the last one.
+    /// Room for the next picture, valid until the next call: blue, green, red and a byte that means nothing for each
+    /// pixel, rows from the top, no gaps, from a line of the caches on. Waits until the window has done with the last
+    /// one.
     virtual std::uint8_t* begin(const glm::ivec2& size_px) = 0;
 
     /// Puts it into the lower left corner of the window, stretched to `window_px`, upright there.

@@ -1,6 +1,6 @@
-// Prepares polygons for the certificate (order_check.cpp). Rotor blades and other turning parts are
-// replaced by what they sweep, so that one certificate holds for every angle. This code is
-// deliberately apart from turning_parts.cpp, which does the same for finding orders.
+// Prepares polygons for the certificate (order_check.cpp). Rotor blades and other turning parts are replaced by what
+// they sweep, so that one certificate holds for every angle. This code is deliberately apart from turning_parts.cpp,
+// which does the same for finding orders.
 #include "visuals/separation/check_shape.h"
 
 #include "sim/base/plane.h"
@@ -18,8 +18,8 @@ namespace octant::visuals::separation {
 
 namespace {
 
-/// The number of sides of the regular polygon around a circle on which a corner travels; its
-/// corners are 0.9 % outside the circle.
+/// The number of sides of the regular polygon around a circle on which a corner travels; its corners are 0.9 % outside
+/// the circle.
 constexpr int circle_sides = 24;
 /// The sine of the angle below which a normal counts as parallel to the axis.
 constexpr double along_axis = 1e-9;
@@ -27,9 +27,7 @@ constexpr double along_axis = 1e-9;
 /// Moves corners towards their mean by check_tolerance.
 std::vector<glm::dvec3> drawn_together(std::vector<glm::dvec3> corners) {
     glm::dvec3 middle(0.0);
-    for (const glm::dvec3& corner : corners) {
-        middle += corner / static_cast<double>(corners.size());
-    }
+    for (const glm::dvec3& corner : corners) { middle += corner / static_cast<double>(corners.size()); }
     for (glm::dvec3& corner : corners) {
         const double away = glm::distance(corner, middle);
         corner += (middle - corner) * std::min(0.5, check_tolerance / away);
@@ -52,8 +50,7 @@ struct Axis {
 };
 
 Axis axis_of(const models::polygons::Pivot& pivot, const CheckFrame& frame) {
-    const glm::dvec3 aside =
-        std::abs(pivot.axis.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 aside = std::abs(pivot.axis.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(aside, pivot.axis));
     return {frame.from_body(pivot.point_m), pivot.axis, right, glm::cross(pivot.axis, right)};
 }
@@ -61,8 +58,8 @@ Axis axis_of(const models::polygons::Pivot& pivot, const CheckFrame& frame) {
 /// The radius of a regular polygon's corners around a unit circle.
 const double outside_circle = 1.0 / std::cos(pi / circle_sides);
 
-/// Points whose hull holds what the corners sweep: regular polygons around their circles, of
-/// circles at the same height only the widest.
+/// Points whose hull holds what the corners sweep: regular polygons around their circles, of circles at the same height
+/// only the widest.
 std::vector<glm::dvec3> swept_by(const Axis& axis, std::span<const glm::dvec3> corners) {
     struct Ring {
         double height;
@@ -73,8 +70,8 @@ std::vector<glm::dvec3> swept_by(const Axis& axis, std::span<const glm::dvec3> c
     for (const glm::dvec3& corner : corners) {
         const double height = glm::dot(corner - axis.point, axis.along);
         const double radius = glm::length(corner - axis.point - axis.along * height);
-        const auto same = std::ranges::find_if(
-            rings, [&](const Ring& ring) { return std::abs(ring.height - height) < 1e-12; });
+        const auto same =
+            std::ranges::find_if(rings, [&](const Ring& ring) { return std::abs(ring.height - height) < 1e-12; });
         if (same == rings.end()) {
             rings.push_back({height, radius});
         } else {
@@ -85,23 +82,19 @@ std::vector<glm::dvec3> swept_by(const Axis& axis, std::span<const glm::dvec3> c
     for (const Ring& ring : rings) {
         for (int side = 0; side < circle_sides; ++side) {
             points.push_back(
-                axis.point + axis.along * ring.height +
-                axis.across(side) * (ring.radius * outside_circle));
+                axis.point + axis.along * ring.height + axis.across(side) * (ring.radius * outside_circle));
         }
     }
     return points;
 }
 
-/// The planes that replace a polygon's plane for all angles. As it turns, its value at an eye e is
-/// n.e + d = (part along the axis) + (part across the axis) * cos(angle to e) * |distance of e from
-/// the axis|. The maximum over all angles is at most that over circle_sides directions with the
-/// part across made slightly longer.
+/// The planes that replace a polygon's plane for all angles. As it turns, its value at an eye e is n.e + d = (part
+/// along the axis) + (part across the axis) * cos(angle to e) * |distance of e from the axis|. The maximum over all
+/// angles is at most that over circle_sides directions with the part across made slightly longer.
 std::vector<Plane> swept_planes(const Axis& axis, const Plane& plane) {
     const double along = glm::dot(plane.normal, axis.along);
     const double across = glm::length(plane.normal - axis.along * along);
-    if (across < along_axis) {
-        return {plane};
-    }
+    if (across < along_axis) { return {plane}; }
     const double at_point = distance_m(plane, axis.point);
     std::vector<Plane> planes;
     for (int side = 0; side < circle_sides; ++side) {
@@ -126,9 +119,7 @@ CheckFrame check_frame(const models::polygons::PolygonModel& model) {
 }
 
 std::vector<CheckShape> check_shapes(
-    const models::polygons::PolygonModel& model,
-    const CheckFrame& frame,
-    std::span<const std::uint32_t> two_sided) {
+    const models::polygons::PolygonModel& model, const CheckFrame& frame, std::span<const std::uint32_t> two_sided) {
     std::vector<CheckShape> shapes;
     for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
         CheckShape shape;
@@ -138,9 +129,7 @@ std::vector<CheckShape> check_shapes(
         shape.corners = drawn_together(std::move(shape.corners));
         const Plane plane = frame.from_body(models::polygons::plane_of(model, i));
         shape.fronts = {plane};
-        if (std::ranges::find(two_sided, i) != two_sided.end()) {
-            shape.fronts.push_back(turned_over(plane));
-        }
+        if (std::ranges::find(two_sided, i) != two_sided.end()) { shape.fronts.push_back(turned_over(plane)); }
         shape.pivot = models::polygons::pivot_of(model, i);
         shape.swept = shape.corners;
         shape.swept_fronts = shape.fronts;

@@ -14,13 +14,13 @@ constexpr double tolerance = 1e-9;
 constexpr int max_iterations = 10000;
 constexpr int optimal = 0;
 constexpr int no_perturbation = 100;
-/// CLP's own scaling suits programmes of unequal factors. With factors of about 1 it ends in
-/// solutions that are no optimum once they are scaled back.
+/// CLP's own scaling suits programmes of unequal factors. With factors of about 1 it ends in solutions that are no
+/// optimum once they are scaled back.
 constexpr int no_scaling = 0;
 constexpr double maximise = -1.0;
 
-/// A solver without a programme, as every one begins. CLP makes the words of all its messages for a
-/// new model, which takes longer than a small programme; a copied model gets them in one piece.
+/// A solver without a programme, as every one begins. CLP makes the words of all its messages for a new model, which
+/// takes longer than a small programme; a copied model gets them in one piece.
 ClpSimplex fresh_solver() {
     ClpSimplex solver;
     solver.setLogLevel(0);
@@ -75,32 +75,21 @@ Columns columns_of(const LinearProgram& program) {
 }
 
 void load(ClpSimplex& solver, const Columns& columns) {
-    solver.loadProblem(
-        static_cast<int>(columns.weights.size()),
-        static_cast<int>(columns.row_min.size()),
-        columns.starts.data(),
-        columns.rows.data(),
-        columns.factors.data(),
-        columns.least.data(),
-        columns.most.data(),
-        columns.weights.data(),
-        columns.row_min.data(),
-        columns.row_max.data());
+    solver.loadProblem(static_cast<int>(columns.weights.size()), static_cast<int>(columns.row_min.size()),
+        columns.starts.data(), columns.rows.data(), columns.factors.data(), columns.least.data(), columns.most.data(),
+        columns.weights.data(), columns.row_min.data(), columns.row_max.data());
 }
 
 } // namespace
 
-// primal() works on its own model alone: unlike CLP's drivers it sets no signal handlers, and
-// without perturbation it draws no random numbers. So threads may solve side by side, and the same
-// programme always gives the same values.
+// primal() works on its own model alone: unlike CLP's drivers it sets no signal handlers, and without perturbation it
+// draws no random numbers. So threads may solve side by side, and the same programme always gives the same values.
 std::optional<std::vector<double>> optimum(const LinearProgram& program) {
     static const ClpSimplex fresh = fresh_solver();
     ClpSimplex solver(fresh);
     load(solver, columns_of(program));
     solver.primal();
-    if (solver.status() != optimal) {
-        return std::nullopt;
-    }
+    if (solver.status() != optimal) { return std::nullopt; }
     const double* values = solver.getColSolution();
     return std::vector<double>(values, values + program.variables.size());
 }

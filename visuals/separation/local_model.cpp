@@ -35,9 +35,7 @@ glm::dvec3 area_of(const std::vector<glm::dvec3>& corners) {
 
 Plane through_middle(const glm::dvec3& normal, const std::vector<glm::dvec3>& corners) {
     glm::dvec3 middle(0.0);
-    for (const glm::dvec3& corner : corners) {
-        middle += corner / static_cast<double>(corners.size());
-    }
+    for (const glm::dvec3& corner : corners) { middle += corner / static_cast<double>(corners.size()); }
     return {normal, -glm::dot(normal, middle)};
 }
 
@@ -58,9 +56,7 @@ void share_planes(const PolygonModel& model, LocalModel& out) {
     }
     for (std::size_t i = 0; i < out.polygons.size(); ++i) {
         const Plane& plane = out.polygons[largest[model.parent_of(i)].second].plane;
-        if (fits(out.polygons[i], plane, out.tolerance)) {
-            out.polygons[i].plane = plane;
-        }
+        if (fits(out.polygons[i], plane, out.tolerance)) { out.polygons[i].plane = plane; }
     }
 }
 
@@ -69,11 +65,8 @@ void set_turning(const LocalAxis& axis, double tolerance, LocalPolygon& polygon)
     const double facing = glm::dot(polygon.plane.normal, axis.along);
     const Plane across = through_middle(facing > 0.0 ? axis.along : -axis.along, polygon.corners);
     polygon.keeps_plane = fits(polygon, across, tolerance);
-    if (polygon.keeps_plane) {
-        polygon.plane = across;
-    }
-    const glm::dvec3 aside =
-        std::abs(axis.along.x) > 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    if (polygon.keeps_plane) { polygon.plane = across; }
+    const glm::dvec3 aside = std::abs(axis.along.x) > 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(aside, axis.along));
     const glm::dvec3 up = glm::cross(axis.along, right);
     polygon.swept.clear();
@@ -83,8 +76,7 @@ void set_turning(const LocalAxis& axis, double tolerance, LocalPolygon& polygon)
         const double reach = glm::distance(corner, foot) / std::cos(pi / circle_sides);
         for (int side = 0; side < circle_sides; ++side) {
             const double angle_rad = 2.0 * pi * side / circle_sides;
-            polygon.swept.push_back(
-                foot + (right * std::cos(angle_rad) + up * std::sin(angle_rad)) * reach);
+            polygon.swept.push_back(foot + (right * std::cos(angle_rad) + up * std::sin(angle_rad)) * reach);
         }
     }
 }
@@ -101,36 +93,27 @@ double highest(const Plane& plane, const LocalAxis& axis, const glm::dvec3& corn
 // In long double, so that a model far from its origin loses no digits.
 Plane LocalModel::from_file(const Plane& plane_m) const {
     long double offset = plane_m.offset_m;
-    for (int i = 0; i < 3; ++i) {
-        offset += static_cast<long double>(plane_m.normal[i]) * middle_m[i];
-    }
+    for (int i = 0; i < 3; ++i) { offset += static_cast<long double>(plane_m.normal[i]) * middle_m[i]; }
     return {plane_m.normal, static_cast<double>(offset / size_m)};
 }
 
 Plane LocalModel::about(const Plane& plane_m) const {
     long double offset = plane_m.offset_m;
-    for (int i = 0; i < 3; ++i) {
-        offset += static_cast<long double>(plane_m.normal[i]) * reference_m[i];
-    }
+    for (int i = 0; i < 3; ++i) { offset += static_cast<long double>(plane_m.normal[i]) * reference_m[i]; }
     return {plane_m.normal, static_cast<double>(offset)};
 }
 
 Plane LocalModel::in_metres(const Plane& plane) const {
     long double offset = static_cast<long double>(plane.offset_m) * size_m;
     const glm::dvec3 to_middle_m = middle_m - reference_m;
-    for (int i = 0; i < 3; ++i) {
-        offset -= static_cast<long double>(plane.normal[i]) * to_middle_m[i];
-    }
+    for (int i = 0; i < 3; ++i) { offset -= static_cast<long double>(plane.normal[i]) * to_middle_m[i]; }
     return {plane.normal, static_cast<double>(offset)};
 }
 
-LocalModel
-local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, double tolerance) {
+LocalModel local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, double tolerance) {
     LocalModel out;
     out.tolerance = tolerance;
-    const auto corner = [&](std::uint32_t vertex) {
-        return axes.file_from_body(model.vertices_m[vertex]);
-    };
+    const auto corner = [&](std::uint32_t vertex) { return axes.file_from_body(model.vertices_m[vertex]); };
     glm::dvec3 least = corner(model.corner_vertices.front());
     glm::dvec3 most = least;
     for (const std::uint32_t vertex : model.corner_vertices) {
@@ -140,9 +123,7 @@ local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, d
     const glm::dvec3 box = most - least;
     out.middle_m = least + box * 0.5;
     out.size_m = std::max({box.x, box.y, box.z});
-    if (glm::length(out.middle_m) > far_sizes * out.size_m) {
-        out.reference_m = out.middle_m;
-    }
+    if (glm::length(out.middle_m) > far_sizes * out.size_m) { out.reference_m = out.middle_m; }
     const auto local = [&](const glm::dvec3& point_m) {
         return (axes.file_from_body(point_m) - out.middle_m) / out.size_m;
     };
@@ -160,9 +141,7 @@ local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, d
     }
     share_planes(model, out);
     for (LocalPolygon& polygon : out.polygons) {
-        if (polygon.axis) {
-            set_turning(out.axes[*polygon.axis], tolerance, polygon);
-        }
+        if (polygon.axis) { set_turning(out.axes[*polygon.axis], tolerance, polygon); }
     }
     return out;
 }
@@ -172,9 +151,8 @@ bool is_behind(const LocalModel& model, std::uint32_t number, const Plane& plane
     const glm::dvec3 size = glm::abs(plane.normal);
     const double limit = safe * model.tolerance * std::max({size.x, size.y, size.z});
     return std::ranges::all_of(polygon.corners, [&](const glm::dvec3& corner) {
-        const double height = turns && polygon.axis
-                                  ? highest(plane, model.axes[*polygon.axis], corner)
-                                  : distance_m(plane, corner);
+        const double height =
+            turns && polygon.axis ? highest(plane, model.axes[*polygon.axis], corner) : distance_m(plane, corner);
         return height <= limit;
     });
 }

@@ -13,14 +13,13 @@
 
 namespace octant::visuals::separation {
 
-/// Lengths up to this are taken for none, in longest sides of the model's bounding box: builders
-/// decide by 1e-9 of its radius, a point from a plane and a polygon's own width alike.
+/// Lengths up to this are taken for none, in longest sides of the model's bounding box: builders decide by 1e-9 of its
+/// radius, a point from a plane and a polygon's own width alike.
 inline constexpr double tolerance_sizes = 2e-9;
 
-/// The tolerances with which a proof is sought, one after the other. Larger ones are for bent
-/// polygons, whose parts meet at a hair; those beyond 5e-8, still less than the last of six digits,
-/// for planes that are parallel but for such a digit: some eyes 1e5 sizes away are before two of
-/// them that face away from one another.
+/// The tolerances with which a proof is sought, one after the other. Larger ones are for bent polygons, whose parts
+/// meet at a hair; those beyond 5e-8, still less than the last of six digits, for planes that are parallel but for such
+/// a digit: some eyes 1e5 sizes away are before two of them that face away from one another.
 inline constexpr std::array proof_tolerances_sizes = {tolerance_sizes, 1e-8, 5e-8, 2.5e-7, 8e-7};
 
 /// A line about which polygons turn; `along` is a unit vector.
@@ -39,13 +38,12 @@ struct LocalPolygon {
     std::vector<glm::dvec3> swept;
 };
 
-/// A model in the axes of its file, about the middle of its bounding box, with the longest side of
-/// the box as unit.
+/// A model in the axes of its file, about the middle of its bounding box, with the longest side of the box as unit.
 struct LocalModel {
     glm::dvec3 middle_m{0.0}; ///< In the file's axes.
     double size_m = 1.0;
-    /// From where certificates measure, in the file's axes: the origin or, of a model so far from
-    /// it that the rounding of planes would count in a sum of them, the middle.
+    /// From where certificates measure, in the file's axes: the origin or, of a model so far from it that the rounding
+    /// of planes would count in a sum of them, the middle.
     glm::dvec3 reference_m{0.0};
     double tolerance = tolerance_sizes; ///< Of the certificate.
     std::vector<LocalAxis> axes;        ///< One for each pivot.
@@ -58,18 +56,15 @@ struct LocalModel {
     Plane in_metres(const Plane& plane) const;
 };
 
-/// Where it is within the tolerance, pieces of one polygon share the plane of the largest, which is
-/// the one known best, and polygons that turn in their own plane have their axis as normal.
-LocalModel local_model(
-    const models::polygons::PolygonModel& model,
-    const models::polygons::FileAxes& axes,
+/// Where it is within the tolerance, pieces of one polygon share the plane of the largest, which is the one known best,
+/// and polygons that turn in their own plane have their axis as normal.
+LocalModel local_model(const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes,
     double tolerance = tolerance_sizes);
 
 /// Whether no corner, at any angle where `turns`, is before a plane by more than the tolerance.
 bool is_behind(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns);
 
-inline bool
-is_before(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns) {
+inline bool is_before(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns) {
     return is_behind(model, polygon, turned_over(plane), turns);
 }
 

@@ -21,9 +21,7 @@ inline bool has(const PolygonBitset& bits, std::uint32_t polygon) {
 /// Ordered pairs of polygons: for each later one the earlier ones.
 class PolygonPairSet {
 public:
-    explicit PolygonPairSet(std::size_t polygons)
-        : words_((polygons + 63) / 64)
-        , bits_(polygons * words_, 0) {}
+    explicit PolygonPairSet(std::size_t polygons) : words_((polygons + 63) / 64), bits_(polygons * words_, 0) {}
 
     PolygonBitset none() const { return PolygonBitset(words_, 0); }
 
@@ -32,9 +30,7 @@ public:
     }
 
     void add(const PolygonBitset& earlier, std::uint32_t later) {
-        for (std::size_t i = 0; i < words_; ++i) {
-            bits_[later * words_ + i] |= earlier[i];
-        }
+        for (std::size_t i = 0; i < words_; ++i) { bits_[later * words_ + i] |= earlier[i]; }
     }
 
     /// Calls `take(earlier)` for each polygon of `earlier` that is no pair with the later one.
@@ -43,8 +39,7 @@ public:
         for (std::size_t i = 0; i < words_; ++i) {
             std::uint64_t left = earlier[i] & ~bits_[later * words_ + i];
             for (; left != 0; left &= left - 1) {
-                take(static_cast<std::uint32_t>(
-                    i * 64 + static_cast<std::size_t>(std::countr_zero(left))));
+                take(static_cast<std::uint32_t>(i * 64 + static_cast<std::size_t>(std::countr_zero(left))));
             }
         }
     }

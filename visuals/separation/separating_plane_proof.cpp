@@ -1,8 +1,9 @@
-// Seeks planes that prove that one polygon hides nothing of another. By Farkas' lemma every plane
-// with all eyes before it is a sum, with factors >= 0, of the planes that bound the eyes and of 1;
-// eyes that see a polygon are bounded by its plane, too. Where no single plane will do, a game
-// finds the factors, and where rounding spoils that a linear programme.
+// Seeks planes that prove that one polygon hides nothing of another. By Farkas' lemma every plane with all eyes before
+// it is a sum, with factors >= 0, of the planes that bound the eyes and of 1; eyes that see a polygon are bounded by
+// its plane, too. Where no single plane will do, a game finds the factors, and where rounding spoils that a linear
+// programme.
 #include "visuals/separation/separating_plane_proof.h"
+
 #include "visuals/separation/linear_program.h"
 
 #include <glm/common.hpp>
@@ -21,9 +22,9 @@ namespace octant::visuals::separation {
 
 namespace {
 
-// Iterative refinement: A. Gleixner, D. Steffy, K. Wolter, "Iterative Refinement for Linear
-// Programming", 2016. A solver keeps bounds within 1e-9. What it is off by is put under a
-// magnifying glass and solved for again, with the same factors.
+// Iterative refinement: A. Gleixner, D. Steffy, K. Wolter, "Iterative Refinement for Linear Programming", 2016. A
+// solver keeps bounds within 1e-9. What it is off by is put under a magnifying glass and solved for again, with the
+// same factors.
 
 constexpr double magnification = 1e6;
 constexpr int rounds = 1;
@@ -51,21 +52,17 @@ std::optional<std::vector<double>> refined_optimum(const LinearProgram& program)
     auto solution = optimum(program);
     for (int round = 0; solution && round < rounds; ++round) {
         const auto more = optimum(correction(program, *solution));
-        if (!more) {
-            break;
-        }
-        for (std::size_t i = 0; i < solution->size(); ++i) {
-            (*solution)[i] += (*more)[i] / magnification;
-        }
+        if (!more) { break; }
+        for (std::size_t i = 0; i < solution->size(); ++i) { (*solution)[i] += (*more)[i] / magnification; }
     }
     return solution;
 }
 
 } // namespace
 
-// G. Dantzig's way to solve a game by the simplex method: with all payoffs positive the other
-// player's programme, to maximise the sum of y with y >= 0 and at most 1 for each choice, begins at
-// y = 0, and its dual variables are proportional to the shares.
+// G. Dantzig's way to solve a game by the simplex method: with all payoffs positive the other player's programme, to
+// maximise the sum of y with y >= 0 and at most 1 for each choice, begins at y = 0, and its dual variables are
+// proportional to the shares.
 
 namespace {
 
@@ -75,22 +72,14 @@ constexpr double rounding = 1e-13;
 class Tableau {
 public:
     explicit Tableau(const Payoffs& payoffs)
-        : choices_(payoffs.choices)
-        , cases_(payoffs.cases())
-        , wide_(cases_ + 1)
-        , cells_((choices_ + 1) * wide_, 0.0)
-        , of_row_(choices_)
-        , of_column_(cases_) {
+        : choices_(payoffs.choices), cases_(payoffs.cases()), wide_(cases_ + 1), cells_((choices_ + 1) * wide_, 0.0),
+          of_row_(choices_), of_column_(cases_) {
         const double shift = 1.0 - *std::ranges::min_element(payoffs.values);
         for (std::size_t i = 0; i < choices_; ++i) {
-            for (std::size_t k = 0; k < cases_; ++k) {
-                at(i, k) = payoffs.values[k * choices_ + i] + shift;
-            }
+            for (std::size_t k = 0; k < cases_; ++k) { at(i, k) = payoffs.values[k * choices_ + i] + shift; }
             at(i, cases_) = 1.0;
         }
-        for (std::size_t k = 0; k < cases_; ++k) {
-            at(choices_, k) = -1.0;
-        }
+        for (std::size_t k = 0; k < cases_; ++k) { at(choices_, k) = -1.0; }
         std::iota(of_row_.begin(), of_row_.end(), std::size_t{0});
         std::iota(of_column_.begin(), of_column_.end(), choices_);
     }
@@ -100,21 +89,15 @@ public:
         const std::size_t max_steps = 8 * (choices_ + cases_) + 32;
         for (std::size_t step = 0; step < max_steps; ++step) {
             const std::size_t column = entering();
-            if (column == cases_) {
-                break;
-            }
+            if (column == cases_) { break; }
             exchange(leaving(column), column);
         }
         std::vector<double> shares(choices_, 0.0);
         double sum = 0.0;
         for (std::size_t k = 0; k < cases_; ++k) {
-            if (of_column_[k] < choices_) {
-                sum += shares[of_column_[k]] = std::max(at(choices_, k), 0.0);
-            }
+            if (of_column_[k] < choices_) { sum += shares[of_column_[k]] = std::max(at(choices_, k), 0.0); }
         }
-        for (double& share : shares) {
-            share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(choices_);
-        }
+        for (double& share : shares) { share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(choices_); }
         return shares;
     }
 
@@ -133,9 +116,7 @@ private:
         std::size_t first = choices_;
         double least = 0.0;
         for (std::size_t i = 0; i < choices_; ++i) {
-            if (at(i, column) <= rounding) {
-                continue;
-            }
+            if (at(i, column) <= rounding) { continue; }
             const double ratio = at(i, cases_) / at(i, column);
             if (first == choices_ || ratio < least) {
                 first = i;
@@ -147,13 +128,9 @@ private:
 
     void exchange(std::size_t row, std::size_t column) {
         const double pivot = at(row, column);
-        for (std::size_t k = 0; k < wide_; ++k) {
-            at(row, k) = k == column ? 1.0 / pivot : at(row, k) / pivot;
-        }
+        for (std::size_t k = 0; k < wide_; ++k) { at(row, k) = k == column ? 1.0 / pivot : at(row, k) / pivot; }
         for (std::size_t i = 0; i <= choices_; ++i) {
-            if (i == row) {
-                continue;
-            }
+            if (i == row) { continue; }
             const double factor = at(i, column);
             for (std::size_t k = 0; k < wide_ && factor != 0.0; ++k) {
                 at(i, k) = k == column ? -factor / pivot : at(i, k) - factor * at(row, k);
@@ -182,19 +159,17 @@ namespace {
 /// What is left of the tolerance for the rounding of this code.
 constexpr double safe = 0.999;
 
-/// Planes of which a sum may be made, and which factor each one has: 0 is that of the earlier
-/// polygon, 1 of the later one, the others those of the walls.
+/// Planes of which a sum may be made, and which factor each one has: 0 is that of the earlier polygon, 1 of the later
+/// one, the others those of the walls.
 struct UsablePlanes {
     std::vector<Plane> planes;
     std::vector<std::size_t> factors;
 };
 
-PlaneFactors
-factors_of(const UsablePlanes& usable, const std::vector<double>& found, double one, std::size_t region_planes) {
+PlaneFactors factors_of(
+    const UsablePlanes& usable, const std::vector<double>& found, double one, std::size_t region_planes) {
     std::vector<double> all(region_planes + 2, 0.0);
-    for (std::size_t i = 0; i < usable.factors.size(); ++i) {
-        all[usable.factors[i]] = std::max(found[i], 0.0);
-    }
+    for (std::size_t i = 0; i < usable.factors.size(); ++i) { all[usable.factors[i]] = std::max(found[i], 0.0); }
     return {all[0], all[1], std::max(one, 0.0), {all.begin() + 2, all.end()}};
 }
 
@@ -211,53 +186,40 @@ Plane sum_of(const UsablePlanes& usable, const std::vector<double>& found, doubl
 /// How the factors of a separating plane are held down.
 enum class Norm {
     PlaneFactors, ///< They add up to 1.
-    /// The middles of the two polygons are 1 apart across the plane. Where the region of the eyes
-    /// is so thin that factors of another size nearly cancel out, a plane is left all the same.
+    /// The middles of the two polygons are 1 apart across the plane. Where the region of the eyes is so thin that
+    /// factors of another size nearly cancel out, a plane is left all the same.
     Distance
 };
 
 glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
     glm::dvec3 sum(0.0);
-    for (const glm::dvec3& point : points) {
-        sum += point;
-    }
+    for (const glm::dvec3& point : points) { sum += point; }
     return sum / static_cast<double>(points.size());
 }
 
-/// The programme of a separating plane. Its unknowns are a factor for each plane, one for 1, and
-/// the margin, which is maximised.
+/// The programme of a separating plane. Its unknowns are a factor for each plane, one for 1, and the margin, which is
+/// maximised.
 LinearProgram separation_programme(
-    const UsablePlanes& usable,
-    std::span<const glm::dvec3> behind,
-    std::span<const glm::dvec3> before,
-    Norm norm) {
+    const UsablePlanes& usable, std::span<const glm::dvec3> behind, std::span<const glm::dvec3> before, Norm norm) {
     LinearProgram program;
     const std::size_t planes = usable.planes.size();
     program.variables.assign(planes + 1, {});
     program.variables.push_back({.weight = 1.0, .least = -1e3, .most = 1e3});
     const auto add_corner = [&](const glm::dvec3& corner, double sign) {
         LinearProgram::Row row;
-        for (const Plane& plane : usable.planes) {
-            row.factors.push_back(sign * distance_m(plane, corner));
-        }
+        for (const Plane& plane : usable.planes) { row.factors.push_back(sign * distance_m(plane, corner)); }
         row.factors.push_back(sign);
         row.factors.push_back(-1.0);
         row.least = 0.0;
         program.rows.push_back(std::move(row));
     };
-    for (const glm::dvec3& corner : behind) {
-        add_corner(corner, -1.0);
-    }
-    for (const glm::dvec3& corner : before) {
-        add_corner(corner, 1.0);
-    }
+    for (const glm::dvec3& corner : behind) { add_corner(corner, -1.0); }
+    for (const glm::dvec3& corner : before) { add_corner(corner, 1.0); }
     LinearProgram::Row total;
     total.factors.assign(planes + 1, 1.0);
     if (norm == Norm::Distance) {
         const glm::dvec3 across = middle_of(before) - middle_of(behind);
-        for (std::size_t i = 0; i < planes; ++i) {
-            total.factors[i] = glm::dot(usable.planes[i].normal, across);
-        }
+        for (std::size_t i = 0; i < planes; ++i) { total.factors[i] = glm::dot(usable.planes[i].normal, across); }
         total.factors[planes] = 0.0;
     }
     total.factors.push_back(0.0);
@@ -266,17 +228,15 @@ LinearProgram separation_programme(
     return program;
 }
 
-/// The programme of a sum that is negative everywhere. Its unknowns are a factor for each plane and
-/// the error, which is minimised; those of the polygons add up to 1.
+/// The programme of a sum that is negative everywhere. Its unknowns are a factor for each plane and the error, which is
+/// minimised; those of the polygons add up to 1.
 LinearProgram nowhere_programme(const UsablePlanes& usable) {
     LinearProgram program;
     program.variables.assign(usable.planes.size(), {});
     program.variables.push_back({.weight = -1.0});
     for (int i = 0; i < 4; ++i) {
         for (const double sign : {1.0, -1.0}) {
-            if (i == 3 && sign < 0.0) {
-                continue;
-            }
+            if (i == 3 && sign < 0.0) { continue; }
             LinearProgram::Row row;
             for (const Plane& plane : usable.planes) {
                 row.factors.push_back(sign * (i < 3 ? plane.normal[i] : plane.offset_m));
@@ -287,9 +247,7 @@ LinearProgram nowhere_programme(const UsablePlanes& usable) {
         }
     }
     LinearProgram::Row total;
-    for (const std::size_t factor : usable.factors) {
-        total.factors.push_back(factor < 2 ? 1.0 : 0.0);
-    }
+    for (const std::size_t factor : usable.factors) { total.factors.push_back(factor < 2 ? 1.0 : 0.0); }
     total.factors.push_back(0.0);
     total.least = total.most = 1.0;
     program.rows.push_back(std::move(total));
@@ -323,9 +281,7 @@ UsablePlanes usable(const ProofQuery& query) {
         }
     };
     add_front(0, query.earlier);
-    if (query.later != query.earlier) {
-        add_front(1, query.later);
-    }
+    if (query.later != query.earlier) { add_front(1, query.later); }
     for (std::size_t wall = 0; query.turns && wall < query.region_planes.size(); ++wall) {
         add(wall + 2, query.region_planes[wall]);
     }
@@ -333,12 +289,11 @@ UsablePlanes usable(const ProofQuery& query) {
 }
 
 /// The factors for planes and for 1, if their sum is a witness.
-std::optional<PlaneFactors>
-verified(const ProofQuery& query, const UsablePlanes& planes, const std::vector<double>& found) {
+std::optional<PlaneFactors> verified(
+    const ProofQuery& query, const UsablePlanes& planes, const std::vector<double>& found) {
     const double one = found[planes.planes.size()];
     const Plane sum = sum_of(planes, found, one);
-    const bool good = glm::length(sum.normal) > 0.0 &&
-                      is_behind(query.model, query.earlier, sum, query.turns) &&
+    const bool good = glm::length(sum.normal) > 0.0 && is_behind(query.model, query.earlier, sum, query.turns) &&
                       is_before(query.model, query.later, sum, query.turns);
     return good ? std::optional(factors_of(planes, found, one, query.region_planes.size())) : std::nullopt;
 }
@@ -354,9 +309,7 @@ std::optional<PlaneFactors> separate_by_game(const ProofQuery& query, const Usab
     Payoffs payoffs{planes.planes.size() + 1, {}};
     for (const auto& [polygon, sign] : {std::pair(query.earlier, -1.0), {query.later, 1.0}}) {
         for (const glm::dvec3& corner : corners_of(query, polygon)) {
-            for (const Plane& plane : planes.planes) {
-                payoffs.values.push_back(sign * distance_m(plane, corner));
-            }
+            for (const Plane& plane : planes.planes) { payoffs.values.push_back(sign * distance_m(plane, corner)); }
             payoffs.values.push_back(sign);
         }
     }
@@ -365,14 +318,12 @@ std::optional<PlaneFactors> separate_by_game(const ProofQuery& query, const Usab
 
 std::optional<PlaneFactors> separating(const ProofQuery& query, const UsablePlanes& planes) {
     for (const Norm norm : {Norm::PlaneFactors, Norm::Distance}) {
-        const LinearProgram program = separation_programme(
-            planes, corners_of(query, query.earlier), corners_of(query, query.later), norm);
+        const LinearProgram program =
+            separation_programme(planes, corners_of(query, query.earlier), corners_of(query, query.later), norm);
         for (const auto& solve : {&optimum, &refined_optimum}) {
             const auto found = solve(program);
             auto factors = found ? verified(query, planes, *found) : std::nullopt;
-            if (factors) {
-                return factors;
-            }
+            if (factors) { return factors; }
         }
     }
     return std::nullopt;
@@ -384,98 +335,77 @@ std::ptrdiff_t planes_of_polygons(const UsablePlanes& planes) {
 }
 
 /// Factors for planes, if their sum is negative everywhere.
-std::optional<PlaneFactors>
-verified_negative(const ProofQuery& query, const UsablePlanes& planes, std::vector<double> found) {
+std::optional<PlaneFactors> verified_negative(
+    const ProofQuery& query, const UsablePlanes& planes, std::vector<double> found) {
     const std::ptrdiff_t of_polygons = planes_of_polygons(planes);
     double total = 0.0;
-    for (std::ptrdiff_t i = 0; i < of_polygons; ++i) {
-        total += std::max(found[static_cast<std::size_t>(i)], 0.0);
-    }
-    if (total <= 0.0) {
-        return std::nullopt;
-    }
+    for (std::ptrdiff_t i = 0; i < of_polygons; ++i) { total += std::max(found[static_cast<std::size_t>(i)], 0.0); }
+    if (total <= 0.0) { return std::nullopt; }
     // Those of the polygons have to add up to 1 at least, rounded as they are.
     const double scale = (of_polygons == 1 ? 1.0 : 1.0 + 1e-15) / total;
-    for (double& factor : found) {
-        factor = std::max(factor, 0.0) * scale;
-    }
-    if (of_polygons == 1) {
-        found.front() = 1.0;
-    }
+    for (double& factor : found) { factor = std::max(factor, 0.0) * scale; }
+    if (of_polygons == 1) { found.front() = 1.0; }
     const Plane sum = sum_of(planes, found, 0.0);
     const glm::dvec3 size = glm::abs(sum.normal);
-    const bool good =
-        std::max({size.x, size.y, size.z, sum.offset_m}) <= safe * query.model.tolerance;
+    const bool good = std::max({size.x, size.y, size.z, sum.offset_m}) <= safe * query.model.tolerance;
     return good ? std::optional(factors_of(planes, found, 0.0, query.region_planes.size())) : std::nullopt;
 }
 
-/// A sum that is negative everywhere by a game: each axis, either way, and the middle ask how far
-/// it is from being positive.
+/// A sum that is negative everywhere by a game: each axis, either way, and the middle ask how far it is from being
+/// positive.
 std::optional<PlaneFactors> never_both_visible_by_game(const ProofQuery& query, const UsablePlanes& planes) {
-    if (planes_of_polygons(planes) == 0) {
-        return std::nullopt;
-    }
+    if (planes_of_polygons(planes) == 0) { return std::nullopt; }
     Payoffs payoffs{planes.planes.size(), {}};
     for (const double sign : {1.0, -1.0}) {
         for (int axis = 0; axis < 3; ++axis) {
-            for (const Plane& plane : planes.planes) {
-                payoffs.values.push_back(sign * plane.normal[axis]);
-            }
+            for (const Plane& plane : planes.planes) { payoffs.values.push_back(sign * plane.normal[axis]); }
         }
     }
-    for (const Plane& plane : planes.planes) {
-        payoffs.values.push_back(-plane.offset_m);
-    }
+    for (const Plane& plane : planes.planes) { payoffs.values.push_back(-plane.offset_m); }
     return verified_negative(query, planes, best_shares(payoffs));
 }
 
 std::optional<PlaneFactors> find_never_both_visible(const ProofQuery& query, const UsablePlanes& planes) {
-    if (planes_of_polygons(planes) == 0) {
-        return std::nullopt;
-    }
+    if (planes_of_polygons(planes) == 0) { return std::nullopt; }
     const auto found = refined_optimum(nowhere_programme(planes));
     return found ? verified_negative(query, planes, *found) : std::nullopt;
 }
 
 } // namespace
 
-DecidingPolygon
-deciding_polygon(const LocalModel& model, std::uint32_t earlier, std::uint32_t later, DecidingPolygon preferred) {
+DecidingPolygon deciding_polygon(
+    const LocalModel& model, std::uint32_t earlier, std::uint32_t later, DecidingPolygon preferred) {
     const bool turns = separate_angles(model, earlier, later);
     const auto decides = [&](DecidingPolygon one) {
         const LocalPolygon& polygon = model.polygons[one == DecidingPolygon::Earlier ? earlier : later];
         return (polygon.keeps_plane || !turns) &&
                (one == DecidingPolygon::Earlier ? is_before(model, later, polygon.plane, turns)
-                                        : is_behind(model, earlier, polygon.plane, turns));
+                                                : is_behind(model, earlier, polygon.plane, turns));
     };
-    const DecidingPolygon first = preferred == DecidingPolygon::Later ? DecidingPolygon::Later : DecidingPolygon::Earlier;
+    const DecidingPolygon first =
+        preferred == DecidingPolygon::Later ? DecidingPolygon::Later : DecidingPolygon::Earlier;
     const DecidingPolygon other = first == DecidingPolygon::Later ? DecidingPolygon::Earlier : DecidingPolygon::Later;
     return decides(first) ? first : decides(other) ? other : DecidingPolygon::Neither;
 }
 
 SeparatingPlaneProof find_separating_plane(
-    const LocalModel& model,
-    std::span<const Plane> region_planes,
-    std::uint32_t earlier,
-    std::uint32_t later) {
+    const LocalModel& model, std::span<const Plane> region_planes, std::uint32_t earlier, std::uint32_t later) {
     const ProofQuery query{model, region_planes, earlier, later, separate_angles(model, earlier, later)};
     const UsablePlanes planes = usable(query);
     using Search = std::optional<PlaneFactors> (*)(const ProofQuery&, const UsablePlanes&);
     constexpr std::array<std::pair<Search, SeparatingPlaneProof::Kind>, 4> searches{
         {{&separate_by_game, SeparatingPlaneProof::Kind::Sum},
-         {&never_both_visible_by_game, SeparatingPlaneProof::Kind::Never},
-         {&separating, SeparatingPlaneProof::Kind::Sum},
-         {&find_never_both_visible, SeparatingPlaneProof::Kind::Never}}};
+            {&never_both_visible_by_game, SeparatingPlaneProof::Kind::Never},
+            {&separating, SeparatingPlaneProof::Kind::Sum},
+            {&find_never_both_visible, SeparatingPlaneProof::Kind::Never}}};
     for (const auto& [search, kind] : searches) {
-        if (auto factors = search(query, planes)) {
-            return {kind, std::move(*factors)};
-        }
+        if (auto factors = search(query, planes)) { return {kind, std::move(*factors)}; }
     }
     return {};
 }
 
-std::optional<PlaneFactors>
-find_back_facing_proof(const LocalModel& model, std::span<const Plane> region_planes, std::uint32_t polygon) {
+std::optional<PlaneFactors> find_back_facing_proof(
+    const LocalModel& model, std::span<const Plane> region_planes, std::uint32_t polygon) {
     const ProofQuery query{model, region_planes, polygon, polygon, true};
     const UsablePlanes planes = usable(query);
     auto factors = never_both_visible_by_game(query, planes);

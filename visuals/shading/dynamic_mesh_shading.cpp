@@ -1,14 +1,11 @@
-// Which triangles of a selectively refined mesh are smooth. The rules are those of shading_rule.cpp
-// (H. Kim, H. Park, "A Hybrid Rendering Model to support LOD (Level of Detail)", 2008, section 3;
-// the rule Error is ours), for meshes whose triangles change from frame to frame, so that nothing
-// can be prepared when a model is loaded.
+// Which triangles of a selectively refined mesh are smooth. The rules are those of shading_rule.cpp (H. Kim, H. Park,
+// "A Hybrid Rendering Model to support LOD (Level of Detail)", 2008, section 3; the rule Error is ours), for meshes
+// whose triangles change from frame to frame, so that nothing can be prepared when a model is loaded.
 //
-// Everything is computed from the corners in each call: a triangle costs a cross product and, where
-// it faces the eye, two square roots. Each vertex is lit once, and the greatest keys are found by
-// counting.
+// Everything is computed from the corners in each call: a triangle costs a cross product and, where it faces the eye,
+// two square roots. Each vertex is lit once, and the greatest keys are found by counting.
 //
-// Deviations: those of shading_rule.cpp. The flat colour is the mean of the corners' colours, as
-// the renderer draws it.
+// Deviations: those of shading_rule.cpp. The flat colour is the mean of the corners' colours, as the renderer draws it.
 #include "visuals/shading/dynamic_mesh_shading.h"
 
 #include <glm/geometric.hpp>
@@ -20,15 +17,13 @@ namespace octant::visuals::shading {
 
 namespace {
 
-/// The key of an empty place; it is never chosen, because there are at least as many triangles as
-/// smooth ones.
+/// The key of an empty place; it is never chosen, because there are at least as many triangles as smooth ones.
 constexpr std::uint32_t no_triangle = 0;
 constexpr std::uint32_t min_key = 1; ///< The least key of a place that has a triangle.
 
 } // namespace
 
-DynamicMeshSelector::DynamicMeshSelector(const ShadingRuleSettings& settings)
-    : settings_(settings) {
+DynamicMeshSelector::DynamicMeshSelector(const ShadingRuleSettings& settings) : settings_(settings) {
     assert(settings.rule != ShadingRule::Random && settings.hysteresis >= 1.0F);
 }
 
@@ -38,16 +33,14 @@ void DynamicMeshSelector::light_points(const DynamicMesh& mesh) {
     intensities_.resize(mesh.points.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         const ShadingPoint& point = mesh.points[i];
-        intensities_[i] =
-            glossy
-                ? intensity(point.place_m, point.normal, point.colour_sum, last_view_.light, eye_m)
-                : diffuse_intensity(
-                      glm::dot(point.normal, last_view_.light.to_light), point.colour_sum, last_view_.light);
+        intensities_[i] = glossy ? intensity(point.place_m, point.normal, point.colour_sum, last_view_.light, eye_m)
+                                 : diffuse_intensity(glm::dot(point.normal, last_view_.light.to_light),
+                                       point.colour_sum, last_view_.light);
     }
 }
 
-/// Carries the smooth flags over from the last mesh: a flag stays where the place still has the
-/// same label, and is cleared elsewhere.
+/// Carries the smooth flags over from the last mesh: a flag stays where the place still has the same label, and is
+/// cleared elsewhere.
 void DynamicMeshSelector::keep_triangle_choices(const DynamicMesh& mesh) {
     const std::size_t before = std::min(labels_.size(), mesh.labels.size());
     for (std::size_t place = 0; place < before; ++place) {
@@ -57,8 +50,7 @@ void DynamicMeshSelector::keep_triangle_choices(const DynamicMesh& mesh) {
     smooth_.resize(mesh.labels.size(), 0);
 }
 
-std::uint32_t DynamicMeshSelector::by_error(
-    const DynamicMesh& mesh, std::size_t place, const glm::vec3& eye_m) const {
+std::uint32_t DynamicMeshSelector::by_error(const DynamicMesh& mesh, std::size_t place, const glm::vec3& eye_m) const {
     const std::uint32_t* const corners = &mesh.indices[3 * place];
     const ShadingPoint& a = mesh.points[corners[0]];
     const ShadingPoint& b = mesh.points[corners[1]];
@@ -69,19 +61,14 @@ std::uint32_t DynamicMeshSelector::by_error(
     // Twice the area times the eye's height above the plane; negative behind the triangle.
     const float in_front_m3 = glm::dot(doubled_m2, to_eye_m);
     const float size_m2 = glm::length(doubled_m2);
-    if (!(in_front_m3 > 0.0F) || !(size_m2 > 0.0F)) {
-        return min_key;
-    }
+    if (!(in_front_m3 > 0.0F) || !(size_m2 > 0.0F)) { return min_key; }
     const float colour_sum = (a.colour_sum + b.colour_sum + c.colour_sum) / 3.0F;
     const ShadingLight& light = last_view_.light;
-    const float flat =
-        light.specular > 0.0F
-            ? intensity(centre_m, doubled_m2 / size_m2, colour_sum, light, eye_m)
-            : diffuse_intensity(glm::dot(doubled_m2, light.to_light) / size_m2, colour_sum, light);
-    const float error = error_square(
-        intensities_[corners[0]] - flat,
-        intensities_[corners[1]] - flat,
-        intensities_[corners[2]] - flat);
+    const float flat = light.specular > 0.0F
+                           ? intensity(centre_m, doubled_m2 / size_m2, colour_sum, light, eye_m)
+                           : diffuse_intensity(glm::dot(doubled_m2, light.to_light) / size_m2, colour_sum, light);
+    const float error =
+        error_square(intensities_[corners[0]] - flat, intensities_[corners[1]] - flat, intensities_[corners[2]] - flat);
     const float distance_m = glm::length(to_eye_m);
     const float on_screen = 0.5F * in_front_m3 / (distance_m * distance_m * distance_m);
     return sort_key(1, hysteresis_of(place) * on_screen * error / 6.0F);
@@ -103,35 +90,26 @@ void DynamicMeshSelector::measure_perimeters(const DynamicMesh& mesh) {
         const glm::vec3& a_m = mesh.points[mesh.indices[3 * place]].place_m;
         const glm::vec3& b_m = mesh.points[mesh.indices[3 * place + 1]].place_m;
         const glm::vec3& c_m = mesh.points[mesh.indices[3 * place + 2]].place_m;
-        perimeters_m_[place] =
-            glm::distance(a_m, b_m) + glm::distance(b_m, c_m) + glm::distance(c_m, a_m);
+        perimeters_m_[place] = glm::distance(a_m, b_m) + glm::distance(b_m, c_m) + glm::distance(c_m, a_m);
         sum_m += perimeters_m_[place];
     }
     mean_perimeter_m_ = sum_m / static_cast<double>(std::max(mesh.triangle_count, std::size_t{1}));
 }
 
-bool DynamicMeshSelector::choose(
-    const DynamicMesh& mesh,
-    const glm::dvec3& eye_m,
-    const ShadingLight& light,
-    std::size_t smooth_count,
-    bool changed) {
+bool DynamicMeshSelector::choose(const DynamicMesh& mesh, const glm::dvec3& eye_m, const ShadingLight& light,
+    std::size_t smooth_count, bool changed) {
     assert(mesh.indices.size() == 3 * mesh.labels.size());
     assert(smooth_count <= mesh.triangle_count && mesh.triangle_count <= mesh.labels.size());
     const ViewAndLight look{eye_m, light};
     const ReselectionTolerance tolerance{settings_.reselect_rad, settings_.reselect_distance};
     const bool moved = !has_choice_ || needs_reselection(last_view_, look, glm::dvec3(mesh.centre_m), tolerance);
-    if (!moved && !changed && smooth_count == smooth_count_) {
-        return false;
-    }
+    if (!moved && !changed && smooth_count == smooth_count_) { return false; }
     last_view_ = moved ? look : last_view_;
     smooth_count_ = smooth_count;
     has_choice_ = true;
     keep_triangle_choices(mesh);
     light_points(mesh);
-    if (settings_.rule == ShadingRule::Paper) {
-        measure_perimeters(mesh);
-    }
+    if (settings_.rule == ShadingRule::Paper) { measure_perimeters(mesh); }
     keys_.resize(mesh.labels.size());
     const glm::vec3 from_m(last_view_.eye_m);
     for (std::size_t place = 0; place < keys_.size(); ++place) {

@@ -12,42 +12,33 @@
 
 namespace octant::visuals::shading {
 
-/// A triangle mesh whose triangles may change from frame to frame, as a selectively refined mesh's
-/// do. Triangles sit in numbered slots ("places"); a slot may be empty. Positions and normals are
-/// in the mesh's own axes.
+/// A triangle mesh whose triangles may change from frame to frame, as a selectively refined mesh's do. Triangles sit in
+/// numbered slots ("places"); a slot may be empty. Positions and normals are in the mesh's own axes.
 struct DynamicMesh {
     std::span<const ShadingPoint> points;
-    /// Three indices into `points` for each place. A place whose first two indices are equal is
-    /// empty.
+    /// Three indices into `points` for each place. A place whose first two indices are equal is empty.
     std::span<const std::uint32_t> indices;
-    /// One label for each place. A triangle keeps its label as long as it exists; whatever takes
-    /// its place later has another label.
+    /// One label for each place. A triangle keeps its label as long as it exists; whatever takes its place later has
+    /// another label.
     std::span<const std::uint32_t> labels;
     std::size_t triangle_count = 0; ///< The number of places that are not empty.
-    /// A point near the middle of the mesh, the same in each frame; the eye's angle is measured
-    /// about it.
+    /// A point near the middle of the mesh, the same in each frame; the eye's angle is measured about it.
     glm::vec3 centre_m{0.0F};
 };
 
-/// Chooses the smooth triangles of a mesh that changes from frame to frame. The rules are those of
-/// ShadingSelector, but all that is kept of a triangle is whether it was smooth. Supports the rules
-/// Error and Paper. The time grows linearly with the triangles; memory is reused, so that no call
-/// allocates once the arrays have reached their size.
+/// Chooses the smooth triangles of a mesh that changes from frame to frame. The rules are those of ShadingSelector, but
+/// all that is kept of a triangle is whether it was smooth. Supports the rules Error and Paper. The time grows linearly
+/// with the triangles; memory is reused, so that no call allocates once the arrays have reached their size.
 class DynamicMeshSelector {
 public:
     /// `settings.rule` must not be Random (asserted), because Random needs fixed polygon numbers.
     explicit DynamicMeshSelector(const ShadingRuleSettings& settings = {});
 
-    /// Makes exactly `smooth_count` triangles smooth (0 to triangle_count, asserted). `eye_m` and
-    /// `light` are in the mesh's axes. `changed` = false promises that the mesh has the same
-    /// triangles as in the last call; then only eye, light and count are compared with those of the
-    /// last choice. Returns whether the choice was made again, so that smooth() may differ from
-    /// before.
-    bool choose(
-        const DynamicMesh& mesh,
-        const glm::dvec3& eye_m,
-        const ShadingLight& light,
-        std::size_t smooth_count,
+    /// Makes exactly `smooth_count` triangles smooth (0 to triangle_count, asserted). `eye_m` and `light` are in the
+    /// mesh's axes. `changed` = false promises that the mesh has the same triangles as in the last call; then only eye,
+    /// light and count are compared with those of the last choice. Returns whether the choice was made again, so that
+    /// smooth() may differ from before.
+    bool choose(const DynamicMesh& mesh, const glm::dvec3& eye_m, const ShadingLight& light, std::size_t smooth_count,
         bool changed);
 
     /// One flag for each place: 1 = smooth (Gouraud), 0 = flat or empty.
@@ -56,8 +47,7 @@ public:
 private:
     void light_points(const DynamicMesh& mesh);
     void keep_triangle_choices(const DynamicMesh& mesh);
-    std::uint32_t
-    by_error(const DynamicMesh& mesh, std::size_t place, const glm::vec3& eye_m) const;
+    std::uint32_t by_error(const DynamicMesh& mesh, std::size_t place, const glm::vec3& eye_m) const;
     std::uint32_t by_paper(const DynamicMesh& mesh, std::size_t place) const;
 
     /// The factor on a triangle's rank that keeps it smooth once it is (hysteresis).

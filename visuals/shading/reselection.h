@@ -20,12 +20,9 @@ struct ViewAndLight {
     ShadingLight light;
 };
 
-/// Whether `now` differs from `before` by more than the tolerance, for a model with its centre at
-/// `centre_m`. Any change of the light but its direction counts.
-bool needs_reselection(
-    const ViewAndLight& before,
-    const ViewAndLight& now,
-    const glm::dvec3& centre_m,
+/// Whether `now` differs from `before` by more than the tolerance, for a model with its centre at `centre_m`. Any
+/// change of the light but its direction counts.
+bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, const glm::dvec3& centre_m,
     const ReselectionTolerance& tolerance);
 
 } // namespace octant::visuals::shading

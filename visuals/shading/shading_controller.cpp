@@ -1,9 +1,9 @@
-// Chooses the number of smooth polygons from measured frame times. H. Kim, H. Park, "A Hybrid
-// Rendering Model to support LOD (Level of Detail)", 2008, leave this for later (section 5: "an
-// algorithm that finds the numbers of flat and Gouraud polygons by itself").
+// Chooses the number of smooth polygons from measured frame times. H. Kim, H. Park, "A Hybrid Rendering Model to
+// support LOD (Level of Detail)", 2008, leave this for later (section 5: "an algorithm that finds the numbers of flat
+// and Gouraud polygons by itself").
 //
-// The model is t = a + bf f + bg g, where f polygons are flat, g are smooth and n = f + g. The
-// wanted number follows from it: g = clamp((T - a - bf n) / (bg - bf), 0, n).
+// The model is t = a + bf f + bg g, where f polygons are flat, g are smooth and n = f + g. The wanted number follows
+// from it: g = clamp((T - a - bf n) / (bg - bf), 0, n).
 //
 // - Recursive least squares fit the equal form t = a + bf n + (bg - bf) g. Old frames are forgotten
 //   by letting the variance of each coefficient grow: fast for a, for the rest of the frame
@@ -43,16 +43,12 @@ constexpr double widest_band = 0.2;
 constexpr int learning_frames = 30;
 constexpr int surprises_of_change = 3; ///< So many surprises in a row mean that the load changed.
 
-double dot(const Vector& one, const Vector& other) {
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
-}
+double dot(const Vector& one, const Vector& other) { return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]; }
 
 Vector times(const std::array<double, 9>& matrix, const Vector& vector) {
     Vector product{};
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            product[i] += matrix[3 * i + k] * vector[k];
-        }
+        for (std::size_t k = 0; k < 3; ++k) { product[i] += matrix[3 * i + k] * vector[k]; }
     }
     return product;
 }
@@ -62,8 +58,7 @@ Vector regressors(const FrameTimeModel& fit, double polygons, double smooth) {
     return {1.0, polygons / fit.polygons, smooth / fit.polygons};
 }
 
-/// Lets every coefficient's variance grow by its drift, up to that of an unknown one, so that old
-/// frames count less.
+/// Lets every coefficient's variance grow by its drift, up to that of an unknown one, so that old frames count less.
 void discount(FrameTimeModel& fit, const ShadingControllerSettings& control) {
     const Vector drift{control.level_drift, control.slope_drift, control.slope_drift};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -81,27 +76,23 @@ void open_up(FrameTimeModel& fit) {
     fit.surprises = 0;
 }
 
-/// One step of recursive least squares. `x` are the regressors of a frame that took `missed_ms`
-/// longer than the fit expected.
+/// One step of recursive least squares. `x` are the regressors of a frame that took `missed_ms` longer than the fit
+/// expected.
 void correct(FrameTimeModel& fit, const Vector& x, double missed_ms) {
     const Vector spread = times(fit.covariance, x);
     const double total = 1.0 + dot(x, spread);
     for (std::size_t i = 0; i < 3; ++i) {
         fit.ms[i] += spread[i] / total * missed_ms;
-        for (std::size_t k = 0; k < 3; ++k) {
-            fit.covariance[3 * i + k] -= spread[i] * spread[k] / total;
-        }
+        for (std::size_t k = 0; k < 3; ++k) { fit.covariance[3 * i + k] -= spread[i] * spread[k] / total; }
     }
 }
 
-/// The fit after one more frame: forgets, judges whether the frame is a surprise, an outlier or a
-/// change of load, corrects the coefficients and updates the estimate of the noise.
+/// The fit after one more frame: forgets, judges whether the frame is a surprise, an outlier or a change of load,
+/// corrects the coefficients and updates the estimate of the noise.
 FrameTimeModel updated_fit(FrameTimeModel fit, const ShadingControllerSettings& control, const MeasuredFrame& frame) {
     const Vector x = regressors(fit, frame.flat + frame.smooth, frame.smooth);
     const bool first = fit.noise_ms == 0.0;
-    if (first) {
-        fit.noise_ms = std::max(0.02 * frame.frame_ms, 1e-3);
-    }
+    if (first) { fit.noise_ms = std::max(0.02 * frame.frame_ms, 1e-3); }
     discount(fit, control);
     const double missed_ms = frame.frame_ms - dot(fit.ms, x);
     const double deviation = std::sqrt(1.0 + dot(x, times(fit.covariance, x)));
@@ -113,12 +104,8 @@ FrameTimeModel updated_fit(FrameTimeModel fit, const ShadingControllerSettings& 
         fit.surprises = 0;
     }
     const bool changed = std::abs(fit.surprises) >= surprises_of_change;
-    if (changed) {
-        open_up(fit);
-    }
-    if (changed || first || std::abs(surprise) <= control.outlier_sds) {
-        correct(fit, x, missed_ms);
-    }
+    if (changed) { open_up(fit); }
+    if (changed || first || std::abs(surprise) <= control.outlier_sds) { correct(fit, x, missed_ms); }
     if (!first && !changed) {
         const double counted = std::min(std::abs(surprise), control.surprise_sds);
         const double weight = std::max(control.noise_weight, 1.0 / (fit.frames + 5.0));
@@ -134,14 +121,12 @@ double slope_sd_ms(const FrameTimeModel& fit) {
     return fit.noise_ms * std::sqrt(std::max(fit.covariance[4 * slope], 0.0));
 }
 
-/// Whether flat polygons gain nothing or too little to be measured. `before` is the last judgement:
-/// it takes clearer evidence to change it than to keep it.
+/// Whether flat polygons gain nothing or too little to be measured. `before` is the last judgement: it takes clearer
+/// evidence to change it than to keep it.
 bool full_detail(bool before, const FrameTimeModel& fit, const ShadingControllerSettings& control) {
     const double sd_ms = slope_sd_ms(fit);
     const bool is_little = fit.ms[slope] + 2.0 * sd_ms < control.min_gain_ratio * control.target_frame_ms;
-    if (before) {
-        return fit.ms[slope] < 4.0 * sd_ms && (is_little || fit.frames < learning_frames);
-    }
+    if (before) { return fit.ms[slope] < 4.0 * sd_ms && (is_little || fit.frames < learning_frames); }
     return fit.frames >= learning_frames && is_little && fit.ms[slope] < 2.0 * sd_ms;
 }
 
@@ -155,12 +140,9 @@ void compute_target(ShadingState& state, const ShadingControllerSettings& contro
     const double room_ms = control.target_frame_ms - expected_ms;
     const double more = (room_ms - control.target_margin_sds * fit.noise_ms) / per_polygon_ms;
     const double best = state.has_no_gain ? n : std::clamp(state.target + more, 0.0, n);
-    const double unsure =
-        fit.noise_ms * std::sqrt(std::max(dot(now, times(fit.covariance, now)), 0.0));
-    const double band = n * std::clamp(
-                                std::max(4.0 * unsure, fit.noise_ms) / per_polygon_ms / n,
-                                control.dead_band,
-                                widest_band);
+    const double unsure = fit.noise_ms * std::sqrt(std::max(dot(now, times(fit.covariance, now)), 0.0));
+    const double band =
+        n * std::clamp(std::max(4.0 * unsure, fit.noise_ms) / per_polygon_ms / n, control.dead_band, widest_band);
     const bool too_many = best < state.target && room_ms < control.overload_sds * fit.noise_ms;
     const bool too_few = best > state.target + band || (best == n && state.has_no_gain);
     const double off = std::abs(best - state.target);
@@ -171,8 +153,7 @@ void compute_target(ShadingState& state, const ShadingControllerSettings& contro
     }
 }
 
-/// g of the next frame: the target, or a little less of it while the cost of smooth polygons is not
-/// known well enough.
+/// g of the next frame: the target, or a little less of it while the cost of smooth polygons is not known well enough.
 int probed(ShadingState& state, const ShadingControllerSettings& control) {
     const bool is_known = slope_sd_ms(state.fit) < 0.2 * state.fit.ms[slope];
     // Rounded down, for one polygon more would not fit into T.
@@ -182,9 +163,7 @@ int probed(ShadingState& state, const ShadingControllerSettings& control) {
         return target;
     }
     state.probe_frame = (state.probe_frame + 1) % control.probe_frames;
-    if (2 * state.probe_frame < control.probe_frames) {
-        return target;
-    }
+    if (2 * state.probe_frame < control.probe_frames) { return target; }
     // Where not even all flat fits, the machine is asked in one large step what smooth ones cost.
     const double share = target == 0 ? control.max_step : control.probe;
     const int probe = std::max(static_cast<int>(share * state.polygons), 1);
@@ -201,17 +180,12 @@ ShadingState initial_shading_state(int polygons) {
     ShadingState state;
     state.polygons = polygons;
     state.fit.polygons = polygons;
-    for (std::size_t i = 0; i < 3; ++i) {
-        state.fit.covariance[4 * i] = unknown;
-    }
+    for (std::size_t i = 0; i < 3; ++i) { state.fit.covariance[4 * i] = unknown; }
     return state;
 }
 
 ShadingState update_shading(
-    const ShadingState& state,
-    const ShadingControllerSettings& control,
-    const MeasuredFrame& frame,
-    int polygons) {
+    const ShadingState& state, const ShadingControllerSettings& control, const MeasuredFrame& frame, int polygons) {
     assert(control.target_frame_ms > 0.0 && control.probe_frames >= 2 && polygons >= 1);
     assert(control.level_drift >= 0.0 && control.slope_drift >= 0.0);
     assert(control.overload_sds >= 0.0 && control.overload_sds <= control.target_margin_sds);

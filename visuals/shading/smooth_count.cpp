@@ -1,9 +1,9 @@
-// How many polygons are smooth, by distance and by the device's speed: H. Kim, H. Park, "A Hybrid
-// Rendering Model to support LOD (Level of Detail)", 2008, sections 3 and 4.
+// How many polygons are smooth, by distance and by the device's speed: H. Kim, H. Park, "A Hybrid Rendering Model to
+// support LOD (Level of Detail)", 2008, sections 3 and 4.
 //
-// Deviations: the printed n = (1 - d) g + d f contradicts f + g = n and has a pole at d = 1/2; the
-// text means g = (1 - d) n. The paper does not say how its relative speed 0.028 leads to "8 or 9"
-// of 415 polygons; the formula here counts the operations of its table 2 and is ours.
+// Deviations: the printed n = (1 - d) g + d f contradicts f + g = n and has a pole at d = 1/2; the text means g = (1 -
+// d) n. The paper does not say how its relative speed 0.028 leads to "8 or 9" of 415 polygons; the formula here counts
+// the operations of its table 2 and is ours.
 #include "visuals/shading/smooth_count.h"
 
 #include <algorithm>
@@ -33,8 +33,7 @@ int smooth_count(double distance_m, const ShadingRange& range, int polygons) {
 
 int device_smooth_count(double device_ratio, int polygons) {
     assert(device_ratio >= 0.0 && device_ratio <= 1.0 && polygons >= 0);
-    const double operations_of_polygon =
-        flat_operations + device_ratio * (smooth_operations - flat_operations);
+    const double operations_of_polygon = flat_operations + device_ratio * (smooth_operations - flat_operations);
     const double share = device_ratio * operations_of_polygon / smooth_operations;
     return static_cast<int>(std::lround(share * polygons));
 }

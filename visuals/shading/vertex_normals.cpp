@@ -1,12 +1,12 @@
-// Corner normals by crease angle. Kim and Park's hybrid rendering model (2008) takes vertex normals
-// for given; Gouraud shading needs them, and a model file need not bring any.
+// Corner normals by crease angle. Kim and Park's hybrid rendering model (2008) takes vertex normals for given; Gouraud
+// shading needs them, and a model file need not bring any.
 //
-// For each vertex, corners are connected where their faces share an edge at that vertex. A breadth
-// of corners is collected from each corner across those edges, as long as normals stay within the
-// crease angle of the first one's, and their face normals are averaged.
+// For each vertex, corners are connected where their faces share an edge at that vertex. A breadth of corners is
+// collected from each corner across those edges, as long as normals stay within the crease angle of the first one's,
+// and their face normals are averaged.
 //
-// Deviations: the paper counts 4 operations for a plain average of the faces around a vertex; here
-// the average is weighted by angles, and edges sharper than the crease angle stay sharp.
+// Deviations: the paper counts 4 operations for a plain average of the faces around a vertex; here the average is
+// weighted by angles, and edges sharper than the crease angle stay sharp.
 #include "visuals/shading/vertex_normals.h"
 
 #include "visuals/shading/angle.h"
@@ -54,9 +54,7 @@ struct Faces {
 std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
     std::vector<std::uint32_t> sorted(vertices_m.size());
     std::iota(sorted.begin(), sorted.end(), 0U);
-    const auto key = [&](std::uint32_t v) {
-        return std::tuple(vertices_m[v].x, vertices_m[v].y, vertices_m[v].z, v);
-    };
+    const auto key = [&](std::uint32_t v) { return std::tuple(vertices_m[v].x, vertices_m[v].y, vertices_m[v].z, v); };
     std::ranges::sort(sorted, {}, key);
     std::vector<std::uint32_t> places(vertices_m.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) {
@@ -66,31 +64,25 @@ std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
     return places;
 }
 
-void add_corners(
-    Faces& faces,
-    std::span<const std::uint32_t> vertices,
-    std::span<const std::uint32_t> places,
+void add_corners(Faces& faces, std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> places,
     std::span<const glm::dvec3> vertices_m) {
     const std::size_t count = vertices.size();
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t here = vertices[i];
         const std::uint32_t before = vertices[(i + count - 1) % count];
         const std::uint32_t after = vertices[(i + 1) % count];
-        faces.corners.push_back(
-            {.face = static_cast<std::uint32_t>(faces.faces.size()),
-             .place = places[here],
-             .before = places[before],
-             .after = places[after],
-             .angle_rad = angle_rad(
-                 vertices_m[before] - vertices_m[here], vertices_m[after] - vertices_m[here])});
+        faces.corners.push_back({.face = static_cast<std::uint32_t>(faces.faces.size()),
+            .place = places[here],
+            .before = places[before],
+            .after = places[after],
+            .angle_rad = angle_rad(vertices_m[before] - vertices_m[here], vertices_m[after] - vertices_m[here])});
     }
 }
 
 /// All corners at one place, and which of them are neighbours across an edge.
 class Around {
 public:
-    explicit Around(const Faces& faces)
-        : faces_(&faces) {}
+    explicit Around(const Faces& faces) : faces_(&faces) {}
 
     /// Turns to another place. `corners` are the indices of all corners there, in ascending order.
     void look_at(std::span<const std::uint32_t> corners) {
@@ -104,21 +96,16 @@ public:
         std::ranges::sort(edges_, {}, &Edge::other_end);
         for (std::size_t first = 0; first < edges_.size();) {
             std::size_t end = first;
-            while (end < edges_.size() && edges_[end].other_end == edges_[first].other_end) {
-                ++end;
-            }
+            while (end < edges_.size() && edges_[end].other_end == edges_[first].other_end) { ++end; }
             connect(std::span(edges_).subspan(first, end - first));
             first = end;
         }
     }
 
-    /// The normal of one corner (by its index among those looked at). `min_cosine` is the cosine
-    /// of the crease angle.
+    /// The normal of one corner (by its index among those looked at). `min_cosine` is the cosine of the crease angle.
     glm::vec3 normal_at(std::uint32_t start, double min_cosine) {
         const Face& own = face(start);
-        if (own.normal == glm::dvec3(0.0)) {
-            return glm::vec3(0.0F, 0.0F, 1.0F);
-        }
+        if (own.normal == glm::dvec3(0.0)) { return glm::vec3(0.0F, 0.0F, 1.0F); }
         reach(start, min_cosine);
         // Summed in the order of corners, so that corners with the same faces get the same bits.
         glm::dvec3 sum(0.0);
@@ -162,8 +149,7 @@ private:
             waiting_.pop_back();
             for (const std::uint32_t to : neighbours_[from]) {
                 if (reached_[to] == 0 && face(to).turns_with == face(start).turns_with &&
-                    face(to).normal != glm::dvec3(0.0) &&
-                    glm::dot(face(to).normal, face(start).normal) >= min_cosine) {
+                    face(to).normal != glm::dvec3(0.0) && glm::dot(face(to).normal, face(start).normal) >= min_cosine) {
                     reached_[to] = 1;
                     waiting_.push_back(to);
                 }
@@ -189,10 +175,7 @@ std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
     Around around(faces);
     for (std::size_t first = 0; first < sorted.size();) {
         std::size_t end = first;
-        while (end < sorted.size() &&
-               faces.corners[sorted[end]].place == faces.corners[sorted[first]].place) {
-            ++end;
-        }
+        while (end < sorted.size() && faces.corners[sorted[end]].place == faces.corners[sorted[first]].place) { ++end; }
         const auto corners = std::span<const std::uint32_t>(sorted).subspan(first, end - first);
         around.look_at(corners);
         for (std::uint32_t i = 0; i < corners.size(); ++i) {
@@ -205,15 +188,13 @@ std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
 
 } // namespace
 
-std::vector<glm::vec3>
-corner_normals(const models::polygons::PolygonModel& model, double crease_rad) {
+std::vector<glm::vec3> corner_normals(const models::polygons::PolygonModel& model, double crease_rad) {
     const std::vector<std::uint32_t> places = places_of(model.vertices_m);
     Faces faces;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         add_corners(faces, model.corners(i), places, model.vertices_m);
         const auto pivot = models::polygons::pivot_of(model, i);
-        faces.faces.push_back(
-            {models::polygons::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
+        faces.faces.push_back({models::polygons::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
     }
     return normals_of(faces, crease_rad);
 }

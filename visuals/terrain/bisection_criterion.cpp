@@ -1,9 +1,8 @@
-// Longest-edge bisection by screen-space error: P. Lindstrom, V. Pascucci, "Terrain Simplification
-// Simplified: A General Framework for View-Dependent Out-of-Core Visualization", 2002, with
-// saturated errors and nested regions of influence. A sample v, the middle of the longest edge of
-// two triangles, is in the mesh if its error e(v), seen from the nearest point of its region of
-// influence, is larger than the wanted error: if critical(v) = D2(v) / e(v)^2 < (focal length /
-// wanted error)^2, where D2 is the squared distance.
+// Longest-edge bisection by screen-space error: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified: A
+// General Framework for View-Dependent Out-of-Core Visualization", 2002, with saturated errors and nested regions of
+// influence. A sample v, the middle of the longest edge of two triangles, is in the mesh if its error e(v), seen from
+// the nearest point of its region of influence, is larger than the wanted error: if critical(v) = D2(v) / e(v)^2 <
+// (focal length / wanted error)^2, where D2 is the squared distance.
 //
 // Deviations:
 // - Regions are boxes, not spheres. Horizontally they are squares about a node's centre, of half
@@ -26,16 +25,16 @@
 // - On a curved earth, e(v) is the stored error plus what the edge that v halves rises above the
 //   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //
-// There are no cracks, because critical values never decrease from a sample to one that needs it,
-// to the last bit. An edge's middle lies h from the centre it needs, and 2h - 1 + h = 3h - 1. A
-// child's centre, with a box of 3h/2 - 1, lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2
+// There are no cracks, because critical values never decrease from a sample to one that needs it, to the last bit. An
+// edge's middle lies h from the centre it needs, and 2h - 1 + h = 3h - 1. A child's centre, with a box of 3h/2 - 1,
+// lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2
 // - 1 = 2h - 1. So the ends of boxes, which are whole numbers, are nested; subtracting the eye with
-// rounding keeps their order, and so do all steps from there to the critical value: maximum,
-// minimum, sum and product of non-negative numbers, and quotient. The bounds of a block contain
-// those of finer blocks, and a box overlaps (a common line does not count) no block that is not
-// within one that the larger box overlaps. Errors are nested as stored; those of curvature halve
-// from each step to the next.
+// rounding keeps their order, and so do all steps from there to the critical value: maximum, minimum, sum and product
+// of non-negative numbers, and quotient. The bounds of a block contain those of finer blocks, and a box overlaps (a
+// common line does not count) no block that is not within one that the larger box overlaps. Errors are nested as
+// stored; those of curvature halve from each step to the next.
 #include "visuals/terrain/bisection_criterion.h"
+
 #include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/fan_shape.h"
 #include "visuals/terrain/frustum.h"
@@ -68,8 +67,7 @@ std::array<float, 16> min_by_reach(const NineBlocks& of) {
         least[reach] = no_end;
         for (int row = south; row <= north; ++row) {
             for (int column = west; column <= east; ++column) {
-                least[reach] =
-                    std::min(least[reach], of[static_cast<std::size_t>(3 * row + column)]);
+                least[reach] = std::min(least[reach], of[static_cast<std::size_t>(3 * row + column)]);
             }
         }
     }
@@ -112,9 +110,7 @@ void BoxErrorBound::set_direction(const glm::dvec3& ahead, double corner_cos) {
     ahead_ = {static_cast<float>(ahead.x * spacing_m_), static_cast<float>(ahead.y * spacing_m_)};
     const double level = std::hypot(ahead.x, ahead.y);
     const double tilt = level > 0.0 ? std::abs(ahead.z) / level : 0.0;
-    aside_ = {
-        static_cast<float>(-tilt * ahead.y * spacing_m_),
-        static_cast<float>(tilt * ahead.x * spacing_m_)};
+    aside_ = {static_cast<float>(-tilt * ahead.y * spacing_m_), static_cast<float>(tilt * ahead.x * spacing_m_)};
     level_ = static_cast<float>(level);
     corner_cos_squared_ = static_cast<float>(corner_cos * corner_cos);
     const double corner = std::sqrt(1.0 - corner_cos * corner_cos) / corner_cos;
@@ -126,16 +122,15 @@ void BoxErrorBound::set_direction(const glm::dvec3& ahead, double corner_cos) {
 
 namespace {
 
-/// An eye farther from the field than this, in samples, is treated as being there, so that whole
-/// numbers of samples stay exact in float.
+/// An eye farther from the field than this, in samples, is treated as being there, so that whole numbers of samples
+/// stay exact in float.
 constexpr double farthest_eye = 4194304.0;
 
 /// More than the rounding of heights in double precision can amount to.
 constexpr double height_margin_m = 1e-3;
 
-// The ends of the boxes of influence, a sample farther out on each side, in half edges from a
-// node's south-west corner: of the middles of its south, east, north and west edges, and of the
-// centres of its four children.
+// The ends of the boxes of influence, a sample farther out on each side, in half edges from a node's south-west corner:
+// of the middles of its south, east, north and west edges, and of the centres of its four children.
 constexpr Float4 west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
 constexpr Float4 east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
 constexpr Float4 south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};
@@ -150,16 +145,12 @@ int floor_to_sample(double place) {
     return static_cast<int>(std::floor(std::clamp(place, -farthest_eye, farthest_eye)));
 }
 
-float largest(Float4 of) {
-    return std::max({of[0], of[1], of[2], of[3]});
-}
+float largest(Float4 of) { return std::max({of[0], of[1], of[2], of[3]}); }
 
 } // namespace
 
 BisectionCriterion::BisectionCriterion(const GroundTiles& ground)
-    : ground_(&ground)
-    , reach_(ground.spacing_m())
-    , range_level_(ground.layout().range_level()) {
+    : ground_(&ground), reach_(ground.spacing_m()), range_level_(ground.layout().range_level()) {
     for (int level = 0; level < ground.levels(); ++level) {
         const LevelReader memory(ground, level);
         levels_.push_back({memory, 0.5F * static_cast<float>(memory.edge())});
@@ -218,8 +209,7 @@ float BisectionCriterion::root_error_m() const {
 }
 
 VerticalDistances BisectionCriterion::vertical_distances_of(int level, int column, int row) const {
-    return vertical_distances(
-        *ground_, {level, column, row}, {eye_z_m_, static_cast<float>(view_.ahead.z)});
+    return vertical_distances(*ground_, {level, column, row}, {eye_z_m_, static_cast<float>(view_.ahead.z)});
 }
 
 FanCriticalValues BisectionCriterion::criticals_of(const NodeContext& place) const {
@@ -233,20 +223,10 @@ FanCriticalValues BisectionCriterion::criticals_of(const NodeContext& place) con
     const auto last = [&at](float start, Float4 halves, float eye) {
         return splat4(start - 1.0F) + halves * splat4(at.half_edge) - splat4(eye);
     };
-    BoxErrorBound::FourBoxes middles{
-        first(x, west_of_middles, eye_east_),
-        last(x, east_of_middles, eye_east_),
-        first(y, south_of_middles, eye_north_),
-        last(y, north_of_middles, eye_north_),
-        {},
-        {}};
-    BoxErrorBound::FourBoxes centres{
-        first(x, west_of_centres, eye_east_),
-        last(x, east_of_centres, eye_east_),
-        first(y, south_of_centres, eye_north_),
-        last(y, north_of_centres, eye_north_),
-        {},
-        {}};
+    BoxErrorBound::FourBoxes middles{first(x, west_of_middles, eye_east_), last(x, east_of_middles, eye_east_),
+        first(y, south_of_middles, eye_north_), last(y, north_of_middles, eye_north_), {}, {}};
+    BoxErrorBound::FourBoxes centres{first(x, west_of_centres, eye_east_), last(x, east_of_centres, eye_east_),
+        first(y, south_of_centres, eye_north_), last(y, north_of_centres, eye_north_), {}, {}};
     // On which sides the boxes of influence reach beyond the block: at its first and last node.
     const int last_node = (1 << std::max(place.level - range_level_, 0)) - 1;
     const auto reach = [&](int along) {
@@ -257,16 +237,10 @@ FanCriticalValues BisectionCriterion::criticals_of(const NodeContext& place) con
     const unsigned up = reach(place.row) << 2U;
     const auto of_middles = [across, up](const std::array<float, 16>& from) {
         return Float4{
-            from[across | (up & 4U)],
-            from[(across & 2U) | up],
-            from[across | (up & 8U)],
-            from[(across & 1U) | up]};
+            from[across | (up & 4U)], from[(across & 2U) | up], from[across | (up & 8U)], from[(across & 1U) | up]};
     };
     const auto of_centres = [across, up](const std::array<float, 16>& from) {
-        return Float4{
-            from[(across & 1U) | (up & 4U)],
-            from[(across & 2U) | (up & 4U)],
-            from[(across & 1U) | (up & 8U)],
+        return Float4{from[(across & 1U) | (up & 4U)], from[(across & 2U) | (up & 4U)], from[(across & 1U) | (up & 8U)],
             from[(across & 2U) | (up & 8U)]};
     };
     middles.gap_m2 = of_middles(place.distances->squared_m2);
@@ -274,16 +248,14 @@ FanCriticalValues BisectionCriterion::criticals_of(const NodeContext& place) con
     middles.ahead_m = of_middles(place.distances->ahead_m);
     centres.ahead_m = of_centres(place.distances->ahead_m);
     FanCriticalValues criticals;
-    const Float4 middle_error_m =
-        middle_errors_m(place.level, place.column, place.row) + splat4(at.middle_error_m);
+    const Float4 middle_error_m = middle_errors_m(place.level, place.column, place.row) + splat4(at.middle_error_m);
     criticals.middle = reach_.squared_m2(middles) / (middle_error_m * middle_error_m);
     if (place.level + 1 == ground_->levels()) {
         criticals.quadrant = splat4(std::numeric_limits<float>::infinity());
         criticals.quadrant_error_m = splat4(0.0F);
         return criticals;
     }
-    const Float4 error_m =
-        child_errors_m(place.level, place.column, place.row) + splat4(at.quadrant_error_m);
+    const Float4 error_m = child_errors_m(place.level, place.column, place.row) + splat4(at.quadrant_error_m);
     criticals.quadrant = reach_.squared_m2(centres) / (error_m * error_m);
     criticals.quadrant_error_m = error_m;
     return criticals;
@@ -296,21 +268,17 @@ float BisectionCriterion::share_below_centre(int level, int column, int row) con
 }
 
 float BisectionCriterion::share_below_middle(int level, int column, int row, std::size_t edge) const {
-    if (level + 1 == ground_->levels()) {
-        return 0.0F;
-    }
+    if (level + 1 == ground_->levels()) { return 0.0F; }
     const Level& at = levels_[static_cast<std::size_t>(level)];
     const FanEdge& side = fan_edges[edge];
     const Float4 own = child_errors_m(level, column, row);
     float below_m = std::max(own[side.quadrant_a], own[side.quadrant_b]);
     const int beyond_column = column + side.beyond_east;
     const int beyond_row = row + side.beyond_north;
-    if (beyond_column >= 0 && beyond_row >= 0 && beyond_column < at.memory.columns() &&
-        beyond_row < at.memory.rows()) {
+    if (beyond_column >= 0 && beyond_row >= 0 && beyond_column < at.memory.columns() && beyond_row < at.memory.rows()) {
         const Float4 beyond = child_errors_m(level, beyond_column, beyond_row);
         const unsigned across = side.beyond_east != 0 ? 1U : 2U;
-        below_m =
-            std::max({below_m, beyond[side.quadrant_a ^ across], beyond[side.quadrant_b ^ across]});
+        below_m = std::max({below_m, beyond[side.quadrant_a ^ across], beyond[side.quadrant_b ^ across]});
     }
     const float own_m = middle_errors_m(level, column, row)[edge] + at.middle_error_m;
     return (below_m + at.quadrant_error_m) / own_m;
@@ -353,8 +321,7 @@ unsigned BisectionCriterion::crossed_planes_of_node(
     const int east = std::min(west + edge, ground_->columns() - 1);
     const int north = std::min(south + edge, ground_->rows() - 1);
     const double half_spacing_m = 0.5 * ground_->spacing_m();
-    const glm::dvec2 centre_m(
-        west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m);
+    const glm::dvec2 centre_m(west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m);
     const glm::dvec2 half_m((east - west) * half_spacing_m, (north - south) * half_spacing_m);
     const double margin = static_cast<double>(margin_m) + height_margin_m;
     double low_m = static_cast<double>(distances.lowest_m) - view_.eye_m.z - margin;
@@ -366,10 +333,7 @@ unsigned BisectionCriterion::crossed_planes_of_node(
         low_m -= drop_m(far_m.x, far_m.y);
         high_m -= drop_m(near_m.x, near_m.y);
     }
-    return crossed_planes(
-        view_.frustum_normals,
-        planes,
-        {centre_m.x, centre_m.y, 0.5 * (low_m + high_m)},
+    return crossed_planes(view_.frustum_normals, planes, {centre_m.x, centre_m.y, 0.5 * (low_m + high_m)},
         {half_m.x, half_m.y, 0.5 * (high_m - low_m)});
 }
 

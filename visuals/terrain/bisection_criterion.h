@@ -12,14 +12,13 @@
 
 namespace octant::visuals::terrain {
 
-/// The vertical distance of the eye from the ground around a block, which is a node with height
-/// bounds.
+/// The vertical distance of the eye from the ground around a block, which is a node with height bounds.
 struct VerticalDistances {
-    /// The least squared distance to the block and to some of its neighbours. The index is a sum: 1
-    /// includes those beyond its west side, 2 east, 4 south, 8 north.
+    /// The least squared distance to the block and to some of its neighbours. The index is a sum: 1 includes those
+    /// beyond its west side, 2 east, 4 south, 8 north.
     std::array<float, 16> squared_m2{};
-    /// The same for how far ahead of the eye the block's heights alone bring it, at least: their
-    /// share of the depth in the picture.
+    /// The same for how far ahead of the eye the block's heights alone bring it, at least: their share of the depth in
+    /// the picture.
     std::array<float, 16> ahead_m{};
     float lowest_m = 0.0F; ///< The lowest of the block's own samples.
     float highest_m = 0.0F;
@@ -41,8 +40,7 @@ struct EyeElevation {
 /// The gaps of a block for an eye.
 VerticalDistances vertical_distances(const GroundTiles& ground, const BlockIndex& block, const EyeElevation& eye);
 
-/// Fast access to the numbers of a level of GroundTiles by node. The numbers of a node's fan lie
-/// close together.
+/// Fast access to the numbers of a level of GroundTiles by node. The numbers of a node's fan lie close together.
 class LevelReader {
 public:
     using FourCodes = std::array<std::uint8_t, 4>;
@@ -55,12 +53,8 @@ public:
 
     /// The ground's memory must outlive it.
     LevelReader(const GroundTiles& ground, int level)
-        : memory_(ground.memory().data())
-        , corners_(ground.layout().corners())
-        , at_(ground.layout().level(level))
-        , validator_(&ground.validator())
-        , level_(level)
-        , mask_((1 << at_.tile_shift) - 1) {}
+        : memory_(ground.memory().data()), corners_(ground.layout().corners()), at_(ground.layout().level(level)),
+          validator_(&ground.validator()), level_(level), mask_((1 << at_.tile_shift) - 1) {}
 
     int edge() const { return at_.edge; }
 
@@ -69,11 +63,10 @@ public:
     int rows() const { return at_.rows; }
 
     NodeSlot slot(int column, int row) const {
-        const auto tile = static_cast<std::size_t>(
-            (row >> at_.tile_shift) * at_.tiles_across + (column >> at_.tile_shift));
+        const auto tile =
+            static_cast<std::size_t>((row >> at_.tile_shift) * at_.tiles_across + (column >> at_.tile_shift));
         validator_->ensure_valid(level_, tile);
-        return {
-            memory_ + at_.first_tile + tile * at_.tile_bytes,
+        return {memory_ + at_.first_tile + tile * at_.tile_bytes,
             static_cast<std::size_t>(((row & mask_) << at_.tile_shift) + (column & mask_))};
     }
 
@@ -81,8 +74,7 @@ public:
     FourCodes middle_codes(int column, int row, MorphMargin morph_margin) const {
         const NodeSlot own = slot(column, row);
         const auto r = static_cast<std::size_t>(morph_margin);
-        return {
-            *error(own, NodePart::South, morph_margin),
+        return {*error(own, NodePart::South, morph_margin),
             *(column + 1 == at_.columns ? codes(at_.east_errors[r]) + row
                                         : error(east_of(own, column, row), NodePart::West, morph_margin)),
             *(row + 1 == at_.rows ? codes(at_.north_errors[r]) + column
@@ -90,8 +82,8 @@ public:
             *error(own, NodePart::West, morph_margin)};
     }
 
-    /// The error codes of the centres of the four children of one node of the level above, the
-    /// first of which is at (column, row); meaningless for children that do not exist.
+    /// The error codes of the centres of the four children of one node of the level above, the first of which is at
+    /// (column, row); meaningless for children that do not exist.
     FourCodes child_codes(int column, int row, MorphMargin morph_margin) const {
         const std::uint8_t* first = error(slot(column, row), NodePart::Centre, morph_margin);
         const std::uint8_t* above = first + (std::ptrdiff_t{1} << at_.tile_shift);
@@ -113,13 +105,11 @@ public:
         case 0:
             return *height(own, NodePart::South);
         case 1:
-            return *(
-                column + 1 == at_.columns ? heights(at_.east_heights) + row
-                                          : height(east_of(own, column, row), NodePart::West));
+            return *(column + 1 == at_.columns ? heights(at_.east_heights) + row
+                                               : height(east_of(own, column, row), NodePart::West));
         case 2:
-            return *(
-                row + 1 == at_.rows ? heights(at_.north_heights) + column
-                                    : height(north_of(own, column, row), NodePart::South));
+            return *(row + 1 == at_.rows ? heights(at_.north_heights) + column
+                                         : height(north_of(own, column, row), NodePart::South));
         default:
             return *height(own, NodePart::West);
         }
@@ -135,8 +125,7 @@ private:
     }
 
     const std::uint8_t* error(const NodeSlot& slot, NodePart part, MorphMargin morph_margin) const {
-        const std::size_t plane =
-            at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
+        const std::size_t plane = at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
         return reinterpret_cast<const std::uint8_t*>(slot.tile) + plane + slot.node;
     }
 
@@ -150,9 +139,8 @@ private:
     }
 
     NodeSlot north_of(const NodeSlot& own, int column, int row) const {
-        return (row & mask_) != mask_
-                   ? NodeSlot{own.tile, own.node + (std::size_t{1} << at_.tile_shift)}
-                   : slot(column, row + 1);
+        return (row & mask_) != mask_ ? NodeSlot{own.tile, own.node + (std::size_t{1} << at_.tile_shift)}
+                                      : slot(column, row + 1);
     }
 
     const std::byte* memory_;
@@ -167,26 +155,19 @@ private:
 using Float4 = float __attribute__((vector_size(16)));
 
 /// The larger one of each pair.
-inline Float4 max4(Float4 a, Float4 b) {
-    return a > b ? a : b;
-}
+inline Float4 max4(Float4 a, Float4 b) { return a > b ? a : b; }
 
 /// The smaller one of each pair.
-inline Float4 min4(Float4 a, Float4 b) {
-    return a < b ? a : b;
-}
+inline Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
 
 /// The same number four times.
-inline Float4 splat4(float each) {
-    return Float4{each, each, each, each};
-}
+inline Float4 splat4(float each) { return Float4{each, each, each, each}; }
 
-/// Bounds how far errors in boxes are seen to reach in a picture, as the beginning of
-/// error_rule.cpp tells.
+/// Bounds how far errors in boxes are seen to reach in a picture, as the beginning of error_rule.cpp tells.
 class BoxErrorBound {
 public:
-    /// The boxes of influence of four samples: their ends in samples from the eye, and the least
-    /// vertical share of their distance squared and of their depth.
+    /// The boxes of influence of four samples: their ends in samples from the eye, and the least vertical share of
+    /// their distance squared and of their depth.
     struct FourBoxes {
         Float4 west;
         Float4 east;
@@ -197,11 +178,10 @@ public:
     };
 
     explicit BoxErrorBound(double spacing_m)
-        : spacing_m_(spacing_m)
-        , spacing_squared_m2_(static_cast<float>(spacing_m * spacing_m)) {}
+        : spacing_m_(spacing_m), spacing_squared_m2_(static_cast<float>(spacing_m * spacing_m)) {}
 
-    /// Bounds for pictures in this direction from now on, by the cosine of the angle to their
-    /// corners; for all around the eye where the direction is zero.
+    /// Bounds for pictures in this direction from now on, by the cosine of the angle to their corners; for all around
+    /// the eye where the direction is zero.
     void set_direction(const glm::dvec3& ahead, double corner_cos);
 
     /// Whether the view has a direction.
@@ -230,39 +210,36 @@ private:
     double spacing_m_;
     float spacing_squared_m2_;
     bool has_direction_ = false;
-    AxisProjection ahead_;        ///< The level part of the direction.
-    AxisProjection aside_;        ///< Square to it, times the sine of the pitch.
-    float level_ = 1.0F; ///< The cosine of the pitch.
+    AxisProjection ahead_; ///< The level part of the direction.
+    AxisProjection aside_; ///< Square to it, times the sine of the pitch.
+    float level_ = 1.0F;   ///< The cosine of the pitch.
     float corner_cos_squared_ = 1.0F;
     float max_aside_squared_ = 0.0F; ///< Of what lies aside in a picture, by depth.
     float near_factor_ = 1.0F;
 };
 
-/// The squared distances along one axis from the eye to four boxes that reach from `before` to
-/// `after`, in samples^2.
+/// The squared distances along one axis from the eye to four boxes that reach from `before` to `after`, in samples^2.
 inline Float4 squared_distance(Float4 before, Float4 after) {
     const Float4 off = max4(max4(before, -after), splat4(0.0F));
     return off * off;
 }
 
-/// A linear function at `before` where it rises and at `after` where it falls: its least over what
-/// reaches from `before` to `after`, and its most with the ends exchanged.
+/// A linear function at `before` where it rises and at `after` where it falls: its least over what reaches from
+/// `before` to `after`, and its most with the ends exchanged.
 inline Float4 min_along(Float4 before, Float4 after, float slope) {
     return splat4(slope) * (slope > 0.0F ? before : after);
 }
 
 inline BoxErrorBound::Range BoxErrorBound::range_along(const FourBoxes& b, const AxisProjection& along) {
-    return {
-        min_along(b.west, b.east, along.east_m) + min_along(b.south, b.north, along.north_m),
+    return {min_along(b.west, b.east, along.east_m) + min_along(b.south, b.north, along.north_m),
         min_along(b.east, b.west, along.east_m) + min_along(b.north, b.south, along.north_m)};
 }
 
-/// Lower bounds of the depth over the level distance ahead or behind, at or above zero, of what a
-/// picture may show.
+/// Lower bounds of the depth over the level distance ahead or behind, at or above zero, of what a picture may show.
 inline Float4 BoxErrorBound::min_share(const FourBoxes& b, const Range& level) const {
     constexpr float min_divisor_m = 1e-6F; // in place of a division by zero
-    // Only a picture that shows what lies straight below or above the eye shows what lies behind
-    // it; sums up to this count, because of rounding.
+    // Only a picture that shows what lies straight below or above the eye shows what lies behind it; sums up to this
+    // count, because of rounding.
     constexpr float sees_nadir = 1.0001F;
     const Float4 worst_m = b.ahead_m < splat4(0.0F) ? level.min_m : level.max_m;
     const Float4 before = splat4(1.0F) + b.ahead_m / max4(worst_m, splat4(min_divisor_m));
@@ -275,22 +252,18 @@ inline Float4 BoxErrorBound::min_share(const FourBoxes& b, const Range& level) c
 }
 
 inline Float4 BoxErrorBound::squared_m2(const FourBoxes& b) const {
-    const Float4 distance_m2 = max4(
-        splat4(spacing_squared_m2_) *
-                (squared_distance(b.west, b.east) + squared_distance(b.south, b.north)) +
-            b.gap_m2,
-        splat4(1.0F));
-    if (!has_direction_) {
-        return distance_m2;
-    }
+    const Float4 distance_m2 =
+        max4(splat4(spacing_squared_m2_) * (squared_distance(b.west, b.east) + squared_distance(b.south, b.north)) +
+                 b.gap_m2,
+            splat4(1.0F));
+    if (!has_direction_) { return distance_m2; }
     const Range level = range_along(b, ahead_);
     const Float4 depth_m = max4(level.min_m + b.ahead_m, splat4(0.0F));
     const Float4 depth_m2 = max4(depth_m * depth_m, splat4(corner_cos_squared_) * distance_m2);
     const Range aside = range_along(b, aside_);
     const Float4 aside_m2 = max4(aside.min_m * aside.min_m, aside.max_m * aside.max_m);
     const Float4 share = min_share(b, level);
-    const Float4 across =
-        splat4(1.0F) / (share * share) + min4(aside_m2 / depth_m2, splat4(max_aside_squared_));
+    const Float4 across = splat4(1.0F) / (share * share) + min4(aside_m2 / depth_m2, splat4(max_aside_squared_));
     return depth_m2 * max4(splat4(1.0F) / across, splat4(near_factor_));
 }
 
@@ -304,8 +277,8 @@ struct NodeContext {
 
 /// The critical values and errors of the samples that a node's fan may have.
 struct FanCriticalValues {
-    Float4 middle;   ///< The mid-points of fan_edges.
-    Float4 quadrant; ///< The centres of the children; meaningless where there is no child.
+    Float4 middle;           ///< The mid-points of fan_edges.
+    Float4 quadrant;         ///< The centres of the children; meaningless where there is no child.
     Float4 quadrant_error_m; ///< The errors of those centres.
 };
 
@@ -315,15 +288,13 @@ public:
     /// The ground must outlive the rule.
     explicit BisectionCriterion(const GroundTiles& ground);
 
-    /// Judges by this view from now on, until it is given another. Errors are those with this share
-    /// of the full room to move (tile_builder_errors.cpp), from 0 to 1.
+    /// Judges by this view from now on, until it is given another. Errors are those with this share of the full room to
+    /// move (tile_builder_errors.cpp), from 0 to 1.
     void set_view(const MeshView& view, double margin_share = 1.0);
 
     const GroundTiles& ground() const { return *ground_; }
 
-    const LevelReader& memory(int level) const {
-        return levels_[static_cast<std::size_t>(level)].memory;
-    }
+    const LevelReader& memory(int level) const { return levels_[static_cast<std::size_t>(level)].memory; }
 
     const MeshView& view() const { return view_; }
 
@@ -333,8 +304,7 @@ public:
     /// The y coordinate of the field's south border relative to the eye.
     double south_m() const { return south_m_; }
 
-    /// The limit for a wanted error in pixels. A sample is in the mesh when its critical value is
-    /// below the limit.
+    /// The limit for a wanted error in pixels. A sample is in the mesh when its critical value is below the limit.
     float limit_of(double error_px) const;
 
     /// The error in pixels that belongs to a limit.
@@ -355,8 +325,8 @@ public:
     /// The same for the middle of one of a node's fan_edges.
     float share_below_middle(int level, int column, int row, std::size_t edge) const;
 
-    /// crossed_planes (frustum.h) for all that a mesh may draw of a node, where heights are drawn
-    /// up to `margin_m` beyond those of the node's samples.
+    /// crossed_planes (frustum.h) for all that a mesh may draw of a node, where heights are drawn up to `margin_m`
+    /// beyond those of the node's samples.
     unsigned crossed_planes_of_node(
         const NodeContext& place, const VerticalDistances& distances, float margin_m, unsigned planes) const;
 
@@ -385,8 +355,8 @@ private:
     const GroundTiles* ground_;
     MeshView view_;
     std::vector<Level> levels_;
-    /// For each code of an error with full room the share of it that counts, and the same for those
-    /// without room: an error is the sum of both.
+    /// For each code of an error with full room the share of it that counts, and the same for those without room: an
+    /// error is the sum of both.
     std::array<float, 256> full_margin_m_{};
     std::array<float, 256> no_margin_m_{};
     bool has_full_margin_ = true;

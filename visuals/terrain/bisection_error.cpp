@@ -1,13 +1,11 @@
-// Errors of longest-edge bisection: P. Lindstrom, V. Pascucci, "Visualization of Large Terrains
-// Made Easy", 2001, section 2 (bisection and diamonds).
+// Errors of longest-edge bisection: P. Lindstrom, V. Pascucci, "Visualization of Large Terrains Made Easy", 2001,
+// section 2 (bisection and diamonds).
 //
-// The heights of both triangles of a diamond form a single function that is linear but for one
-// absolute value (of x, of y or of x - y), so that rows need no case distinctions and several
-// samples are computed at once. All sums stay below 24 bits, so floats are exact here and the order
-// of operations does not matter.
+// The heights of both triangles of a diamond form a single function that is linear but for one absolute value (of x, of
+// y or of x - y), so that rows need no case distinctions and several samples are computed at once. All sums stay below
+// 24 bits, so floats are exact here and the order of operations does not matter.
 //
-// Deviation: the error of a diamond is the true largest deviation of all samples inside, not that
-// of its middle alone.
+// Deviation: the error of a diamond is the true largest deviation of all samples inside, not that of its middle alone.
 #include "visuals/terrain/bisection_error.h"
 
 #include <algorithm>
@@ -31,8 +29,7 @@ struct Lanes {
     using Shorts __attribute__((vector_size(2 * width))) = short;
 };
 
-/// For d from 0 on the value |d - 2 half|, and for each row which columns lie in a diamond on its
-/// corner.
+/// For d from 0 on the value |d - 2 half|, and for each row which columns lie in a diamond on its corner.
 template <int half>
 struct DistanceTables {
     static constexpr auto edge = static_cast<std::size_t>(2 * half);
@@ -54,8 +51,8 @@ struct DistanceTables {
 template <int half>
 constexpr DistanceTables<half> distance_tables{};
 
-/// The height over one row of samples: start + slope * x + bend * |x - ...|, where the absolute
-/// value comes from a table.
+/// The height over one row of samples: start + slope * x + bend * |x - ...|, where the absolute value comes from a
+/// table.
 struct RowPlane {
     float start;
     float slope;
@@ -75,11 +72,9 @@ OCTANT_INLINE void raise_to_row_error(
         typename L::Floats place;
         std::memcpy(&whole, numbers + x, sizeof whole);
         std::memcpy(&distance, plane.distance + x, sizeof distance);
-        for (int lane = 0; lane < width; ++lane) {
-            place[lane] = static_cast<float>(x + lane);
-        }
-        const auto height = __builtin_convertvector(
-            __builtin_convertvector(whole, typename L::Ints), typename L::Floats);
+        for (int lane = 0; lane < width; ++lane) { place[lane] = static_cast<float>(x + lane); }
+        const auto height =
+            __builtin_convertvector(__builtin_convertvector(whole, typename L::Ints), typename L::Floats);
         auto error = height - (plane.start + plane.slope * place + plane.bend * distance);
         error = error < 0.0F ? -error : error;
         if (plane.inside != nullptr) {
@@ -94,9 +89,7 @@ OCTANT_INLINE void raise_to_row_error(
 template <int width>
 OCTANT_INLINE float largest_of(const typename Lanes<width>::Floats& values) {
     float largest = values[0];
-    for (int lane = 1; lane < width; ++lane) {
-        largest = std::max(largest, values[lane]);
-    }
+    for (int lane = 1; lane < width; ++lane) { largest = std::max(largest, values[lane]); }
     return largest;
 }
 
@@ -116,18 +109,15 @@ OCTANT_INLINE float error_of_node(const std::int16_t* corner, std::ptrdiff_t pit
     typename Lanes<width>::Floats largest = {};
     for (int y = 1; y < edge; ++y) {
         const float* const distance = distance_tables<half>.distance.data() + (rising ? edge - y : y);
-        raise_to_row_error<half, width>(
-            corner + y * pitch,
-            {start + north * static_cast<float>(y), east, rising ? bend : -bend, distance, nullptr},
-            largest);
+        raise_to_row_error<half, width>(corner + y * pitch,
+            {start + north * static_cast<float>(y), east, rising ? bend : -bend, distance, nullptr}, largest);
     }
     return largest_of<width>(largest);
 }
 
 /// The error inside a diamond on its corner.
 template <int half, int width>
-OCTANT_INLINE float
-error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright) {
+OCTANT_INLINE float error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright) {
     constexpr float per_sample = 0.5F / half;
     const float west = middle[-half];
     const float east = middle[half];
@@ -141,15 +131,10 @@ error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright)
     typename Lanes<width>::Floats largest = {};
     for (int y = 1 - half; y < half; ++y) {
         const auto away = static_cast<std::size_t>(std::abs(y));
-        const float start = level - slope * half + climb * static_cast<float>(y) +
-                            bend_y * static_cast<float>(away);
-        raise_to_row_error<half, width>(
-            middle - half + y * pitch,
-            {start,
-             slope,
-             bend_x,
-             distance_tables<half>.distance.data() + half,
-             distance_tables<half>.inside[away].data()},
+        const float start = level - slope * half + climb * static_cast<float>(y) + bend_y * static_cast<float>(away);
+        raise_to_row_error<half, width>(middle - half + y * pitch,
+            {start, slope, bend_x, distance_tables<half>.distance.data() + half,
+                distance_tables<half>.inside[away].data()},
             largest);
     }
     return largest_of<width>(largest);
@@ -157,31 +142,24 @@ error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright)
 
 /// The errors of a row of diamonds of one size.
 template <int half, int widest>
-OCTANT_INLINE void
-errors_of_row(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
+OCTANT_INLINE void errors_of_row(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
     constexpr int width = std::min(widest, 2 * half);
     const std::ptrdiff_t to_corner = half * row.pitch + half;
     Diamond diamond = first;
     for (int i = 0; i < row.count; ++i) {
         const std::int16_t* const middle = row.first_middle + 2 * half * i;
         const bool node = diamond == Diamond::Rising || diamond == Diamond::Falling;
-        errors[i] =
-            node ? error_of_node<half, width>(
-                       middle - to_corner, row.pitch, diamond == Diamond::Rising)
-                 : error_of_diamond<half, width>(middle, row.pitch, diamond == Diamond::Upright);
-        if (alternate) {
-            diamond = diamond == Diamond::Rising ? Diamond::Falling : Diamond::Rising;
-        }
+        errors[i] = node ? error_of_node<half, width>(middle - to_corner, row.pitch, diamond == Diamond::Rising)
+                         : error_of_diamond<half, width>(middle, row.pitch, diamond == Diamond::Upright);
+        if (alternate) { diamond = diamond == Diamond::Rising ? Diamond::Falling : Diamond::Rising; }
     }
 }
 
 /// The errors of diamonds with half 1, inside which there is only the middle.
-OCTANT_INLINE void
-errors_of_middles(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
+OCTANT_INLINE void errors_of_middles(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
     const std::array<std::ptrdiff_t, 4> ends = {row.pitch + 1, row.pitch - 1, 1, row.pitch};
     const std::ptrdiff_t even = ends[static_cast<std::size_t>(first)];
-    const std::ptrdiff_t odd =
-        alternate ? ends[static_cast<std::size_t>(first) ^ std::size_t{1}] : even;
+    const std::ptrdiff_t odd = alternate ? ends[static_cast<std::size_t>(first) ^ std::size_t{1}] : even;
     for (int i = 0; i < row.count; ++i) {
         const std::int16_t* const middle = row.first_middle + 2 * i;
         const std::ptrdiff_t end = (i & 1) == 0 ? even : odd;
@@ -213,19 +191,15 @@ void errors_width_4(const DiamondRow& row, Diamond first, bool alternate, float*
 }
 
 #ifdef __x86_64__
-__attribute__((target("avx2"))) void
-errors_width_8(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
+__attribute__((target("avx2"))) void errors_width_8(
+    const DiamondRow& row, Diamond first, bool alternate, float* errors) {
     errors_of<8>(row, first, alternate, errors);
 }
 
 /// The widest kernel that this processor can run.
-Kernel best_kernel() {
-    return __builtin_cpu_supports("avx2") != 0 ? errors_width_8 : errors_width_4;
-}
+Kernel best_kernel() { return __builtin_cpu_supports("avx2") != 0 ? errors_width_8 : errors_width_4; }
 #else
-Kernel best_kernel() {
-    return errors_width_4;
-}
+Kernel best_kernel() { return errors_width_4; }
 #endif
 
 void run_kernel(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
@@ -250,12 +224,12 @@ double plane_at(const std::array<TriangleVertex, 3>& at, std::int64_t x, std::in
     const std::int64_t a = signed_area2(at[1], at[2], x, y);
     const std::int64_t b = signed_area2(at[2], at[0], x, y);
     return (static_cast<double>(a) * at[0].height + static_cast<double>(b) * at[1].height +
-            static_cast<double>(area - a - b) * at[2].height) /
+               static_cast<double>(area - a - b) * at[2].height) /
            static_cast<double>(area);
 }
 
-/// The largest deviation of the lattice's samples in one triangle, edges included, as far as the
-/// field or a lattice cell with a part of it reaches.
+/// The largest deviation of the lattice's samples in one triangle, edges included, as far as the field or a lattice
+/// cell with a part of it reaches.
 double error_of_triangle(const StoredHeights& heights, std::array<TriangleVertex, 3> at, int stride) {
     std::int64_t area = signed_area2(at[0], at[1], at[2].x, at[2].y);
     if (area < 0) {
@@ -264,9 +238,7 @@ double error_of_triangle(const StoredHeights& heights, std::array<TriangleVertex
     }
     const auto [west, east] = std::minmax({at[0].x, at[1].x, at[2].x});
     const auto [south, north] = std::minmax({at[0].y, at[1].y, at[2].y});
-    const auto on_lattice = [stride](std::int64_t from) {
-        return (from + stride - 1) / stride * stride;
-    };
+    const auto on_lattice = [stride](std::int64_t from) { return (from + stride - 1) / stride * stride; };
     // No part of the field lies beyond these lines of the lattice.
     const std::int64_t last_x = std::min(east, on_lattice(heights.columns - 1));
     const std::int64_t last_y = std::min(north, on_lattice(heights.rows - 1));
@@ -276,9 +248,7 @@ double error_of_triangle(const StoredHeights& heights, std::array<TriangleVertex
             const std::int64_t a = signed_area2(at[1], at[2], x, y);
             const std::int64_t b = signed_area2(at[2], at[0], x, y);
             const std::int64_t c = area - a - b;
-            if (a < 0 || b < 0 || c < 0) {
-                continue;
-            }
+            if (a < 0 || b < 0 || c < 0) { continue; }
             const double height = heights.padded_number(static_cast<int>(x), static_cast<int>(y));
             largest = std::max(largest, std::abs(height - plane_at(at, x, y)));
         }
@@ -288,9 +258,7 @@ double error_of_triangle(const StoredHeights& heights, std::array<TriangleVertex
 
 } // namespace
 
-void diamond_errors(const DiamondRow& row, Diamond diamond, float* errors) {
-    run_kernel(row, diamond, false, errors);
-}
+void diamond_errors(const DiamondRow& row, Diamond diamond, float* errors) { run_kernel(row, diamond, false, errors); }
 
 void node_errors(const DiamondRow& row, Diamond first, float* errors) {
     assert(first == Diamond::Rising || first == Diamond::Falling);
@@ -299,8 +267,7 @@ void node_errors(const DiamondRow& row, Diamond first, float* errors) {
 
 float padded_error(const StoredHeights& heights, const DiamondPosition& place, Diamond diamond) {
     using Step = std::array<int, 2>;
-    // For each kind of diamond the directions from the middle to both ends of the hypotenuse and
-    // then to both apexes.
+    // For each kind of diamond the directions from the middle to both ends of the hypotenuse and then to both apexes.
     static constexpr std::array<std::array<Step, 4>, 4> steps = {{
         {{{-1, -1}, {1, 1}, {1, -1}, {-1, 1}}},
         {{{-1, 1}, {1, -1}, {-1, -1}, {1, 1}}},

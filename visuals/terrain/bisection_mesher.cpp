@@ -1,30 +1,28 @@
-// Triangle fans of a longest-edge bisection with geomorphs. Which samples are in the mesh is
-// decided by error_rule.cpp (P. Lindstrom, V. Pascucci, 2002).
+// Triangle fans of a longest-edge bisection with geomorphs. Which samples are in the mesh is decided by error_rule.cpp
+// (P. Lindstrom, V. Pascucci, 2002).
 //
-// A bisected field is a quadtree of fans around the centres of nodes: a fan's quadrant is left to
-// the child if the child's centre is in the mesh, and an edge has a mid-point if that sample is in
-// the mesh. So no neighbour needs to be asked, unlike in the paper's restricted quadtree. The order
-// of drawing is that of paint_order.cpp.
+// A bisected field is a quadtree of fans around the centres of nodes: a fan's quadrant is left to the child if the
+// child's centre is in the mesh, and an edge has a mid-point if that sample is in the mesh. So no neighbour needs to be
+// asked, unlike in the paper's restricted quadtree. The order of drawing is that of paint_order.cpp.
 //
-// Geomorphs: a vertex is drawn between its sample and the middle of its two ends. The ends are an
-// edge's corners or, for a child's centre, the parent's centre and the parent's corner; they are
-// always an edge of the mesh without the vertex. The weight of the sample is
+// Geomorphs: a vertex is drawn between its sample and the middle of its two ends. The ends are an edge's corners or,
+// for a child's centre, the parent's centre and the parent's corner; they are always an edge of the mesh without the
+// vertex. The weight of the sample is
 //   w = (1 - 1 / f) / (1 - r),
-// at most 1, where f >= 1 is the vertex's error on the screen over the one wanted, and r is the
-// largest error of the samples that need it over its own, at least 1 / morph_ratio. So those
-// samples, which appear at r f > 1 at the earliest, find the vertex at rest, and of all vertices
-// that shape a place only the last one moves. The ground there is the mean of two meshes, without
-// the vertex (errors up to f) and with it (up to r f), and its error is at most (1 - w) f + w r f,
-// which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share
-// of its distance, a vertex that lies d wanted errors from the middle of its ends moves by d /
-// (1 - r) times that share at most, and tile_builder_errors.cpp sees to it that d / (1 - r) is
-// small.
+// at most 1, where f >= 1 is the vertex's error on the screen over the one wanted, and r is the largest error of the
+// samples that need it over its own, at least 1 / morph_ratio. So those samples, which appear at r f > 1 at the
+// earliest, find the vertex at rest, and of all vertices that shape a place only the last one moves. The ground there
+// is the mean of two meshes, without the vertex (errors up to f) and with it (up to r f), and its error is at most (1 -
+// w) f + w r f, which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share of
+// its distance, a vertex that lies d wanted errors from the middle of its ends moves by d / (1 - r) times that share at
+// most, and tile_builder_errors.cpp sees to it that d / (1 - r) is small.
 //
 // Deviations:
 // - Where the field's end cuts a node, the mesh is that of the padded square (ground_layout.h), and
 //   its triangles are cut off at the border (fan_triangles.cpp).
 // - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/bisection_mesher.h"
+
 #include "sim/base/units.h"
 #include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/frustum.h"
@@ -44,9 +42,8 @@
 
 namespace octant::visuals::terrain {
 
-// The smallest screen-space error that keeps a budget of triangles, exactly and in the frame in
-// which it is spent. It has no source; it works as budget_survey.cpp does, over the critical values
-// of error_rule.cpp.
+// The smallest screen-space error that keeps a budget of triangles, exactly and in the frame in which it is spent. It
+// has no source; it works as budget_survey.cpp does, over the critical values of error_rule.cpp.
 
 namespace {
 
@@ -59,8 +56,7 @@ constexpr double first_look_px = 4.0;
 
 double margin_share(const ErrorTarget& target) {
     const bool has_budget = target.max_triangles < any_triangles;
-    const double share =
-        target.error_px / full_margin_px * std::max(target.error_px / near_margin_px, 1.0);
+    const double share = target.error_px / full_margin_px * std::max(target.error_px / near_margin_px, 1.0);
     return has_budget ? 1.0 : std::min(share, 1.0);
 }
 
@@ -74,20 +70,15 @@ float BisectionSelection::limit_for(const ErrorTarget& target) {
         visit<false>(root_visit());
         return most;
     }
-    const CountSearch search{
-        target.max_triangles,
-        min_limit,
-        most,
-        last_error_px_ > 0.0 ? rule_->limit_of(last_error_px_) : 0.0F,
-        rule_->limit_of(first_look_px)};
-    const float found =
-        find_limit(search, steps_, [&](float low, float high, int max_triangles) {
-            start(high);
-            steps_.start(low, high);
-            max_triangles_ = max_triangles;
-            visit<true>(root_visit());
-            return has_steps_above_;
-        });
+    const CountSearch search{target.max_triangles, min_limit, most,
+        last_error_px_ > 0.0 ? rule_->limit_of(last_error_px_) : 0.0F, rule_->limit_of(first_look_px)};
+    const float found = find_limit(search, steps_, [&](float low, float high, int max_triangles) {
+        start(high);
+        steps_.start(low, high);
+        max_triangles_ = max_triangles;
+        visit<true>(root_visit());
+        return has_steps_above_;
+    });
     last_error_px_ = rule_->error_px_of(found);
     return found;
 }
@@ -111,25 +102,19 @@ BisectionSelection::PendingNode BisectionSelection::root_visit() const {
 
 /// The index of a new node.
 inline std::size_t BisectionSelection::next_node() {
-    if (count_ == nodes_.size()) {
-        nodes_.resize(2 * count_ + 1024);
-    }
+    if (count_ == nodes_.size()) { nodes_.resize(2 * count_ + 1024); }
     return count_++;
 }
 
-/// Surveys a node and all nodes below it that may be in the mesh, and returns its index. Counts
-/// triangles only if there is a budget.
+/// Surveys a node and all nodes below it that may be in the mesh, and returns its index. Counts triangles only if there
+/// is a budget.
 template <bool counting>
 std::uint32_t BisectionSelection::visit(const PendingNode& from) {
     const std::size_t own = next_node();
-    if (counting && steps_.at_high() > max_triangles_) {
-        return static_cast<std::uint32_t>(own);
-    }
+    if (counting && steps_.at_high() > max_triangles_) { return static_cast<std::uint32_t>(own); }
     const FanCriticalValues criticals = rule_->criticals_of(from.place);
     Children children;
-    if (from.place.level + 1 < rule_->ground().levels()) {
-        test_children(from, children);
-    }
+    if (from.place.level + 1 < rule_->ground().levels()) { test_children(from, children); }
     BisectionNode* node = &nodes_[own];
     node->middle = criticals.middle;
     node->quadrant = criticals.quadrant;
@@ -140,13 +125,9 @@ std::uint32_t BisectionSelection::visit(const PendingNode& from) {
     node->level = static_cast<std::uint8_t>(from.place.level);
     node->hidden = static_cast<std::uint8_t>(children.hidden);
     std::array<int, 4> replaced = uncut_fan_triangles.of_quadrant;
-    if (counting) {
-        count(from, *node, replaced);
-    }
+    if (counting) { count(from, *node, replaced); }
     unsigned looked_at = 0;
-    for (unsigned q = 0; q < 4; ++q) {
-        looked_at |= (criticals.quadrant[q] < high_ ? 1U : 0U) << q;
-    }
+    for (unsigned q = 0; q < 4; ++q) { looked_at |= (criticals.quadrant[q] < high_ ? 1U : 0U) << q; }
     for (unsigned left = looked_at & ~children.hidden; left != 0; left &= left - 1) {
         const auto q = static_cast<unsigned>(std::countr_zero(left));
         PendingNode next;
@@ -166,18 +147,14 @@ std::uint32_t BisectionSelection::visit(const PendingNode& from) {
 
 /// A child's place, with the gaps of its parent.
 inline NodeContext BisectionSelection::child_place(const NodeContext& place, unsigned quadrant) {
-    return {
-        place.level + 1,
-        2 * place.column + static_cast<int>(quadrant & 1U),
-        2 * place.row + static_cast<int>(quadrant >> 1U),
-        place.distances};
+    return {place.level + 1, 2 * place.column + static_cast<int>(quadrant & 1U),
+        2 * place.row + static_cast<int>(quadrant >> 1U), place.distances};
 }
 
 /// Whether the field's border cuts a node.
 inline bool BisectionSelection::is_cut(const GroundLayout::Level& at, const NodeContext& place) const {
     const GroundTiles& ground = rule_->ground();
-    return (place.column + 1) * at.edge >= ground.columns() ||
-           (place.row + 1) * at.edge >= ground.rows();
+    return (place.column + 1) * at.edge >= ground.columns() || (place.row + 1) * at.edge >= ground.rows();
 }
 
 /// Finds out which children are hidden, and what they need from their parent.
@@ -208,19 +185,18 @@ inline void BisectionSelection::test_children(const PendingNode& from, Children&
     }
 }
 
-/// Adds the steps of a node's fan to the count. `replaced` is set to the triangles of its quadrants
-/// where the field's end cuts it.
-inline void
-BisectionSelection::count(const PendingNode& from, const BisectionNode& node, std::array<int, 4>& replaced) {
+/// Adds the steps of a node's fan to the count. `replaced` is set to the triangles of its quadrants where the field's
+/// end cuts it.
+inline void BisectionSelection::count(
+    const PendingNode& from, const BisectionNode& node, std::array<int, 4>& replaced) {
     for (unsigned k = 0; k < 4 && !has_steps_above_; ++k) {
-        has_steps_above_ = (node.middle[k] >= high_ && node.middle[k] < infinite) ||
-                      (node.quadrant[k] >= high_ && node.quadrant[k] < infinite &&
-                       (unsigned{node.hidden} >> k & 1U) == 0);
+        has_steps_above_ =
+            (node.middle[k] >= high_ && node.middle[k] < infinite) ||
+            (node.quadrant[k] >= high_ && node.quadrant[k] < infinite && (unsigned{node.hidden} >> k & 1U) == 0);
     }
     const GroundTiles& ground = rule_->ground();
     const FanSamples samples(ground, ground.layout().level(node.level).edge, node.column, node.row);
-    const std::array<float, 4> middle = {
-        node.middle[0], node.middle[1], node.middle[2], node.middle[3]};
+    const std::array<float, 4> middle = {node.middle[0], node.middle[1], node.middle[2], node.middle[3]};
     const FanLimits limits{node.node_limit, middle, node.hidden, from.replaced};
     if (samples.is_cut()) {
         const FanTriangles triangles = triangles_within_border(samples);
@@ -231,42 +207,37 @@ BisectionSelection::count(const PendingNode& from, const BisectionNode& node, st
     } else {
         steps_.add(node.node_limit, 4 - from.replaced);
         for (unsigned k = 0; k < 4; ++k) {
-            if (node.middle[k] < high_) {
-                steps_.add(node.middle[k], 1);
-            }
+            if (node.middle[k] < high_) { steps_.add(node.middle[k], 1); }
         }
     }
 }
 
 // A budget of triangles, spent so that vertices do not jump while the view turns. It has no source.
 //
-// Most triangles of a level view lie below the horizon, where much ground is in few rows of pixels.
-// A view that looks down steeply has none of them and could spend all of its budget on near ground:
-// at a fifth of the error over rugged ground. When it is pulled up, all of the horizon comes into
-// the picture within a few degrees, and the error that keeps the budget is five times larger a few
-// frames later. Vertices move S pixels for a pixel of that change (tile_builder_errors.cpp).
+// Most triangles of a level view lie below the horizon, where much ground is in few rows of pixels. A view that looks
+// down steeply has none of them and could spend all of its budget on near ground: at a fifth of the error over rugged
+// ground. When it is pulled up, all of the horizon comes into the picture within a few degrees, and the error that
+// keeps the budget is five times larger a few frames later. Vertices move S pixels for a pixel of that change
+// (tile_builder_errors.cpp).
 //
-// So the error of such a view is kept at or above that of the same view turned until its border
-// reaches the band of far ground, less a share of how far the picture moves in that turn. The band
-// is not turned to but added: the frustum of the turned view is widened until it contains all of
-// the band. A larger frustum never needs a smaller error, so this error is no less than that of any
-// view on the way through the band, where the error that keeps the budget has its peak at a place
-// that only the ground knows. It becomes the view's own error, without a step, where the band is in
-// the picture. What a turn does to a vertex stays below S times that share of what it does to the
-// picture.
+// So the error of such a view is kept at or above that of the same view turned until its border reaches the band of far
+// ground, less a share of how far the picture moves in that turn. The band is not turned to but added: the frustum of
+// the turned view is widened until it contains all of the band. A larger frustum never needs a smaller error, so this
+// error is no less than that of any view on the way through the band, where the error that keeps the budget has its
+// peak at a place that only the ground knows. It becomes the view's own error, without a step, where the band is in the
+// picture. What a turn does to a vertex stays below S times that share of what it does to the picture.
 
 namespace {
 
 /// How far inside the picture's border the band's far end is in the widened view.
 constexpr double border_rad = rad_from_deg(1.0);
-/// Ground that is seen this much lower than the map's end counts as far where the view looks above
-/// the horizon.
+/// Ground that is seen this much lower than the map's end counts as far where the view looks above the horizon.
 constexpr double far_ground_rad = rad_from_deg(4.0);
 /// The band's elevations are limited to these: where the map's end is near, it is near ground.
 constexpr double lowest_band_rad = rad_from_deg(-30.0);
 constexpr double highest_band_rad = rad_from_deg(15.0);
-/// A picture whose border is nearer to its middle than this is widened by a smaller share of itself,
-/// down to the least one: a zoomed view of a tower would need most triangles for what it does not show.
+/// A picture whose border is nearer to its middle than this is widened by a smaller share of itself, down to the least
+/// one: a zoomed view of a tower would need most triangles for what it does not show.
 constexpr double wide_view_rad = rad_from_deg(20.0);
 constexpr double min_widening = 0.1;
 /// How far vertices may move in a turn, as a share of how far that moves the picture.
@@ -277,9 +248,7 @@ double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
     double min_rad = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& normal : view.frustum_normals) {
         const double falling = -glm::dot(normal, towards);
-        if (falling > 0.0) {
-            min_rad = std::min(min_rad, std::atan2(glm::dot(normal, view.ahead), falling));
-        }
+        if (falling > 0.0) { min_rad = std::min(min_rad, std::atan2(glm::dot(normal, view.ahead), falling)); }
     }
     return min_rad;
 }
@@ -287,9 +256,7 @@ double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
 MeshView turned(const MeshView& view, const glm::dquat& turn) {
     MeshView there = view;
     there.ahead = turn * view.ahead;
-    for (glm::dvec3& normal : there.frustum_normals) {
-        normal = turn * normal;
-    }
+    for (glm::dvec3& normal : there.frustum_normals) { normal = turn * normal; }
     return there;
 }
 
@@ -304,16 +271,14 @@ void for_each_corner(const std::array<glm::dvec3, 4>& normals, const Take& take)
                 for (std::size_t k = 0; k < normals.size(); ++k) {
                     is_corner &= k == a || k == b || glm::dot(normals[k], corner) > 0.0;
                 }
-                if (is_corner) {
-                    take(corner);
-                }
+                if (is_corner) { take(corner); }
             }
         }
     }
 }
 
-/// The view with each plane of its frustum tilted outwards by as little as makes it contain the
-/// frustum turned by `turn`, at most until it is square to `ahead`.
+/// The view with each plane of its frustum tilted outwards by as little as makes it contain the frustum turned by
+/// `turn`, at most until it is square to `ahead`.
 MeshView widened(const MeshView& view, const glm::dquat& turn) {
     MeshView wide = view;
     for (glm::dvec3& normal : wide.frustum_normals) {
@@ -323,9 +288,7 @@ MeshView widened(const MeshView& view, const glm::dquat& turn) {
             const double deep = std::max(glm::dot(view.ahead, there), 0.0);
             tilt_rad = std::max(tilt_rad, std::atan2(-glm::dot(normal, there), deep));
         });
-        if (tilt_rad > 0.0) {
-            normal = glm::normalize(std::cos(tilt_rad) * normal + std::sin(tilt_rad) * view.ahead);
-        }
+        if (tilt_rad > 0.0) { normal = glm::normalize(std::cos(tilt_rad) * normal + std::sin(tilt_rad) * view.ahead); }
     }
     return wide;
 }
@@ -339,9 +302,7 @@ double min_reach_m(const MeshView& view, const glm::dvec2& half_m) {
         const glm::dvec2 along(std::cos(azimuth_rad), std::sin(azimuth_rad));
         for (const int axis : {0, 1}) {
             const double to_end_m = std::copysign(half_m[axis], along[axis]) - view.eye_m[axis];
-            if (along[axis] != 0.0) {
-                min_m = std::min(min_m, to_end_m / along[axis]);
-            }
+            if (along[axis] != 0.0) { min_m = std::min(min_m, to_end_m / along[axis]); }
         }
     }
     return min_m;
@@ -352,9 +313,7 @@ double min_reach_m(const MeshView& view, const glm::dvec2& half_m) {
 std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band) {
     const glm::dvec3 level_axis = glm::cross(view.ahead, glm::dvec3(0.0, 0.0, 1.0));
     const double level = glm::length(level_axis);
-    if (level < 1e-6) {
-        return std::nullopt;
-    }
+    if (level < 1e-6) { return std::nullopt; }
     const glm::dvec3 axis = level_axis / level;
     const double own_rad = std::atan2(view.ahead.z, level);
     const double middle_rad = 0.5 * (band.low_rad + band.high_rad);
@@ -362,16 +321,12 @@ std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBa
     const double to_border_rad = angle_to_border(view, way * glm::cross(axis, view.ahead));
     const double margin_rad = std::min(border_rad, 0.5 * to_border_rad);
     // A picture with the band's middle in its own middle shows all that counts of the band.
-    const double half_rad = std::min(
-        way > 0.0 ? band.high_rad - middle_rad : middle_rad - band.low_rad + far_ground_rad,
-        std::clamp(to_border_rad / wide_view_rad, min_widening, 1.0) *
-            (to_border_rad - margin_rad));
+    const double half_rad =
+        std::min(way > 0.0 ? band.high_rad - middle_rad : middle_rad - band.low_rad + far_ground_rad,
+            std::clamp(to_border_rad / wide_view_rad, min_widening, 1.0) * (to_border_rad - margin_rad));
     const double whole_rad = way * (middle_rad - own_rad) + half_rad - to_border_rad + margin_rad;
-    if (!(whole_rad > 0.0)) {
-        return std::nullopt;
-    }
-    const double near_half_rad =
-        std::min(way > 0.0 ? middle_rad - band.low_rad : band.high_rad - middle_rad, half_rad);
+    if (!(whole_rad > 0.0)) { return std::nullopt; }
+    const double near_half_rad = std::min(way > 0.0 ? middle_rad - band.low_rad : band.high_rad - middle_rad, half_rad);
     const double wide_rad = std::min(whole_rad, half_rad + near_half_rad + margin_rad);
     const double moved_rad = whole_rad - wide_rad;
     const MeshView there = turned(view, glm::angleAxis(way * moved_rad, axis));
@@ -379,20 +334,14 @@ std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBa
 }
 
 HorizonError::HorizonError(const GroundTiles& ground)
-    : rule_(ground)
-    , survey_(rule_)
-    , motion_share_(
-          max_vertex_motion_share /
-          static_cast<double>(far_morph_rate_on(ground.metadata().highest_m - ground.metadata().lowest_m))) {}
+    : rule_(ground), survey_(rule_),
+      motion_share_(max_vertex_motion_share /
+                    static_cast<double>(far_morph_rate_on(ground.metadata().highest_m - ground.metadata().lowest_m))) {}
 
 ErrorTarget HorizonError::raise_to_horizon_error(const MeshView& view, const ErrorTarget& target) {
-    if (!target.geomorphs || target.max_triangles >= any_triangles) {
-        return target;
-    }
+    if (!target.geomorphs || target.max_triangles >= any_triangles) { return target; }
     const auto there = turned_to_band(view, far_ground(view));
-    if (!there) {
-        return target;
-    }
+    if (!there) { return target; }
     rule_.set_view(there->view);
     const double there_px = rule_.error_px_of(survey_.limit_for(target));
     const double moved_px = view.focal_px * there->turned_rad;
@@ -408,9 +357,7 @@ ElevationBand HorizonError::far_ground(const MeshView& view) const {
     const double lowered_m = curvature_drop_m(away_m * away_m, view.earth_radius_m) + view.eye_m.z;
     const auto elevation_rad = [&](float height_m) {
         return std::clamp(
-            std::atan2(static_cast<double>(height_m) - lowered_m, away_m),
-            lowest_band_rad,
-            highest_band_rad);
+            std::atan2(static_cast<double>(height_m) - lowered_m, away_m), lowest_band_rad, highest_band_rad);
     };
     // A degree more, because the picture's corners may show ends that are nearer.
     const double low_rad = std::min(elevation_rad(ground.metadata().lowest_m), 0.0) - border_rad;
@@ -437,17 +384,11 @@ constexpr std::array<std::uint8_t, 16> edges_of_visible = [] {
 } // namespace
 
 BisectionMesher::BisectionMesher(const GroundTiles& ground)
-    : ground_(&ground)
-    , rule_(ground)
-    , survey_(rule_)
-    , horizon_(ground)
-    , border_vertices_(
-          static_cast<std::size_t>(ground.rows()) + static_cast<std::size_t>(ground.columns())) {}
+    : ground_(&ground), rule_(ground), survey_(rule_), horizon_(ground),
+      border_vertices_(static_cast<std::size_t>(ground.rows()) + static_cast<std::size_t>(ground.columns())) {}
 
 GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target) {
-    if (has_mesh_ && view == view_ && target == target_) {
-        return mesh_;
-    }
+    if (has_mesh_ && view == view_ && target == target_) { return mesh_; }
     has_mesh_ = false;
     view_ = view;
     target_ = target;
@@ -467,13 +408,8 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
     EmittedFan root = root_fan();
     emit(root);
     counters_.triangles = static_cast<int>(index_count_ / 3);
-    mesh_ = {
-        std::span(vertices_).first(vertex_count_),
-        std::span(indices_).first(index_count_),
-        counters_,
-        0.0,
-        rule_.error_px_of(limit_),
-        std::span(morphs_).first(vertex_count_)};
+    mesh_ = {std::span(vertices_).first(vertex_count_), std::span(indices_).first(index_count_), counters_, 0.0,
+        rule_.error_px_of(limit_), std::span(morphs_).first(vertex_count_)};
     has_mesh_ = true;
     return mesh_;
 }
@@ -481,15 +417,9 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
 /// Makes room for five vertices and eight triangles for each node, and for the root's corners.
 void BisectionMesher::reserve() {
     const std::size_t count = nodes_.size();
-    if (vertices_.size() < 5 * count + 4) {
-        vertices_.resize(6 * count + 4);
-    }
-    if (morphs_.size() < vertices_.size()) {
-        morphs_.resize(vertices_.size());
-    }
-    if (indices_.size() < 24 * count) {
-        indices_.resize(30 * count);
-    }
+    if (vertices_.size() < 5 * count + 4) { vertices_.resize(6 * count + 4); }
+    if (morphs_.size() < vertices_.size()) { morphs_.resize(vertices_.size()); }
+    if (indices_.size() < 24 * count) { indices_.resize(30 * count); }
     if (triangle_ranges_.size() < count) {
         triangle_ranges_.resize(count + count / 4);
         middle_vertex_.resize(triangle_ranges_.size());
@@ -512,8 +442,7 @@ BisectionMesher::EmittedFan BisectionMesher::root_fan() {
         const std::size_t place = ring_of_quadrant[q];
         root.ring[place] = fixed_vertex(samples.padded_ring(place), memory.corner_height(q));
     }
-    root.ring[centre_of_ring] =
-        fixed_vertex(samples.padded(1, 1), memory.centre_height(memory.slot(0, 0)));
+    root.ring[centre_of_ring] = fixed_vertex(samples.padded(1, 1), memory.centre_height(memory.slot(0, 0)));
     return root;
 }
 
@@ -526,9 +455,7 @@ std::uint32_t BisectionMesher::fixed_vertex(GridSample at, std::int16_t height) 
 template <typename ShareBelow>
 inline float BisectionMesher::weight_of(float critical, const ShareBelow& share_below) const {
     const float over = morph_limit_ / critical;
-    if (over >= morph_ratio * morph_ratio) {
-        return 1.0F;
-    }
+    if (over >= morph_ratio * morph_ratio) { return 1.0F; }
     const float below = std::max(share_below(), 1.0F / morph_ratio);
     const float least = 1.0F - 1.0F / std::sqrt(over);
     return least >= 1.0F - below ? 1.0F : std::max(least, 0.0F) / (1.0F - below);
@@ -539,8 +466,8 @@ inline std::uint32_t BisectionMesher::add_vertex(const NewVertex& made) {
     const std::uint32_t vertex = vertex_count_++;
     const auto east_m = static_cast<float>(rule_.west_m() + made.at.column * ground_->spacing_m());
     const auto north_m = static_cast<float>(rule_.south_m() + made.at.row * ground_->spacing_m());
-    float height_m = static_cast<float>(
-        height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
+    float height_m =
+        static_cast<float>(height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
     height_m -= rule_.drop_m(east_m, north_m);
     if (made.weight < 1.0F) {
         const float from_a = vertices_[made.parent_a].position_m.z;
@@ -549,11 +476,8 @@ inline std::uint32_t BisectionMesher::add_vertex(const NewVertex& made) {
         height_m += (1.0F - made.weight) * (middle_m - height_m);
     }
     vertices_[vertex] = {{east_m, north_m, height_m}, 0};
-    morphs_[vertex] = {
-        static_cast<std::uint16_t>(std::min(made.at.column, ground_->columns() - 1)),
-        static_cast<std::uint16_t>(std::min(made.at.row, ground_->rows() - 1)),
-        made.parent_a,
-        made.parent_b,
+    morphs_[vertex] = {static_cast<std::uint16_t>(std::min(made.at.column, ground_->columns() - 1)),
+        static_cast<std::uint16_t>(std::min(made.at.row, ground_->rows() - 1)), made.parent_a, made.parent_b,
         made.weight};
     return vertex;
 }
@@ -569,9 +493,7 @@ void BisectionMesher::emit(EmittedFan& fan) {
     const LevelReader& memory = rule_.memory(node.level);
     const FanSamples samples(*ground_, memory.edge(), node.column, node.row);
     const LevelReader::NodeSlot slot = memory.slot(node.column, node.row);
-    if (fan.node != root_node) {
-        add_centre(samples, memory.centre_height(slot), fan);
-    }
+    if (fan.node != root_node) { add_centre(samples, memory.centre_height(slot), fan); }
     unsigned middles = 0;
     unsigned split = 0;
     for (unsigned k = 0; k < 4; ++k) {
@@ -588,9 +510,7 @@ void BisectionMesher::emit(EmittedFan& fan) {
     const std::size_t before = index_count_;
     triangle_ranges_[fan.node].first = static_cast<std::uint32_t>(before / 3);
     const bool is_cut = samples.is_cut();
-    if (is_cut) {
-        reserve_border();
-    }
+    if (is_cut) { reserve_border(); }
     for (unsigned left = triangles | order.children[children]; left != 0; left &= left - 1) {
         const unsigned part = order.part[static_cast<std::size_t>(std::countr_zero(left))];
         if (is_cut && part < first_child_part) {
@@ -621,9 +541,7 @@ inline void BisectionMesher::emit_part(const EmittedFan& fan, unsigned part) {
 void BisectionMesher::reserve_border() {
     ++cut_nodes_;
     const std::size_t count = nodes_.size();
-    if (indices_.size() < 24 * count + 48 * cut_nodes_) {
-        indices_.resize(30 * count + 96 * cut_nodes_);
-    }
+    if (indices_.size() < 24 * count + 48 * cut_nodes_) { indices_.resize(30 * count + 96 * cut_nodes_); }
     if (vertices_.size() < 5 * count + 4 + 32 * cut_nodes_) {
         vertices_.resize(6 * count + 4 + 64 * cut_nodes_);
         morphs_.resize(std::max(morphs_.size(), vertices_.size()));
@@ -631,22 +549,16 @@ void BisectionMesher::reserve_border() {
 }
 
 /// Puts what the field's border leaves of a triangle of a fan into the mesh.
-void BisectionMesher::emit_part_within_border(
-    const EmittedFan& fan, const FanSamples& samples, unsigned part) {
+void BisectionMesher::emit_part_within_border(const EmittedFan& fan, const FanSamples& samples, unsigned part) {
     const auto corner = [&](std::size_t place) {
         const std::uint32_t vertex = fan.ring[place];
         return ClipVertex{samples.padded_ring(place), vertices_[vertex].position_m.z, vertex};
     };
     ClippedPolygon left = clip_to_border(
-        {corner(centre_of_ring), corner(part_sides[part].from), corner(part_sides[part].to)},
-        samples.last());
-    if (left.count < 3) {
-        return;
-    }
+        {corner(centre_of_ring), corner(part_sides[part].from), corner(part_sides[part].to)}, samples.last());
+    if (left.count < 3) { return; }
     for (unsigned k = 0; k < left.count; ++k) {
-        if (left.corner[k].vertex == ClipVertex::no_vertex) {
-            left.corner[k].vertex = border_vertex(left.corner[k]);
-        }
+        if (left.corner[k].vertex == ClipVertex::no_vertex) { left.corner[k].vertex = border_vertex(left.corner[k]); }
     }
     // Back to front: triangles beside each other are separated by a line from the first corner.
     const glm::dvec2 first(left.corner[0].at.column, left.corner[0].at.row);
@@ -672,9 +584,8 @@ void BisectionMesher::emit_part_within_border(
 std::uint32_t BisectionMesher::border_vertex(const ClipVertex& corner) {
     const auto rows = static_cast<std::size_t>(ground_->rows());
     const bool eastern = corner.at.column == ground_->columns() - 1;
-    BorderVertex& known = border_vertices_
-        [eastern ? static_cast<std::size_t>(corner.at.row)
-                 : rows + static_cast<std::size_t>(corner.at.column)];
+    BorderVertex& known = border_vertices_[eastern ? static_cast<std::size_t>(corner.at.row)
+                                                   : rows + static_cast<std::size_t>(corner.at.column)];
     if (known.mesh != mesh_number_) {
         known = {mesh_number_, fixed_vertex(corner.at, 0)};
         vertices_[known.vertex].position_m.z = corner.height;
@@ -687,9 +598,7 @@ BisectionMesher::EmittedFan BisectionMesher::child_of(const EmittedFan& fan, uns
     const BisectionNode& node = nodes_[fan.node];
     EmittedFan child;
     child.node = node.child[quadrant];
-    for (std::size_t k = 0; k < 4; ++k) {
-        child.ring[2 * k] = fan.ring[child_corners[quadrant][k]];
-    }
+    for (std::size_t k = 0; k < 4; ++k) { child.ring[2 * k] = fan.ring[child_corners[quadrant][k]]; }
     const std::array<std::uint8_t, 4>& inner = inner_edges[quadrant];
     for (const unsigned k : {0U, 1U, 2U, 3U}) {
         const unsigned across = quadrant ^ (k % 2 == 0 ? 2U : 1U);
@@ -702,17 +611,15 @@ BisectionMesher::EmittedFan BisectionMesher::child_of(const EmittedFan& fan, uns
 }
 
 /// Adds the vertex of a fan's centre.
-inline void
-BisectionMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
+inline void BisectionMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
     const BisectionNode& node = nodes_[fan.node];
-    const float weight = weight_of(
-        node.node_limit, [&] { return rule_.share_below_centre(node.level, node.column, node.row); });
+    const float weight =
+        weight_of(node.node_limit, [&] { return rule_.share_below_centre(node.level, node.column, node.row); });
     const NewVertex made{samples.padded(1, 1), fan.parent_a, fan.parent_b, height, weight};
     fan.ring[centre_of_ring] = add_vertex(made);
 }
 
-/// Fills in the mid-points beside quadrants that are not hidden, and tells the nodes beyond the
-/// edges of them.
+/// Fills in the mid-points beside quadrants that are not hidden, and tells the nodes beyond the edges of them.
 inline void BisectionMesher::add_midpoints(
     const FanSamples& samples, const LevelReader::NodeSlot& slot, unsigned middles, EmittedFan& fan) {
     const BisectionNode& node = nodes_[fan.node];
@@ -722,11 +629,9 @@ inline void BisectionMesher::add_midpoints(
         fan.ring[2 * k + 1] = known[k];
         missing |= (known[k] == 0 ? 1U : 0U) << k;
     }
-    for (unsigned left = missing & middles & edges_of_visible[node.hidden]; left != 0;
-         left &= left - 1) {
+    for (unsigned left = missing & middles & edges_of_visible[node.hidden]; left != 0; left &= left - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(left));
-        const std::int16_t height =
-            rule_.memory(node.level).middle_height(slot, node.column, node.row, k);
+        const std::int16_t height = rule_.memory(node.level).middle_height(slot, node.column, node.row, k);
         const std::uint32_t vertex = add_midpoint(samples, height, fan, k);
         fan.ring[2 * k + 1] = vertex;
         middle_vertex_[fan.beyond[k]][(k + 2) % 4] = vertex;
@@ -736,15 +641,10 @@ inline void BisectionMesher::add_midpoints(
 inline std::uint32_t BisectionMesher::add_midpoint(
     const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge) {
     const BisectionNode& node = nodes_[fan.node];
-    const float weight = weight_of(node.middle[edge], [&] {
-        return rule_.share_below_middle(node.level, node.column, node.row, edge);
-    });
+    const float weight =
+        weight_of(node.middle[edge], [&] { return rule_.share_below_middle(node.level, node.column, node.row, edge); });
     return add_vertex(
-        {samples.padded_ring(2 * edge + 1),
-         fan.ring[2 * edge],
-         fan.ring[(2 * edge + 2) % 8],
-         height,
-         weight});
+        {samples.padded_ring(2 * edge + 1), fan.ring[2 * edge], fan.ring[(2 * edge + 2) % 8], height, weight});
 }
 
 } // namespace octant::visuals::terrain

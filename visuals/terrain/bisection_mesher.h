@@ -27,41 +27,37 @@ namespace octant::visuals::terrain {
 
 /// What is wanted of a mesh by screen-space error.
 struct ErrorTarget {
-    /// The wanted error, at or above zero. With 0 every sample is used that is not on a straight
-    /// line.
+    /// The wanted error, at or above zero. With 0 every sample is used that is not on a straight line.
     double error_px = 1.0;
-    /// A larger error is allowed where this number would be exceeded; with any_triangles it never
-    /// is.
+    /// A larger error is allowed where this number would be exceeded; with any_triangles it never is.
     int max_triangles = 32000;
     bool geomorphs = true;
 
     bool operator==(const ErrorTarget&) const = default;
 };
 
-/// With geomorphs a vertex is at its own sample when its error, as seen from its region of
-/// influence, is this many times the wanted one, or earlier where samples need it
-/// (error_mesher.cpp), and still between its ends when it is no more than the wanted one.
+/// With geomorphs a vertex is at its own sample when its error, as seen from its region of influence, is this many
+/// times the wanted one, or earlier where samples need it (error_mesher.cpp), and still between its ends when it is no
+/// more than the wanted one.
 inline constexpr float morph_ratio = 2.5F;
 
 inline constexpr int any_triangles = 1 << 30;
 
-/// The wanted error from which on vertices have full room to move (tile_builder_errors.cpp) where
-/// that error is the same in every frame; below it, they move S full_margin_px pixels at most while
-/// a distance shrinks by a small share of itself, divided by that share. With 14, vertices jump by
-/// at most 0.25 px a frame along the four paths over three maps at 2 px, with 18 by 0.31 px.
+/// The wanted error from which on vertices have full room to move (tile_builder_errors.cpp) where that error is the
+/// same in every frame; below it, they move S full_margin_px pixels at most while a distance shrinks by a small share
+/// of itself, divided by that share. With 14, vertices jump by at most 0.25 px a frame along the four paths over three
+/// maps at 2 px, with 18 by 0.31 px.
 inline constexpr double full_margin_px = 14.0;
 
-/// Above this wanted error the share grows with its square. S grows with a sample's error, because
-/// a larger one moves farther off; but with a larger wanted error it moves as near as a smaller one
-/// did.
+/// Above this wanted error the share grows with its square. S grows with a sample's error, because a larger one moves
+/// farther off; but with a larger wanted error it moves as near as a smaller one did.
 inline constexpr double near_margin_px = 2.0;
 
-/// The share of their full room that vertices get: all of it with a budget, which changes the
-/// wanted error from frame to frame, else in proportion to the wanted error.
+/// The share of their full room that vertices get: all of it with a budget, which changes the wanted error from frame
+/// to frame, else in proportion to the wanted error.
 double margin_share(const ErrorTarget& target);
 
-/// A node whose fan is in the mesh at some limits. Its members tell from which limit on each part
-/// is there.
+/// A node whose fan is in the mesh at some limits. Its members tell from which limit on each part is there.
 struct alignas(64) BisectionNode {
     Float4 middle{};   ///< The mid-points of fan_edges.
     Float4 quadrant{}; ///< The fans of the children.
@@ -74,21 +70,20 @@ struct alignas(64) BisectionNode {
     std::uint8_t hidden = 0; ///< The quadrants outside the frustum or the field.
 };
 
-/// Collects what a mesh by screen-space error consists of, and finds the error that spends a budget
-/// of triangles, exactly and before the mesh is made. It does for BisectionCriterion what QuadtreeSelection does
-/// for the paper's quadtree.
+/// Collects what a mesh by screen-space error consists of, and finds the error that spends a budget of triangles,
+/// exactly and before the mesh is made. It does for BisectionCriterion what QuadtreeSelection does for the paper's
+/// quadtree.
 class BisectionSelection {
 public:
     /// The rule must outlive the survey.
-    explicit BisectionSelection(const BisectionCriterion& rule)
-        : rule_(&rule) {}
+    explicit BisectionSelection(const BisectionCriterion& rule) : rule_(&rule) {}
 
-    /// The limit that belongs to the smallest error, at or above the target's, for which no larger
-    /// error gives more triangles than allowed. The root's fan is always in the mesh.
+    /// The limit that belongs to the smallest error, at or above the target's, for which no larger error gives more
+    /// triangles than allowed. The root's fan is always in the mesh.
     float limit_for(const ErrorTarget& target);
 
-    /// The nodes of all meshes up to the limit that was found, and some more: parents before
-    /// children. Entry 0 stands for no node; entry 1 is the root.
+    /// The nodes of all meshes up to the limit that was found, and some more: parents before children. Entry 0 stands
+    /// for no node; entry 1 is the root.
     std::span<const BisectionNode> nodes() const { return std::span(nodes_).first(count_); }
 
     int nodes_tested() const { return nodes_tested_; }
@@ -97,10 +92,10 @@ private:
     /// A node that is to be surveyed.
     struct PendingNode {
         NodeContext place;
-        unsigned planes = 0;  ///< The frustum planes that it may reach beyond.
-        float node_limit = 0.0F;      ///< The critical value of its centre.
-        float error_m = 0.0F; ///< The error of its centre.
-        int replaced = 0;     ///< How many triangles of its parent it replaces.
+        unsigned planes = 0;     ///< The frustum planes that it may reach beyond.
+        float node_limit = 0.0F; ///< The critical value of its centre.
+        float error_m = 0.0F;    ///< The error of its centre.
+        int replaced = 0;        ///< How many triangles of its parent it replaces.
     };
 
     /// What was found out about the children of a node.
@@ -125,10 +120,10 @@ private:
     StepFunction steps_;
     std::array<std::array<VerticalDistances, 4>, 16> distances_; ///< By level and quadrant, during a walk.
     float high_ = 0.0F;
-    /// Whether vertices of a quadrant's triangles may be drawn as far from their samples as the
-    /// error of the parent's centre, which all those that move need.
+    /// Whether vertices of a quadrant's triangles may be drawn as far from their samples as the error of the parent's
+    /// centre, which all those that move need.
     bool geomorphs_ = false;
-    int max_triangles_ = 0;  ///< A walk stops once it has counted more.
+    int max_triangles_ = 0;        ///< A walk stops once it has counted more.
     bool has_steps_above_ = false; ///< Something visible appears only above high_.
     int nodes_tested_ = 0;
     double last_error_px_ = 0.0; ///< 0 before the first call.
@@ -146,14 +141,14 @@ struct TurnedView {
     double turned_rad = 0.0; ///< Without the widening; at or above zero.
 };
 
-/// The view, turned up or down until its border reaches a band, and widened until it contains the
-/// band on the way of the turn. Looking above the band, what lies 4 degrees below it belongs to it.
-/// A view whose border is in the band is only widened. Nothing where the band is in the picture
-/// already, and where the view has no direction or frustum or looks straight up or down.
+/// The view, turned up or down until its border reaches a band, and widened until it contains the band on the way of
+/// the turn. Looking above the band, what lies 4 degrees below it belongs to it. A view whose border is in the band is
+/// only widened. Nothing where the band is in the picture already, and where the view has no direction or frustum or
+/// looks straight up or down.
 std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band);
 
-/// Finds the error below which a mesh within a budget is not to be refined, so that vertices do not
-/// jump when the view turns to the horizon (horizon_error.cpp).
+/// Finds the error below which a mesh within a budget is not to be refined, so that vertices do not jump when the view
+/// turns to the horizon (horizon_error.cpp).
 class HorizonError {
 public:
     /// The ground must outlive it.
@@ -164,8 +159,8 @@ public:
     HorizonError& operator=(HorizonError&&) = delete;
     ~HorizonError() = default;
 
-    /// The target with its error raised to that one, whatever was asked before; unchanged without
-    /// geomorphs or a budget, and where the horizon is in the picture.
+    /// The target with its error raised to that one, whatever was asked before; unchanged without geomorphs or a
+    /// budget, and where the horizon is in the picture.
     ErrorTarget raise_to_horizon_error(const MeshView& view, const ErrorTarget& target);
 
 private:
@@ -176,14 +171,13 @@ private:
     double motion_share_; ///< How much the error may change in a turn, in pixels that it moves.
 };
 
-/// Makes the mesh of a ground by screen-space error, frame after frame in the same memory, with the
-/// triangles in the view's painting order. Its memory grows with the mesh, not with the ground.
+/// Makes the mesh of a ground by screen-space error, frame after frame in the same memory, with the triangles in the
+/// view's painting order. Its memory grows with the mesh, not with the ground.
 ///
-/// The mesh is conforming: triangles neither gap nor overlap nor touch an edge between its ends.
-/// The triangles for a narrower frustum are triangles of the unculled mesh. Every sample in the
-/// picture is within the mesh's error_px of the triangles, where the view has a direction. With
-/// geomorphs a vertex appears and disappears in the middle of the edge that it halves, and moves to
-/// its sample as far as that bound asks.
+/// The mesh is conforming: triangles neither gap nor overlap nor touch an edge between its ends. The triangles for a
+/// narrower frustum are triangles of the unculled mesh. Every sample in the picture is within the mesh's error_px of
+/// the triangles, where the view has a direction. With geomorphs a vertex appears and disappears in the middle of the
+/// edge that it halves, and moves to its sample as far as that bound asks.
 class BisectionMesher {
 public:
     /// `ground` must outlive the mesher and stay where it is.
@@ -194,13 +188,12 @@ public:
     BisectionMesher& operator=(BisectionMesher&&) = delete;
     ~BisectionMesher() = default;
 
-    /// The mesh at the smallest error, at or above the target's, for which no larger error gives
-    /// more triangles than the target's, whatever was meshed before. With geomorphs and a budget it
-    /// is also at or above that of HorizonError: where the horizon is not in the picture, triangles
-    /// may be left over. The mesh is returned again, without work, when view and target are those
-    /// of the last call. Colours are left to vertices(). Beside the samples in use there may be
-    /// vertices that are only ends of others. Vertices and indices stay valid until the next mesh
-    /// but one, so that a mesh can be drawn while the next is made; origins until the next mesh.
+    /// The mesh at the smallest error, at or above the target's, for which no larger error gives more triangles than
+    /// the target's, whatever was meshed before. With geomorphs and a budget it is also at or above that of
+    /// HorizonError: where the horizon is not in the picture, triangles may be left over. The mesh is returned again,
+    /// without work, when view and target are those of the last call. Colours are left to vertices(). Beside the
+    /// samples in use there may be vertices that are only ends of others. Vertices and indices stay valid until the
+    /// next mesh but one, so that a mesh can be drawn while the next is made; origins until the next mesh.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
 
     /// The vertices of the last mesh, so that their colours can be set.
@@ -212,9 +205,9 @@ public:
     /// Decides whether the triangles in a box (world axes, metres) are wanted.
     using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
-    /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for
-    /// which `wanted` accepts the box around all of their triangles as drawn, and also accepts
-    /// those of all their ancestors. Not to be called from two threads at a time.
+    /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for which `wanted` accepts
+    /// the box around all of their triangles as drawn, and also accepts those of all their ancestors. Not to be called
+    /// from two threads at a time.
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const GroundTiles& ground() const { return *ground_; }
@@ -234,8 +227,7 @@ private:
     /// A fan while it is put into the mesh.
     struct EmittedFan {
         std::uint32_t node;
-        /// The vertices in the order of fan_ring, mid-points only where they are used, and then the
-        /// centre.
+        /// The vertices in the order of fan_ring, mid-points only where they are used, and then the centre.
         std::array<std::uint32_t, 9> ring;
         std::uint32_t parent_a; ///< An end of the edge whose middle the centre is.
         std::uint32_t parent_b;
@@ -270,18 +262,12 @@ private:
     std::uint32_t border_vertex(const ClipVertex& corner);
     EmittedFan child_of(const EmittedFan& fan, unsigned quadrant);
     void add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan);
-    void add_midpoints(
-        const FanSamples& samples,
-        const LevelReader::NodeSlot& slot,
-        unsigned middles,
-        EmittedFan& fan);
-    std::uint32_t add_midpoint(
-        const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge);
+    void add_midpoints(const FanSamples& samples, const LevelReader::NodeSlot& slot, unsigned middles, EmittedFan& fan);
+    std::uint32_t add_midpoint(const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge);
     bool is_drawn(const BisectionNode& node, unsigned quadrant) const;
     Four drawn_children(const BisectionNode& node) const;
     void measure_drawn_heights(std::uint32_t node) const;
-    void add_triangles_in(
-        std::uint32_t node, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
+    void add_triangles_in(std::uint32_t node, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const GroundTiles* ground_;
     BisectionCriterion rule_;
@@ -295,7 +281,7 @@ private:
     std::span<const BisectionNode> nodes_;
     /// For each node the vertices of its mid-points; 0 = none yet.
     std::vector<Four> middle_vertex_;
-    std::vector<TriangleRange> triangle_ranges_;           ///< For each node that is in the mesh.
+    std::vector<TriangleRange> triangle_ranges_;      ///< For each node that is in the mesh.
     mutable std::vector<DrawnHeights> drawn_heights_; ///< For each node that is in the mesh.
     mutable bool has_drawn_heights_ = false;
     float limit_ = 0.0F;

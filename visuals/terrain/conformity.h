@@ -12,11 +12,9 @@
 
 namespace octant::visuals::terrain {
 
-/// What is wrong with a mesh. If all counts are 0, the ground is a single surface without a crack,
-/// hole or fold.
+/// What is wrong with a mesh. If all counts are 0, the ground is a single surface without a crack, hole or fold.
 struct Conformity {
-    /// Edges without a triangle on the other side, although the frustum sees them and the field
-    /// goes on there.
+    /// Edges without a triangle on the other side, although the frustum sees them and the field goes on there.
     int open_edges = 0;
     /// Vertices inside an edge of a triangle that they do not belong to (T-junctions).
     int t_junctions = 0;
@@ -26,9 +24,7 @@ struct Conformity {
     int duplicate_vertices = 0; ///< Vertices at a position in plan that has another one.
 
     bool is_conforming() const {
-        return open_edges + t_junctions + overlapping_edges + inverted_triangles +
-                   duplicate_vertices ==
-               0;
+        return open_edges + t_junctions + overlapping_edges + inverted_triangles + duplicate_vertices == 0;
     }
 
     /// The counts in one line.

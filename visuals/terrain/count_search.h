@@ -17,20 +17,18 @@ struct CountSearch {
     float first = 0.0F; ///< How far to look when there is none.
 };
 
-/// The largest limit up to which no mesh has more triangles than the budget; the least allowed one
-/// if even that has more. The last frame's limit only makes the search short; the answer does not
-/// depend on it.
+/// The largest limit up to which no mesh has more triangles than the budget; the least allowed one if even that has
+/// more. The last frame's limit only makes the search short; the answer does not depend on it.
 ///
-/// `walk(low, high, max_triangles)` must start `steps` with (low, high) and add all steps of N
-/// below high; it may stop once there are more than `max_triangles`. It returns whether there are
-/// steps above.
+/// `walk(low, high, max_triangles)` must start `steps` with (low, high) and add all steps of N below high; it may stop
+/// once there are more than `max_triangles`. It returns whether there are steps above.
 template <typename Walk>
 float find_limit(const CountSearch& search, StepFunction& steps, const Walk& walk) {
-    // How far a walk looks, as factors of the limit. They influence the time only.
-    // Below the last limit: single steps are known from here on.
+    // How far a walk looks, as factors of the limit. They influence the time only. Below the last limit: single steps
+    // are known from here on.
     constexpr float look_below = 0.7F;
-    constexpr float look_above = 1.08F;   // Above the last limit: the walk ends here.
-    constexpr float step_back = 0.1F;     // After far too many triangles.
+    constexpr float look_above = 1.08F; // Above the last limit: the walk ends here.
+    constexpr float step_back = 0.1F;   // After far too many triangles.
     constexpr float min_growth = 1.25F; // After too few triangles.
     constexpr float max_growth = 8.0F;
 
@@ -58,8 +56,8 @@ float find_limit(const CountSearch& search, StepFunction& steps, const Walk& wal
         } else if (high >= most || !more_above) {
             return most;
         } else {
-            const float missing = static_cast<float>(search.triangles) /
-                                  static_cast<float>(std::max(steps.at_high(), 1));
+            const float missing =
+                static_cast<float>(search.triangles) / static_cast<float>(std::max(steps.at_high(), 1));
             const float grown = high * std::clamp(1.1F * missing, min_growth, max_growth);
             high = std::min({grown, std::sqrt(high) * std::sqrt(too_high), most});
         }

@@ -1,6 +1,6 @@
-// Tables of error codes: geometric series, so that one byte covers centimetres to kilometres. An
-// error is rounded up to its code, by half a step in the mean, and that costs triangles: steps are
-// narrow where meshes have most of their samples.
+// Tables of error codes: geometric series, so that one byte covers centimetres to kilometres. An error is rounded up to
+// its code, by half a step in the mean, and that costs triangles: steps are narrow where meshes have most of their
+// samples.
 #include "visuals/terrain/error_codes.h"
 
 #include <algorithm>

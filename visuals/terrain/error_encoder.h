@@ -11,13 +11,11 @@
 
 namespace octant::visuals::terrain {
 
-/// ErrorCodes::code_of for errors given in units of the stored numbers, by table: the
-/// leading bits of a float select a code, and one comparison corrects it.
+/// ErrorCodes::code_of for errors given in units of the stored numbers, by table: the leading bits of a float select a
+/// code, and one comparison corrects it.
 class ErrorEncoder {
 public:
-    ErrorEncoder(const ErrorCodes& codes, double unit_m)
-        : unit_m_(static_cast<float>(unit_m))
-        , metres_(codes) {
+    ErrorEncoder(const ErrorCodes& codes, double unit_m) : unit_m_(static_cast<float>(unit_m)), metres_(codes) {
         for (std::size_t code = 0; code < steps_.size(); ++code) {
             steps_[code] = codes.metres(static_cast<std::uint8_t>(code)) / unit_m_;
         }
@@ -32,12 +30,9 @@ public:
     std::uint8_t code_of(float steps) const {
         const float error_m = steps * unit_m_;
         const std::uint32_t bin = bin_of(error_m);
-        if (bin < first_) {
-            return error_m > 0.0F ? 1 : 0;
-        }
+        if (bin < first_) { return error_m > 0.0F ? 1 : 0; }
         const std::uint8_t code = codes_[std::min<std::size_t>(bin - first_, codes_.size() - 1)];
-        return static_cast<std::uint8_t>(
-            code + (code < 255 && error_m > metres_.metres(code) ? 1 : 0));
+        return static_cast<std::uint8_t>(code + (code < 255 && error_m > metres_.metres(code) ? 1 : 0));
     }
 
     /// The error of a code in units of the stored numbers.
@@ -47,9 +42,7 @@ private:
     /// A bin spans 1/64 to 1/32 of an octave, which is narrower than the step between two codes.
     static constexpr unsigned dropped_bits = 17;
 
-    static std::uint32_t bin_of(float error_m) {
-        return std::bit_cast<std::uint32_t>(error_m) >> dropped_bits;
-    }
+    static std::uint32_t bin_of(float error_m) { return std::bit_cast<std::uint32_t>(error_m) >> dropped_bits; }
 
     float unit_m_;
     ErrorCodes metres_;

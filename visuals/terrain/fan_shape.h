@@ -7,11 +7,10 @@
 
 namespace octant::visuals::terrain {
 
-// Quadrants of a node are numbered 0 south-west, 1 south-east, 2 north-west, 3 north-east; in a set
-// of them quadrant q is bit q.
+// Quadrants of a node are numbered 0 south-west, 1 south-east, 2 north-west, 3 north-east; in a set of them quadrant q
+// is bit q.
 
-/// An edge of a fan, between the corners of two quadrants. Corners are in half edges from the
-/// south-west corner.
+/// An edge of a fan, between the corners of two quadrants. Corners are in half edges from the south-west corner.
 struct FanEdge {
     int corner_a_east;
     int corner_a_north;
@@ -37,8 +36,8 @@ struct RingSample {
     int north;
 };
 
-/// The outline counter-clockwise from the south-west corner: corners at even places, the mid-points
-/// of fan_edges at odd ones.
+/// The outline counter-clockwise from the south-west corner: corners at even places, the mid-points of fan_edges at odd
+/// ones.
 inline constexpr std::array<RingSample, 8> fan_ring = {
     {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
@@ -59,28 +58,21 @@ struct GridSample {
     int row;
 };
 
-/// The nine samples that the triangles of a node's fan may use. at() and what uses it move those
-/// beyond the field onto its last column and row; padded() leaves them where they are.
+/// The nine samples that the triangles of a node's fan may use. at() and what uses it move those beyond the field onto
+/// its last column and row; padded() leaves them where they are.
 class FanSamples {
 public:
-    /// `ground` is anything that has columns() and rows() in samples; `edge` is the node's edge in
-    /// samples.
+    /// `ground` is anything that has columns() and rows() in samples; `edge` is the node's edge in samples.
     template <typename Ground>
     FanSamples(const Ground& ground, int edge, int column, int row)
-        : last_column_(ground.columns() - 1)
-        , last_row_(ground.rows() - 1)
-        , half_(edge / 2)
-        , west_(column * edge)
-        , south_(row * edge) {}
+        : last_column_(ground.columns() - 1), last_row_(ground.rows() - 1), half_(edge / 2), west_(column * edge),
+          south_(row * edge) {}
 
     /// Whether some samples lie beyond the field, so that moved triangles may have no area.
-    bool is_cut() const {
-        return west_ + 2 * half_ > last_column_ || south_ + 2 * half_ > last_row_;
-    }
+    bool is_cut() const { return west_ + 2 * half_ > last_column_ || south_ + 2 * half_ > last_row_; }
 
     GridSample at(int half_edges_east, int half_edges_north) const {
-        return {
-            std::min(west_ + half_edges_east * half_, last_column_),
+        return {std::min(west_ + half_edges_east * half_, last_column_),
             std::min(south_ + half_edges_north * half_, last_row_)};
     }
 
@@ -90,8 +82,7 @@ public:
 
     /// padded() of a place of fan_ring or of the centre.
     GridSample padded_ring(std::size_t place) const {
-        return place == centre_of_ring ? padded(1, 1)
-                                       : padded(fan_ring[place].east, fan_ring[place].north);
+        return place == centre_of_ring ? padded(1, 1) : padded(fan_ring[place].east, fan_ring[place].north);
     }
 
     GridSample last() const { return {last_column_, last_row_}; }
@@ -107,18 +98,12 @@ public:
     /// Whether the middle row was moved onto the northern one.
     bool rows_coincide() const { return south_ + half_ >= last_row_; }
 
-    GridSample corner_a(const FanEdge& edge) const {
-        return at(edge.corner_a_east, edge.corner_a_north);
-    }
+    GridSample corner_a(const FanEdge& edge) const { return at(edge.corner_a_east, edge.corner_a_north); }
 
-    GridSample corner_b(const FanEdge& edge) const {
-        return at(edge.corner_b_east, edge.corner_b_north);
-    }
+    GridSample corner_b(const FanEdge& edge) const { return at(edge.corner_b_east, edge.corner_b_north); }
 
     GridSample middle(const FanEdge& edge) const {
-        return at(
-            (edge.corner_a_east + edge.corner_b_east) / 2,
-            (edge.corner_a_north + edge.corner_b_north) / 2);
+        return at((edge.corner_a_east + edge.corner_b_east) / 2, (edge.corner_a_north + edge.corner_b_north) / 2);
     }
 
 private:

@@ -1,6 +1,6 @@
-// Triangles of the padded square at the field's border. They are cut off there, so that a vertex
-// lies in the middle of its edge everywhere and appears without moving the ground, also where the
-// field's size is not a power of two. It has no source; the quadtree paper's fields are 2^n + 1.
+// Triangles of the padded square at the field's border. They are cut off there, so that a vertex lies in the middle of
+// its edge everywhere and appears without moving the ground, also where the field's size is not a power of two. It has
+// no source; the quadtree paper's fields are 2^n + 1.
 #include "visuals/terrain/fan_triangles.h"
 
 #include <algorithm>
@@ -9,9 +9,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-int along(const GridSample& at, bool rows) {
-    return rows ? at.row : at.column;
-}
+int along(const GridSample& at, bool rows) { return rows ? at.row : at.column; }
 
 /// Where an edge crosses the last column or row.
 ClipVertex crossing(const ClipVertex& a, const ClipVertex& b, int last, bool rows) {
@@ -22,8 +20,7 @@ ClipVertex crossing(const ClipVertex& a, const ClipVertex& b, int last, bool row
     const int way = along(to.at, rows) - along(from.at, rows);
     const int part = last - along(from.at, rows);
     const float share = static_cast<float>(part) / static_cast<float>(way);
-    const GridSample at{
-        from.at.column + (to.at.column - from.at.column) / way * part,
+    const GridSample at{from.at.column + (to.at.column - from.at.column) / way * part,
         from.at.row + (to.at.row - from.at.row) / way * part};
     return {at, from.height + share * (to.height - from.height), ClipVertex::no_vertex};
 }
@@ -35,9 +32,7 @@ ClippedPolygon up_to(const ClippedPolygon& whole, int last, bool rows) {
         const ClipVertex& next = whole.corner[k + 1 == whole.count ? 0 : k + 1];
         const int beyond = along(own.at, rows) - last;
         const int next_beyond = along(next.at, rows) - last;
-        if (beyond <= 0) {
-            cut.corner[cut.count++] = own;
-        }
+        if (beyond <= 0) { cut.corner[cut.count++] = own; }
         if ((beyond < 0 && next_beyond > 0) || (beyond > 0 && next_beyond < 0)) {
             cut.corner[cut.count++] = crossing(own, next, last, rows);
         }

@@ -9,8 +9,8 @@
 
 namespace octant::visuals::terrain {
 
-/// How many triangles with an area a fan has: for each side without its mid-point, for each side
-/// with it beside either of its quadrants, and for each quadrant.
+/// How many triangles with an area a fan has: for each side without its mid-point, for each side with it beside either
+/// of its quadrants, and for each quadrant.
 struct FanTriangles {
     std::array<int, 4> whole{1, 1, 1, 1};
     std::array<int, 4> a{1, 1, 1, 1};
@@ -50,8 +50,8 @@ struct ClipVertex {
     static constexpr std::uint32_t no_vertex = 0xffffffffU;
 };
 
-/// The part of a triangle within the field, counter-clockwise as the triangle; it has no area where
-/// there are fewer than three corners.
+/// The part of a triangle within the field, counter-clockwise as the triangle; it has no area where there are fewer
+/// than three corners.
 struct ClippedPolygon {
     std::array<ClipVertex, 5> corner{};
     unsigned count = 0;
@@ -59,9 +59,8 @@ struct ClippedPolygon {
     int triangles() const { return count < 3 ? 0 : static_cast<int>(count) - 2; }
 };
 
-/// The part of a bisection's triangle up to the field's last column and row. Edges are level,
-/// upright or diagonal, so that the border crosses them at samples, and at the same height from
-/// either side.
+/// The part of a bisection's triangle up to the field's last column and row. Edges are level, upright or diagonal, so
+/// that the border crosses them at samples, and at the same height from either side.
 ClippedPolygon clip_to_border(const std::array<ClipVertex, 3>& triangle, const GridSample& last);
 
 /// The triangles of a node at the field's north or east end that are left within the field.
@@ -69,17 +68,15 @@ FanTriangles triangles_within_border(const FanSamples& samples);
 
 /// From which limits on the parts of a fan are in the mesh.
 struct FanLimits {
-    float node_limit = 0.0F;                    ///< The fan itself.
+    float node_limit = 0.0F;            ///< The fan itself.
     const std::array<float, 4>& middle; ///< The mid-points of fan_edges.
     unsigned hidden = 0;                ///< The quadrants without triangles.
     int replaced = 0;                   ///< How many triangles of its parent it replaces.
 };
 
-/// Adds the steps of N at which a fan appears and at which its mid-points do, those below `high`.
-/// The step of a quadrant that splits is counted with the child. Returns whether there are steps
-/// above.
-inline bool
-count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepFunction& steps) {
+/// Adds the steps of N at which a fan appears and at which its mid-points do, those below `high`. The step of a
+/// quadrant that splits is counted with the child. Returns whether there are steps above.
+inline bool count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepFunction& steps) {
     const auto unless_hidden = [&](unsigned quadrant, int some) {
         return (fan.hidden >> quadrant & 1U) == 0 ? some : 0;
     };
@@ -87,8 +84,8 @@ count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepF
     int first = -fan.replaced;
     for (std::size_t k = 0; k < 4; ++k) {
         const FanEdge& edge = fan_edges[k];
-        const int with_middle = unless_hidden(edge.quadrant_a, triangles.a[k]) +
-                                unless_hidden(edge.quadrant_b, triangles.b[k]);
+        const int with_middle =
+            unless_hidden(edge.quadrant_a, triangles.a[k]) + unless_hidden(edge.quadrant_b, triangles.b[k]);
         if (fan.middle[k] <= fan.node_limit) {
             first += with_middle;
             continue;

@@ -6,8 +6,8 @@
 
 namespace octant::visuals::terrain {
 
-// The view frustum is given by the normals of four planes through the eye. A set of planes is a bit
-// mask: bit k stands for normal k.
+// The view frustum is given by the normals of four planes through the eye. A set of planes is a bit mask: bit k stands
+// for normal k.
 
 /// The answer of crossed_planes for a box that is not in sight.
 inline constexpr unsigned outside_frustum = 16;
@@ -15,12 +15,9 @@ inline constexpr unsigned outside_frustum = 16;
 /// The set of those planes whose normals are not zero.
 unsigned active_planes(const std::array<glm::dvec3, 4>& normals);
 
-/// Those of `planes` that a box (relative to the eye) is not wholly inside of; outside_frustum if
-/// it is wholly outside one of them. Conservative: a box that touches is never outside.
-unsigned crossed_planes(
-    const std::array<glm::dvec3, 4>& normals,
-    unsigned planes,
-    const glm::dvec3& centre_m,
+/// Those of `planes` that a box (relative to the eye) is not wholly inside of; outside_frustum if it is wholly outside
+/// one of them. Conservative: a box that touches is never outside.
+unsigned crossed_planes(const std::array<glm::dvec3, 4>& normals, unsigned planes, const glm::dvec3& centre_m,
     const glm::dvec3& half_extent_m);
 
 } // namespace octant::visuals::terrain

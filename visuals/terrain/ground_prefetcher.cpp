@@ -1,5 +1,4 @@
-// Read-ahead for mapped grounds: the kernel is asked for all tiles at once, then each is tested as
-// it has come.
+// Read-ahead for mapped grounds: the kernel is asked for all tiles at once, then each is tested as it has come.
 #include "visuals/terrain/ground_prefetcher.h"
 
 #include <algorithm>
@@ -14,17 +13,15 @@ namespace {
 /// Tells the kernel what will become of some bytes. The result is ignored: it is advice only.
 void advise(std::span<const std::byte> bytes, int what) {
     const std::byte* const begin = bytes.data();
-    const std::size_t into_page =
-        reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;
+    const std::size_t into_page = reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;
     ::madvise(const_cast<std::byte*>(begin - into_page), bytes.size() + into_page, what);
 }
 
 } // namespace
 
 GroundPrefetcher::GroundPrefetcher(const GroundTiles& ground)
-    : ground_(ground)
-    , requested_windows_(static_cast<std::size_t>(ground.levels()))
-    , thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : ground_(ground), requested_windows_(static_cast<std::size_t>(ground.levels())),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 GroundPrefetcher::~GroundPrefetcher() {
     thread_.request_stop();
@@ -44,9 +41,7 @@ void GroundPrefetcher::run(const std::stop_token& stop) {
         glm::dvec2 place_m;
         {
             std::unique_lock lock(mutex_);
-            if (!wake_.wait(lock, stop, [this] { return requested_m_.has_value(); })) {
-                return;
-            }
+            if (!wake_.wait(lock, stop, [this] { return requested_m_.has_value(); })) { return; }
             place_m = *requested_m_;
             requested_m_.reset();
         }
@@ -59,9 +54,8 @@ void GroundPrefetcher::fetch(glm::dvec2 place_m, const std::stop_token& stop) {
         const GroundLayout::Level& at = ground_.layout().level(level);
         Window& known = requested_windows_[static_cast<std::size_t>(level)];
         const Window window = window_around(at, place_m);
-        for_new_tiles(at, window, known, [](std::size_t /*tile*/, std::span<const std::byte> b) {
-            advise(b, MADV_WILLNEED);
-        });
+        for_new_tiles(
+            at, window, known, [](std::size_t /*tile*/, std::span<const std::byte> b) { advise(b, MADV_WILLNEED); });
         for_new_tiles(at, window, known, [&](std::size_t tile, std::span<const std::byte> bytes) {
             if (!stop.stop_requested()) {
                 advise(bytes, MADV_POPULATE_READ); // before the guard, which makes others wait
@@ -73,8 +67,7 @@ void GroundPrefetcher::fetch(glm::dvec2 place_m, const std::stop_token& stop) {
 }
 
 /// The tiles of a level around a place.
-GroundPrefetcher::Window
-GroundPrefetcher::window_around(const GroundLayout::Level& at, glm::dvec2 place_m) const {
+GroundPrefetcher::Window GroundPrefetcher::window_around(const GroundLayout::Level& at, glm::dvec2 place_m) const {
     const double node_m = at.edge * ground_.spacing_m();
     const glm::dvec2 half_m = ground_.half_extent_m();
     const auto tile_of = [&at](double node, int tiles) {
@@ -83,8 +76,7 @@ GroundPrefetcher::window_around(const GroundLayout::Level& at, glm::dvec2 place_
     };
     const double column = (place_m.x + half_m.x) / node_m;
     const double row = (place_m.y + half_m.y) / node_m;
-    return {
-        std::max(0, tile_of(column - reach_nodes, at.tiles_across)),
+    return {std::max(0, tile_of(column - reach_nodes, at.tiles_across)),
         std::min(at.tiles_across, tile_of(column + reach_nodes, at.tiles_across) + 1),
         std::max(0, tile_of(row - reach_nodes, at.tiles_up)),
         std::min(at.tiles_up, tile_of(row + reach_nodes, at.tiles_up) + 1)};
@@ -92,22 +84,13 @@ GroundPrefetcher::window_around(const GroundLayout::Level& at, glm::dvec2 place_
 
 template <class Visit>
 void GroundPrefetcher::for_new_tiles(
-    const GroundLayout::Level& at,
-    const Window& window,
-    const Window& known,
-    const Visit& visit) const {
+    const GroundLayout::Level& at, const Window& window, const Window& known, const Visit& visit) const {
     for (int row = window.south; row < window.north; ++row) {
         for (int column = window.west; column < window.east; ++column) {
-            if (column >= known.west && column < known.east && row >= known.south &&
-                row < known.north) {
-                continue;
-            }
-            const std::size_t tile =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(at.tiles_across) +
-                static_cast<std::size_t>(column);
-            visit(
-                tile,
-                ground_.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes));
+            if (column >= known.west && column < known.east && row >= known.south && row < known.north) { continue; }
+            const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(at.tiles_across) +
+                                     static_cast<std::size_t>(column);
+            visit(tile, ground_.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes));
         }
     }
 }

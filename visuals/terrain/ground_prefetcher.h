@@ -12,8 +12,8 @@
 
 namespace octant::visuals::terrain {
 
-/// Fetches from the disk, on a thread of its own, the tiles around a place before they are needed,
-/// and has the ground's guard test them, so that drawing seldom waits for either.
+/// Fetches from the disk, on a thread of its own, the tiles around a place before they are needed, and has the ground's
+/// guard test them, so that drawing seldom waits for either.
 class GroundPrefetcher {
 public:
     /// On every level tiles are asked for up to this many nodes away from the place.
@@ -27,9 +27,8 @@ public:
     GroundPrefetcher(GroundPrefetcher&&) = delete;
     GroundPrefetcher& operator=(GroundPrefetcher&&) = delete;
 
-    /// Tells where tiles are wanted next, in world axes, within the field or not. Returns at once;
-    /// an earlier place that was not dealt with yet is forgotten. Tiles that were asked for at the
-    /// last place are not asked for again.
+    /// Tells where tiles are wanted next, in world axes, within the field or not. Returns at once; an earlier place
+    /// that was not dealt with yet is forgotten. Tiles that were asked for at the last place are not asked for again.
     void prefetch_around(glm::dvec2 place_m);
 
 private:
@@ -47,10 +46,7 @@ private:
     /// Calls visit(tile, bytes) for the tiles of a window that are not in `known`.
     template <class Visit>
     void for_new_tiles(
-        const GroundLayout::Level& at,
-        const Window& window,
-        const Window& known,
-        const Visit& visit) const;
+        const GroundLayout::Level& at, const Window& window, const Window& known, const Visit& visit) const;
 
     const GroundTiles& ground_;
     std::vector<Window> requested_windows_; ///< For each level what was asked for last.

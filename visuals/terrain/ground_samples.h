@@ -8,20 +8,19 @@
 
 namespace octant::visuals::terrain {
 
-/// The samples of a ground, whoever stores them; used by measurements and queries. It refers to the
-/// ground, which must outlive it. World axes as in HeightField.
+/// The samples of a ground, whoever stores them; used by measurements and queries. It refers to the ground, which must
+/// outlive it. World axes as in HeightField.
 class GroundSamples {
 public:
     explicit GroundSamples(const models::heights::HeightField& field)
         : GroundSamples(field, field.highest_m(), [](const void* ground, int column, int row) {
-            return static_cast<const models::heights::HeightField*>(ground)->height_m(column, row);
-        }) {}
+              return static_cast<const models::heights::HeightField*>(ground)->height_m(column, row);
+          }) {}
 
     explicit GroundSamples(const GroundTiles& tiles)
-        : GroundSamples(
-              tiles, tiles.metadata().highest_m, [](const void* ground, int column, int row) {
-                  return static_cast<const GroundTiles*>(ground)->height_m(column, row);
-              }) {}
+        : GroundSamples(tiles, tiles.metadata().highest_m, [](const void* ground, int column, int row) {
+              return static_cast<const GroundTiles*>(ground)->height_m(column, row);
+          }) {}
 
     int columns() const { return columns_; }
 
@@ -36,16 +35,11 @@ public:
     double highest_m() const { return highest_m_; }
 
     /// The height of a sample. Column and row must be within the grid.
-    double height_m(int column, int row) const {
-        return static_cast<double>(height_(ground_, column, row));
-    }
+    double height_m(int column, int row) const { return static_cast<double>(height_(ground_, column, row)); }
 
     /// The world position of a sample.
     glm::dvec3 sample_m(int column, int row) const {
-        return {
-            column * spacing_m_ - half_extent_m_.x,
-            row * spacing_m_ - half_extent_m_.y,
-            height_m(column, row)};
+        return {column * spacing_m_ - half_extent_m_.x, row * spacing_m_ - half_extent_m_.y, height_m(column, row)};
     }
 
     /// A position in samples east and north of the first sample; whole numbers at samples.
@@ -58,13 +52,8 @@ private:
 
     template <class Ground>
     GroundSamples(const Ground& ground, float highest_m, Height height)
-        : ground_(&ground)
-        , height_(height)
-        , highest_m_(static_cast<double>(highest_m))
-        , columns_(ground.columns())
-        , rows_(ground.rows())
-        , spacing_m_(ground.spacing_m())
-        , half_extent_m_(ground.half_extent_m()) {}
+        : ground_(&ground), height_(height), highest_m_(static_cast<double>(highest_m)), columns_(ground.columns()),
+          rows_(ground.rows()), spacing_m_(ground.spacing_m()), half_extent_m_(ground.half_extent_m()) {}
 
     const void* ground_;
     Height height_;

@@ -9,21 +9,12 @@
 
 namespace octant::visuals::terrain {
 
-GroundTiles::GroundTiles(
-    const GroundShape& shape,
-    GroundMetadata metadata,
-    std::span<const std::byte> memory,
-    std::shared_ptr<const void> owner,
-    std::shared_ptr<const TileValidator> validator)
-    : shape_(shape)
-    , metadata_(std::move(metadata))
-    , layout_(shape)
-    , codes_(codes_of(shape))
-    , memory_(memory)
-    , owner_(std::move(owner))
-    , validator_(validator ? std::move(validator) : std::make_shared<const TileValidator>(layout_))
-    , base_m_(shape.height_base_m)
-    , unit_m_(shape.height_unit_m) {
+GroundTiles::GroundTiles(const GroundShape& shape, GroundMetadata metadata, std::span<const std::byte> memory,
+    std::shared_ptr<const void> owner, std::shared_ptr<const TileValidator> validator)
+    : shape_(shape), metadata_(std::move(metadata)), layout_(shape), codes_(codes_of(shape)), memory_(memory),
+      owner_(std::move(owner)),
+      validator_(validator ? std::move(validator) : std::make_shared<const TileValidator>(layout_)),
+      base_m_(shape.height_base_m), unit_m_(shape.height_unit_m) {
     assert(memory.size() == layout_.total_bytes());
 }
 

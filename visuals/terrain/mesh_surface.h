@@ -12,27 +12,26 @@
 
 namespace octant::visuals::terrain {
 
-/// The surface that a mesh draws, to be asked by position in plan. Its memory is reused from mesh
-/// to mesh; the mesh itself is not needed after set_mesh().
+/// The surface that a mesh draws, to be asked by position in plan. Its memory is reused from mesh to mesh; the mesh
+/// itself is not needed after set_mesh().
 class MeshSurface {
 public:
     /// Takes a mesh whose positions are relative to `eye_m`.
     void set_mesh(const GroundMesh& mesh, const glm::dvec3& eye_m);
 
-    /// The number of the triangle above or below a position, one of them at an edge; nothing where
-    /// there is no mesh.
+    /// The number of the triangle above or below a position, one of them at an edge; nothing where there is no mesh.
     std::optional<std::uint32_t> triangle_at(double x_m, double y_m) const;
 
     /// The world height of the surface; nothing where there is no mesh.
     std::optional<double> height_at(double x_m, double y_m) const;
 
-    /// The first point at which the way between two world positions meets the mesh, as a share of
-    /// that way; nothing if it does not.
+    /// The first point at which the way between two world positions meets the mesh, as a share of that way; nothing if
+    /// it does not.
     std::optional<double> first_hit(const glm::dvec3& from_m, const glm::dvec3& to_m) const;
 
 private:
-    /// A triangle in a cell. The size of cells halves from level to level; a triangle is entered
-    /// into the cells of the smallest size that is as large as the triangle: four at most.
+    /// A triangle in a cell. The size of cells halves from level to level; a triangle is entered into the cells of the
+    /// smallest size that is as large as the triangle: four at most.
     struct Entry {
         std::uint32_t level = 0;
         std::int32_t column = 0;

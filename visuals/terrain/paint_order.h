@@ -27,23 +27,8 @@ struct PartBounds {
     std::uint8_t to;
 };
 
-inline constexpr std::array<PartBounds, fan_parts> part_sides = {
-    {{0, 1},
-     {1, 2},
-     {2, 3},
-     {3, 4},
-     {4, 5},
-     {5, 6},
-     {6, 7},
-     {7, 0},
-     {0, 2},
-     {2, 4},
-     {4, 6},
-     {6, 0},
-     {7, 1},
-     {1, 3},
-     {5, 7},
-     {3, 5}}};
+inline constexpr std::array<PartBounds, fan_parts> part_sides = {{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6},
+    {6, 7}, {7, 0}, {0, 2}, {2, 4}, {4, 6}, {6, 0}, {7, 1}, {1, 3}, {5, 7}, {3, 5}}};
 
 /// An order of all parts. Sets of places in the order are bit masks.
 struct PartOrder {
@@ -61,12 +46,12 @@ struct PartOrder {
     }
 };
 
-/// The wedge between the samples k and k + 1 of fan_ring that contains a point, seen from the
-/// centre of a fan that is not cut; either one for a point on the line between two wedges.
+/// The wedge between the samples k and k + 1 of fan_ring that contains a point, seen from the centre of a fan that is
+/// not cut; either one for a point on the line between two wedges.
 inline unsigned wedge_containing(double east, double north) {
     constexpr std::array<std::uint8_t, 8> wedges = {0, 1, 5, 4, 7, 2, 6, 3};
-    const unsigned which = (east >= 0.0 ? 1U : 0U) | (north >= 0.0 ? 2U : 0U) |
-                           (std::abs(east) >= std::abs(north) ? 4U : 0U);
+    const unsigned which =
+        (east >= 0.0 ? 1U : 0U) | (north >= 0.0 ? 2U : 0U) | (std::abs(east) >= std::abs(north) ? 4U : 0U);
     return wedges[which];
 }
 
@@ -82,9 +67,8 @@ struct PartList {
     unsigned count = 0;
 };
 
-/// Those of a set of parts that have an area although the field's border cuts the fan, in painting
-/// order. `eye` is in samples east and north of the fan's centre.
-PartList parts_of_cut_fan(
-    const FanSamples& samples, unsigned parts, const glm::dvec2& eye, PaintOrder order);
+/// Those of a set of parts that have an area although the field's border cuts the fan, in painting order. `eye` is in
+/// samples east and north of the fan's centre.
+PartList parts_of_cut_fan(const FanSamples& samples, unsigned parts, const glm::dvec2& eye, PaintOrder order);
 
 } // namespace octant::visuals::terrain

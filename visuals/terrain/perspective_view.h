@@ -25,15 +25,12 @@ struct PerspectiveView {
     /// Whether a point in view axes is in the picture.
     bool shows(const glm::dvec3& seen) const {
         return seen.z >= near_m && focal_px * seen.x <= half_width_px * seen.z &&
-               -focal_px * seen.x <= half_width_px * seen.z &&
-               focal_px * seen.y <= half_height_px * seen.z &&
+               -focal_px * seen.x <= half_width_px * seen.z && focal_px * seen.y <= half_height_px * seen.z &&
                -focal_px * seen.y <= half_height_px * seen.z;
     }
 
     /// The pixels right of and above the middle. The point must be in front of the eye.
-    glm::dvec2 pixel(const glm::dvec3& seen) const {
-        return glm::dvec2(seen.x, seen.y) * (focal_px / seen.z);
-    }
+    glm::dvec2 pixel(const glm::dvec3& seen) const { return glm::dvec2(seen.x, seen.y) * (focal_px / seen.z); }
 };
 
 } // namespace octant::visuals::terrain

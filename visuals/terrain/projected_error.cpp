@@ -1,9 +1,9 @@
-// The error of a mesh in pixels against the full-resolution ground: the measure by which the
-// paper's quadtree and the default mesh are compared.
+// The error of a mesh in pixels against the full-resolution ground: the measure by which the paper's quadtree and the
+// default mesh are compared.
 //
-// Each triangle is rasterised in plan over the samples that it covers, its border included. One bit
-// for each sample sees to it that each counts once (both triangles at an edge have the same height
-// there). Rows are divided into bands, always the same ones, which threads share.
+// Each triangle is rasterised in plan over the samples that it covers, its border included. One bit for each sample
+// sees to it that each counts once (both triangles at an edge have the same height there). Rows are divided into bands,
+// always the same ones, which threads share.
 #include "visuals/terrain/projected_error.h"
 
 #include "sim/base/nearest_rank.h"
@@ -37,11 +37,8 @@ struct Slope {
 
 Slope slope_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double signed_area2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (signed_area2 == 0.0) {
-        return {};
-    }
-    return {
-        ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / signed_area2,
+    if (signed_area2 == 0.0) { return {}; }
+    return {((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / signed_area2,
         ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / signed_area2};
 }
 
@@ -56,9 +53,7 @@ RowInterval row_interval(const std::array<glm::dvec3, 3>& corner, double row) {
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3& a = corner[k];
         const glm::dvec3& b = corner[(k + 1) % 3];
-        if (row < std::min(a.y, b.y) || row > std::max(a.y, b.y)) {
-            continue;
-        }
+        if (row < std::min(a.y, b.y) || row > std::max(a.y, b.y)) { continue; }
         const double at = a.y == b.y ? a.x : a.x + (row - a.y) * (b.x - a.x) / (b.y - a.y);
         part.first = std::min({part.first, at, a.y == b.y ? b.x : at});
         part.last = std::max({part.last, at, a.y == b.y ? b.x : at});
@@ -70,9 +65,7 @@ RowInterval row_interval(const std::array<glm::dvec3, 3>& corner, double row) {
 bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PerspectiveView& view) {
     const double wide = view.half_width_px / view.focal_px;
     const double tall = view.half_height_px / view.focal_px;
-    const auto all = [&](const auto& outside) {
-        return std::all_of(seen.begin(), seen.end(), outside);
-    };
+    const auto all = [&](const auto& outside) { return std::all_of(seen.begin(), seen.end(), outside); };
     return !all([&](const glm::dvec3& p) { return p.z < view.near_m; }) &&
            !all([&](const glm::dvec3& p) { return p.x > wide * p.z; }) &&
            !all([&](const glm::dvec3& p) { return -p.x > wide * p.z; }) &&
@@ -94,17 +87,14 @@ int triangles_in_view(const GroundMesh& mesh, const PerspectiveView& view) {
 
 /// A percentile by nearest rank; reorders the values.
 double nearest_rank(std::vector<float>& values, int permille) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(rank_of(values.size(), permille) - 1);
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank_of(values.size(), permille) - 1);
     std::nth_element(values.begin(), at, values.end());
     return static_cast<double>(*at);
 }
 
 /// The figures over all errors; reorders them.
 void summarise(std::vector<float>& errors_px, ProjectedError& error) {
-    if (errors_px.empty()) {
-        return;
-    }
+    if (errors_px.empty()) { return; }
     double sum = 0.0;
     double sum_of_squares = 0.0;
     for (const float value : errors_px) {
@@ -133,18 +123,12 @@ struct ProjectedErrorMeter::Picture {
     glm::dvec3 sample_m(const GroundSamples& ground, int column, int row) const {
         const double x = first_m.x + column * ground.spacing_m();
         const double y = first_m.y + row * ground.spacing_m();
-        return {
-            x,
-            y,
-            ground.height_m(column, row) - view.eye_m.z -
-                curvature_drop_m(x * x + y * y, earth_radius_m)};
+        return {x, y, ground.height_m(column, row) - view.eye_m.z - curvature_drop_m(x * x + y * y, earth_radius_m)};
     }
 };
 
 ProjectedErrorMeter::ProjectedErrorMeter(GroundSamples ground, int threads)
-    : ground_(ground)
-    , threads_(threads)
-    , words_per_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
+    : ground_(ground), threads_(threads), words_per_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
     assert(threads >= 1);
     for (int row = 0; row < ground.rows(); row += rows_per_band) {
         Band& band = bands_.emplace_back();
@@ -153,8 +137,8 @@ ProjectedErrorMeter::ProjectedErrorMeter(GroundSamples ground, int threads)
     }
 }
 
-ProjectedError
-ProjectedErrorMeter::measure(const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m) {
+ProjectedError ProjectedErrorMeter::measure(
+    const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m) {
     const Picture picture{view, earth_radius_m, -ground_.half_extent_m() - glm::dvec2(view.eye_m)};
     grid_vertices_.clear();
     for (const models::ColourVertex& vertex : mesh.vertices) {
@@ -162,9 +146,8 @@ ProjectedErrorMeter::measure(const GroundMesh& mesh, const PerspectiveView& view
         const glm::dvec2 grid = (glm::dvec2(from_eye_m) - picture.first_m) / ground_.spacing_m();
         grid_vertices_.emplace_back(glm::round(grid * snap_steps_per_sample) / snap_steps_per_sample, from_eye_m.z);
     }
-    parallel_for(bands_.size(), threads_, [&](std::size_t band, std::size_t /*worker*/) {
-        measure_band(bands_[band], mesh.indices, picture);
-    });
+    parallel_for(bands_.size(), threads_,
+        [&](std::size_t band, std::size_t /*worker*/) { measure_band(bands_[band], mesh.indices, picture); });
     ProjectedError error;
     error.triangles_in_view = triangles_in_view(mesh, view);
     errors_px_.clear();
@@ -176,55 +159,44 @@ ProjectedErrorMeter::measure(const GroundMesh& mesh, const PerspectiveView& view
     return error;
 }
 
-void ProjectedErrorMeter::measure_band(
-    Band& band, std::span<const std::uint32_t> indices, const Picture& picture) {
+void ProjectedErrorMeter::measure_band(Band& band, std::span<const std::uint32_t> indices, const Picture& picture) {
     band.covered.assign(words_per_row_ * static_cast<std::size_t>(band.end_row - band.first_row), 0);
     band.errors_px.clear();
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
         const glm::dvec3& a = grid_vertices_[indices[k]];
         const glm::dvec3& b = grid_vertices_[indices[k + 1]];
         const glm::dvec3& c = grid_vertices_[indices[k + 2]];
-        if (std::max({a.y, b.y, c.y}) >= band.first_row &&
-            std::min({a.y, b.y, c.y}) <= band.end_row - 1) {
+        if (std::max({a.y, b.y, c.y}) >= band.first_row && std::min({a.y, b.y, c.y}) <= band.end_row - 1) {
             measure_triangle(band, {a, b, c}, picture);
         }
     }
     count_uncovered(band, picture);
 }
 
-void ProjectedErrorMeter::measure_triangle(
-    Band& band, const Corners& corners, const Picture& picture) const {
+void ProjectedErrorMeter::measure_triangle(Band& band, const Corners& corners, const Picture& picture) const {
     const auto& [a, b, c] = corners;
     const Slope slope = slope_of(a, b, c);
-    const int first_row =
-        std::max(band.first_row, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
-    const int last_row =
-        std::min(band.end_row - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+    const int first_row = std::max(band.first_row, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+    const int last_row = std::min(band.end_row - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
     const PerspectiveView& view = picture.view;
     for (int row = first_row; row <= last_row; ++row) {
         const RowInterval part = row_interval(corners, row);
         const int first = std::max(0, static_cast<int>(std::ceil(part.first - row_tolerance)));
-        const int last =
-            std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + row_tolerance)));
+        const int last = std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + row_tolerance)));
         std::uint64_t* const covered =
             band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
         for (int column = first; column <= last; ++column) {
             const auto at = static_cast<std::size_t>(column);
             const std::uint64_t bit = std::uint64_t{1} << (at % 64);
-            if ((covered[at / 64] & bit) != 0) {
-                continue;
-            }
+            if ((covered[at / 64] & bit) != 0) { continue; }
             covered[at / 64] |= bit;
             const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
             const glm::dvec3 seen = view.seen_m(sample_m);
-            if (!view.shows(seen)) {
-                continue;
-            }
+            if (!view.shows(seen)) { continue; }
             const double surface_m = a.z + slope.east * (column - a.x) + slope.north * (row - a.y);
             glm::dvec3 drawn = view.seen_m({sample_m.x, sample_m.y, surface_m});
             drawn.z = std::max(drawn.z, view.near_m);
-            band.errors_px.push_back(
-                static_cast<float>(glm::distance(view.pixel(seen), view.pixel(drawn))));
+            band.errors_px.push_back(static_cast<float>(glm::distance(view.pixel(seen), view.pixel(drawn))));
         }
     }
 }

@@ -33,13 +33,11 @@ public:
     /// `threads` is at least 1; the figures do not depend on it.
     explicit ProjectedErrorMeter(GroundSamples ground, int threads = 2);
 
-    /// Every sample of the ground inside the frustum (the near plane included) counts once: its
-    /// error is the distance on the screen between it and the mesh's surface at the same x, y. A
-    /// surface nearer than the near plane is projected from there. The positions in `mesh` are
-    /// relative to `view.eye_m` and lowered by d^2 / (2 `earth_radius_m`), and so are the samples;
-    /// 0 = flat earth.
-    ProjectedError
-    measure(const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m = 0.0);
+    /// Every sample of the ground inside the frustum (the near plane included) counts once: its error is the distance
+    /// on the screen between it and the mesh's surface at the same x, y. A surface nearer than the near plane is
+    /// projected from there. The positions in `mesh` are relative to `view.eye_m` and lowered by d^2 / (2
+    /// `earth_radius_m`), and so are the samples; 0 = flat earth.
+    ProjectedError measure(const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m = 0.0);
 
 private:
     struct Picture;

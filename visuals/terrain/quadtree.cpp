@@ -1,7 +1,6 @@
-// The quadtree of node roughness: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
-// Minimize Flickering Effect", equation (2) and steps 1 and 2 of section 2, after S. Roettger, W.
-// Heidrich, P. Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous Levels of Detail for
-// Height Fields", 1998.
+// The quadtree of node roughness: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering
+// Effect", equation (2) and steps 1 and 2 of section 2, after S. Roettger, W. Heidrich, P. Slusallek, H.-P. Seidel,
+// "Real-Time Generation of Continuous Levels of Detail for Height Fields", 1998.
 //
 // Deviations:
 // - Roughness is measured at every node, not only at the leaves, and the larger of the own and the
@@ -29,19 +28,15 @@ namespace {
 constexpr float smallest_roughness = 0x1p-14F;
 constexpr float largest_roughness = 131040.0F;
 
-/// A roughness in 16 bits, rounded up. Slopes below the smallest one never decide anything and are
-/// raised to it.
+/// A roughness in 16 bits, rounded up. Slopes below the smallest one never decide anything and are raised to it.
 std::uint16_t packed_roughness(float roughness) {
-    if (roughness <= 0.0F) {
-        return 0;
-    }
+    if (roughness <= 0.0F) { return 0; }
     const float clamped = std::clamp(roughness, smallest_roughness, largest_roughness);
-    return static_cast<std::uint16_t>(
-        (std::bit_cast<std::uint32_t>(clamped * 0x1p-112F) + 0xfffU) >> 12U);
+    return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(clamped * 0x1p-112F) + 0xfffU) >> 12U);
 }
 
-/// The nine samples by which a node is judged, padding included, at the west (south) end, middle
-/// and east (north) end of columns (rows).
+/// The nine samples by which a node is judged, padding included, at the west (south) end, middle and east (north) end
+/// of columns (rows).
 struct NineSamples {
     std::array<int, 3> columns;
     std::array<int, 3> rows;
@@ -56,9 +51,7 @@ NineSamples nine_samples(const models::heights::HeightField& field, int west, in
         nine.rows[k] = std::min(south + along, field.rows() - 1);
     }
     for (std::size_t j = 0; j < 3; ++j) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            nine.height_m[j][i] = field.height_m(nine.columns[i], nine.rows[j]);
-        }
+        for (std::size_t i = 0; i < 3; ++i) { nine.height_m[j][i] = field.height_m(nine.columns[i], nine.rows[j]); }
     }
     return nine;
 }
@@ -70,24 +63,16 @@ float corner_range_m(const NineSamples& nine) {
     return high - low;
 }
 
-/// The largest deviation of the middles of the four sides and two diagonals from the straight
-/// lines.
+/// The largest deviation of the middles of the four sides and two diagonals from the straight lines.
 float middle_deviation_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
-    const auto off = [](float middle, float a, float b) {
-        return std::abs(middle - 0.5F * (a + b));
-    };
-    return std::max(
-        {off(h[0][1], h[0][0], h[0][2]),
-         off(h[2][1], h[2][0], h[2][2]),
-         off(h[1][0], h[0][0], h[2][0]),
-         off(h[1][2], h[0][2], h[2][2]),
-         off(h[1][1], h[0][0], h[2][2]),
-         off(h[1][1], h[0][2], h[2][0])});
+    const auto off = [](float middle, float a, float b) { return std::abs(middle - 0.5F * (a + b)); };
+    return std::max({off(h[0][1], h[0][0], h[0][2]), off(h[2][1], h[2][0], h[2][2]), off(h[1][0], h[0][0], h[2][0]),
+        off(h[1][2], h[0][2], h[2][2]), off(h[1][1], h[0][0], h[2][2]), off(h[1][1], h[0][2], h[2][0])});
 }
 
-/// middle_deviation_m() for a node in which the padding has moved middles and ends: each middle is
-/// held against what the sides, or the triangles beside the diagonals, have at its place.
+/// middle_deviation_m() for a node in which the padding has moved middles and ends: each middle is held against what
+/// the sides, or the triangles beside the diagonals, have at its place.
 float cut_middle_deviation_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
     const auto share = [](const std::array<int, 3>& at) {
@@ -95,38 +80,27 @@ float cut_middle_deviation_m(const NineSamples& nine) {
     };
     const float s = share(nine.columns);
     const float t = share(nine.rows);
-    const auto off = [](float middle, float a, float b, float part) {
-        return std::abs(middle - (a + (b - a) * part));
-    };
+    const auto off = [](float middle, float a, float b, float part) { return std::abs(middle - (a + (b - a) * part)); };
     // The shifted centre lies on neither diagonal, but within one triangle beside each.
     const float rising = s > t ? h[0][0] + (h[0][2] - h[0][0]) * s + (h[2][2] - h[0][2]) * t
                                : h[0][0] + (h[2][0] - h[0][0]) * t + (h[2][2] - h[2][0]) * s;
     const float falling = s + t < 1.0F ? h[0][0] + (h[0][2] - h[0][0]) * s + (h[2][0] - h[0][0]) * t
-                                       : h[2][2] + (h[2][0] - h[2][2]) * (1.0F - s) +
-                                             (h[0][2] - h[2][2]) * (1.0F - t);
+                                       : h[2][2] + (h[2][0] - h[2][2]) * (1.0F - s) + (h[0][2] - h[2][2]) * (1.0F - t);
     return std::max(
-        {off(h[0][1], h[0][0], h[0][2], s),
-         off(h[2][1], h[2][0], h[2][2], s),
-         off(h[1][0], h[0][0], h[2][0], t),
-         off(h[1][2], h[0][2], h[2][2], t),
-         std::abs(h[1][1] - rising),
-         std::abs(h[1][1] - falling)});
+        {off(h[0][1], h[0][0], h[0][2], s), off(h[2][1], h[2][0], h[2][2], s), off(h[1][0], h[0][0], h[2][0], t),
+            off(h[1][2], h[0][2], h[2][2], t), std::abs(h[1][1] - rising), std::abs(h[1][1] - falling)});
 }
 
 } // namespace
 
 Quadtree::Quadtree(const models::heights::HeightField& field, const QuadtreeOptions& options)
-    : field_(&field)
-    , options_(options)
-    , base_m_(static_cast<double>(field.lowest_m()))
-    , step_m_((static_cast<double>(field.highest_m()) - base_m_) / 255.0) {
+    : field_(&field), options_(options), base_m_(static_cast<double>(field.lowest_m())),
+      step_m_((static_cast<double>(field.highest_m()) - base_m_) / 255.0) {
     assert(options.min_resolution >= 1.6);
     const int intervals_east = field.columns() - 1;
     const int intervals_north = field.rows() - 1;
     int side = 2;
-    while (side < std::max(intervals_east, intervals_north)) {
-        side *= 2;
-    }
+    while (side < std::max(intervals_east, intervals_north)) { side *= 2; }
     std::size_t count = 0;
     for (int edge = side; edge >= 2; edge /= 2) {
         const int columns = (intervals_east + edge - 1) / edge;
@@ -135,13 +109,9 @@ Quadtree::Quadtree(const models::heights::HeightField& field, const QuadtreeOpti
         count += static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     }
     nodes_.resize(count);
-    for (int level = 0; level < levels(); ++level) {
-        measure(level);
-    }
+    for (int level = 0; level < levels(); ++level) { measure(level); }
     measure_last_bounds();
-    for (int level = levels() - 2; level >= 0; --level) {
-        propagate_from_children(level);
-    }
+    for (int level = levels() - 2; level >= 0; --level) { propagate_from_children(level); }
 }
 
 /// Measures the roughness of all nodes of a level.
@@ -154,10 +124,9 @@ void Quadtree::measure(int level) {
         for (int column = 0; column < columns(level); ++column, ++node) {
             const bool cut = cut_north || (column + 1) * edge >= field_->columns();
             const NineSamples nine = nine_samples(*field_, column * edge, row * edge, edge);
-            const float difference_m =
-                options_.roughness == Roughness::Printed
-                    ? corner_range_m(nine)
-                    : (cut ? cut_middle_deviation_m(nine) : middle_deviation_m(nine));
+            const float difference_m = options_.roughness == Roughness::Printed
+                                           ? corner_range_m(nine)
+                                           : (cut ? cut_middle_deviation_m(nine) : middle_deviation_m(nine));
             node->roughness = packed_roughness(difference_m * per_edge);
         }
     }
@@ -167,9 +136,7 @@ void Quadtree::measure(int level) {
 void Quadtree::measure_last_bounds() {
     const int level = levels() - 1;
     const double per_step = step_m_ > 0.0 ? 1.0 / step_m_ : 0.0;
-    const auto steps = [&](float height_m) {
-        return (static_cast<double>(height_m) - base_m_) * per_step;
-    };
+    const auto steps = [&](float height_m) { return (static_cast<double>(height_m) - base_m_) * per_step; };
     QuadtreeNode* node = nodes_.data() + index_of(level, 0, 0);
     for (int row = 0; row < rows(level); ++row) {
         for (int column = 0; column < columns(level); ++column, ++node) {
@@ -201,17 +168,15 @@ void Quadtree::merge_child_bounds(int level, int column, int row) {
     }
 }
 
-/// The largest d2 of those nodes one level down whose splitting needs this node: its own four and,
-/// with crack-free propagation, the eight beyond its edges.
+/// The largest d2 of those nodes one level down whose splitting needs this node: its own four and, with crack-free
+/// propagation, the eight beyond its edges.
 float Quadtree::max_child_roughness(int level, int column, int row) const {
     const int below = level + 1;
     const int reach = options_.propagation == RoughnessPropagation::CrackFree ? 1 : 0;
     std::uint16_t roughest = 0;
     for (int j = -reach; j < 2 + reach; ++j) {
         const int child_row = 2 * row + j;
-        if (child_row < 0 || child_row >= rows(below)) {
-            continue;
-        }
+        if (child_row < 0 || child_row >= rows(below)) { continue; }
         // The corners of the 4 x 4 block touch nothing.
         const int side = j < 0 || j > 1 ? 0 : reach;
         const int first = std::max(2 * column - side, 0);

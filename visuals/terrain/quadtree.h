@@ -23,18 +23,16 @@ inline float roughness_of(const QuadtreeNode& node) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(node.roughness) << 12U) * 0x1p112F;
 }
 
-/// A quadtree over a height field of any size. Level 0 is the root; each level halves the edge; the
-/// nodes of the last level have an edge of two samples. The field is thought of as padded to a
-/// square of 2^n + 1 samples by repeating its last column and row *in place* (a padded sample lies
-/// on the field's border), so that everything beyond the field has no area. Nodes without area do
-/// not exist. Node (column, row) of a level covers the samples from column * edge_samples(level) to
-/// (column + 1) * edge_samples(level), as far as they are within the field.
+/// A quadtree over a height field of any size. Level 0 is the root; each level halves the edge; the nodes of the last
+/// level have an edge of two samples. The field is thought of as padded to a square of 2^n + 1 samples by repeating its
+/// last column and row *in place* (a padded sample lies on the field's border), so that everything beyond the field has
+/// no area. Nodes without area do not exist. Node (column, row) of a level covers the samples from column *
+/// edge_samples(level) to (column + 1) * edge_samples(level), as far as they are within the field.
 class Quadtree {
 public:
-    /// Computes all nodes. The field must outlive the tree and stay where it is. The options must
-    /// be as their comments demand (asserted).
-    explicit Quadtree(
-        const models::heights::HeightField& field, const QuadtreeOptions& options = {});
+    /// Computes all nodes. The field must outlive the tree and stay where it is. The options must be as their comments
+    /// demand (asserted).
+    explicit Quadtree(const models::heights::HeightField& field, const QuadtreeOptions& options = {});
 
     const models::heights::HeightField& field() const { return *field_; }
 
@@ -62,9 +60,7 @@ public:
     std::span<const QuadtreeNode> nodes() const { return nodes_; }
 
     /// d2 of a node after propagation, equation (2).
-    float roughness(int level, int column, int row) const {
-        return roughness_of(nodes_[index_of(level, column, row)]);
-    }
+    float roughness(int level, int column, int row) const { return roughness_of(nodes_[index_of(level, column, row)]); }
 
     /// A height at or below every sample of the node, in metres, and never far below.
     double lowest_m(const QuadtreeNode& node) const { return base_m_ + node.lowest * step_m_; }

@@ -1,11 +1,10 @@
-// Triangle fans of a restricted quadtree: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method
-// that Minimize Flickering Effect", equations (1) and (3) and steps 3 and 4 of section 2; fans
-// after S. Roettger, W. Heidrich, P. Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous
-// Levels of Detail for Height Fields".
+// Triangle fans of a restricted quadtree: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize
+// Flickering Effect", equations (1) and (3) and steps 3 and 4 of section 2; fans after S. Roettger, W. Heidrich, P.
+// Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous Levels of Detail for Height Fields".
 //
-// Step 3 walks down the tree from the root and collects the nodes that are split (visit, add); step
-// 4 emits a full or partial fan for each of them (mesher_triangles.cpp). A fan leaves out the
-// mid-points of edges beyond which the neighbour is coarser, so that there are no cracks.
+// Step 3 walks down the tree from the root and collects the nodes that are split (visit, add); step 4 emits a full or
+// partial fan for each of them (mesher_triangles.cpp). A fan leaves out the mid-points of edges beyond which the
+// neighbour is coarser, so that there are no cracks.
 //
 // Deviations:
 // - Triangles come in painting order (paint_order.cpp). The paper draws with a depth buffer.
@@ -14,6 +13,7 @@
 //   border.
 // - Those of equation (3) are stated in split_rule.cpp.
 #include "visuals/terrain/quadtree_mesher.h"
+
 #include "visuals/terrain/count_search.h"
 #include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/frustum.h"
@@ -26,8 +26,8 @@
 
 namespace octant::visuals::terrain {
 
-// Which nodes of the restricted quadtree split: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD
-// Method that Minimize Flickering Effect", equations (1) and (3).
+// Which nodes of the restricted quadtree split: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize
+// Flickering Effect", equations (1) and (3).
 //
 // Deviations:
 // - Equation (3), f = l / (d C max(c d2, 1)) < 1, is evaluated as C > l / (d max(c d2, 1)), with
@@ -46,17 +46,11 @@ constexpr double height_margin_m = 1e-6;
 
 } // namespace
 
-QuadtreeCriterion::QuadtreeCriterion(const Quadtree& tree)
-    : tree_(&tree) {
+QuadtreeCriterion::QuadtreeCriterion(const Quadtree& tree) : tree_(&tree) {
     for (int level = 0; level < tree.levels(); ++level) {
         const auto edge = static_cast<float>(tree.edge_samples(level));
-        levels_.push_back(
-            {tree.edge_samples(level),
-             tree.columns(level),
-             tree.rows(level),
-             tree.index_of(level, 0, 0),
-             edge,
-             0.5F * edge});
+        levels_.push_back({tree.edge_samples(level), tree.columns(level), tree.rows(level), tree.index_of(level, 0, 0),
+            edge, 0.5F * edge});
     }
 }
 
@@ -65,11 +59,9 @@ void QuadtreeCriterion::set_view(const MeshView& view, const QuadtreeDetail& det
     assert(detail.roughness_weight >= 0.0 && detail.roughness_weight < 1e6);
     const models::heights::HeightField& field = tree_->field();
     const glm::dvec2 half_m = field.half_extent_m();
-    const double ground_m = field
-                                .height_at(
-                                    std::clamp(view.eye_m.x, -half_m.x, half_m.x),
-                                    std::clamp(view.eye_m.y, -half_m.y, half_m.y))
-                                .value_or(0.0);
+    const double ground_m =
+        field.height_at(std::clamp(view.eye_m.x, -half_m.x, half_m.x), std::clamp(view.eye_m.y, -half_m.y, half_m.y))
+            .value_or(0.0);
     view_ = view;
     west_m_ = -half_m.x - view.eye_m.x;
     south_m_ = -half_m.y - view.eye_m.y;
@@ -82,9 +74,7 @@ void QuadtreeCriterion::set_view(const MeshView& view, const QuadtreeDetail& det
 }
 
 double QuadtreeCriterion::resolution_of(float limit) const {
-    return std::max(
-        std::sqrt(static_cast<double>(limit)) / view_.magnification,
-        tree_->options().min_resolution);
+    return std::max(std::sqrt(static_cast<double>(limit)) / view_.magnification, tree_->options().min_resolution);
 }
 
 std::array<float, 4> QuadtreeCriterion::critical_squared_of_four(int level, int column, int row) const {
@@ -97,14 +87,11 @@ std::array<float, 4> QuadtreeCriterion::critical_squared_of_four(int level, int 
     const std::size_t east = column + 1 < at.columns ? 1 : 0;
     const std::size_t north = row + 1 < at.rows ? static_cast<std::size_t>(at.columns) : 0;
     const QuadtreeNode* first = tree_->nodes().data() + node_at(level, column, row);
-    const std::array<float, 4> roughness = {
-        roughness_of(first[0]),
-        roughness_of(first[east]),
-        roughness_of(first[north]),
-        roughness_of(first[north + east])};
+    const std::array<float, 4> roughness = {roughness_of(first[0]), roughness_of(first[east]),
+        roughness_of(first[north]), roughness_of(first[north + east])};
     for (unsigned q = 0; q < 4; ++q) {
-        critical[q] = critical_squared_at(
-            at, column + static_cast<int>(q & 1U), row + static_cast<int>(q >> 1U), roughness[q]);
+        critical[q] =
+            critical_squared_at(at, column + static_cast<int>(q & 1U), row + static_cast<int>(q >> 1U), roughness[q]);
     }
     return critical;
 }
@@ -115,10 +102,8 @@ NodeBox QuadtreeCriterion::box_of(const GroundFan& node) const {
     const int edge = levels_[node.level].edge;
     const int west = node.column * edge;
     const int south = node.row * edge;
-    NodeBox box{
-        field.sample_m(west, south),
-        field.sample_m(
-            std::min(west + edge, field.columns() - 1), std::min(south + edge, field.rows() - 1))};
+    NodeBox box{field.sample_m(west, south),
+        field.sample_m(std::min(west + edge, field.columns() - 1), std::min(south + edge, field.rows() - 1))};
     box.min_m.z = tree_->lowest_m(bounds) - height_margin_m;
     box.max_m.z = tree_->highest_m(bounds) + height_margin_m;
     return box;
@@ -136,21 +121,18 @@ unsigned QuadtreeCriterion::crossed_planes_of_node(const GroundFan& node, unsign
     const double low_m = tree_->lowest_m(bounds) - view_.eye_m.z;
     const double high_m = tree_->highest_m(bounds) - view_.eye_m.z;
     const glm::dvec3 centre_m(
-        west_m_ + (west + east) * half_spacing_m,
-        south_m_ + (south + north) * half_spacing_m,
-        0.5 * (low_m + high_m));
-    const glm::dvec3 half_m(
-        (east - west) * half_spacing_m, (north - south) * half_spacing_m, 0.5 * (high_m - low_m));
+        west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m, 0.5 * (low_m + high_m));
+    const glm::dvec3 half_m((east - west) * half_spacing_m, (north - south) * half_spacing_m, 0.5 * (high_m - low_m));
     return crossed_planes(view_.frustum_normals, planes, centre_m, half_m);
 }
 
-// The resolution C that spends a budget of triangles, exactly and in the frame in which it is
-// spent: equations (1) and (3) of E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
-// Minimize Flickering Effect", solved for C. Each node has a critical C above which it is in the
-// mesh; N(C) is a sum of steps at these values, and the largest C within the budget is read off.
+// The resolution C that spends a budget of triangles, exactly and in the frame in which it is spent: equations (1) and
+// (3) of E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect", solved for C. Each
+// node has a critical C above which it is in the mesh; N(C) is a sum of steps at these values, and the largest C within
+// the budget is read off.
 //
-// Deviation: this replaces section 3 of the paper, which steers C by the triangles of earlier
-// frames, equations (4) and (5).
+// Deviation: this replaces section 3 of the paper, which steers C by the triangles of earlier frames, equations (4) and
+// (5).
 
 namespace {
 
@@ -174,21 +156,14 @@ float QuadtreeSelection::limit_for(const QuadtreeCriterion& rule, const Triangle
     nodes_tested_ = 0;
     const float last = last_resolution_ > 0.0 ? rule.limit_squared(last_resolution_) : 0.0F;
     const CountSearch search{
-        budget.triangles,
-        rule.limit_squared(0.0),
-        rule.limit_squared(budget.max_resolution),
-        last,
-        first_look};
-    const float found =
-        find_limit(search, steps_, [&](float low, float high, int max_triangles) {
-            return survey(low, high, max_triangles);
-        });
+        budget.triangles, rule.limit_squared(0.0), rule.limit_squared(budget.max_resolution), last, first_look};
+    const float found = find_limit(
+        search, steps_, [&](float low, float high, int max_triangles) { return survey(low, high, max_triangles); });
     last_resolution_ = rule.resolution_of(found);
     return found;
 }
 
-/// Walks the tree and collects nodes and steps below `high`. Returns whether there is more above
-/// it.
+/// Walks the tree and collects nodes and steps below `high`. Returns whether there is more above it.
 bool QuadtreeSelection::survey(float low, float high, int max_triangles) {
     nodes_.clear();
     steps_.start(low, high);
@@ -203,25 +178,19 @@ bool QuadtreeSelection::survey(float low, float high, int max_triangles) {
 
 /// Surveys a node and the nodes below it.
 void QuadtreeSelection::visit(const PendingNode& from) {
-    if (steps_.at_high() > max_triangles_) {
-        return;
-    }
+    if (steps_.at_high() > max_triangles_) { return; }
     SelectedNode node;
     node.fan = from.fan;
     node.fan.crosses_frustum = from.planes != 0;
     node.node_limit = from.node_limit;
     node.split.fill(unbounded);
     std::array<unsigned, 4> planes{};
-    if (from.fan.level + 1 < tree_->levels()) {
-        test_quadrants(from, node, planes);
-    }
+    if (from.fan.level + 1 < tree_->levels()) { test_quadrants(from, node, planes); }
     for (std::size_t k = 0; k < 4; ++k) {
         const FanEdge& edge = fan_edges[k];
-        node.middle[k] =
-            std::min({from.beyond[k], node.split[edge.quadrant_a], node.split[edge.quadrant_b]});
+        node.middle[k] = std::min({from.beyond[k], node.split[edge.quadrant_a], node.split[edge.quadrant_b]});
     }
-    const FanSamples samples(
-        tree_->field(), rule_->level(node.fan.level).edge, node.fan.column, node.fan.row);
+    const FanSamples samples(tree_->field(), rule_->level(node.fan.level).edge, node.fan.column, node.fan.row);
     FanTriangles cut_triangles;
     const FanTriangles* triangles = &uncut_fan_triangles;
     if (samples.is_cut()) {
@@ -232,9 +201,7 @@ void QuadtreeSelection::visit(const PendingNode& from) {
     has_steps_above_ = count_fan(limits, *triangles, high_, steps_) || has_steps_above_;
     nodes_.push_back(node);
     for (unsigned q = 0; q < 4; ++q) {
-        if ((unsigned{node.fan.hidden} >> q & 1U) != 0) {
-            continue;
-        }
+        if ((unsigned{node.fan.hidden} >> q & 1U) != 0) { continue; }
         if (node.split[q] >= high_) {
             has_steps_above_ = true;
             continue;
@@ -246,14 +213,12 @@ void QuadtreeSelection::visit(const PendingNode& from) {
     }
 }
 
-/// Fills in the limits at which the quadrants split, which of them are hidden, and which frustum
-/// planes their boxes may reach beyond.
-void QuadtreeSelection::test_quadrants(
-    const PendingNode& from, SelectedNode& node, std::array<unsigned, 4>& planes) {
+/// Fills in the limits at which the quadrants split, which of them are hidden, and which frustum planes their boxes may
+/// reach beyond.
+void QuadtreeSelection::test_quadrants(const PendingNode& from, SelectedNode& node, std::array<unsigned, 4>& planes) {
     const int level = from.fan.level + 1;
     const QuadtreeCriterion::Level& at = rule_->level(level);
-    const std::array<float, 4> critical =
-        rule_->critical_squared_of_four(level, 2 * from.fan.column, 2 * from.fan.row);
+    const std::array<float, 4> critical = rule_->critical_squared_of_four(level, 2 * from.fan.column, 2 * from.fan.row);
     for (unsigned q = 0; q < 4; ++q) {
         const auto bit = static_cast<std::uint8_t>(1U << q);
         GroundFan child = child_of(from.fan, q);
@@ -272,8 +237,8 @@ void QuadtreeSelection::test_quadrants(
 }
 
 /// The visit to a child; planes and replaced triangles are left to the caller.
-QuadtreeSelection::PendingNode
-QuadtreeSelection::child_pending(const PendingNode& from, const SelectedNode& node, unsigned quadrant) const {
+QuadtreeSelection::PendingNode QuadtreeSelection::child_pending(
+    const PendingNode& from, const SelectedNode& node, unsigned quadrant) const {
     PendingNode next;
     next.fan = child_of(from.fan, quadrant);
     const int column = next.fan.column;
@@ -292,32 +257,24 @@ QuadtreeSelection::child_pending(const PendingNode& from, const SelectedNode& no
     return next;
 }
 
-/// The limit above which a neighbouring node is in the mesh; 0 where the field ends there. `parent`
-/// is the limit of that node's parent.
+/// The limit above which a neighbouring node is in the mesh; 0 where the field ends there. `parent` is the limit of
+/// that node's parent.
 float QuadtreeSelection::neighbour_limit(float parent, int level, int column, int row) const {
     const QuadtreeCriterion::Level& at = rule_->level(level);
-    if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) {
-        return 0.0F;
-    }
-    if (parent >= high_) {
-        return unbounded;
-    }
+    if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) { return 0.0F; }
+    if (parent >= high_) { return unbounded; }
     return std::max(parent, rule_->critical_squared(level, column, row));
 }
 
 QuadtreeMesher::QuadtreeMesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
-    : tree_(&tree)
-    , rule_(tree)
-    , survey_(tree)
-    , in_mesh_(tree.nodes().size(), 0) {
+    : tree_(&tree), rule_(tree), survey_(tree), in_mesh_(tree.nodes().size(), 0) {
     set_colours(colours);
     assert(tree.levels() <= 16);
 }
 
 void QuadtreeMesher::set_colours(std::span<const std::uint32_t> colours) {
-    assert(
-        colours.size() == static_cast<std::size_t>(tree_->field().columns()) *
-                              static_cast<std::size_t>(tree_->field().rows()));
+    assert(colours.size() ==
+           static_cast<std::size_t>(tree_->field().columns()) * static_cast<std::size_t>(tree_->field().rows()));
     colours_ = colours;
 }
 
@@ -326,8 +283,8 @@ GroundMesh QuadtreeMesher::mesh(const MeshView& view, const QuadtreeDetail& deta
     return counted_mesh();
 }
 
-GroundMesh
-QuadtreeMesher::mesh_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
+GroundMesh QuadtreeMesher::mesh_within(
+    const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
     collect_within(view, detail, budget);
     return counted_mesh();
 }
@@ -337,8 +294,8 @@ CountedMesh QuadtreeMesher::count(const MeshView& view, const QuadtreeDetail& de
     return count_fans();
 }
 
-CountedMesh
-QuadtreeMesher::count_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
+CountedMesh QuadtreeMesher::count_within(
+    const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
     collect_within(view, detail, budget);
     return count_fans();
 }
@@ -353,23 +310,18 @@ void QuadtreeMesher::collect(const MeshView& view, const QuadtreeDetail& detail)
     for (std::size_t k = 0; k < fans_.size(); ++k) {
         fan_records_[k].middles = static_cast<std::uint8_t>(midpoints_of(fans_[k]));
     }
-    for (const GroundFan& fan : fans_) {
-        in_mesh_[fan.node] = 0;
-    }
+    for (const GroundFan& fan : fans_) { in_mesh_[fan.node] = 0; }
 }
 
 /// Fills fans_ with the nodes of the mesh at the largest C that the budget allows.
-void QuadtreeMesher::collect_within(
-    const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
+void QuadtreeMesher::collect_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
     rule_.set_view(view, detail);
     limit_ = survey_.limit_for(rule_, budget);
     resolution_ = rule_.resolution_of(limit_);
     start(view);
     counters_.nodes_visited = survey_.nodes_tested();
     for (const SelectedNode& node : survey_.nodes()) {
-        if (node.node_limit >= limit_) {
-            continue;
-        }
+        if (node.node_limit >= limit_) { continue; }
         GroundFan fan = node.fan;
         unsigned middles = 0;
         for (unsigned k = 0; k < 4; ++k) {
@@ -409,37 +361,28 @@ GroundMesh QuadtreeMesher::counted_mesh() {
     reserve();
     emit(0, nullptr, 0);
     counters_.triangles = static_cast<int>(index_count_ / 3);
-    return {
-        std::span(vertices_).first(vertex_count_),
-        std::span(indices_).first(index_count_),
-        counters_,
-        resolution_,
-        0.0,
-        {}};
+    return {std::span(vertices_).first(vertex_count_), std::span(indices_).first(index_count_), counters_, resolution_,
+        0.0, {}};
 }
 
 /// Whether a node is in the unculled mesh: it and all of its ancestors are switched on.
 bool QuadtreeMesher::is_split(int level, int column, int row) const {
     for (; level > 0; --level) {
-        if (!is_split_by_distance(level, column, row)) {
-            return false;
-        }
+        if (!is_split_by_distance(level, column, row)) { return false; }
         column /= 2;
         row /= 2;
     }
     return true;
 }
 
-/// Adds a node and all nodes that are split below it to fans_. `planes` are the frustum planes that
-/// the node's box may reach beyond.
+/// Adds a node and all nodes that are split below it to fans_. `planes` are the frustum planes that the node's box may
+/// reach beyond.
 void QuadtreeMesher::visit(GroundFan fan, unsigned planes) {
     fan.crosses_frustum = planes != 0;
     in_mesh_[fan.node] = 1;
     const std::size_t own = add(fan, 0);
     const int below = fan.level + 1;
-    if (below == tree_->levels()) {
-        return;
-    }
+    if (below == tree_->levels()) { return; }
     const QuadtreeCriterion::Level& next = rule_.level(below);
     std::array<GroundFan, 4> children;
     std::array<unsigned, 4> child_planes{};
@@ -458,19 +401,13 @@ void QuadtreeMesher::visit(GroundFan fan, unsigned planes) {
         child.level = static_cast<std::uint8_t>(below);
         ++counters_.nodes_visited;
         child_planes[q] = planes == 0 ? 0 : rule_.crossed_planes_of_node(child, planes);
-        if (child_planes[q] == outside_frustum) {
-            fan.hidden |= quadrant;
-        }
-        if (is_split_by_distance(below, column, row)) {
-            fan.split |= quadrant;
-        }
+        if (child_planes[q] == outside_frustum) { fan.hidden |= quadrant; }
+        if (is_split_by_distance(below, column, row)) { fan.split |= quadrant; }
     }
     fans_[own] = fan;
     const unsigned drawn = fan.split & ~static_cast<unsigned>(fan.hidden);
     for (unsigned q = 0; q < 4; ++q) {
-        if ((drawn >> q & 1U) != 0) {
-            visit(children[q], child_planes[q]);
-        }
+        if ((drawn >> q & 1U) != 0) { visit(children[q], child_planes[q]); }
     }
 }
 
@@ -479,13 +416,9 @@ bool QuadtreeMesher::has_neighbour(const GroundFan& fan, int east, int north) co
     const QuadtreeCriterion::Level& at = rule_.level(fan.level);
     const int column = fan.column + east;
     const int row = fan.row + north;
-    if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) {
-        return true;
-    }
+    if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) { return true; }
     const std::ptrdiff_t step = east + static_cast<std::ptrdiff_t>(north) * at.columns;
-    if (in_mesh_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(fan.node) + step)] != 0) {
-        return true;
-    }
+    if (in_mesh_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(fan.node) + step)] != 0) { return true; }
     return fan.crosses_frustum && is_split(fan.level, column, row);
 }
 

@@ -56,9 +56,9 @@ public:
     /// The index of a node in Quadtree::nodes().
     std::uint32_t node_at(int level_index, int column, int row) const {
         const Level& at = levels_[static_cast<std::size_t>(level_index)];
-        return static_cast<std::uint32_t>(
-            at.first + static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
-            static_cast<std::size_t>(column));
+        return static_cast<std::uint32_t>(at.first +
+                                          static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
+                                          static_cast<std::size_t>(column));
     }
 
     /// The x coordinate of the field's west border relative to the eye.
@@ -67,29 +67,26 @@ public:
     /// The y coordinate of the field's south border relative to the eye.
     double south_m() const { return south_m_; }
 
-    /// The limit that critical values are compared with: the square of C, which is raised to the
-    /// tree's smallest, times the magnification.
+    /// The limit that critical values are compared with: the square of C, which is raised to the tree's smallest, times
+    /// the magnification.
     float limit_squared(double resolution) const {
-        const double seen =
-            std::max(resolution, tree_->options().min_resolution) * view_.magnification;
+        const double seen = std::max(resolution, tree_->options().min_resolution) * view_.magnification;
         return static_cast<float>(seen * seen);
     }
 
     /// The C of a limit that is not below the smallest one; limit_squared of it is `limit` again.
     double resolution_of(float limit) const;
 
-    /// Equation (3) solved for C and squared. A node's quadrant of its parent is switched on if
-    /// this is below the limit and the parent is on. The root is always on.
+    /// Equation (3) solved for C and squared. A node's quadrant of its parent is switched on if this is below the limit
+    /// and the parent is on. The root is always on.
     float critical_squared(int level, int column, int row) const {
-        if (level == 0) {
-            return 0.0F;
-        }
+        if (level == 0) { return 0.0F; }
         return fan_kind_ == FanKind::Partial ? own_critical_squared(level, column, row)
                                              : own_critical_squared(level - 1, column / 2, row / 2);
     }
 
-    /// The same for the four children at (column, row) and east and north of it, by quadrant;
-    /// meaningless for those that do not exist.
+    /// The same for the four children at (column, row) and east and north of it, by quadrant; meaningless for those
+    /// that do not exist.
     std::array<float, 4> critical_squared_of_four(int level, int column, int row) const;
 
     /// A box around all samples of a node, a little wider than the tree's height bounds.
@@ -100,10 +97,7 @@ public:
 
 private:
     float own_critical_squared(int level, int column, int row) const {
-        return critical_squared_at(
-            levels_[static_cast<std::size_t>(level)],
-            column,
-            row,
+        return critical_squared_at(levels_[static_cast<std::size_t>(level)], column, row,
             roughness_of(tree_->nodes()[node_at(level, column, row)]));
     }
 
@@ -126,35 +120,31 @@ private:
     double south_m_ = 0.0;
 };
 
-/// A node that is in the mesh at some limits (QuadtreeCriterion::limit_squared). Its members tell from
-/// which limit on each of its parts is there; infinite means above all limits that were looked at.
+/// A node that is in the mesh at some limits (QuadtreeCriterion::limit_squared). Its members tell from which limit on
+/// each of its parts is there; infinite means above all limits that were looked at.
 struct SelectedNode {
     GroundFan fan;                 ///< Its `split` is left empty.
-    float node_limit = 0.0F;               ///< The node itself.
+    float node_limit = 0.0F;       ///< The node itself.
     std::array<float, 4> split{};  ///< Its quadrants, in the order of their bits.
     std::array<float, 4> middle{}; ///< The mid-points of its fan_edges.
 };
 
 /// Finds the resolution C at which a mesh has a given number of triangles, before the mesh is made.
 ///
-/// The number of triangles at any C is known exactly: a node adds one triangle for each of its
-/// sides; the mid-point of a side replaces that triangle by one for each adjoining quadrant that is
-/// not hidden; a quadrant that splits takes its two away. One walk down the tree, to a little more
-/// than the C of the last call, collects the values of C at which this happens. The last call only
-/// makes the walk short; the answer does not depend on it.
+/// The number of triangles at any C is known exactly: a node adds one triangle for each of its sides; the mid-point of
+/// a side replaces that triangle by one for each adjoining quadrant that is not hidden; a quadrant that splits takes
+/// its two away. One walk down the tree, to a little more than the C of the last call, collects the values of C at
+/// which this happens. The last call only makes the walk short; the answer does not depend on it.
 class QuadtreeSelection {
 public:
     /// The tree must outlive the survey.
-    explicit QuadtreeSelection(const Quadtree& tree)
-        : tree_(&tree) {}
+    explicit QuadtreeSelection(const Quadtree& tree) : tree_(&tree) {}
 
-    /// The largest limit, at most that of `budget.max_resolution`, up to which no mesh has more
-    /// than `budget.triangles` triangles; the limit of the tree's smallest C where even that one
-    /// has more.
+    /// The largest limit, at most that of `budget.max_resolution`, up to which no mesh has more than `budget.triangles`
+    /// triangles; the limit of the tree's smallest C where even that one has more.
     float limit_for(const QuadtreeCriterion& rule, const TriangleBudget& budget);
 
-    /// The nodes of all meshes up to the limit that was found, and some more: parents before
-    /// children.
+    /// The nodes of all meshes up to the limit that was found, and some more: parents before children.
     std::span<const SelectedNode> nodes() const { return nodes_; }
 
     int nodes_tested() const { return nodes_tested_; }
@@ -163,8 +153,8 @@ private:
     /// A node that is to be surveyed.
     struct PendingNode {
         GroundFan fan;
-        unsigned planes = 0; ///< The frustum planes that its box may reach beyond.
-        float node_limit = 0.0F;     ///< The limit above which it is in the mesh.
+        unsigned planes = 0;     ///< The frustum planes that its box may reach beyond.
+        float node_limit = 0.0F; ///< The limit above which it is in the mesh.
         /// The same for the nodes beyond its edges; 0 at the field's border.
         std::array<float, 4> beyond{};
         int replaced = 0; ///< How many triangles of its parent it replaces.
@@ -181,59 +171,52 @@ private:
     std::vector<SelectedNode> nodes_;
     StepFunction steps_;
     float high_ = 0.0F;
-    int max_triangles_ = 0;  ///< A walk stops once it has counted more.
+    int max_triangles_ = 0;        ///< A walk stops once it has counted more.
     bool has_steps_above_ = false; ///< Something visible appears only above the limits looked at.
     int nodes_tested_ = 0;
     double last_resolution_ = 0.0; ///< 0 before the first call.
 };
 
-/// Makes the mesh of a quadtree for an eye point, frame after frame in the same memory, with the
-/// triangles in the view's painting order. The order is exact up to the rounding of the eye's
-/// position in samples, wherever the eye is.
+/// Makes the mesh of a quadtree for an eye point, frame after frame in the same memory, with the triangles in the
+/// view's painting order. The order is exact up to the rounding of the eye's position in samples, wherever the eye is.
 ///
-/// With crack-free propagation the mesh is conforming: triangles neither gap nor overlap nor touch
-/// an edge between its ends. The triangles for a narrower frustum are triangles of the unculled
-/// mesh, and every one of those that reaches into the frustum is there.
+/// With crack-free propagation the mesh is conforming: triangles neither gap nor overlap nor touch an edge between its
+/// ends. The triangles for a narrower frustum are triangles of the unculled mesh, and every one of those that reaches
+/// into the frustum is there.
 class QuadtreeMesher {
 public:
-    /// `colours` has one colour for each sample, as in ColourVertex, row after row from the south
-    /// (its size is asserted). Tree and colours must outlive the mesher.
+    /// `colours` has one colour for each sample, as in ColourVertex, row after row from the south (its size is
+    /// asserted). Tree and colours must outlive the mesher.
     QuadtreeMesher(const Quadtree& tree, std::span<const std::uint32_t> colours);
 
     /// Takes these colours in place of those before, from the next mesh on.
     void set_colours(std::span<const std::uint32_t> colours);
 
-    /// The mesh at a given C. `detail.roughness_weight` must be at least 0 and below 1e6
-    /// (asserted).
+    /// The mesh at a given C. `detail.roughness_weight` must be at least 0 and below 1e6 (asserted).
     GroundMesh mesh(const MeshView& view, const QuadtreeDetail& detail);
 
-    /// The mesh at the largest C up to which none has more triangles than the budget, whatever was
-    /// meshed before; `detail.resolution` is not used. It has as many triangles as the steps of
-    /// N(C) allow: fewer where C ends at `budget.max_resolution`, and more only if even the tree's
-    /// smallest C has more. mesh() at the returned C makes the same triangles.
-    GroundMesh
-    mesh_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget);
+    /// The mesh at the largest C up to which none has more triangles than the budget, whatever was meshed before;
+    /// `detail.resolution` is not used. It has as many triangles as the steps of N(C) allow: fewer where C ends at
+    /// `budget.max_resolution`, and more only if even the tree's smallest C has more. mesh() at the returned C makes
+    /// the same triangles.
+    GroundMesh mesh_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget);
 
-    /// What mesh() and mesh_within() would return of a mesh but its triangles, for less than half
-    /// of the work. The mesh before is lost: fans() and triangles_in() are right again once a mesh
-    /// is made.
+    /// What mesh() and mesh_within() would return of a mesh but its triangles, for less than half of the work. The mesh
+    /// before is lost: fans() and triangles_in() are right again once a mesh is made.
     CountedMesh count(const MeshView& view, const QuadtreeDetail& detail);
-    CountedMesh
-    count_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget);
+    CountedMesh count_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget);
 
     /// The mesh that was counted last; only once after each count (asserted).
     GroundMesh counted_mesh();
 
-    /// The nodes of the last mesh, parents before children, including those without triangles of
-    /// their own.
+    /// The nodes of the last mesh, parents before children, including those without triangles of their own.
     std::span<const GroundFan> fans() const { return fans_; }
 
     /// Decides whether the triangles in a box (world axes, metres) are wanted.
     using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
-    /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for
-    /// which `wanted` accepts the box around all of their samples, and also accepts those of all
-    /// their ancestors.
+    /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for which `wanted` accepts
+    /// the box around all of their samples, and also accepts those of all their ancestors.
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const Quadtree& tree() const { return *tree_; }
@@ -252,12 +235,12 @@ private:
         std::array<std::uint32_t, 4> child{};
         /// The vertices of the mid-points of fan_edges; no_vertex while there are none.
         std::array<std::uint32_t, 4> middle{no_vertex, no_vertex, no_vertex, no_vertex};
-        TriangleRange triangles;    ///< Its own triangles and all of those below it.
+        TriangleRange triangles;  ///< Its own triangles and all of those below it.
         std::uint8_t middles = 0; ///< Bit k: edge k of fan_edges has a mid-point.
     };
 
-    /// A fan while it is put into the mesh. Corners are vertices of the parent's fan, and centres
-    /// are nobody else's; mid-points are shared with the fan of the same level beyond the edge.
+    /// A fan while it is put into the mesh. Corners are vertices of the parent's fan, and centres are nobody else's;
+    /// mid-points are shared with the fan of the same level beyond the edge.
     struct EmittedFan {
         const FanSamples& samples;
         std::uint32_t own; ///< The index in fans_.
@@ -286,8 +269,7 @@ private:
     std::uint32_t add_vertex(GridSample at);
     unsigned midpoints_of(const GroundFan& fan) const;
     bool has_neighbour(const GroundFan& fan, int east, int north) const;
-    void add_triangles_in(
-        std::uint32_t fan, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
+    void add_triangles_in(std::uint32_t fan, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const Quadtree* tree_;
     std::span<const std::uint32_t> colours_;

@@ -6,12 +6,8 @@
 
 namespace octant::visuals::terrain {
 
-double resolution_for_target(
-    QuadtreeMesher& mesher,
-    const MeshView& view,
-    const QuadtreeDetail& detail,
-    double target_triangles,
-    double max_resolution) {
+double resolution_for_target(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail,
+    double target_triangles, double max_resolution) {
     double low = mesher.tree().options().min_resolution;
     double high = std::max(max_resolution, low);
     double best = low;
@@ -26,9 +22,7 @@ double resolution_for_target(
         }
         return over > 0.0;
     };
-    if (too_many(low) || !too_many(high)) {
-        return best;
-    }
+    if (too_many(low) || !too_many(high)) { return best; }
     for (int step = 0; step < 22 && best_miss > 0.0; ++step) {
         const double middle = std::sqrt(low * high);
         (too_many(middle) ? high : low) = middle;

@@ -1,5 +1,5 @@
-// Finds where a staircase first exceeds a limit without sorting all of its steps: a histogram tells
-// the bin in which it may happen, and only the steps of that bin are sorted.
+// Finds where a staircase first exceeds a limit without sorting all of its steps: a histogram tells the bin in which it
+// may happen, and only the steps of that bin are sorted.
 #include "visuals/terrain/step_function.h"
 
 #include <algorithm>
@@ -16,16 +16,13 @@ void StepFunction::start(float low, float high) {
     below_ = 0;
     decrease_below_ = 0;
     steps_.clear();
-    const std::uint32_t width =
-        std::bit_cast<std::uint32_t>(high) - std::bit_cast<std::uint32_t>(low);
+    const std::uint32_t width = std::bit_cast<std::uint32_t>(high) - std::bit_cast<std::uint32_t>(low);
     bin_shift_ = 0;
-    while ((width >> bin_shift_) >= bins) {
-        ++bin_shift_;
-    }
+    while ((width >> bin_shift_) >= bins) { ++bin_shift_; }
 }
 
-/// The bin of a place. Bins are evenly spaced over the bits of floating-point numbers, which is
-/// roughly over their logarithm.
+/// The bin of a place. Bins are evenly spaced over the bits of floating-point numbers, which is roughly over their
+/// logarithm.
 std::size_t StepFunction::bin_of(float place) const {
     return (std::bit_cast<std::uint32_t>(place) - std::bit_cast<std::uint32_t>(low_)) >> bin_shift_;
 }
@@ -42,9 +39,7 @@ std::optional<float> StepFunction::first_above(int limit) {
     int count = below_;
     for (std::size_t bin = 0; bin < bins; ++bin) {
         if (count + rise_[bin] > limit) {
-            if (const auto place = first_above_in(bin, count, limit)) {
-                return place;
-            }
+            if (const auto place = first_above_in(bin, count, limit)) { return place; }
         }
         count += change_[bin];
     }
@@ -55,21 +50,15 @@ std::optional<float> StepFunction::first_above(int limit) {
 std::optional<float> StepFunction::first_above_in(std::size_t bin, int count, int limit) {
     steps_of_bin_.clear();
     for (const Step& step : steps_) {
-        if (bin_of(step.place) == bin) {
-            steps_of_bin_.push_back(step);
-        }
+        if (bin_of(step.place) == bin) { steps_of_bin_.push_back(step); }
     }
-    std::sort(steps_of_bin_.begin(), steps_of_bin_.end(), [](const Step& a, const Step& b) {
-        return a.place < b.place;
-    });
+    std::sort(
+        steps_of_bin_.begin(), steps_of_bin_.end(), [](const Step& a, const Step& b) { return a.place < b.place; });
     for (std::size_t k = 0; k < steps_of_bin_.size(); ++k) {
         count += steps_of_bin_[k].change;
         const float place = steps_of_bin_[k].place;
-        const bool last_there =
-            k + 1 == steps_of_bin_.size() || steps_of_bin_[k + 1].place != place;
-        if (last_there && count > limit) {
-            return place;
-        }
+        const bool last_there = k + 1 == steps_of_bin_.size() || steps_of_bin_[k + 1].place != place;
+        if (last_there && count > limit) { return place; }
     }
     return std::nullopt;
 }

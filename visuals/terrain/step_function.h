@@ -7,9 +7,9 @@
 
 namespace octant::visuals::terrain {
 
-/// A whole number N that changes in steps along a line of values at or above zero: N(x) is the sum
-/// of all changes at places below x. It knows single steps only between two bounds and sums up
-/// those below, so that many steps cost little.
+/// A whole number N that changes in steps along a line of values at or above zero: N(x) is the sum of all changes at
+/// places below x. It knows single steps only between two bounds and sums up those below, so that many steps cost
+/// little.
 class StepFunction {
 public:
     /// Forgets all steps and sets the bounds, 0 <= low <= high (asserted).
@@ -35,8 +35,8 @@ public:
     /// An upper bound of N(x) for all x <= low.
     int max_below_low() const { return below_ + decrease_below_; }
 
-    /// The largest x from low to high such that N(y) <= limit for all y from low to x; nothing if
-    /// that holds up to high. N(low) must be within the limit (asserted).
+    /// The largest x from low to high such that N(y) <= limit for all y from low to x; nothing if that holds up to
+    /// high. N(low) must be within the limit (asserted).
     std::optional<float> first_above(int limit);
 
 private:

@@ -12,25 +12,16 @@ namespace {
 constexpr int widest_half = 16; ///< In lattice steps.
 
 std::size_t index_of(int column, int row, int columns) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
 } // namespace
 
 TileBuilder::TileBuilder(
-    const GroundLayout& layout,
-    const StoredHeights& heights,
-    const ErrorEncoder& coder,
-    std::span<std::byte> memory)
-    : layout_(layout)
-    , heights_(heights)
-    , coder_(coder)
-    , memory_(memory)
-    , lattice_errors_((tile_edge_nodes + 2) * (tile_edge_nodes + 2))
-    , unsaturated_codes_(tile_edge_nodes + 1)
-    , dependent_codes_(tile_edge_nodes + 1)
-    , errors_(tile_edge_nodes + 1) {
+    const GroundLayout& layout, const StoredHeights& heights, const ErrorEncoder& coder, std::span<std::byte> memory)
+    : layout_(layout), heights_(heights), coder_(coder), memory_(memory),
+      lattice_errors_((tile_edge_nodes + 2) * (tile_edge_nodes + 2)), unsaturated_codes_(tile_edge_nodes + 1),
+      dependent_codes_(tile_edge_nodes + 1), errors_(tile_edge_nodes + 1) {
     for (Codes& codes : codes_) {
         codes.children.resize(children_edge * children_edge);
         codes.souths.resize((tile_edge_nodes + 1) * tile_edge_nodes);
@@ -78,8 +69,7 @@ void TileBuilder::choose_lattice() {
     }
     lattice_column_ = std::max(0, e.first_column * e.at.edge - e.half);
     lattice_row_ = std::max(0, e.first_row * e.at.edge - e.half);
-    const int east =
-        std::min(heights_.columns - 1, (e.first_column + e.columns) * e.at.edge + e.half);
+    const int east = std::min(heights_.columns - 1, (e.first_column + e.columns) * e.at.edge + e.half);
     const int north = std::min(heights_.rows - 1, (e.first_row + e.rows) * e.at.edge + e.half);
     pitch_ = (east - lattice_column_) / e.stride + 1;
     lattice_copy_.clear();
@@ -100,9 +90,7 @@ DiamondRow TileBuilder::lattice_row(int column, int row, int count) const {
 
 /// Copies the codes of the centres one level finer from finished tiles.
 void TileBuilder::fetch_children(MorphMargin morph_margin) {
-    if (level_ + 1 == layout_.levels()) {
-        return;
-    }
+    if (level_ + 1 == layout_.levels()) { return; }
     const GroundLayout::Level& finer = layout_.level(level_ + 1);
     const int tile_nodes_edge = 1 << finer.tile_shift;
     std::vector<std::uint8_t>& children = codes_with(morph_margin).children;
@@ -115,27 +103,19 @@ void TileBuilder::fetch_children(MorphMargin morph_margin) {
         for (int column = west; column < east;) {
             const int in_tile = column & (tile_nodes_edge - 1);
             const int count = std::min(tile_nodes_edge - in_tile, east - column);
-            const std::size_t tile =
-                index_of(column >> finer.tile_shift, row >> finer.tile_shift, finer.tiles_across);
-            const std::size_t node =
-                index_of(in_tile, row & (tile_nodes_edge - 1), tile_nodes_edge);
-            const std::byte* const codes = memory_.data() + finer.first_tile +
-                                           tile * finer.tile_bytes +
+            const std::size_t tile = index_of(column >> finer.tile_shift, row >> finer.tile_shift, finer.tiles_across);
+            const std::size_t node = index_of(in_tile, row & (tile_nodes_edge - 1), tile_nodes_edge);
+            const std::byte* const codes = memory_.data() + finer.first_tile + tile * finer.tile_bytes +
                                            finer.errors[static_cast<std::size_t>(morph_margin)][0];
-            std::memcpy(
-                &children[index_of(
-                    column - 2 * extent_.first_column + 1,
-                    row - 2 * extent_.first_row + 1,
-                    children_edge)],
-                codes + node,
-                static_cast<std::size_t>(count));
+            std::memcpy(&children[index_of(
+                            column - 2 * extent_.first_column + 1, row - 2 * extent_.first_row + 1, children_edge)],
+                codes + node, static_cast<std::size_t>(count));
             column += count;
         }
     }
 }
 
-/// The stored height of a sample, whose place is given in half edges from the field's south-west
-/// corner.
+/// The stored height of a sample, whose place is given in half edges from the field's south-west corner.
 std::int16_t TileBuilder::height(int column, int row) const {
     return heights_.stored(heights_.padded_number(column * extent_.half, row * extent_.half));
 }
@@ -145,20 +125,16 @@ void TileBuilder::write_heights() {
     auto* const tile = reinterpret_cast<std::int16_t*>(tile_.data());
     const auto part = [&](std::size_t which, int from_west, int from_south) {
         for (int row = 0; row < e.rows; ++row) {
-            std::int16_t* const out =
-                tile + which * e.at.tile_nodes + index_of(0, row, 1 << e.at.tile_shift);
+            std::int16_t* const out = tile + which * e.at.tile_nodes + index_of(0, row, 1 << e.at.tile_shift);
             const int up = 2 * (e.first_row + row) + from_south;
             const int across = 2 * e.first_column + from_west;
             const int left = heights_.columns - 1 - across * e.half;
             const bool within = left >= 0 && up * e.half < heights_.rows;
             const int copied = within ? std::min(left / e.at.edge + 1, e.columns) : 0;
             for (int column = 0; column < copied; ++column) {
-                out[column] = heights_.stored(
-                    heights_.number(across * e.half + column * e.at.edge, up * e.half));
+                out[column] = heights_.stored(heights_.number(across * e.half + column * e.at.edge, up * e.half));
             }
-            for (int column = copied; column < e.columns; ++column) {
-                out[column] = height(across + 2 * column, up);
-            }
+            for (int column = copied; column < e.columns; ++column) { out[column] = height(across + 2 * column, up); }
         }
     };
     part(static_cast<std::size_t>(0), 1, 1);
@@ -172,9 +148,7 @@ void TileBuilder::write_errors(MorphMargin morph_margin) {
     const auto part = [&](std::size_t which, const std::vector<std::uint8_t>& codes, int pitch) {
         std::byte* const out = tile_.data() + e.at.errors[static_cast<std::size_t>(morph_margin)][which];
         for (int row = 0; row < e.rows; ++row) {
-            std::memcpy(
-                out + index_of(0, row, 1 << e.at.tile_shift),
-                &codes[index_of(0, row, pitch)],
+            std::memcpy(out + index_of(0, row, 1 << e.at.tile_shift), &codes[index_of(0, row, pitch)],
                 static_cast<std::size_t>(e.columns));
         }
     };
@@ -192,10 +166,8 @@ void TileBuilder::write_strips() {
             out[column] = height(2 * column + 1, 2 * e.at.rows);
         }
         for (const std::size_t morph_margin : {1U, 0U}) {
-            std::memcpy(
-                memory_.data() + e.at.north_errors[morph_margin] + e.first_column,
-                &codes_[morph_margin].souths[index_of(0, e.rows, e.columns)],
-                static_cast<std::size_t>(e.columns));
+            std::memcpy(memory_.data() + e.at.north_errors[morph_margin] + e.first_column,
+                &codes_[morph_margin].souths[index_of(0, e.rows, e.columns)], static_cast<std::size_t>(e.columns));
         }
     }
     if (e.first_column + e.columns == e.at.columns) {

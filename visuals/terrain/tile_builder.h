@@ -20,24 +20,20 @@ struct TileIndex {
     int row = 0;
 };
 
-/// How far a vertex may move at most, in wanted errors, while the wanted error changes by a small
-/// share of itself, divided by that share: S of ground with this relief (tile_builder_errors.cpp).
+/// How far a vertex may move at most, in wanted errors, while the wanted error changes by a small share of itself,
+/// divided by that share: S of ground with this relief (tile_builder_errors.cpp).
 float far_morph_rate_on(float relief_m);
 
-/// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer
-/// level around it. There is one builder for each thread; it reuses its memory, at most 10 MB.
+/// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer level around it. There
+/// is one builder for each thread; it reuses its memory, at most 10 MB.
 class TileBuilder {
 public:
-    /// `memory` is GroundLayout memory in which height ranges and finished tiles of the finer level
-    /// can be read and into which the strips are written. All arguments must outlive the builder.
-    TileBuilder(
-        const GroundLayout& layout,
-        const StoredHeights& heights,
-        const ErrorEncoder& coder,
+    /// `memory` is GroundLayout memory in which height ranges and finished tiles of the finer level can be read and
+    /// into which the strips are written. All arguments must outlive the builder.
+    TileBuilder(const GroundLayout& layout, const StoredHeights& heights, const ErrorEncoder& coder,
         std::span<std::byte> memory);
 
-    /// The bytes of a tile, valid until the next call. Also writes those parts of the strips that
-    /// lie beside it.
+    /// The bytes of a tile, valid until the next call. Also writes those parts of the strips that lie beside it.
     std::span<const std::byte> build(const TileIndex& place);
 
 private:
@@ -116,12 +112,12 @@ private:
     std::ptrdiff_t pitch_ = 0;
     int lattice_column_ = 0; ///< The column of lattice_[0] in samples.
     int lattice_row_ = 0;
-    /// For each node, and for one more on each side of the tile, the error that samples beside the
-    /// lattice may have in a mesh of the lattice, in units of the numbers.
+    /// For each node, and for one more on each side of the tile, the error that samples beside the lattice may have in
+    /// a mesh of the lattice, in units of the numbers.
     std::vector<float> lattice_errors_;
-    std::array<Codes, 2> codes_;            ///< By Room.
-    std::vector<std::uint8_t> unsaturated_codes_;   ///< Those of a row, not saturated.
-    std::vector<std::uint8_t> dependent_codes_; ///< The largest of those that need the row's samples.
+    std::array<Codes, 2> codes_;                  ///< By Room.
+    std::vector<std::uint8_t> unsaturated_codes_; ///< Those of a row, not saturated.
+    std::vector<std::uint8_t> dependent_codes_;   ///< The largest of those that need the row's samples.
     std::vector<float> errors_;
     std::vector<std::byte> tile_;
 };

@@ -1,9 +1,9 @@
-// Saturated errors of a tile: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified", 2002,
-// section 3 (errors saturated along the dependencies of longest-edge bisection).
+// Saturated errors of a tile: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified", 2002, section 3 (errors
+// saturated along the dependencies of longest-edge bisection).
 //
-// Each sample gets the maximum of its own error and the stored errors of the samples that need it:
-// middles of edges from centres one level finer, centres from middles of their own level. Maxima
-// are taken of the one-byte codes, which keep the order.
+// Each sample gets the maximum of its own error and the stored errors of the samples that need it: middles of edges
+// from centres one level finer, centres from middles of their own level. Maxima are taken of the one-byte codes, which
+// keep the order.
 //
 // Deviations:
 // - The own error is the true largest deviation inside a sample's diamond (17 % fewer triangles at
@@ -45,62 +45,46 @@ constexpr float max_flatness_factor = 1.8F;
 constexpr float near_error = 0.6F / 512.0F;
 
 std::size_t index_of(int column, int row, int columns) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
 /// How many times larger S is than on rugged ground.
-float flatness_factor(float relief_m) {
-    return std::clamp(rugged_m / relief_m, 1.0F, max_flatness_factor);
-}
+float flatness_factor(float relief_m) { return std::clamp(rugged_m / relief_m, 1.0F, max_flatness_factor); }
 
 /// Raises a row of codes to others.
 void raise(std::span<const std::uint8_t> least, std::uint8_t* codes) {
-    for (std::size_t i = 0; i < least.size(); ++i) {
-        codes[i] = std::max(codes[i], least[i]);
-    }
+    for (std::size_t i = 0; i < least.size(); ++i) { codes[i] = std::max(codes[i], least[i]); }
 }
 
 } // namespace
 
-float far_morph_rate_on(float relief_m) {
-    return rugged_far_morph_rate * flatness_factor(relief_m);
-}
+float far_morph_rate_on(float relief_m) { return rugged_far_morph_rate * flatness_factor(relief_m); }
 
 /// Finds out what a lattice of more than one sample's step does not see.
 void TileBuilder::fetch_lattice_errors() {
     const TileExtent& e = extent_;
     std::fill(lattice_errors_.begin(), lattice_errors_.end(), 0.0F);
-    if (e.stride == 1) {
-        return;
-    }
+    if (e.stride == 1) { return; }
     for (int row = -1; row <= e.rows; ++row) {
         for (int column = -1; column <= e.columns; ++column) {
-            const std::uint8_t code =
-                largest_code(level_ + lattice_levels, e.first_column + column, e.first_row + row);
+            const std::uint8_t code = largest_code(level_ + lattice_levels, e.first_column + column, e.first_row + row);
             lattice_errors_[index_of(column + 1, row + 1, tile_edge_nodes + 2)] = coder_.steps_of(code);
         }
     }
 }
 
-/// The largest code, without room, of the centres of a finer level in a node of this level; 0
-/// beyond the field.
+/// The largest code, without room, of the centres of a finer level in a node of this level; 0 beyond the field.
 std::uint8_t TileBuilder::largest_code(int level, int column, int row) const {
     const GroundLayout::Level& finer = layout_.level(level);
     const int across = 1 << (level - level_);
     const int mask = (1 << finer.tile_shift) - 1;
     std::uint8_t largest = 0;
     for (int y = std::max(row, 0) * across; y < std::min((row + 1) * across, finer.rows); ++y) {
-        for (int x = std::max(column, 0) * across;
-             x < std::min((column + 1) * across, finer.columns);
-             ++x) {
-            const std::size_t tile =
-                index_of(x >> finer.tile_shift, y >> finer.tile_shift, finer.tiles_across);
-            const std::byte* const codes = memory_.data() + finer.first_tile +
-                                           tile * finer.tile_bytes +
+        for (int x = std::max(column, 0) * across; x < std::min((column + 1) * across, finer.columns); ++x) {
+            const std::size_t tile = index_of(x >> finer.tile_shift, y >> finer.tile_shift, finer.tiles_across);
+            const std::byte* const codes = memory_.data() + finer.first_tile + tile * finer.tile_bytes +
                                            finer.errors[static_cast<std::size_t>(MorphMargin::None)][0];
-            largest = std::max(
-                largest, static_cast<std::uint8_t>(codes[index_of(x & mask, y & mask, mask + 1)]));
+            largest = std::max(largest, static_cast<std::uint8_t>(codes[index_of(x & mask, y & mask, mask + 1)]));
         }
     }
     return largest;
@@ -124,12 +108,10 @@ void TileBuilder::measure_relief() {
     morph_rate_by_error_ = near_morph_rate_ / (near_error * relief);
 }
 
-/// The least error of a sample with room to move, given the largest code of those that need it and
-/// twice what the ground moves by without it.
+/// The least error of a sample with room to move, given the largest code of those that need it and twice what the
+/// ground moves by without it.
 inline std::uint8_t TileBuilder::with_margin(std::uint8_t below, int twice) const {
-    if (below == 0 || twice == 0) {
-        return below;
-    }
+    if (below == 0 || twice == 0) { return below; }
     const float error = coder_.steps_of(below);
     const float move = 0.5F * static_cast<float>(std::abs(twice));
     const float least = error + move * inverse_far_morph_rate_;
@@ -137,8 +119,8 @@ inline std::uint8_t TileBuilder::with_margin(std::uint8_t below, int twice) cons
     return std::max(below, coder_.code_of(error + move / fastest_move));
 }
 
-/// Raises the codes of a row of samples to the least errors with room to move, given the largest
-/// codes of those that need them.
+/// Raises the codes of a row of samples to the least errors with room to move, given the largest codes of those that
+/// need them.
 void TileBuilder::raise_to_margin(
     const SplitEdgeRow& edges, std::span<const std::uint8_t> below, std::uint8_t* codes) const {
     const int across = std::abs(edges.to_end[0]);
@@ -149,8 +131,7 @@ void TileBuilder::raise_to_margin(
     const bool low = edges.row + up < heights_.rows;
     const int inside = low && morph_margin >= 0 ? std::min(count, morph_margin / edges.step + 1) : 0;
     const std::int16_t* middle =
-        inside > 0 ? &heights_.numbers[index_of(edges.column, edges.row, heights_.columns)]
-                   : nullptr;
+        inside > 0 ? &heights_.numbers[index_of(edges.column, edges.row, heights_.columns)] : nullptr;
     const std::ptrdiff_t climb = std::ptrdiff_t{up} * heights_.columns;
     for (int i = 0; i < inside; ++i) {
         const bool turned = edges.alternate && (i & 1) != 0;
@@ -160,9 +141,7 @@ void TileBuilder::raise_to_margin(
         codes[at] = std::max(codes[at], with_margin(below[at], twice));
         middle += edges.step;
     }
-    const auto number = [this](int column, int row) {
-        return static_cast<int>(heights_.padded_number(column, row));
-    };
+    const auto number = [this](int column, int row) { return static_cast<int>(heights_.padded_number(column, row)); };
     for (int i = inside; i < count; ++i) {
         const bool turned = edges.alternate && (i & 1) != 0;
         const int aside = turned ? -edges.to_end[0] : edges.to_end[0];
@@ -174,8 +153,7 @@ void TileBuilder::raise_to_margin(
     }
 }
 
-/// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of
-/// their west edges.
+/// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of their west edges.
 void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> codes) {
     const TileExtent& e = extent_;
     const int count = static_cast<int>(codes.size());
@@ -184,9 +162,7 @@ void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> code
     // From `begin` to `end` the whole diamond lies within the field.
     const int begin = first < e.half ? 1 : 0;
     int end = (heights_.columns - 1 - e.half - first + e.at.edge) / e.at.edge;
-    if (row < e.half || row + e.half > heights_.rows - 1) {
-        end = 0;
-    }
+    if (row < e.half || row + e.half > heights_.rows - 1) { end = 0; }
     end = std::clamp(end, begin, count);
     const bool falling = diamond == Diamond::Falling;
     const auto turned = [&](int i) {
@@ -225,23 +201,20 @@ float TileBuilder::lattice_error_by(int index, int row, Diamond diamond) const {
     }
 }
 
-/// Saturates the own errors of a row of middles of edges, given where the first of the four centres
-/// around each lie among the children.
+/// Saturates the own errors of a row of middles of edges, given where the first of the four centres around each lie
+/// among the children.
 void TileBuilder::saturate_middles(
     const SplitEdgeRow& edges, std::size_t children, const RowOfCodes& own, const MarginRows& out) {
     for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
         std::copy(own.begin(), own.end(), out[static_cast<std::size_t>(morph_margin)]);
     }
-    if (level_ + 1 == layout_.levels()) {
-        return;
-    }
+    if (level_ + 1 == layout_.levels()) { return; }
     const std::span below = std::span(dependent_codes_).first(own.size());
     for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
         const std::uint8_t* const south = &codes_with(morph_margin).children[children];
         const std::uint8_t* const north = south + children_edge;
         for (std::size_t i = 0; i < below.size(); ++i) {
-            below[i] = std::max(
-                std::max(south[2 * i], south[2 * i + 1]), std::max(north[2 * i], north[2 * i + 1]));
+            below[i] = std::max(std::max(south[2 * i], south[2 * i + 1]), std::max(north[2 * i], north[2 * i + 1]));
         }
         std::uint8_t* const codes = out[static_cast<std::size_t>(morph_margin)];
         if (morph_margin == MorphMargin::Full) {
@@ -261,10 +234,7 @@ void TileBuilder::measure_souths() {
         const int row = (e.first_row + y) * e.at.edge;
         measure(row, Diamond::Lying, own);
         const std::size_t to = index_of(0, y, e.columns);
-        saturate_middles(
-            {column, row, e.at.edge, {e.half, 0}, false},
-            index_of(1, 2 * y, children_edge),
-            own,
+        saturate_middles({column, row, e.at.edge, {e.half, 0}, false}, index_of(1, 2 * y, children_edge), own,
             {&codes_with(MorphMargin::Full).souths[to], &codes_with(MorphMargin::None).souths[to]});
     }
 }
@@ -278,10 +248,7 @@ void TileBuilder::measure_wests() {
         const int row = (e.first_row + y) * e.at.edge + e.half;
         measure(row, Diamond::Upright, own);
         const std::size_t to = index_of(0, y, e.columns + 1);
-        saturate_middles(
-            {column, row, e.at.edge, {0, e.half}, false},
-            index_of(0, 2 * y + 1, children_edge),
-            own,
+        saturate_middles({column, row, e.at.edge, {0, e.half}, false}, index_of(0, 2 * y + 1, children_edge), own,
             {&codes_with(MorphMargin::Full).wests[to], &codes_with(MorphMargin::None).wests[to]});
     }
 }
@@ -293,12 +260,8 @@ void TileBuilder::measure_centres() {
     const std::span below = std::span(dependent_codes_).first(own.size());
     for (int y = 0; y < e.rows; ++y) {
         const bool falling = ((e.first_row + y + e.first_column) & 1) != 0;
-        const SplitEdgeRow edges{
-            e.first_column * e.at.edge + e.half,
-            (e.first_row + y) * e.at.edge + e.half,
-            e.at.edge,
-            {falling ? -e.half : e.half, e.half},
-            true};
+        const SplitEdgeRow edges{e.first_column * e.at.edge + e.half, (e.first_row + y) * e.at.edge + e.half, e.at.edge,
+            {falling ? -e.half : e.half, e.half}, true};
         measure(edges.row, falling ? Diamond::Falling : Diamond::Rising, own);
         for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
             Codes& codes = codes_with(morph_margin);
@@ -315,8 +278,7 @@ void TileBuilder::measure_centres() {
 }
 
 /// The largest codes of the middles of the edges of a row of nodes.
-void TileBuilder::fetch_middles(
-    const Codes& codes, int row, std::span<std::uint8_t> largest) const {
+void TileBuilder::fetch_middles(const Codes& codes, int row, std::span<std::uint8_t> largest) const {
     const std::uint8_t* const south = &codes.souths[index_of(0, row, extent_.columns)];
     const std::uint8_t* const north = south + extent_.columns;
     const std::uint8_t* const west = &codes.wests[index_of(0, row, extent_.columns + 1)];

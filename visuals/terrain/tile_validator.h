@@ -10,12 +10,11 @@
 
 namespace octant::visuals::terrain {
 
-/// Knows which tiles of a ground may be read, and makes the others fit to be read when they are
-/// first asked for. Any thread may ask. This one trusts all tiles: for grounds made in memory.
+/// Knows which tiles of a ground may be read, and makes the others fit to be read when they are first asked for. Any
+/// thread may ask. This one trusts all tiles: for grounds made in memory.
 class TileValidator {
 public:
-    explicit TileValidator(const GroundLayout& layout)
-        : TileValidator(layout, true) {}
+    explicit TileValidator(const GroundLayout& layout) : TileValidator(layout, true) {}
 
     virtual ~TileValidator() = default;
     TileValidator(const TileValidator&) = delete;
@@ -25,8 +24,7 @@ public:
 
     /// Returns once a tile, counted as its level's tiles lie in memory, may be read.
     void ensure_valid(int level, std::size_t tile) const {
-        if (ready_[first_[static_cast<std::size_t>(level)] + tile].load(
-                std::memory_order_acquire) == 0) [[unlikely]] {
+        if (ready_[first_[static_cast<std::size_t>(level)] + tile].load(std::memory_order_acquire) == 0) [[unlikely]] {
             validate(level, tile);
         }
     }
@@ -37,8 +35,7 @@ protected:
         for (int level = 0; level < layout.levels(); ++level) {
             const GroundLayout::Level& at = layout.level(level);
             first_.push_back(tiles);
-            tiles +=
-                static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+            tiles += static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
         }
         ready_ = std::make_unique<std::atomic<std::uint8_t>[]>(tiles);
         for (std::size_t tile = 0; tile < tiles; ++tile) {
@@ -47,13 +44,9 @@ protected:
     }
 
     /// The number of a tile among those of all levels.
-    std::size_t index_of(int level, std::size_t tile) const {
-        return first_[static_cast<std::size_t>(level)] + tile;
-    }
+    std::size_t index_of(int level, std::size_t tile) const { return first_[static_cast<std::size_t>(level)] + tile; }
 
-    bool is_valid(std::size_t index) const {
-        return ready_[index].load(std::memory_order_acquire) != 0;
-    }
+    bool is_valid(std::size_t index) const { return ready_[index].load(std::memory_order_acquire) != 0; }
 
     void set_valid(std::size_t index) const { ready_[index].store(1, std::memory_order_release); }
 

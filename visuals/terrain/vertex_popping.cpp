@@ -1,10 +1,10 @@
-// The measure of popping: what the quadtree paper does not look at (it counts triangles) and
-// geomorphs remove. `octant study popping` plots it along flights.
+// The measure of popping: what the quadtree paper does not look at (it counts triangles) and geomorphs remove. `octant
+// study popping` plots it along flights.
 //
-// Most vertices of a mesh are in the next one, too, and tell its height there. A vertex that only
-// one of two meshes has lies in the middle of an edge that is within one triangle of the other mesh
-// (error_mesher.cpp), so that the other surface's height is the mean of that at the edge's ends.
-// Only where a mesh does not tell the ends of its vertices is its surface searched.
+// Most vertices of a mesh are in the next one, too, and tell its height there. A vertex that only one of two meshes has
+// lies in the middle of an edge that is within one triangle of the other mesh (error_mesher.cpp), so that the other
+// surface's height is the mean of that at the edge's ends. Only where a mesh does not tell the ends of its vertices is
+// its surface searched.
 #include "visuals/terrain/vertex_popping.h"
 
 #include <glm/common.hpp>
@@ -33,21 +33,15 @@ void PoppingMeter::Frame::set_mesh(const GroundMesh& mesh, const PerspectiveView
     morphs_.assign(mesh.morphs.begin(), mesh.morphs.end());
     has_surface_ = false;
     used_.assign(vertices_.size(), 0);
-    for (const std::uint32_t vertex : indices_) {
-        used_[vertex] = 1;
-    }
+    for (const std::uint32_t vertex : indices_) { used_[vertex] = 1; }
     vertices_m_.clear();
     slots_.assign(std::bit_ceil(4 * vertices_.size() + 1), 0);
     for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex) {
         vertices_m_.push_back(view.eye_m + glm::dvec3(vertices_[vertex].position_m));
         // Vertices that are only ends of others are on the surface; what else is unused may not be.
-        if (used_[vertex] == 0 && morphs_.empty()) {
-            continue;
-        }
+        if (used_[vertex] == 0 && morphs_.empty()) { continue; }
         std::size_t slot = slot_of(cell_of(glm::dvec2(vertices_m_.back())));
-        while (slots_[slot] != 0) {
-            slot = (slot + 1) & (slots_.size() - 1);
-        }
+        while (slots_[slot] != 0) { slot = (slot + 1) & (slots_.size() - 1); }
         slots_[slot] = vertex + 1;
     }
 }
@@ -55,9 +49,7 @@ void PoppingMeter::Frame::set_mesh(const GroundMesh& mesh, const PerspectiveView
 template <typename Take>
 void PoppingMeter::Frame::for_each_used(const Take& set_mesh) const {
     for (std::uint32_t vertex = 0; vertex < used_.size(); ++vertex) {
-        if (used_[vertex] != 0) {
-            set_mesh(vertex, vertices_m_[vertex]);
-        }
+        if (used_[vertex] != 0) { set_mesh(vertex, vertices_m_[vertex]); }
     }
 }
 
@@ -79,13 +71,10 @@ std::optional<double> PoppingMeter::Frame::own_height_at(const glm::dvec3& place
     glm::i64vec2 cell = first;
     for (cell.y = first.y; cell.y <= last.y; ++cell.y) {
         for (cell.x = first.x; cell.x <= last.x; ++cell.x) {
-            for (std::size_t slot = slot_of(cell); slots_[slot] != 0;
-                 slot = (slot + 1) & (slots_.size() - 1)) {
+            for (std::size_t slot = slot_of(cell); slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
                 const glm::dvec3& own_m = vertices_m_[slots_[slot] - 1];
                 const glm::dvec2 off_m = glm::abs(glm::dvec2(own_m) - place);
-                if (off_m.x + off_m.y <= near_m) {
-                    return own_m.z;
-                }
+                if (off_m.x + off_m.y <= near_m) { return own_m.z; }
             }
         }
     }
@@ -94,9 +83,7 @@ std::optional<double> PoppingMeter::Frame::own_height_at(const glm::dvec3& place
 
 std::optional<double> PoppingMeter::Frame::height_at(const Frame& other, std::uint32_t vertex) {
     const glm::dvec3& place_m = other.vertices_m_[vertex];
-    if (const auto own_m = own_height_at(place_m)) {
-        return own_m;
-    }
+    if (const auto own_m = own_height_at(place_m)) { return own_m; }
     if (!morphs_.empty() && !other.morphs_.empty()) {
         const VertexMorph& origin = other.morphs_[vertex];
         if (origin.parent_a != vertex) {
@@ -119,9 +106,7 @@ std::optional<VertexPopping> PoppingMeter::next(const GroundMesh& mesh, const Pe
     Frame& later = frames_[taken_ % 2];
     Frame& earlier = frames_[(taken_ + 1) % 2];
     later.set_mesh(mesh, view);
-    if (++taken_ == 1) {
-        return std::nullopt;
-    }
+    if (++taken_ == 1) { return std::nullopt; }
     VertexPopping most;
     compare_at(later, earlier, later, most);
     compare_at(earlier, later, later, most);
@@ -135,23 +120,14 @@ void PoppingMeter::compare_at(const Frame& own, Frame& other, const Frame& later
         const auto shows = [&vertex_m](const PerspectiveView& picture) {
             return picture.shows(picture.seen_m(vertex_m - picture.eye_m));
         };
-        if (!shows(own.view()) || !shows(other.view())) {
-            return;
-        }
+        if (!shows(own.view()) || !shows(other.view())) { return; }
         const auto height_m = other.height_at(own, vertex);
-        if (!height_m) {
-            return;
-        }
-        const glm::dvec3 there =
-            view.seen_m(glm::dvec3(vertex_m.x, vertex_m.y, *height_m) - view.eye_m);
-        if (there.z < view.near_m) {
-            return;
-        }
+        if (!height_m) { return; }
+        const glm::dvec3 there = view.seen_m(glm::dvec3(vertex_m.x, vertex_m.y, *height_m) - view.eye_m);
+        if (there.z < view.near_m) { return; }
         const glm::dvec3 seen = view.seen_m(vertex_m - view.eye_m);
         const double popping_px = glm::distance(view.pixel(seen), view.pixel(there));
-        if (popping_px > most.popping_px) {
-            most = {popping_px, vertex_m};
-        }
+        if (popping_px > most.popping_px) { most = {popping_px, vertex_m}; }
     });
 }
 

@@ -25,9 +25,9 @@ struct VertexPopping {
 /// Measures popping along a flight over one ground. Its memory is reused from frame to frame.
 class PoppingMeter {
 public:
-    /// Takes the next frame's mesh, relative to `view.eye_m`, and compares it with the last one,
-    /// both as seen from `view`: at each vertex of either mesh that both frames show, how far apart
-    /// the two surfaces are on the screen. Returns nothing for the first frame.
+    /// Takes the next frame's mesh, relative to `view.eye_m`, and compares it with the last one, both as seen from
+    /// `view`: at each vertex of either mesh that both frames show, how far apart the two surfaces are on the screen.
+    /// Returns nothing for the first frame.
     std::optional<VertexPopping> next(const GroundMesh& mesh, const PerspectiveView& view);
 
 private:
@@ -42,8 +42,7 @@ private:
         template <typename Take>
         void for_each_used(const Take& set_mesh) const;
 
-        /// The height of this frame's surface at a vertex of another one; nothing where there is
-        /// none.
+        /// The height of this frame's surface at a vertex of another one; nothing where there is none.
         std::optional<double> height_at(const Frame& other, std::uint32_t vertex);
 
     private:
@@ -53,7 +52,7 @@ private:
         PerspectiveView view_;
         std::vector<models::ColourVertex> vertices_;
         std::vector<std::uint32_t> indices_;
-        std::vector<VertexMorph> morphs_;  ///< Empty where the mesh has none.
+        std::vector<VertexMorph> morphs_;    ///< Empty where the mesh has none.
         std::vector<glm::dvec3> vertices_m_; ///< In world axes.
         std::vector<std::uint8_t> used_;     ///< For each vertex whether a triangle uses it.
         std::vector<std::uint32_t> slots_;   ///< For each hash slot a vertex + 1; 0 = none.

@@ -14,8 +14,8 @@ namespace octant::visuals::verify {
 /// A point or direction as a file has it.
 using Vector = std::array<double, 3>;
 
-/// A plane as a file has it: points p with normal . p + offset = 0; its front is where that is
-/// positive. The normal is about 1 long.
+/// A plane as a file has it: points p with normal . p + offset = 0; its front is where that is positive. The normal is
+/// about 1 long.
 struct WrittenPlane {
     Vector normal{};
     double offset = 0.0;
@@ -61,8 +61,8 @@ struct OrderList {
     int line = 0;
 };
 
-/// Factors of a sum of planes: of the earlier polygon's (or the only one's), of the later one's, of
-/// the constant 1, and of each wall of the region, the root's first.
+/// Factors of a sum of planes: of the earlier polygon's (or the only one's), of the later one's, of the constant 1, and
+/// of each wall of the region, the root's first.
 struct StatedFactors {
     double earlier = 0.0;
     double later = 0.0;
@@ -76,8 +76,8 @@ struct PolygonPair {
     std::uint32_t later = 0;
 };
 
-/// How several pairs in a row are decided that have the later polygon in common: by the plane of
-/// the earlier one, by that of the later one, or somewhere else.
+/// How several pairs in a row are decided that have the later polygon in common: by the plane of the earlier one, by
+/// that of the later one, or somewhere else.
 struct DeciderRun {
     enum class By { Earlier, Later, Elsewhere };
     By by = By::Elsewhere;
@@ -115,8 +115,8 @@ struct Statements {
     std::map<std::uint32_t, int> unproved;
 };
 
-/// A certificate as its file has it. What it claims need not be true, but it can be understood: all
-/// numbers lie in their ranges, and nodes and lists are a tree.
+/// A certificate as its file has it. What it claims need not be true, but it can be understood: all numbers lie in
+/// their ranges, and nodes and lists are a tree.
 struct Certificate {
     std::filesystem::path path;
     double tolerance = 0.0; ///< Lengths up to this are taken for none.
@@ -131,13 +131,11 @@ struct Certificate {
     std::optional<int> first_unproved; ///< The first of them.
 
     const Statements& statements_of(int child) const {
-        return child < 0 ? by_list[static_cast<std::size_t>(~child)]
-                         : by_node[static_cast<std::size_t>(child)];
+        return child < 0 ? by_list[static_cast<std::size_t>(~child)] : by_node[static_cast<std::size_t>(child)];
     }
 
     int line_of(int child) const {
-        return child < 0 ? lists[static_cast<std::size_t>(~child)].line
-                         : nodes[static_cast<std::size_t>(child)].line;
+        return child < 0 ? lists[static_cast<std::size_t>(~child)].line : nodes[static_cast<std::size_t>(child)].line;
     }
 };
 

@@ -1,6 +1,7 @@
-// Reads certificates of painting orders; README.md has their format. Lines that tell of the model
-// and its order (structure_reader.cpp) come before the claims (claim_reader.cpp).
+// Reads certificates of painting orders; README.md has their format. Lines that tell of the model and its order
+// (structure_reader.cpp) come before the claims (claim_reader.cpp).
 #include "visuals/verify/certificate_reader.h"
+
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "visuals/verify/certificate.h"
@@ -22,12 +23,11 @@ namespace octant::visuals::verify {
 
 namespace {
 
-/// The words of one line of a file after another. Whatever is not as expected is refused by an
-/// Error "file:line: expected ..., got ...".
+/// The words of one line of a file after another. Whatever is not as expected is refused by an Error "file:line:
+/// expected ..., got ...".
 class TokenReader {
 public:
-    explicit TokenReader(std::filesystem::path path)
-        : path_(std::move(path)) {}
+    explicit TokenReader(std::filesystem::path path) : path_(std::move(path)) {}
 
     /// Goes on to the next line, of which what follows a # does not count; false if it is empty.
     bool set_line(std::string_view line);
@@ -64,8 +64,8 @@ constexpr std::size_t max_entries = 50'000'000;
 /// The largest number that may stand in a certificate.
 constexpr double largest_number = 1e12;
 
-/// The words of a certificate's lines, read as what its README.md has. What is wrong is refused as
-/// TokenReader refuses it.
+/// The words of a certificate's lines, read as what its README.md has. What is wrong is refused as TokenReader refuses
+/// it.
 class CertificateTokens : public TokenReader {
 public:
     using TokenReader::TokenReader;
@@ -78,9 +78,7 @@ public:
     /// Appends an entry and refuses the line if there are too many.
     template <typename Entry>
     void add(std::vector<Entry>& entries, Entry entry) const {
-        if (entries.size() >= max_entries) {
-            fail_too_many();
-        }
+        if (entries.size() >= max_entries) { fail_too_many(); }
         entries.push_back(std::move(entry));
     }
 
@@ -97,8 +95,7 @@ bool TokenReader::set_line(std::string_view line) {
 }
 
 void TokenReader::refuse(const std::string& expected) const {
-    const std::string got =
-        done() ? "none" : fmt::format("'{}'", printable(std::string(words_[at_])));
+    const std::string got = done() ? "none" : fmt::format("'{}'", printable(std::string(words_[at_])));
     throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
 }
 
@@ -114,9 +111,7 @@ bool TokenReader::skip(std::string_view word) {
 }
 
 std::string_view TokenReader::word(std::string_view what) {
-    if (done()) {
-        refuse(std::string(what));
-    }
+    if (done()) { refuse(std::string(what)); }
     return words_[at_++];
 }
 
@@ -133,25 +128,20 @@ std::uint32_t TokenReader::index(std::string_view what, std::size_t end) {
     const auto value = done() ? std::nullopt : whole_number(words_[at_]);
     if (!value || *value < 0 || static_cast<std::size_t>(*value) >= end) {
         refuse(
-            end == 0 ? fmt::format("{}, of which there are none", what)
-                     : fmt::format("{} (0 to {})", what, end - 1));
+            end == 0 ? fmt::format("{}, of which there are none", what) : fmt::format("{} (0 to {})", what, end - 1));
     }
     ++at_;
     return static_cast<std::uint32_t>(*value);
 }
 
 void TokenReader::end_of_line() const {
-    if (!done()) {
-        refuse("the end of the line");
-    }
+    if (!done()) { refuse("the end of the line"); }
 }
 
 constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
 constexpr double longest_normal = 1.5;
 
-double CertificateTokens::coordinate(const char* what) {
-    return number(what, -largest_number, largest_number);
-}
+double CertificateTokens::coordinate(const char* what) { return number(what, -largest_number, largest_number); }
 
 Vector CertificateTokens::vector(const char* what) {
     const double x = coordinate(what);
@@ -163,9 +153,7 @@ Vector CertificateTokens::vector(const char* what) {
 Vector CertificateTokens::unit_vector(const char* what) {
     const Vector v = vector(what);
     const double longest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    if (longest < min_normal || longest > longest_normal) {
-        fail_at_last(fmt::format("{} of length 1", what));
-    }
+    if (longest < min_normal || longest > longest_normal) { fail_at_last(fmt::format("{} of length 1", what)); }
     return v;
 }
 
@@ -174,17 +162,13 @@ WrittenPlane CertificateTokens::plane() {
     return {normal, coordinate("an offset")};
 }
 
-void CertificateTokens::fail_too_many() const {
-    refuse(fmt::format("at most {} such lines", max_entries));
-}
+void CertificateTokens::fail_too_many() const { refuse(fmt::format("at most {} such lines", max_entries)); }
 
-/// Reads the lines of a certificate that tell of the model and of its order: tolerance, vertex,
-/// axis, polygon, turning, list and node.
+/// Reads the lines of a certificate that tell of the model and of its order: tolerance, vertex, axis, polygon, turning,
+/// list and node.
 class StructureReader {
 public:
-    StructureReader(CertificateTokens& words, Certificate& made)
-        : words_(words)
-        , made_(made) {}
+    StructureReader(CertificateTokens& words, Certificate& made) : words_(words), made_(made) {}
 
     /// Reads the line at hand if it is one of these; false if its first word is another.
     bool take();
@@ -216,18 +200,14 @@ bool StructureReader::take() {
 }
 
 bool StructureReader::read_tolerance() {
-    if (made_.tolerance > 0.0) {
-        words_.refuse("one tolerance");
-    }
+    if (made_.tolerance > 0.0) { words_.refuse("one tolerance"); }
     made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
     return true;
 }
 
 /// Where the certificate measures from changes nothing of what it proves.
 bool StructureReader::read_reference() {
-    if (!made_.vertices.empty() || !made_.axes.empty()) {
-        words_.refuse("'about' before all places");
-    }
+    if (!made_.vertices.empty() || !made_.axes.empty()) { words_.refuse("'about' before all places"); }
     words_.vector("a coordinate");
     return true;
 }
@@ -246,9 +226,7 @@ bool StructureReader::read_axis() {
 bool StructureReader::read_polygon(bool turning) {
     CertificatePolygon polygon;
     polygon.line = words_.line();
-    if (turning) {
-        polygon.axis = words_.index("an axis", made_.axes.size());
-    }
+    if (turning) { polygon.axis = words_.index("an axis", made_.axes.size()); }
     polygon.source = words_.index("a polygon of the model's file", max_entries);
     polygon.plane = words_.plane();
     while (!words_.done() || polygon.corners.size() < 3) {
@@ -265,15 +243,11 @@ bool StructureReader::read_list() {
     used.resize(made_.polygons.size());
     while (!words_.done()) {
         const std::uint32_t polygon = words_.index("a polygon", made_.polygons.size());
-        if (used[polygon]) {
-            words_.fail_at_last("each polygon once");
-        }
+        if (used[polygon]) { words_.fail_at_last("each polygon once"); }
         used[polygon] = true;
         list.polygons.push_back(polygon);
     }
-    for (const std::uint32_t polygon : list.polygons) {
-        used[polygon] = false;
-    }
+    for (const std::uint32_t polygon : list.polygons) { used[polygon] = false; }
     words_.add(made_.lists, std::move(list));
     return true;
 }
@@ -283,15 +257,11 @@ bool StructureReader::read_node() {
     node.line = words_.line();
     const bool sequence = words_.skip("sequence");
     const bool parting = !sequence && words_.skip("parting");
-    if (!sequence && !parting && !words_.skip("choice")) {
-        words_.refuse("choice, parting or sequence");
-    }
+    if (!sequence && !parting && !words_.skip("choice")) { words_.refuse("choice, parting or sequence"); }
     node.kind = sequence  ? OrderNode::Kind::Sequence
                 : parting ? OrderNode::Kind::PolygonSplit
                           : OrderNode::Kind::ViewSplit;
-    if (!sequence) {
-        node.plane = words_.plane();
-    }
+    if (!sequence) { node.plane = words_.plane(); }
     const auto side = [&] {
         return sequence || parting        ? child(true, true)
                : words_.skip("unclaimed") ? OrderNode::not_covered
@@ -309,25 +279,17 @@ bool StructureReader::read_node() {
 
 /// A child; whether it is there is known only when all are read.
 int StructureReader::child(bool may_be_nothing, bool may_be_node) {
-    if (may_be_nothing && words_.skip("nothing")) {
-        return OrderNode::nothing;
-    }
-    if (words_.skip("list")) {
-        return ~static_cast<int>(words_.index("a list", max_entries));
-    }
+    if (may_be_nothing && words_.skip("nothing")) { return OrderNode::nothing; }
+    if (words_.skip("list")) { return ~static_cast<int>(words_.index("a list", max_entries)); }
     if (!may_be_node || !words_.skip("node")) {
-        words_.refuse(fmt::format(
-            "{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
+        words_.refuse(fmt::format("{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
     }
     const std::uint32_t number = words_.index("a node", max_entries);
-    if (number <= made_.nodes.size()) {
-        words_.fail_at_last("a later node");
-    }
+    if (number <= made_.nodes.size()) { words_.fail_at_last("a later node"); }
     return static_cast<int>(number);
 }
 
-/// How many walls bound the eyes that come to each node and list of a certificate: one for each
-/// choice above it.
+/// How many walls bound the eyes that come to each node and list of a certificate: one for each choice above it.
 struct RegionPlaneCounts {
     std::vector<std::size_t> by_node;
     std::vector<std::size_t> by_list;
@@ -336,18 +298,14 @@ struct RegionPlaneCounts {
 constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
 
 void require_some(const Certificate& certificate, bool some, const char* what) {
-    if (!some) {
-        throw_error_in(certificate.path, fmt::format("expected {}, got none", what));
-    }
+    if (!some) { throw_error_in(certificate.path, fmt::format("expected {}, got none", what)); }
 }
 
 class RegionPlaneCounter {
 public:
     explicit RegionPlaneCounter(const Certificate& certificate)
-        : certificate_(certificate)
-        , counts_{
-              std::vector<std::size_t>(certificate.nodes.size(), unseen),
-              std::vector<std::size_t>(certificate.lists.size(), unseen)} {}
+        : certificate_(certificate), counts_{std::vector<std::size_t>(certificate.nodes.size(), unseen),
+                                         std::vector<std::size_t>(certificate.lists.size(), unseen)} {}
 
     RegionPlaneCounts count() {
         (counts_.by_node.empty() ? counts_.by_list : counts_.by_node).front() = 0;
@@ -368,28 +326,19 @@ public:
 private:
     void require_reached(std::size_t region_planes, const char* what, std::size_t number, int line) const {
         if (region_planes == unseen) {
-            throw_error_at(
-                certificate_.path,
-                line,
-                fmt::format(
-                    "expected {} {} to be the child of an earlier node, got none", what, number));
+            throw_error_at(certificate_.path, line,
+                fmt::format("expected {} {} to be the child of an earlier node, got none", what, number));
         }
     }
 
     void reach(int child, std::size_t region_planes, int line) {
-        if (OrderNode::is_empty(child)) {
-            return;
-        }
+        if (OrderNode::is_empty(child)) { return; }
         auto& all = child < 0 ? counts_.by_list : counts_.by_node;
         const auto number = static_cast<std::size_t>(child < 0 ? ~child : child);
         if (number >= all.size() || all[number] != unseen) {
-            throw_error_at(
-                certificate_.path,
-                line,
-                fmt::format(
-                    "expected children that are there, each of one node, got {} {}",
-                    child < 0 ? "list" : "node",
-                    number));
+            throw_error_at(certificate_.path, line,
+                fmt::format("expected children that are there, each of one node, got {} {}",
+                    child < 0 ? "list" : "node", number));
         }
         all[number] = region_planes;
     }
@@ -398,8 +347,8 @@ private:
     RegionPlaneCounts counts_;
 };
 
-/// Counts the walls down from the first node, or for the only list where there is no node. Throws
-/// Error unless nodes and lists are one tree and the certificate has a tolerance and polygons.
+/// Counts the walls down from the first node, or for the only list where there is no node. Throws Error unless nodes
+/// and lists are one tree and the certificate has a tolerance and polygons.
 RegionPlaneCounts count_region_planes(const Certificate& certificate) {
     require_some(certificate, certificate.tolerance > 0.0, "a tolerance");
     require_some(certificate, !certificate.polygons.empty(), "at least one polygon");
@@ -410,15 +359,12 @@ RegionPlaneCounts count_region_planes(const Certificate& certificate) {
 /// What a line claims.
 enum class StatementKind { Pairs, Sum, Never, Away, Unproved };
 
-/// Reads the claims of a certificate, whose structure is known: pairs, sum, never, away and
-/// unproved.
+/// Reads the claims of a certificate, whose structure is known: pairs, sum, never, away and unproved.
 class StatementReader {
 public:
     /// What is read is put into `made`, whose nodes, lists and polygons are there.
     StatementReader(CertificateTokens& words, Certificate& made, RegionPlaneCounts region_planes)
-        : words_(words)
-        , made_(made)
-        , walls_(std::move(region_planes)) {}
+        : words_(words), made_(made), walls_(std::move(region_planes)) {}
 
     /// Reads what follows the first word of a claim.
     void take(StatementKind kind);
@@ -444,14 +390,9 @@ private:
 std::optional<StatementKind> read_statement_kind(CertificateTokens& words) {
     using Word = std::pair<std::string_view, StatementKind>;
     for (const auto& [word, kind] :
-         {Word("pairs", StatementKind::Pairs),
-          Word("sum", StatementKind::Sum),
-          Word("never", StatementKind::Never),
-          Word("away", StatementKind::Away),
-          Word("unproved", StatementKind::Unproved)}) {
-        if (words.skip(word)) {
-            return kind;
-        }
+        {Word("pairs", StatementKind::Pairs), Word("sum", StatementKind::Sum), Word("never", StatementKind::Never),
+            Word("away", StatementKind::Away), Word("unproved", StatementKind::Unproved)}) {
+        if (words.skip(word)) { return kind; }
     }
     return std::nullopt;
 }
@@ -476,18 +417,14 @@ void StatementReader::take(StatementKind kind) {
 /// The claims of the list or node that the line names next.
 Statements& StatementReader::current_statements() {
     const bool of_list = words_.skip("list");
-    if (!of_list && !words_.skip("node")) {
-        words_.refuse("list or node");
-    }
-    const std::uint32_t number = of_list ? words_.index("a list", made_.lists.size())
-                                         : words_.index("a node", made_.nodes.size());
+    if (!of_list && !words_.skip("node")) { words_.refuse("list or node"); }
+    const std::uint32_t number =
+        of_list ? words_.index("a list", made_.lists.size()) : words_.index("a node", made_.nodes.size());
     current_region_plane_count_ = of_list ? walls_.by_list[number] : walls_.by_node[number];
     return of_list ? made_.by_list[number] : made_.by_node[number];
 }
 
-std::uint32_t StatementReader::polygon() {
-    return words_.index("a polygon", made_.polygons.size());
-}
+std::uint32_t StatementReader::polygon() { return words_.index("a polygon", made_.polygons.size()); }
 
 void StatementReader::read_factors(Statements& claims, PairStatement::Kind kind, std::uint32_t polygon) {
     PairStatement statement;
@@ -500,16 +437,12 @@ void StatementReader::read_factors(Statements& claims, PairStatement::Kind kind,
     words_.add(claims.pairs, std::move(statement));
 }
 
-double StatementReader::factor() {
-    return words_.number("a factor", 0.0, largest_number);
-}
+double StatementReader::factor() { return words_.number("a factor", 0.0, largest_number); }
 
 /// The factor of 1 and those of the walls.
 void StatementReader::read_region_planes(StatedFactors& factors) {
     factors.one = factor();
-    for (std::size_t i = 0; i < current_region_plane_count_; ++i) {
-        factors.region_planes.push_back(factor());
-    }
+    for (std::size_t i = 0; i < current_region_plane_count_; ++i) { factors.region_planes.push_back(factor()); }
 }
 
 void StatementReader::read_back_facing(Statements& claims, std::uint32_t polygon) {
@@ -517,9 +450,7 @@ void StatementReader::read_back_facing(Statements& claims, std::uint32_t polygon
     statement.line = words_.line();
     statement.factors.earlier = 1.0;
     read_region_planes(statement.factors);
-    if (!claims.away.emplace(polygon, std::move(statement)).second) {
-        words_.fail_at_last("each polygon once");
-    }
+    if (!claims.away.emplace(polygon, std::move(statement)).second) { words_.fail_at_last("each polygon once"); }
 }
 
 /// A polygon or a pair without a proof.
@@ -529,9 +460,7 @@ void StatementReader::read_unproved(Statements& claims, std::uint32_t polygon) {
     if (words_.done()) {
         claims.unproved.emplace(polygon, words_.line());
     } else {
-        words_.add(
-            claims.pairs,
-            {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line()});
+        words_.add(claims.pairs, {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line()});
     }
 }
 
@@ -539,9 +468,7 @@ void StatementReader::read_row(Statements& claims, std::uint32_t later) {
     PairRow row;
     row.later = later;
     row.line = words_.line();
-    while (!words_.done()) {
-        row.runs.push_back(run());
-    }
+    while (!words_.done()) { row.runs.push_back(run()); }
     words_.add(claims.rows, std::move(row));
 }
 
@@ -554,10 +481,9 @@ DeciderRun StatementReader::run() {
     if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > max_entries) {
         words_.fail_at_last("a count with e, l or -");
     }
-    return {
-        letter == 'e'   ? DeciderRun::By::Earlier
-        : letter == 'l' ? DeciderRun::By::Later
-                        : DeciderRun::By::Elsewhere,
+    return {letter == 'e'   ? DeciderRun::By::Earlier
+            : letter == 'l' ? DeciderRun::By::Later
+                            : DeciderRun::By::Elsewhere,
         static_cast<std::uint32_t>(*count)};
 }
 
@@ -565,20 +491,13 @@ constexpr std::size_t largest_bytes = std::size_t{2} << 30;
 
 class CertificateParser {
 public:
-    explicit CertificateParser(const std::filesystem::path& path)
-        : words_(path) {
-        made_.path = path;
-    }
+    explicit CertificateParser(const std::filesystem::path& path) : words_(path) { made_.path = path; }
 
     Certificate read(std::string_view text) {
         for (const std::string_view line : split_lines(text)) {
-            if (words_.set_line(line)) {
-                take();
-            }
+            if (words_.set_line(line)) { take(); }
         }
-        if (!has_header_) {
-            throw_error_in(made_.path, "expected 'octant-certificate 1' first, got an empty file");
-        }
+        if (!has_header_) { throw_error_in(made_.path, "expected 'octant-certificate 1' first, got an empty file"); }
         finish_structure();
         return std::move(made_);
     }
@@ -605,9 +524,7 @@ private:
                           "sum, never, away or unproved");
         }
         if (claims_) {
-            throw_error_at(
-                made_.path,
-                words_.line(),
+            throw_error_at(made_.path, words_.line(),
                 "expected pairs, sum, never, away or unproved after the first of them, got "
                 "something else");
         }

@@ -7,35 +7,25 @@
 
 namespace octant::visuals::verify {
 
-// Arithmetic without rounding (GMP), and a way past it: where a floating-point result is larger
-// than all that rounding can have done to it, its sign is certain.
+// Arithmetic without rounding (GMP), and a way past it: where a floating-point result is larger than all that rounding
+// can have done to it, its sign is certain.
 
-ExactVector exact(const Vector& vector) {
-    return {Rational(vector[0]), Rational(vector[1]), Rational(vector[2])};
-}
+ExactVector exact(const Vector& vector) { return {Rational(vector[0]), Rational(vector[1]), Rational(vector[2])}; }
 
-ExactPlane exact(const WrittenPlane& plane) {
-    return {exact(plane.normal), Rational(plane.offset)};
-}
+ExactPlane exact(const WrittenPlane& plane) { return {exact(plane.normal), Rational(plane.offset)}; }
 
-Rational dot(const ExactVector& a, const ExactVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 ExactVector cross(const ExactVector& a, const ExactVector& b) {
     return {
-        Rational(a[1] * b[2] - a[2] * b[1]),
-        Rational(a[2] * b[0] - a[0] * b[2]),
-        Rational(a[0] * b[1] - a[1] * b[0])};
+        Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]), Rational(a[0] * b[1] - a[1] * b[0])};
 }
 
 ExactVector difference(const ExactVector& a, const ExactVector& b) {
     return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
 }
 
-Rational height(const ExactPlane& plane, const ExactVector& point) {
-    return dot(plane.normal, point) + plane.offset;
-}
+Rational height(const ExactPlane& plane, const ExactVector& point) { return dot(plane.normal, point) + plane.offset; }
 
 Rational largest(const ExactVector& vector) {
     Rational most = abs(vector[0]);
@@ -45,8 +35,7 @@ Rational largest(const ExactVector& vector) {
 
 ExactPlane reversed(const ExactPlane& plane) {
     return {
-        {Rational(-plane.normal[0]), Rational(-plane.normal[1]), Rational(-plane.normal[2])},
-        Rational(-plane.offset)};
+        {Rational(-plane.normal[0]), Rational(-plane.normal[1]), Rational(-plane.normal[2])}, Rational(-plane.offset)};
 }
 
 WrittenPlane reversed(const WrittenPlane& plane) {
@@ -54,19 +43,15 @@ WrittenPlane reversed(const WrittenPlane& plane) {
 }
 
 void add(ExactPlane& sum, double factor, const ExactPlane& plane) {
-    if (factor == 0.0) {
-        return;
-    }
+    if (factor == 0.0) { return; }
     const Rational times(factor);
-    for (std::size_t i = 0; i < 3; ++i) {
-        sum.normal[i] += times * plane.normal[i];
-    }
+    for (std::size_t i = 0; i < 3; ++i) { sum.normal[i] += times * plane.normal[i]; }
     sum.offset += times * plane.offset;
 }
 
-// Four products and five sums, each off by half a unit of the last place at most, are together off
-// by less than six such halves of the sum of all magnitudes; sixteen leave room for the rounding of
-// the bound itself. The constant stands for numbers too small to be rounded in proportion.
+// Four products and five sums, each off by half a unit of the last place at most, are together off by less than six
+// such halves of the sum of all magnitudes; sixteen leave room for the rounding of the bound itself. The constant
+// stands for numbers too small to be rounded in proportion.
 bool is_behind(const WrittenPlane& plane, const Vector& point, double tolerance) {
     constexpr double share = 16.0 * std::numeric_limits<double>::epsilon() / 2.0;
     constexpr double tiny = 1e-300;
@@ -82,12 +67,8 @@ bool is_behind(const WrittenPlane& plane, const Vector& point, double tolerance)
     const double limit = tolerance * longest;
     const double over = sum - limit;
     const double doubt = share * (magnitude + limit) + tiny;
-    if (over < -doubt) {
-        return true;
-    }
-    if (over > doubt) {
-        return false;
-    }
+    if (over < -doubt) { return true; }
+    if (over > doubt) { return false; }
     return is_behind(exact(plane), exact(point), Rational(tolerance));
 }
 
@@ -95,11 +76,9 @@ bool is_behind(const ExactPlane& plane, const ExactVector& point, const Rational
     return height(plane, point) <= tolerance * largest(plane.normal);
 }
 
-// Over the circle of radius r about the foot on the axis the height is that of the foot and up to
-// r * |part of the normal across the axis| more. Squares are compared, as both roots are
-// irrational.
-bool is_circle_behind(
-    const ExactPlane& plane, const TurnAxis& axis, const Vector& point, const Rational& tolerance) {
+// Over the circle of radius r about the foot on the axis the height is that of the foot and up to r * |part of the
+// normal across the axis| more. Squares are compared, as both roots are irrational.
+bool is_circle_behind(const ExactPlane& plane, const TurnAxis& axis, const Vector& point, const Rational& tolerance) {
     const ExactVector along = exact(axis.direction);
     const ExactVector from = exact(axis.point);
     const ExactVector away = difference(exact(point), from);
@@ -118,9 +97,7 @@ bool is_across(const WrittenPlane& plane, const TurnAxis& axis) {
 }
 
 ExactSides::ExactSides(const Certificate& certificate)
-    : certificate_(certificate)
-    , tolerance_(certificate.tolerance)
-    , tenth_(certificate.tolerance / 10.0) {
+    : certificate_(certificate), tolerance_(certificate.tolerance), tenth_(certificate.tolerance / 10.0) {
     Vector least = certificate.vertices[certificate.polygons.front().corners.front()];
     Vector most = least;
     for (const CertificatePolygon& polygon : certificate.polygons) {
@@ -133,20 +110,15 @@ ExactSides::ExactSides(const Certificate& certificate)
     }
     const ExactVector box = difference(exact(most), exact(least));
     size_ = largest(box);
-    for (std::size_t i = 0; i < 3; ++i) {
-        middle_[i] = Rational(least[i]) + box[i] / 2;
-    }
+    for (std::size_t i = 0; i < 3; ++i) { middle_[i] = Rational(least[i]) + box[i] / 2; }
     for (const CertificatePolygon& polygon : certificate.polygons) {
-        keeps_plane_.push_back(
-            !polygon.axis || is_across(polygon.plane, certificate.axes[*polygon.axis]));
+        keeps_plane_.push_back(!polygon.axis || is_across(polygon.plane, certificate.axes[*polygon.axis]));
     }
 }
 
 bool ExactSides::is_behind(std::uint32_t number, const WrittenPlane& plane, PartAngle pose) const {
     const CertificatePolygon& polygon = certificate_.polygons[number];
-    if (pose == PartAngle::Turning && polygon.axis) {
-        return is_behind(number, exact(plane), pose);
-    }
+    if (pose == PartAngle::Turning && polygon.axis) { return is_behind(number, exact(plane), pose); }
     return std::ranges::all_of(polygon.corners, [&](std::uint32_t corner) {
         return verify::is_behind(plane, certificate_.vertices[corner], certificate_.tolerance);
     });
@@ -168,8 +140,7 @@ bool ExactSides::are_coplanar_layers(std::uint32_t a, std::uint32_t b) const {
     const auto lies_in = [&](const CertificatePolygon& polygon, const WrittenPlane& plane) {
         return std::ranges::all_of(polygon.corners, [&](std::uint32_t corner) {
             const Vector& at = certificate_.vertices[corner];
-            return verify::is_behind(plane, at, tenth_) &&
-                   verify::is_behind(reversed(plane), at, tenth_);
+            return verify::is_behind(plane, at, tenth_) && verify::is_behind(reversed(plane), at, tenth_);
         });
     };
     return lies_in(other, one.plane) && lies_in(one, other.plane) &&
@@ -186,9 +157,7 @@ bool ExactSides::edge_separates(std::uint32_t a, std::uint32_t b) const {
         const ExactVector to = exact(certificate_.vertices[polygon.corners[next]]);
         const ExactVector inward = cross(normal, difference(to, from));
         const ExactPlane wall{inward, Rational(-dot(inward, from))};
-        if (largest(inward) > 0 && is_behind(b, wall, PartAngle::Standing)) {
-            return true;
-        }
+        if (largest(inward) > 0 && is_behind(b, wall, PartAngle::Standing)) { return true; }
     }
     return false;
 }

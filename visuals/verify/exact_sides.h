@@ -37,18 +37,15 @@ WrittenPlane reversed(const WrittenPlane& plane);
 /// Adds a plane times a factor.
 void add(ExactPlane& sum, double factor, const ExactPlane& plane);
 
-/// Whether the height of a point over a plane is at most `tolerance` times largest(normal). Decided
-/// in floating point where its rounding cannot matter, else exactly.
+/// Whether the height of a point over a plane is at most `tolerance` times largest(normal). Decided in floating point
+/// where its rounding cannot matter, else exactly.
 bool is_behind(const WrittenPlane& plane, const Vector& point, double tolerance);
 
-/// Whether the height of a point over a plane is at most `tolerance` times largest(normal), decided
-/// exactly.
+/// Whether the height of a point over a plane is at most `tolerance` times largest(normal), decided exactly.
 bool is_behind(const ExactPlane& plane, const ExactVector& point, const Rational& tolerance);
 
-/// Whether that is so, exactly, for every point of the circle on which a point travels about an
-/// axis.
-bool is_circle_behind(
-    const ExactPlane& plane, const TurnAxis& axis, const Vector& point, const Rational& tolerance);
+/// Whether that is so, exactly, for every point of the circle on which a point travels about an axis.
+bool is_circle_behind(const ExactPlane& plane, const TurnAxis& axis, const Vector& point, const Rational& tolerance);
 
 /// Whether a plane stays where it is when it turns about an axis.
 bool is_across(const WrittenPlane& plane, const TurnAxis& axis);
@@ -79,16 +76,15 @@ public:
         return pose == PartAngle::Standing || keeps_plane_[polygon];
     }
 
-    /// Whether two polygons overlap in one plane that both are seen from, as they stand: all
-    /// corners of each within a tenth of the tolerance of the other's plane, and no edge between
-    /// them.
+    /// Whether two polygons overlap in one plane that both are seen from, as they stand: all corners of each within a
+    /// tenth of the tolerance of the other's plane, and no edge between them.
     bool are_coplanar_layers(std::uint32_t a, std::uint32_t b) const;
 
     /// Whether the corners of a polygon run counter-clockwise, seen from before its plane.
     bool is_counter_clockwise(std::uint32_t polygon) const;
 
-    /// Whether a plane is the negative of nothing but rounding: nobody is before it by more than
-    /// the tolerance times (1 + the eye's distance from the model's middle in sizes of the model).
+    /// Whether a plane is the negative of nothing but rounding: nobody is before it by more than the tolerance times (1
+    /// + the eye's distance from the model's middle in sizes of the model).
     bool is_impossible(const ExactPlane& plane) const;
 
     /// The longest side of the box around all corners.

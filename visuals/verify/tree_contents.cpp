@@ -5,8 +5,7 @@
 namespace octant::visuals::verify {
 
 TreeContents::TreeContents(const Certificate& certificate)
-    : by_node_(certificate.nodes.size())
-    , by_list_(certificate.lists.size()) {
+    : by_node_(certificate.nodes.size()), by_list_(certificate.lists.size()) {
     /// A node or list, and whether all below it has been gone through.
     struct Visit {
         int child = 0;
@@ -17,9 +16,7 @@ TreeContents::TreeContents(const Certificate& certificate)
     while (!to_do.empty()) {
         const Visit visit = to_do.back();
         to_do.pop_back();
-        if (OrderNode::is_empty(visit.child)) {
-            continue;
-        }
+        if (OrderNode::is_empty(visit.child)) { continue; }
         if (visit.child < 0) {
             const auto list = static_cast<std::size_t>(~visit.child);
             const auto& polygons = certificate.lists[list].polygons;
@@ -43,13 +40,10 @@ TreeContents::TreeContents(const Certificate& certificate)
 }
 
 std::vector<std::uint32_t> TreeContents::of(int child) const {
-    if (OrderNode::is_empty(child)) {
-        return {};
-    }
-    const Range range = child < 0 ? by_list_[static_cast<std::size_t>(~child)]
-                                  : by_node_[static_cast<std::size_t>(child)];
-    std::vector<std::uint32_t> polygons(
-        entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
+    if (OrderNode::is_empty(child)) { return {}; }
+    const Range range =
+        child < 0 ? by_list_[static_cast<std::size_t>(~child)] : by_node_[static_cast<std::size_t>(child)];
+    std::vector<std::uint32_t> polygons(entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
         entries_.begin() + static_cast<std::ptrdiff_t>(range.end));
     std::ranges::sort(polygons);
     polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());

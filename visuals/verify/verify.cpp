@@ -1,6 +1,7 @@
-// Walks the tree of a painting order from its root and asks for a proof of everything that the
-// order rests on. README.md has the proofs.
+// Walks the tree of a painting order from its root and asks for a proof of everything that the order rests on.
+// README.md has the proofs.
 #include "visuals/verify/verify.h"
+
 #include "sim/base/error.h"
 #include "visuals/verify/certificate.h"
 #include "visuals/verify/exact_sides.h"
@@ -27,27 +28,20 @@ namespace {
 /// A set of polygons.
 class PolygonSet {
 public:
-    explicit PolygonSet(std::size_t polygons)
-        : words_((polygons + 63) / 64, 0) {}
+    explicit PolygonSet(std::size_t polygons) : words_((polygons + 63) / 64, 0) {}
 
     void add(std::uint32_t polygon) { words_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
 
     void add(const PolygonSet& others) {
-        for (std::size_t i = 0; i < words_.size(); ++i) {
-            words_[i] |= others.words_[i];
-        }
+        for (std::size_t i = 0; i < words_.size(); ++i) { words_[i] |= others.words_[i]; }
     }
 
-    bool has(std::uint32_t polygon) const {
-        return ((words_[polygon / 64] >> (polygon % 64)) & 1U) != 0;
-    }
+    bool has(std::uint32_t polygon) const { return ((words_[polygon / 64] >> (polygon % 64)) & 1U) != 0; }
 
     /// Whether all of these are among others.
     bool is_subset_of(const PolygonSet& others) const {
         for (std::size_t i = 0; i < words_.size(); ++i) {
-            if ((words_[i] & ~others.words_[i]) != 0) {
-                return false;
-            }
+            if ((words_[i] & ~others.words_[i]) != 0) { return false; }
         }
         return true;
     }
@@ -59,13 +53,11 @@ private:
 /// Pairs of which the earlier polygon is proved to hide nothing of the later one from some eyes.
 class ProvedPairs {
 public:
-    explicit ProvedPairs(std::size_t polygons)
-        : polygons_(polygons) {}
+    explicit ProvedPairs(std::size_t polygons) : polygons_(polygons) {}
 
     void add(const PolygonPair& pair);
 
-    /// Adds what a plane proves that all eyes are before: whatever is behind it hides nothing of
-    /// whatever is before it.
+    /// Adds what a plane proves that all eyes are before: whatever is behind it hides nothing of whatever is before it.
     void add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides);
 
     /// Whether all of `painted` hide nothing of a polygon.
@@ -81,26 +73,18 @@ private:
     std::unordered_map<std::uint32_t, PolygonSet> rows_; ///< By the later polygon.
 };
 
-PolygonSet& ProvedPairs::row(std::uint32_t later) {
-    return rows_.try_emplace(later, polygons_).first->second;
-}
+PolygonSet& ProvedPairs::row(std::uint32_t later) { return rows_.try_emplace(later, polygons_).first->second; }
 
-void ProvedPairs::add(const PolygonPair& pair) {
-    row(pair.later).add(pair.earlier);
-}
+void ProvedPairs::add(const PolygonPair& pair) { row(pair.later).add(pair.earlier); }
 
 void ProvedPairs::add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides) {
     const WrittenPlane back = reversed(wall);
     PolygonSet behind(polygons_);
     for (std::uint32_t i = 0; i < polygons_; ++i) {
-        if (sides.is_behind(i, wall, PartAngle::Turning)) {
-            behind.add(i);
-        }
+        if (sides.is_behind(i, wall, PartAngle::Turning)) { behind.add(i); }
     }
     for (std::uint32_t i = 0; i < polygons_; ++i) {
-        if (!sides.is_behind(i, back, PartAngle::Turning)) {
-            continue;
-        }
+        if (!sides.is_behind(i, back, PartAngle::Turning)) { continue; }
         // Polygons that turn together see the wall turn.
         const auto& axis = certificate.polygons[i].axis;
         if (!axis) {
@@ -108,9 +92,7 @@ void ProvedPairs::add_region_plane(const WrittenPlane& wall, const Certificate& 
             continue;
         }
         for (std::uint32_t earlier = 0; earlier < polygons_; ++earlier) {
-            if (behind.has(earlier) && certificate.polygons[earlier].axis != axis) {
-                row(i).add(earlier);
-            }
+            if (behind.has(earlier) && certificate.polygons[earlier].axis != axis) { row(i).add(earlier); }
         }
     }
 }
@@ -122,9 +104,8 @@ bool ProvedPairs::decide(const PolygonSet& painted, std::uint32_t later) const {
 
 std::uint32_t ProvedPairs::first_open(std::span<const std::uint32_t> painted, std::uint32_t later) const {
     const auto known = rows_.find(later);
-    const auto open = std::ranges::find_if(painted, [&](std::uint32_t earlier) {
-        return known == rows_.end() || !known->second.has(earlier);
-    });
+    const auto open = std::ranges::find_if(
+        painted, [&](std::uint32_t earlier) { return known == rows_.end() || !known->second.has(earlier); });
     assert(open != painted.end());
     return *open;
 }
@@ -132,13 +113,11 @@ std::uint32_t ProvedPairs::first_open(std::span<const std::uint32_t> painted, st
 /// The eyes of a list or node: what is before all of these planes.
 using RegionPlanes = std::vector<WrittenPlane>;
 
-/// Judges witnesses; README.md says why each one proves what it claims. Throws Refusal for those
-/// that do not. Keeps references.
+/// Judges witnesses; README.md says why each one proves what it claims. Throws Refusal for those that do not. Keeps
+/// references.
 class PairCheck {
 public:
-    PairCheck(const Certificate& certificate, const ExactSides& sides)
-        : certificate_(certificate)
-        , sides_(sides) {}
+    PairCheck(const Certificate& certificate, const ExactSides& sides) : certificate_(certificate), sides_(sides) {}
 
     /// That the plane of the earlier polygon has the later one before it.
     void check_earlier(const PolygonPair& pair, int line) const;
@@ -150,7 +129,8 @@ public:
     void check(const PairStatement& statement, const RegionPlanes& region_planes) const;
 
     /// That a polygon faces away from every eye before all walls.
-    void check_away(std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const;
+    void check_away(
+        std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const;
 
 private:
     /// Factors that are claimed for a pair.
@@ -181,11 +161,8 @@ PartAngle PairCheck::pose_of(const PolygonPair& pair) const {
 
 void PairCheck::require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const {
     if (!sides_.has_fixed_plane(polygon, pose)) {
-        throw InvalidCertificate{
-            line,
-            fmt::format(
-                "expected a witness without the plane of polygon {}, which turns, got one with it",
-                polygon)};
+        throw InvalidCertificate{line,
+            fmt::format("expected a witness without the plane of polygon {}, which turns, got one with it", polygon)};
     }
 }
 
@@ -194,11 +171,8 @@ void PairCheck::check_earlier(const PolygonPair& pair, int line) const {
     require_fixed_plane(pair.earlier, pose, line);
     if (!sides_.is_before(pair.later, certificate_.polygons[pair.earlier].plane, pose)) {
         throw InvalidCertificate{
-            line,
-            fmt::format(
-                "expected polygon {} before the plane of polygon {}, got a corner behind it",
-                pair.later,
-                pair.earlier)};
+            line, fmt::format("expected polygon {} before the plane of polygon {}, got a corner behind it", pair.later,
+                      pair.earlier)};
     }
 }
 
@@ -207,11 +181,8 @@ void PairCheck::check_later(const PolygonPair& pair, int line) const {
     require_fixed_plane(pair.later, pose, line);
     if (!sides_.is_behind(pair.earlier, certificate_.polygons[pair.later].plane, pose)) {
         throw InvalidCertificate{
-            line,
-            fmt::format(
-                "expected polygon {} behind the plane of polygon {}, got a corner before it",
-                pair.earlier,
-                pair.later)};
+            line, fmt::format("expected polygon {} behind the plane of polygon {}, got a corner before it",
+                      pair.earlier, pair.later)};
     }
 }
 
@@ -245,13 +216,9 @@ ExactPlane PairCheck::plane_of(const Sum& sum) const {
         if (factor > 0.0 && sum.pose == PartAngle::Standing && axis &&
             !is_across(sum.region_planes[i], certificate_.axes[*axis])) {
             throw InvalidCertificate{
-                sum.line,
-                fmt::format(
-                    "expected a witness without wall {}, which polygons {} and {} see turn, got "
-                    "one with it",
-                    i,
-                    sum.pair.earlier,
-                    sum.pair.later)};
+                sum.line, fmt::format("expected a witness without wall {}, which polygons {} and {} see turn, got "
+                                      "one with it",
+                              i, sum.pair.earlier, sum.pair.later)};
         }
         add(plane, factor, exact(sum.region_planes[i]));
     }
@@ -263,22 +230,14 @@ void PairCheck::check_separates(const Sum& sum) const {
     const ExactPlane plane = plane_of(sum);
     const auto refuse = [&](std::uint32_t polygon, const char* expected, const char* got) {
         throw InvalidCertificate{
-            sum.line,
-            fmt::format(
-                "expected factors of a plane with polygon {} {} it, got a corner {} it",
-                polygon,
-                expected,
-                got)};
+            sum.line, fmt::format("expected factors of a plane with polygon {} {} it, got a corner {} it", polygon,
+                          expected, got)};
     };
     if (largest(plane.normal) == 0) {
         throw InvalidCertificate{sum.line, "expected factors that make a plane, got none"};
     }
-    if (!sides_.is_behind(sum.pair.earlier, plane, sum.pose)) {
-        refuse(sum.pair.earlier, "behind", "before");
-    }
-    if (!sides_.is_before(sum.pair.later, plane, sum.pose)) {
-        refuse(sum.pair.later, "before", "behind");
-    }
+    if (!sides_.is_behind(sum.pair.earlier, plane, sum.pose)) { refuse(sum.pair.earlier, "behind", "before"); }
+    if (!sides_.is_before(sum.pair.later, plane, sum.pose)) { refuse(sum.pair.later, "before", "behind"); }
 }
 
 void PairCheck::check_never(const Sum& sum) const {
@@ -286,66 +245,44 @@ void PairCheck::check_never(const Sum& sum) const {
     const bool enough = Rational(factors.earlier) + Rational(factors.later) >= 1;
     if (!enough || !sides_.is_impossible(plane_of(sum))) {
         throw InvalidCertificate{
-            sum.line,
-            fmt::format(
-                "expected factors that leave no eye before the planes of polygons {} and {}, got a "
-                "sum that is not negative everywhere",
-                sum.pair.earlier,
-                sum.pair.later)};
+            sum.line, fmt::format("expected factors that leave no eye before the planes of polygons {} and {}, got a "
+                                  "sum that is not negative everywhere",
+                          sum.pair.earlier, sum.pair.later)};
     }
 }
 
-/// The earlier polygons of which a row of pairs speaks, by the later one; nothing where there
-/// should be no such row.
+/// The earlier polygons of which a row of pairs speaks, by the later one; nothing where there should be no such row.
 using EarlierOf = std::function<std::optional<std::span<const std::uint32_t>>(std::uint32_t later)>;
 
-void check_row(
-    const PairCheck& check,
-    const PairRow& row,
-    std::span<const std::uint32_t> earlier,
-    ProvedPairs& proved_pairs,
-    StatementCounts& counts) {
+void check_row(const PairCheck& check, const PairRow& row, std::span<const std::uint32_t> earlier,
+    ProvedPairs& proved_pairs, StatementCounts& counts) {
     std::uint64_t all = 0;
-    for (const DeciderRun& run : row.runs) {
-        all += run.count;
-    }
+    for (const DeciderRun& run : row.runs) { all += run.count; }
     if (all != earlier.size()) {
         throw InvalidCertificate{
-            row.line,
-            fmt::format("expected pairs with {} earlier polygons, got {}", earlier.size(), all)};
+            row.line, fmt::format("expected pairs with {} earlier polygons, got {}", earlier.size(), all)};
     }
     std::size_t at = 0;
     for (const DeciderRun& run : row.runs) {
         for (std::uint32_t i = 0; i < run.count; ++i) {
             const PolygonPair pair{earlier[at++], row.later};
-            if (run.by == DeciderRun::By::Elsewhere) {
-                continue;
-            }
-            run.by == DeciderRun::By::Earlier ? check.check_earlier(pair, row.line)
-                                       : check.check_later(pair, row.line);
+            if (run.by == DeciderRun::By::Elsewhere) { continue; }
+            run.by == DeciderRun::By::Earlier ? check.check_earlier(pair, row.line) : check.check_later(pair, row.line);
             proved_pairs.add(pair);
             ++counts.by_polygons;
         }
     }
 }
 
-/// Checks all that is claimed about pairs for the eyes before some walls, and adds it to what is
-/// known. Throws Refusal.
-void check_statements(
-    const PairCheck& check,
-    const Statements& claims,
-    const RegionPlanes& region_planes,
-    const EarlierOf& earlier_of,
-    ProvedPairs& proved_pairs,
-    StatementCounts& counts) {
+/// Checks all that is claimed about pairs for the eyes before some walls, and adds it to what is known. Throws Refusal.
+void check_statements(const PairCheck& check, const Statements& claims, const RegionPlanes& region_planes,
+    const EarlierOf& earlier_of, ProvedPairs& proved_pairs, StatementCounts& counts) {
     for (const PairRow& row : claims.rows) {
         const auto earlier = earlier_of(row.later);
         if (!earlier) {
             throw InvalidCertificate{
-                row.line,
-                fmt::format(
-                    "expected pairs of a polygon that is painted over others there, got polygon {}",
-                    row.later)};
+                row.line, fmt::format("expected pairs of a polygon that is painted over others there, got polygon {}",
+                              row.later)};
         }
         check_row(check, row, *earlier, proved_pairs, counts);
     }
@@ -357,22 +294,19 @@ void check_statements(
     }
 }
 
-/// Checks that each polygon is painted where it can be seen, once, and over those of its own plane
-/// that it is to cover. Throws Refusal. Keeps references.
+/// Checks that each polygon is painted where it can be seen, once, and over those of its own plane that it is to cover.
+/// Throws Refusal. Keeps references.
 class PaintedCheck {
 public:
     PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check);
 
-    /// That in a child nothing is painted but what is expected, and that what is expected and not
-    /// painted faces away from all eyes before the walls. Returns how many do.
-    std::uint64_t require_painted(
-        int child,
-        std::span<const std::uint32_t> expected,
-        std::span<const std::uint32_t> painted,
-        const RegionPlanes& region_planes);
+    /// That in a child nothing is painted but what is expected, and that what is expected and not painted faces away
+    /// from all eyes before the walls. Returns how many do.
+    std::uint64_t require_painted(int child, std::span<const std::uint32_t> expected,
+        std::span<const std::uint32_t> painted, const RegionPlanes& region_planes);
 
-    /// That no polygon lies in two parts of a node, front, back, along and against, but for flat
-    /// ones in its plane that are seen from both sides.
+    /// That no polygon lies in two parts of a node, front, back, along and against, but for flat ones in its plane that
+    /// are seen from both sides.
     void require_disjoint(int line, const std::array<std::span<const std::uint32_t>, 4>& parts);
 
     /// That in a list what overlaps in one plane is painted as the model's file has it.
@@ -416,33 +350,26 @@ Box box_of(const Certificate& certificate, std::uint32_t number) {
 
 bool meet(const Box& a, const Box& b) {
     for (std::size_t i = 0; i < 3; ++i) {
-        if (a.most[i] < b.least[i] || b.most[i] < a.least[i]) {
-            return false;
-        }
+        if (a.most[i] < b.least[i] || b.most[i] < a.least[i]) { return false; }
     }
     return true;
 }
 
-/// All pairs of polygons that overlap in one plane and of which the later one of the model's file
-/// has to be painted later.
+/// All pairs of polygons that overlap in one plane and of which the later one of the model's file has to be painted
+/// later.
 std::vector<PolygonPair> coplanar_layer_pairs(const Certificate& certificate, const ExactSides& sides) {
     std::vector<Box> boxes;
-    for (std::uint32_t i = 0; i < certificate.polygons.size(); ++i) {
-        boxes.push_back(box_of(certificate, i));
-    }
+    for (std::uint32_t i = 0; i < certificate.polygons.size(); ++i) { boxes.push_back(box_of(certificate, i)); }
     std::ranges::sort(boxes, {}, [](const Box& box) { return box.least[0]; });
     std::vector<PolygonPair> found;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].least[0] <= boxes[i].most[0];
-             ++j) {
+        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].least[0] <= boxes[i].most[0]; ++j) {
             PolygonPair pair{boxes[i].polygon, boxes[j].polygon};
             const CertificatePolygon& a = certificate.polygons[pair.earlier];
             const CertificatePolygon& b = certificate.polygons[pair.later];
             if (a.source != b.source && a.axis == b.axis && meet(boxes[i], boxes[j]) &&
                 sides.are_coplanar_layers(pair.earlier, pair.later)) {
-                if (a.source > b.source) {
-                    std::swap(pair.earlier, pair.later);
-                }
+                if (a.source > b.source) { std::swap(pair.earlier, pair.later); }
                 found.push_back(pair);
             }
         }
@@ -456,57 +383,38 @@ std::vector<PolygonPair> coplanar_layer_pairs(const Certificate& certificate, co
 
 [[noreturn]] void fail_layer_order(const PolygonPair& pair, int line) {
     throw InvalidCertificate{
-        line,
-        fmt::format(
-            "expected polygon {} painted over polygon {}, which it overlaps in one plane and "
-            "follows in the model's file, got it painted earlier",
-            pair.later,
-            pair.earlier)};
+        line, fmt::format("expected polygon {} painted over polygon {}, which it overlaps in one plane and "
+                          "follows in the model's file, got it painted earlier",
+                  pair.later, pair.earlier)};
 }
 
 std::unordered_map<std::uint32_t, std::size_t> places_of(std::span<const std::uint32_t> list) {
     std::unordered_map<std::uint32_t, std::size_t> places;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        places.emplace(list[i], i);
-    }
+    for (std::size_t i = 0; i < list.size(); ++i) { places.emplace(list[i], i); }
     return places;
 }
 
-PaintedCheck::PaintedCheck(
-    const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check)
-    : certificate_(certificate)
-    , pair_check_(pair_check)
-    , coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides))
-    , mark_(certificate.polygons.size(), 0) {}
+PaintedCheck::PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check)
+    : certificate_(certificate), pair_check_(pair_check),
+      coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides)), mark_(certificate.polygons.size(), 0) {}
 
-std::uint64_t PaintedCheck::require_painted(
-    int child,
-    std::span<const std::uint32_t> expected,
-    std::span<const std::uint32_t> painted,
-    const RegionPlanes& region_planes) {
+std::uint64_t PaintedCheck::require_painted(int child, std::span<const std::uint32_t> expected,
+    std::span<const std::uint32_t> painted, const RegionPlanes& region_planes) {
     enum : char { None, Expected, Painted };
 
     const int line = certificate_.line_of(child);
     const Statements& claims = certificate_.statements_of(child);
-    for (const std::uint32_t polygon : expected) {
-        mark_[polygon] = Expected;
-    }
+    for (const std::uint32_t polygon : expected) { mark_[polygon] = Expected; }
     for (const std::uint32_t polygon : painted) {
-        if (std::exchange(mark_[polygon], Painted) != Expected) {
-            fail_at_repeat(polygon, line);
-        }
+        if (std::exchange(mark_[polygon], Painted) != Expected) { fail_at_repeat(polygon, line); }
     }
     std::uint64_t unlisted = 0;
     for (const std::uint32_t polygon : expected) {
-        if (std::exchange(mark_[polygon], None) == Painted || claims.unproved.contains(polygon)) {
-            continue;
-        }
+        if (std::exchange(mark_[polygon], None) == Painted || claims.unproved.contains(polygon)) { continue; }
         const auto away = claims.away.find(polygon);
         if (away == claims.away.end()) {
             throw InvalidCertificate{
-                line,
-                fmt::format(
-                    "expected polygon {} painted or proved to face away, got neither", polygon)};
+                line, fmt::format("expected polygon {} painted or proved to face away, got neither", polygon)};
         }
         pair_check_.check_away(polygon, away->second, region_planes);
         ++unlisted;
@@ -514,28 +422,21 @@ std::uint64_t PaintedCheck::require_painted(
     return unlisted;
 }
 
-void PaintedCheck::require_disjoint(
-    int line, const std::array<std::span<const std::uint32_t>, 4>& parts) {
+void PaintedCheck::require_disjoint(int line, const std::array<std::span<const std::uint32_t>, 4>& parts) {
     constexpr std::array<char, 4> marks{1, 2, 3, 4};
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (const std::uint32_t polygon : parts[i]) {
             const char before = std::exchange(mark_[polygon], marks[i]);
-            if (before != 0 && !(before == marks[2] && i == 3)) {
-                fail_at_repeat(polygon, line);
-            }
+            if (before != 0 && !(before == marks[2] && i == 3)) { fail_at_repeat(polygon, line); }
         }
     }
     for (const auto& part : parts) {
-        for (const std::uint32_t polygon : part) {
-            mark_[polygon] = 0;
-        }
+        for (const std::uint32_t polygon : part) { mark_[polygon] = 0; }
     }
 }
 
 void PaintedCheck::require_layer_order(std::span<const std::uint32_t> list, int line) const {
-    if (coplanar_layer_pairs_.empty()) {
-        return;
-    }
+    if (coplanar_layer_pairs_.empty()) { return; }
     const auto places = places_of(list);
     for (const PolygonPair& pair : coplanar_layer_pairs_) {
         const auto lower = places.find(pair.earlier);
@@ -548,15 +449,11 @@ void PaintedCheck::require_layer_order(std::span<const std::uint32_t> list, int 
 
 void PaintedCheck::require_layer_order(
     std::span<const std::uint32_t> first, std::span<const std::uint32_t> later, int line) const {
-    if (coplanar_layer_pairs_.empty()) {
-        return;
-    }
+    if (coplanar_layer_pairs_.empty()) { return; }
     const auto places_first = places_of(first);
     const auto places_later = places_of(later);
     for (const PolygonPair& pair : coplanar_layer_pairs_) {
-        if (places_first.contains(pair.later) && places_later.contains(pair.earlier)) {
-            fail_layer_order(pair, line);
-        }
+        if (places_first.contains(pair.later) && places_later.contains(pair.earlier)) { fail_layer_order(pair, line); }
     }
 }
 
@@ -566,24 +463,14 @@ using Polygons = std::vector<std::uint32_t>;
 
 class Verifier {
 public:
-    Verifier(
-        const Certificate& certificate,
-        const std::function<void(std::size_t, std::size_t)>& progress)
-        : certificate_(certificate)
-        , progress_(progress)
-        , sides_(certificate)
-        , pair_check_(certificate, sides_)
-        , painted_check_(certificate, sides_, pair_check_)
-        , contents_(certificate) {
+    Verifier(const Certificate& certificate, const std::function<void(std::size_t, std::size_t)>& progress)
+        : certificate_(certificate), progress_(progress), sides_(certificate), pair_check_(certificate, sides_),
+          painted_check_(certificate, sides_, pair_check_), contents_(certificate) {
         const Rational most = sides_.size() * Rational(largest_tolerance_sizes);
         if (Rational(certificate.tolerance) > most) {
-            throw_error_in(
-                certificate.path,
-                fmt::format(
-                    "expected a tolerance of at most {:g} of the model's size, {:g}, got {:g}",
-                    largest_tolerance_sizes,
-                    most.get_d(),
-                    certificate.tolerance));
+            throw_error_in(certificate.path,
+                fmt::format("expected a tolerance of at most {:g} of the model's size, {:g}, got {:g}",
+                    largest_tolerance_sizes, most.get_d(), certificate.tolerance));
         }
         verdict_.tolerance_sizes = Rational(certificate.tolerance / sides_.size()).get_d();
         verdict_.unproved = certificate.unproved;
@@ -593,22 +480,20 @@ public:
         try {
             check_polygons();
             check_tree();
-        } catch (InvalidCertificate& refusal) {
-            verdict_.failure = std::move(refusal);
-        }
+        } catch (InvalidCertificate& refusal) { verdict_.failure = std::move(refusal); }
         return verdict_;
     }
 
 private:
-    /// A part of the tree, the walls of its eyes, and the polygons of which those that face such an
-    /// eye have to be painted there.
+    /// A part of the tree, the walls of its eyes, and the polygons of which those that face such an eye have to be
+    /// painted there.
     struct Task {
         int child = 0;
         RegionPlanes region_planes;
         std::shared_ptr<const Polygons> expected;
         std::shared_ptr<const ProvedPairs> known = nullptr; ///< What the choices above prove, if any are.
-        bool adds_wall = false; ///< Nothing has been made of the last wall yet.
-        bool in_plane = false;  ///< A list of what lies in the plane of a parting.
+        bool adds_wall = false;                             ///< Nothing has been made of the last wall yet.
+        bool in_plane = false;                              ///< A list of what lies in the plane of a parting.
     };
 
     /// That each polygon lies in its plane and is seen from the front of it.
@@ -622,35 +507,28 @@ private:
             }
             if (!sides_.is_counter_clockwise(i)) {
                 throw InvalidCertificate{
-                    polygon.line,
-                    "expected corners counter-clockwise about the normal, got others"};
+                    polygon.line, "expected corners counter-clockwise about the normal, got others"};
             }
         }
     }
 
     void check_tree() {
         auto all = std::make_shared<Polygons>();
-        for (std::uint32_t i = 0; i < certificate_.polygons.size(); ++i) {
-            all->push_back(i);
-        }
-        std::vector<Task> to_do{
-            {.child = certificate_.nodes.empty() ? ~0 : 0, .region_planes = {}, .expected = all}};
+        for (std::uint32_t i = 0; i < certificate_.polygons.size(); ++i) { all->push_back(i); }
+        std::vector<Task> to_do{{.child = certificate_.nodes.empty() ? ~0 : 0, .region_planes = {}, .expected = all}};
         const std::size_t parts = certificate_.nodes.size() + certificate_.lists.size();
         for (std::size_t done = 0; !to_do.empty(); ++done) {
             const Task task = std::move(to_do.back());
             to_do.pop_back();
             task.child < 0 ? check_list(task) : check_node(task, to_do);
-            if (progress_) {
-                progress_(done + 1, parts);
-            }
+            if (progress_) { progress_(done + 1, parts); }
         }
     }
 
     void check_list(const Task& task) {
         const OrderList& list = certificate_.lists[static_cast<std::size_t>(~task.child)];
         const std::span<const std::uint32_t> polygons = list.polygons;
-        verdict_.unlisted +=
-            painted_check_.require_painted(task.child, *task.expected, polygons, task.region_planes);
+        verdict_.unlisted += painted_check_.require_painted(task.child, *task.expected, polygons, task.region_planes);
         painted_check_.require_layer_order(polygons, list.line);
         const std::uint64_t pairs = pairs_among(polygons.size());
         verdict_.pairs += pairs;
@@ -659,14 +537,11 @@ private:
             return;
         }
         std::unordered_map<std::uint32_t, std::size_t> place;
-        for (std::size_t i = 0; i < polygons.size(); ++i) {
-            place.emplace(polygons[i], i);
-        }
+        for (std::size_t i = 0; i < polygons.size(); ++i) { place.emplace(polygons[i], i); }
         ProvedPairs proved_pairs = proved_pairs_at(task);
         check(task, proved_pairs, [&](std::uint32_t later) {
             const auto found = place.find(later);
-            return found == place.end() ? std::nullopt
-                                        : std::optional(polygons.first(found->second));
+            return found == place.end() ? std::nullopt : std::optional(polygons.first(found->second));
         });
         PolygonSet painted(certificate_.polygons.size());
         for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -686,14 +561,13 @@ private:
         const Polygons coplanar_front = contents_.of(node.coplanar_front);
         const Polygons coplanar_back = contents_.of(node.coplanar_back);
         painted_check_.require_disjoint(node.line, {front, back, coplanar_front, coplanar_back});
-        verdict_.unlisted += painted_check_.require_painted(
-            task.child, *task.expected, contents_.of(task.child), task.region_planes);
+        verdict_.unlisted +=
+            painted_check_.require_painted(task.child, *task.expected, contents_.of(task.child), task.region_planes);
         const auto known = known_below(task);
         if (node.kind == OrderNode::Kind::Sequence) {
             check_sequence(task, front, back);
         } else {
-            check_parting(
-                node, certificate_.statements_of(task.child), {front, back}, {coplanar_front, coplanar_back});
+            check_parting(node, certificate_.statements_of(task.child), {front, back}, {coplanar_front, coplanar_back});
         }
         const auto add = [&](int child, const Polygons& polygons, bool in_plane) {
             if (child != OrderNode::nothing) {
@@ -729,41 +603,27 @@ private:
         ProvedPairs proved_pairs = proved_pairs_at(task);
         const int line = certificate_.line_of(task.child);
         check(task, proved_pairs, [&](std::uint32_t later) {
-            return std::ranges::binary_search(back, later) ? std::optional(std::span(front))
-                                                           : std::nullopt;
+            return std::ranges::binary_search(back, later) ? std::optional(std::span(front)) : std::nullopt;
         });
         painted_check_.require_layer_order(front, back, line);
         PolygonSet painted(certificate_.polygons.size());
-        for (const std::uint32_t polygon : front) {
-            painted.add(polygon);
-        }
-        for (const std::uint32_t later : back) {
-            require_decided(proved_pairs, painted, front, later, line);
-        }
+        for (const std::uint32_t polygon : front) { painted.add(polygon); }
+        for (const std::uint32_t later : back) { require_decided(proved_pairs, painted, front, later, line); }
         verdict_.pairs += front.size() * back.size();
     }
 
     /// Checks what is claimed about pairs.
     void check(const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of) {
-        check_statements(
-            pair_check_,
-            certificate_.statements_of(task.child),
-            task.region_planes,
-            earlier_of,
-            proved_pairs,
-            verdict_.claims);
+        check_statements(pair_check_, certificate_.statements_of(task.child), task.region_planes, earlier_of,
+            proved_pairs, verdict_.claims);
     }
 
-    static std::uint64_t pairs_among(std::size_t polygons) {
-        return polygons < 2 ? 0 : polygons * (polygons - 1) / 2;
-    }
+    static std::uint64_t pairs_among(std::size_t polygons) { return polygons < 2 ? 0 : polygons * (polygons - 1) / 2; }
 
     /// What the nodes above and the last wall prove for the eyes of a part.
     ProvedPairs proved_pairs_at(const Task& task) const {
         ProvedPairs proved_pairs = task.known ? *task.known : ProvedPairs(certificate_.polygons.size());
-        if (task.adds_wall) {
-            proved_pairs.add_region_plane(task.region_planes.back(), certificate_, sides_);
-        }
+        if (task.adds_wall) { proved_pairs.add_region_plane(task.region_planes.back(), certificate_, sides_); }
         return proved_pairs;
     }
 
@@ -772,19 +632,12 @@ private:
         return task.adds_wall ? std::make_shared<const ProvedPairs>(proved_pairs_at(task)) : task.known;
     }
 
-    void require_decided(
-        const ProvedPairs& proved_pairs,
-        const PolygonSet& painted,
-        std::span<const std::uint32_t> earlier,
-        std::uint32_t later,
-        int line) const {
+    void require_decided(const ProvedPairs& proved_pairs, const PolygonSet& painted,
+        std::span<const std::uint32_t> earlier, std::uint32_t later, int line) const {
         if (!earlier.empty() && !proved_pairs.decide(painted, later)) {
             throw InvalidCertificate{
-                line,
-                fmt::format(
-                    "expected a proof that polygon {} hides nothing of polygon {}, got none",
-                    proved_pairs.first_open(earlier, later),
-                    later)};
+                line, fmt::format("expected a proof that polygon {} hides nothing of polygon {}, got none",
+                          proved_pairs.first_open(earlier, later), later)};
         }
     }
 
@@ -798,12 +651,8 @@ private:
         const auto& [coplanar_front, coplanar_back] = is_subset_of;
         const auto expect = [&](std::uint32_t polygon, bool good, const char* expected) {
             if (!good && !claims.unproved.contains(polygon)) {
-                throw InvalidCertificate{
-                    node.line,
-                    fmt::format(
-                        "expected polygon {} {} the plane, got a corner elsewhere",
-                        polygon,
-                        expected)};
+                throw InvalidCertificate{node.line,
+                    fmt::format("expected polygon {} {} the plane, got a corner elsewhere", polygon, expected)};
             }
         };
         const WrittenPlane back_of = reversed(node.plane);
@@ -815,8 +664,8 @@ private:
         }
         check_facing(coplanar_front, coplanar_back, node.plane, expect);
         check_facing(coplanar_back, coplanar_front, back_of, expect);
-        const std::uint64_t pairs = front.size() * back.size() +
-                                    (front.size() + back.size()) * (coplanar_front.size() + coplanar_back.size());
+        const std::uint64_t pairs =
+            front.size() * back.size() + (front.size() + back.size()) * (coplanar_front.size() + coplanar_back.size());
         verdict_.by_node_planes += pairs;
         verdict_.pairs += pairs;
     }
@@ -824,10 +673,7 @@ private:
     /// That polygons lie in a plane, and face as it does unless they are painted for both sides.
     template <typename Expect>
     void check_facing(
-        const Polygons& polygons,
-        const Polygons& others,
-        const WrittenPlane& plane,
-        Expect expect) const {
+        const Polygons& polygons, const Polygons& others, const WrittenPlane& plane, Expect expect) const {
         const ExactVector normal = exact(plane.normal);
         for (const std::uint32_t polygon : polygons) {
             const bool lies_in = sides_.is_behind(polygon, plane, PartAngle::Turning) &&

@@ -24,20 +24,8 @@ const Registered target({
     .file = "input.ac",
     .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
     .seeds = seeds,
-    .words =
-        {"OBJECT ",
-         "poly\n",
-         "group\n",
-         "kids ",
-         "numvert ",
-         "numsurf ",
-         "SURF 0x",
-         "mat ",
-         "refs ",
-         "data ",
-         "rot ",
-         "loc ",
-         "MATERIAL "},
+    .words = {"OBJECT ", "poly\n", "group\n", "kids ", "numvert ", "numsurf ", "SURF 0x", "mat ", "refs ", "data ",
+        "rot ", "loc ", "MATERIAL "},
 });
 
 } // namespace

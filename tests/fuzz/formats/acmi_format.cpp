@@ -77,29 +77,9 @@ const Registered target({
         [] {
             return std::vector<std::string>{all_forms, without_attitude};
         },
-    .words =
-        {"#",
-         "-",
-         "T=",
-         "|",
-         "||",
-         "|||||||",
-         ",",
-         "\\,",
-         "\\\n",
-         "//",
-         "0,",
-         "1,",
-         "ffffffffffffffff,",
-         "Type=Air+FixedWing",
-         "Type=Weapon+Missile",
-         "Name=",
-         "ReferenceLongitude=",
-         "ReferenceLatitude=",
-         "FileVersion=2.",
-         "1e300",
-         "nan",
-         "-90"},
+    .words = {"#", "-", "T=", "|", "||", "|||||||", ",", "\\,", "\\\n", "//", "0,", "1,", "ffffffffffffffff,",
+        "Type=Air+FixedWing", "Type=Weapon+Missile",
+        "Name=", "ReferenceLongitude=", "ReferenceLatitude=", "FileVersion=2.", "1e300", "nan", "-90"},
 });
 
 } // namespace

@@ -15,8 +15,7 @@ std::vector<std::string> seeds() {
         visuals::draworder::OrderOptions options;
         options.method = method;
         const auto ordered = visuals::draworder::ordered(small_model(), options);
-        all.push_back(
-            visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
+        all.push_back(visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
     }
     return all;
 }
@@ -24,8 +23,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "certificate",
     .file = "input.certificate",
-    .use =
-        [](const auto& file) { visuals::verify::verify(visuals::verify::read_certificate(file)); },
+    .use = [](const auto& file) { visuals::verify::verify(visuals::verify::read_certificate(file)); },
     .seeds = seeds,
     .words = {"pair ", "node ", "list ", "away ", "unproved ", "axis ", "0x1p-30", "1/3"},
 });

@@ -13,8 +13,7 @@ namespace {
 using models::meshfile::LevelChain;
 
 std::string chain_bytes(const LevelChain& chain) {
-    return bytes_written(
-        "seed.chain", [&](const auto& file) { models::meshfile::write_chain(file, chain); });
+    return bytes_written("seed.chain", [&](const auto& file) { models::meshfile::write_chain(file, chain); });
 }
 
 std::vector<std::string> seeds() {
@@ -40,9 +39,7 @@ std::vector<std::string> seeds() {
 /// The size and the checksum in the head.
 void seal(std::string& bytes) {
     constexpr std::size_t head = 32;
-    if (bytes.size() < head) {
-        return;
-    }
+    if (bytes.size() < head) { return; }
     Hash hash;
     hash.add(std::as_bytes(std::span(bytes).subspan(head)));
     const std::uint64_t numbers[] = {bytes.size() - head, hash.value()};
@@ -52,16 +49,13 @@ void seal(std::string& bytes) {
 /// What was read is written and read again, to the same bytes.
 void use(const std::filesystem::path& file) {
     const LevelChain chain = models::meshfile::read_chain(file);
-    for (const models::meshfile::ChainLevel& level : chain.levels) {
-        use_mesh(level.mesh);
-    }
+    for (const models::meshfile::ChainLevel& level : chain.levels) { use_mesh(level.mesh); }
     const std::string written = chain_bytes(chain);
     const LevelChain again = models::meshfile::read_chain(input_folder() / "seed.chain");
     expect(chain_bytes(again) == written, "the same chain again");
 }
 
-const Registered
-    target({.name = "chain", .file = "input.chain", .use = use, .seeds = seeds, .seal = seal});
+const Registered target({.name = "chain", .file = "input.chain", .use = use, .seeds = seeds, .seal = seal});
 
 } // namespace
 

@@ -29,14 +29,13 @@ std::string seed_of(int packets) {
     return all;
 }
 
-/// A file is packets of one size, 20 a second, the last one perhaps cut. Packets never throw, and
-/// whatever they say, what is shown is finite.
+/// A file is packets of one size, 20 a second, the last one perhaps cut. Packets never throw, and whatever they say,
+/// what is shown is finite.
 void use(const std::filesystem::path& file) {
     const std::string bytes = read_file(file);
     links::LiveTraffic traffic([](const auto& /*key*/, const links::Fix& fix) {
         return links::WorldPosition{
-            .at_m = 111000.0 *
-                    glm::dvec3(fix.longitude_deg, fix.latitude_deg, fix.altitude_m / 111000.0)};
+            .at_m = 111000.0 * glm::dvec3(fix.longitude_deg, fix.latitude_deg, fix.altitude_m / 111000.0)};
     });
     std::array<sim::AircraftState, 4> states;
     double now_s = 0.0;

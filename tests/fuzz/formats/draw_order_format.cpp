@@ -23,9 +23,7 @@ void use(const std::filesystem::path& file) {
             draworder::DrawOrder::Walk walk;
             std::vector<std::uint32_t> painted;
             orders.parts->append_painted(eye_m, walk, painted);
-            for (const std::uint32_t polygon : painted) {
-                expect(polygon < faces, "polygons that are there");
-            }
+            for (const std::uint32_t polygon : painted) { expect(polygon < faces, "polygons that are there"); }
         }
     }
     const std::filesystem::path written = file.parent_path() / "again.order";
@@ -54,23 +52,8 @@ const Registered target({
     .file = "input.order",
     .use = use,
     .seeds = seeds,
-    .words =
-        {"cell ",
-         "cone ",
-         "half ",
-         "order ",
-         "min ",
-         "max ",
-         "list ",
-         "node choice ",
-         "node parting ",
-         "node sequence ",
-         "nothing ",
-         "node ",
-         "twosided ",
-         "parents ",
-         "metric l2\n",
-         "+++/0/0/0/0"},
+    .words = {"cell ", "cone ", "half ", "order ", "min ", "max ", "list ", "node choice ", "node parting ",
+        "node sequence ", "nothing ", "node ", "twosided ", "parents ", "metric l2\n", "+++/0/0/0/0"},
 });
 
 } // namespace

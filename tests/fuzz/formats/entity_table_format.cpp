@@ -23,18 +23,8 @@ const Registered target({
                 "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 9\naircraft = "
                 "\"my-helicopter.obj\"\ncount = 4\n"};
         },
-    .words =
-        {"[[entity]]\n",
-         "[entity]\n",
-         "type = ",
-         "aircraft = ",
-         "count = ",
-         "65535",
-         "256",
-         "\"\"",
-         "[1]",
-         "inf",
-         "true"},
+    .words = {"[[entity]]\n", "[entity]\n", "type = ", "aircraft = ", "count = ", "65535", "256", "\"\"", "[1]", "inf",
+        "true"},
 });
 
 } // namespace

@@ -17,9 +17,7 @@ void seal(std::string& bytes) {
         const auto number = static_cast<std::uint32_t>(value);
         std::memcpy(bytes.data() + at, &number, sizeof number);
     };
-    if (bytes.size() < head + chunk_head) {
-        return;
-    }
+    if (bytes.size() < head + chunk_head) { return; }
     put(8, bytes.size());
     std::uint32_t json = 0;
     std::memcpy(&json, bytes.data() + head, sizeof json);
@@ -36,14 +34,8 @@ const Registered target({
     .file = "input.glb",
     .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
     .seeds = [] { return mesh_seeds(".glb"); },
-    .words =
-        {"\"mode\":5",
-         "\"count\":",
-         "\"componentType\":5121",
-         "\"byteStride\":",
-         "\"byteOffset\":",
-         "BIN",
-         "JSON"},
+    .words = {"\"mode\":5", "\"count\":", "\"componentType\":5121", "\"byteStride\":", "\"byteOffset\":", "BIN",
+        "JSON"},
     .seal = seal,
 });
 

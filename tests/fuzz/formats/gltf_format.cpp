@@ -13,9 +13,7 @@ std::vector<std::string> seeds() {
     const std::string_view plain = R"("nodes":[{"mesh":0}])";
     const std::size_t at = scene.find(plain);
     expect(at != std::string::npos, "one node in a written file");
-    scene.replace(
-        at,
-        plain.size(),
+    scene.replace(at, plain.size(),
         R"("nodes":[{"children":[1,2],"scale":[1,2,3]},{"mesh":0,"rotation":[0,0,1,0]},)"
         R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,-1,0,3,0,0,1]}])");
     all.push_back(scene);
@@ -27,25 +25,9 @@ const Registered target({
     .file = "input.gltf",
     .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
     .seeds = seeds,
-    .words =
-        {"\"nodes\":[",
-         "\"mesh\":0",
-         "\"children\":[0]",
-         "\"matrix\":[",
-         "\"mode\":5",
-         "\"mode\":6",
-         "\"count\":",
-         "\"componentType\":5121",
-         "\"byteStride\":",
-         "\"byteOffset\":",
-         "\"normalized\":true",
-         "\"sparse\":{}",
-         "\"type\":\"VEC3\"",
-         "null",
-         "[",
-         "{",
-         "}",
-         "]"},
+    .words = {"\"nodes\":[", "\"mesh\":0", "\"children\":[0]", "\"matrix\":[", "\"mode\":5", "\"mode\":6",
+        "\"count\":", "\"componentType\":5121", "\"byteStride\":", "\"byteOffset\":", "\"normalized\":true",
+        "\"sparse\":{}", "\"type\":\"VEC3\"", "null", "[", "{", "}", "]"},
 });
 
 } // namespace

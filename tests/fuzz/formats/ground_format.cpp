@@ -19,37 +19,28 @@ using groundfile::GroundHeader;
 
 std::string imported(int columns, int rows, bool placed) {
     std::vector<float> heights_m;
-    for (int i = 0; i < columns * rows; ++i) {
-        heights_m.push_back(static_cast<float>(100.0 * std::sin(0.3 * i)));
-    }
+    for (int i = 0; i < columns * rows; ++i) { heights_m.push_back(static_cast<float>(100.0 * std::sin(0.3 * i))); }
     models::heights::HeightField field(columns, rows, 30.0, heights_m);
-    if (placed) {
-        field.place = GeoPosition{49.3, -123.1};
-    }
+    if (placed) { field.place = GeoPosition{49.3, -123.1}; }
     const std::filesystem::path map = input_folder() / "map.tif";
     models::heights::write_height_field(map, field);
-    return bytes_written("seed.ground", [&](const auto& file) {
-        groundfile::import_ground({map}, file, {}, [](auto, double) { return false; });
-    });
+    return bytes_written("seed.ground",
+        [&](const auto& file) { groundfile::import_ground({map}, file, {}, [](auto, double) { return false; }); });
 }
 
-/// The checksums of the header, of what lies before the tiles and of the checksums, and the
-/// layout's; the tiles' own stay as they are.
+/// The checksums of the header, of what lies before the tiles and of the checksums, and the layout's; the tiles' own
+/// stay as they are.
 void seal(std::string& bytes) {
-    if (bytes.size() < GroundHeader::bytes) {
-        return;
-    }
+    if (bytes.size() < GroundHeader::bytes) { return; }
     GroundHeader header;
     std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof header);
-    if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 &&
-        header.rows <= 65536) {
+    if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 && header.rows <= 65536) {
         const terrain::GroundLayout layout(shape_of(header));
         const groundfile::GroundFileLayout plan(layout);
         header.layout = groundfile::hash_of(shape_of(header));
         if (bytes.size() == plan.file_bytes) {
             const auto all = std::as_bytes(std::span(bytes));
-            const std::uint64_t before_tiles =
-                checksum_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
+            const std::uint64_t before_tiles = checksum_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
             std::memcpy(bytes.data() + plan.checksums, &before_tiles, sizeof before_tiles);
             header.checksums = checksum_of(all.subspan(plan.checksums));
         }
@@ -80,8 +71,7 @@ const Registered target({
     .use = use,
     .seeds =
         [] {
-            return std::vector<std::string>{
-                imported(5, 5, false), imported(9, 33, true), imported(2, 2, false)};
+            return std::vector<std::string>{imported(5, 5, false), imported(9, 33, true), imported(2, 2, false)};
         },
     .seal = seal,
 });

@@ -1,5 +1,5 @@
-// format_replay: tries every format's seeds, what was found once, and mutations of both, which are
-// the same in every run. Exit code 0: no finding; 1: a finding; 2: wrong options.
+// format_replay: tries every format's seeds, what was found once, and mutations of both, which are the same in every
+// run. Exit code 0: no finding; 1: a finding; 2: wrong options.
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
@@ -26,39 +26,32 @@ namespace fs = std::filesystem;
 std::array<char, 512> now_trying{};
 
 void tell_crash(int signal_number) {
-    [[maybe_unused]] const auto told =
-        ::write(2, now_trying.data(), std::string_view(now_trying.data()).size());
+    [[maybe_unused]] const auto told = ::write(2, now_trying.data(), std::string_view(now_trying.data()).size());
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
 }
 
 void say_what_is_tried(const std::string& what) {
-    const std::string line =
-        "crash: " + what + "; the input is in " + input_folder().string() + "\n";
-    *std::copy_n(line.begin(), std::min(line.size(), now_trying.size() - 1), now_trying.begin()) =
-        '\0';
+    const std::string line = "crash: " + what + "; the input is in " + input_folder().string() + "\n";
+    *std::copy_n(line.begin(), std::min(line.size(), now_trying.size() - 1), now_trying.begin()) = '\0';
 }
 
 std::vector<std::string> found_once(const Target& target) {
     std::vector<fs::path> files;
     const fs::path folder = fs::path(OCTANT_SOURCE_DIR "/tests/fuzz/formats/found") / target.name;
     if (fs::is_directory(folder)) {
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            files.push_back(entry.path());
-        }
+        for (const auto& entry : fs::directory_iterator(folder)) { files.push_back(entry.path()); }
     }
     std::ranges::sort(files);
     std::vector<std::string> all;
-    std::ranges::transform(
-        files, std::back_inserter(all), [](const fs::path& file) { return read_file(file); });
+    std::ranges::transform(files, std::back_inserter(all), [](const fs::path& file) { return read_file(file); });
     return all;
 }
 
 /// The trial of one target, and its counts.
 class Replay {
 public:
-    explicit Replay(const Target& target)
-        : target_(target) {}
+    explicit Replay(const Target& target) : target_(target) {}
 
     /// Why the bytes were refused, if they were; a finding is told, and its input kept.
     std::string one(const std::string& bytes, const std::string& what) {
@@ -92,18 +85,14 @@ public:
         name.add(std::as_bytes(std::span(target_.name)));
         RandomGenerator dice(name.value() + seed);
         for (std::uint64_t i = 0; i < count && findings_ < 10; ++i) {
-            one(mutated(seeds_, target_.words, dice),
-                fmt::format("mutation {} of seed {}", i, seed));
+            one(mutated(seeds_, target_.words, dice), fmt::format("mutation {} of seed {}", i, seed));
         }
     }
 
-    void add_seeds(const std::vector<std::string>& more) {
-        seeds_.insert(seeds_.end(), more.begin(), more.end());
-    }
+    void add_seeds(const std::vector<std::string>& more) { seeds_.insert(seeds_.end(), more.begin(), more.end()); }
 
     int told() const {
-        fmt::print(
-            "{}: {} taken, {} refused, {} findings\n", target_.name, taken_, refused_, findings_);
+        fmt::print("{}: {} taken, {} refused, {} findings\n", target_.name, taken_, refused_, findings_);
         return findings_;
     }
 
@@ -117,14 +106,10 @@ private:
 
 int replay(const Target& target, const ReplayOptions& options) {
     Replay replay(target);
-    for (const fs::path& file : options.files) {
-        replay.one(read_file(file), file.string());
-    }
+    for (const fs::path& file : options.files) { replay.one(read_file(file), file.string()); }
     if (options.files.empty()) {
         const std::vector<std::string> found = found_once(target);
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            replay.one(found[i], fmt::format("found {}", i));
-        }
+        for (std::size_t i = 0; i < found.size(); ++i) { replay.one(found[i], fmt::format("found {}", i)); }
         replay.seeds(target.seeds());
         replay.add_seeds(found);
         replay.mutations(options.mutations, options.seed);
@@ -143,9 +128,7 @@ void write_corpus(const Target& target, const fs::path& folder) {
     std::string dictionary;
     for (const std::string& word : target.words) {
         dictionary += '"';
-        for (const char c : word) {
-            dictionary += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-        }
+        for (const char c : word) { dictionary += fmt::format("\\x{:02x}", static_cast<unsigned char>(c)); }
         dictionary += "\"\n";
     }
     write_file(folder / (target.name + ".dict"), dictionary);
@@ -155,9 +138,7 @@ int run(const ReplayOptions& options) {
     int findings = 0;
     int known = 0;
     for (const Target& target : targets()) {
-        if (!options.only.empty() && options.only != target.name) {
-            continue;
-        }
+        if (!options.only.empty() && options.only != target.name) { continue; }
         ++known;
         if (options.corpus) {
             write_corpus(target, *options.corpus);
@@ -165,9 +146,7 @@ int run(const ReplayOptions& options) {
             findings += replay(target, options);
         }
     }
-    if (known == 0) {
-        throw Error("--only: expected the name of a format, got " + printable(options.only));
-    }
+    if (known == 0) { throw Error("--only: expected the name of a format, got " + printable(options.only)); }
     return findings == 0 ? 0 : 1;
 }
 
@@ -175,9 +154,7 @@ int run(const ReplayOptions& options) {
 
 int main(int count, char** words) {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
-    for (const int crash : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) {
-        std::signal(crash, tell_crash);
-    }
+    for (const int crash : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) { std::signal(crash, tell_crash); }
     try {
         return run(read_replay_options({words + 1, static_cast<std::size_t>(count) - 1}));
     } catch (const Error& error) {

@@ -13,9 +13,7 @@ namespace {
 
 void expect_below(const std::vector<models::Triangle>& triples, std::size_t count) {
     for (const models::Triangle& triple : triples) {
-        for (const std::uint32_t index : triple) {
-            expect(index < count, "indices below " + std::to_string(count));
-        }
+        for (const std::uint32_t index : triple) { expect(index < count, "indices below " + std::to_string(count)); }
     }
 }
 
@@ -25,8 +23,7 @@ void check_lists(const models::TriangleMesh& mesh) {
     };
     expect(!mesh.triangles.empty(), "triangles");
     expect(std::ranges::all_of(mesh.vertices_m, is_finite), "finite places");
-    expect(
-        mesh.colours.empty() || mesh.colours.size() == mesh.vertices_m.size(), "a colour a vertex");
+    expect(mesh.colours.empty() || mesh.colours.size() == mesh.vertices_m.size(), "a colour a vertex");
     expect_below(mesh.triangles, mesh.vertices_m.size());
     expect_below(mesh.corner_normals, mesh.normals.size());
     const std::size_t triangles = mesh.triangles.size();
@@ -42,9 +39,7 @@ void check_lists(const models::TriangleMesh& mesh) {
 void use_mesh(const models::TriangleMesh& mesh) {
     check_lists(mesh);
     const models::TriangleMesh mended = models::repair::repaired(mesh).mesh;
-    if (!mended.triangles.empty()) {
-        check_lists(mended);
-    }
+    if (!mended.triangles.empty()) { check_lists(mended); }
 }
 
 models::TriangleMesh sample_cube() {
@@ -55,19 +50,8 @@ models::TriangleMesh sample_cube() {
         mesh.vertices_m.push_back(place_m);
         mesh.colours.push_back(glm::vec3(place_m));
     }
-    mesh.triangles = {
-        {0, 2, 1},
-        {1, 2, 3},
-        {4, 5, 6},
-        {5, 7, 6},
-        {0, 1, 4},
-        {1, 5, 4},
-        {2, 6, 3},
-        {3, 6, 7},
-        {0, 4, 2},
-        {2, 4, 6},
-        {1, 3, 5},
-        {3, 7, 5}};
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2},
+        {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     mesh.normals = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
     mesh.materials = {{"grey", {0.5F, 0.5F, 0.5F}}, {"red", {1.0F, 0.0F, 0.0F}}};
     for (std::uint32_t triangle = 0; triangle < 12; ++triangle) {
@@ -88,9 +72,8 @@ models::TriangleMesh sample_tetrahedron() {
 std::vector<std::string> mesh_seeds(const std::string& ending) {
     std::vector<std::string> seeds;
     for (const models::TriangleMesh& mesh : {sample_cube(), sample_tetrahedron()}) {
-        seeds.push_back(bytes_written("seed" + ending, [&](const std::filesystem::path& file) {
-            models::meshfile::write_mesh(file, mesh);
-        }));
+        seeds.push_back(bytes_written(
+            "seed" + ending, [&](const std::filesystem::path& file) { models::meshfile::write_mesh(file, mesh); }));
     }
     return seeds;
 }

@@ -7,8 +7,7 @@
 
 namespace octant::tests::formats {
 
-/// What follows the reading of any mesh: its indices are looked at, and it is repaired. Throws
-/// Finding.
+/// What follows the reading of any mesh: its indices are looked at, and it is repaired. Throws Finding.
 void use_mesh(const models::TriangleMesh& mesh);
 
 /// The unit cube, with a colour a vertex, corner normals and two materials; a tetrahedron.

@@ -9,50 +9,19 @@ namespace octant::tests::formats {
 
 namespace {
 
-constexpr std::array<std::string_view, 18> numbers{
-    "0",
-    "-1",
-    "1e308",
-    "-1e308",
-    "nan",
-    "inf",
-    "1e-320",
-    "0.5",
-    "1e18",
-    "65536",
-    "-0",
-    "2147483648",
-    "-2147483649",
-    "4294967296",
-    "1e19",
-    "0x10",
-    "999999999999999999999",
-    ""};
-constexpr std::array<std::uint64_t, 12> words_of_bits{
-    0,
-    1,
-    0xff,
-    0x7fff,
-    0x8000,
-    0xffff,
-    0x7fffffff,
-    0x80000000U,
-    0xffffffffU,
-    0x7f800000,
-    0x7ff0000000000000,
-    0xffffffffffffffffU};
+constexpr std::array<std::string_view, 18> numbers{"0", "-1", "1e308", "-1e308", "nan", "inf", "1e-320", "0.5", "1e18",
+    "65536", "-0", "2147483648", "-2147483649", "4294967296", "1e19", "0x10", "999999999999999999999", ""};
+constexpr std::array<std::uint64_t, 12> words_of_bits{0, 1, 0xff, 0x7fff, 0x8000, 0xffff, 0x7fffffff, 0x80000000U,
+    0xffffffffU, 0x7f800000, 0x7ff0000000000000, 0xffffffffffffffffU};
 
 /// The bytes that are changed, and what decides how.
 class Faults {
 public:
-    Faults(std::string& bytes, RandomGenerator& dice)
-        : bytes_(bytes)
-        , dice_(dice) {}
+    Faults(std::string& bytes, RandomGenerator& dice) : bytes_(bytes), dice_(dice) {}
 
     /// A number below `count`, which is at least 1.
     std::size_t below(std::size_t count) {
-        return std::min(
-            static_cast<std::size_t>(dice_.next() * static_cast<double>(count)), count - 1);
+        return std::min(static_cast<std::size_t>(dice_.next() * static_cast<double>(count)), count - 1);
     }
 
     void flip_bit() {
@@ -79,8 +48,7 @@ public:
         const auto digits = std::string_view("+-.0123456789eE");
         const std::size_t first = bytes_.find_first_of("-0123456789", below(bytes_.size()));
         if (first != std::string::npos) {
-            const std::size_t end =
-                std::min(bytes_.find_first_not_of(digits, first), bytes_.size());
+            const std::size_t end = std::min(bytes_.find_first_not_of(digits, first), bytes_.size());
             bytes_.replace(first, end - first, numbers[below(numbers.size())]);
         }
     }
@@ -129,13 +97,11 @@ private:
 
 } // namespace
 
-std::string
-mutated(std::span<const std::string> seeds, std::span<const std::string> words, RandomGenerator& dice) {
+std::string mutated(std::span<const std::string> seeds, std::span<const std::string> words, RandomGenerator& dice) {
     std::string bytes;
     Faults faults(bytes, dice);
     bytes = seeds[faults.below(seeds.size())];
-    for (std::size_t left = 1 + faults.below(1 + faults.below(4)); left > 0 && !bytes.empty();
-         --left) {
+    for (std::size_t left = 1 + faults.below(1 + faults.below(4)); left > 0 && !bytes.empty(); --left) {
         switch (faults.below(11)) {
         case 0:
             faults.flip_bit();

@@ -47,22 +47,8 @@ const Registered target({
     .file = "input.obj",
     .use = use,
     .seeds = seeds,
-    .words =
-        {"v ",
-         "f ",
-         "g ",
-         "o ",
-         "usemtl ",
-         "mtllib ",
-         "# pivot ",
-         " axis ",
-         " rpm ",
-         "\\\n",
-         "-1",
-         "1/2/3",
-         "//",
-         "bzp",
-         "f 1 2 3 4 5 6 7 8\n"},
+    .words = {"v ", "f ", "g ", "o ", "usemtl ", "mtllib ", "# pivot ", " axis ", " rpm ", "\\\n", "-1", "1/2/3", "//",
+        "bzp", "f 1 2 3 4 5 6 7 8\n"},
 });
 
 } // namespace

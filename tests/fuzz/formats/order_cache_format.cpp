@@ -15,7 +15,7 @@ namespace ordercache = visuals::ordercache;
 std::vector<std::string> seeds() {
     std::vector<std::string> all;
     for (const auto method :
-         {draworder::OrderMethod::Tree, draworder::OrderMethod::Bsp, draworder::OrderMethod::Paper}) {
+        {draworder::OrderMethod::Tree, draworder::OrderMethod::Bsp, draworder::OrderMethod::Paper}) {
         draworder::OrderOptions options;
         options.method = method;
         all.push_back(ordercache::encode_order(draworder::ordered(small_model(), options)));
@@ -29,9 +29,7 @@ void use(const std::filesystem::path& file) {
     draworder::OrderedModel ordered = [&] {
         try {
             return ordercache::decode_order(bytes, small_model());
-        } catch (const Error& refusal) {
-            throw_error_in(file, refusal.what());
-        }
+        } catch (const Error& refusal) { throw_error_in(file, refusal.what()); }
     }();
     draworder::DrawOrder::Walk walk;
     for (const glm::dvec3& eye_m : some_eyes()) {
@@ -45,9 +43,7 @@ void use(const std::filesystem::path& file) {
         }
     }
     const std::string again = ordercache::encode_order(ordered);
-    expect(
-        ordercache::encode_order(ordercache::decode_order(again, small_model())) == again,
-        "the same order again");
+    expect(ordercache::encode_order(ordercache::decode_order(again, small_model())) == again, "the same order again");
 }
 
 const Registered target({.name = "order_cache", .file = "input.kept", .use = use, .seeds = seeds});

@@ -15,9 +15,7 @@ namespace links = sim::links;
 void add_text(links::WireWriter& record, std::uint8_t kind, std::string_view text) {
     record.add(kind);
     record.add(static_cast<std::uint32_t>(text.size()));
-    for (const char letter : text) {
-        record.add(static_cast<std::uint8_t>(letter));
-    }
+    for (const char letter : text) { record.add(static_cast<std::uint8_t>(letter)); }
 }
 
 /// Two pictures: a packet and words for the first, a time of day for the second.

@@ -14,9 +14,7 @@ constexpr int max_steps = 20000;
 void use(const std::filesystem::path& file) {
     const flightpaths::PathScript script = flightpaths::read_path_script(file);
     const sim::AircraftKind* const kind = sim::find_aircraft_kind(script.aircraft);
-    if (kind == nullptr || script.samples > max_steps / 120 * script.rate_hz) {
-        return;
-    }
+    if (kind == nullptr || script.samples > max_steps / 120 * script.rate_hz) { return; }
     const flightpaths::FlownPath flown = flightpaths::fly(script, *kind, true);
     for (const sim::AircraftState& state : flown.trajectory.samples()) {
         for (int part = 0; part < 3; ++part) {
@@ -97,27 +95,9 @@ const Registered target({
         [] {
             return std::vector<std::string>{all_kinds, helicopter};
         },
-    .words =
-        {"[[leg]]\n",
-         "fly = ",
-         "\"straight\"\n",
-         "\"turn\"\n",
-         "\"jink\"\n",
-         "\"pull\"\n",
-         "\"push\"\n",
-         "\"dive\"\n",
-         "\"hold\"\n",
-         "load_factor_g = ",
-         "climb_deg = ",
-         "duration_s = ",
-         "to_speed_mps = ",
-         "[start]\n",
-         "inf",
-         "nan",
-         "1979-05-27",
-         "[1]",
-         "true",
-         "'''"},
+    .words = {"[[leg]]\n", "fly = ", "\"straight\"\n", "\"turn\"\n", "\"jink\"\n", "\"pull\"\n", "\"push\"\n",
+        "\"dive\"\n", "\"hold\"\n", "load_factor_g = ", "climb_deg = ", "duration_s = ", "to_speed_mps = ", "[start]\n",
+        "inf", "nan", "1979-05-27", "[1]", "true", "'''"},
 });
 
 } // namespace

@@ -24,8 +24,7 @@ const Registered target({
     .seeds =
         [] {
             return std::vector<std::string>{
-                "P2\n# heights\n4 3\n255\n1 2 3 4\n5 6 7 8\n9 10 11 255\n",
-                "P2 2 2 65535 0 8000 1 9\n"};
+                "P2\n# heights\n4 3\n255\n1 2 3 4\n5 6 7 8\n9 10 11 255\n", "P2 2 2 65535 0 8000 1 9\n"};
         },
     .words = {"P2\n", "# c\n", "65535 ", "65536 ", "20001 ", " "},
 });

@@ -37,13 +37,10 @@ models::TriangleMesh hills() {
 std::string progressive_bytes(const models::TriangleMesh& mesh) {
     models::simplify::SimplifyOptions options;
     const refine::ProgressiveMesh made(models::simplify::fast_sequence(mesh, options));
-    return bytes_written(
-        "seed.pm", [&](const auto& file) { refine::write_progressive(file, made); });
+    return bytes_written("seed.pm", [&](const auto& file) { refine::write_progressive(file, made); });
 }
 
-std::vector<std::string> seeds() {
-    return {progressive_bytes(sample_cube()), progressive_bytes(hills())};
-}
+std::vector<std::string> seeds() { return {progressive_bytes(sample_cube()), progressive_bytes(hills())}; }
 
 /// The checksum of each block that fits, and the file's length in the first one.
 void seal(std::string& bytes) {
@@ -52,14 +49,10 @@ void seal(std::string& bytes) {
     for (bool first = true; at + refine::block_header_bytes <= bytes.size(); first = false) {
         std::uint32_t count = 0;
         std::memcpy(&count, bytes.data() + at, sizeof count);
-        if (count > bytes.size() - at - refine::block_header_bytes) {
-            return;
-        }
+        if (count > bytes.size() - at - refine::block_header_bytes) { return; }
         char* const block = bytes.data() + at + sizeof count;
         const std::uint64_t length = bytes.size();
-        if (first && count >= length_at + sizeof length) {
-            std::memcpy(block + length_at, &length, sizeof length);
-        }
+        if (first && count >= length_at + sizeof length) { std::memcpy(block + length_at, &length, sizeof length); }
         Hash hash;
         hash.add(std::as_bytes(std::span(block, count)));
         const std::uint64_t value = hash.value();
@@ -70,26 +63,18 @@ void seal(std::string& bytes) {
 
 /// Refines all of it, and takes it back as far as that goes.
 void use(const std::filesystem::path& file) {
-    const auto mesh =
-        std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
+    const auto mesh = std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
     refine::SelectiveRefiner refiner(mesh);
     const std::vector<std::uint32_t> nodes = mesh->coarsest_first();
-    for (const std::uint32_t node : nodes) {
-        refiner.split(node);
-    }
+    for (const std::uint32_t node : nodes) { refiner.split(node); }
     expect(refiner.active_count() == mesh->leaf_count(), "all leaves active");
     expect(refiner.face_count() == mesh->face_count(), "all faces there");
-    if (refiner.face_count() > 0) {
-        use_mesh(refine::active_mesh(refiner).mesh);
-    }
+    if (refiner.face_count() > 0) { use_mesh(refine::active_mesh(refiner).mesh); }
     refiner.repair();
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-        refiner.collapse(*node);
-    }
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) { refiner.collapse(*node); }
 }
 
-const Registered
-    target({.name = "progressive", .file = "input.pm", .use = use, .seeds = seeds, .seal = seal});
+const Registered target({.name = "progressive", .file = "input.pm", .use = use, .seeds = seeds, .seal = seal});
 
 } // namespace
 

@@ -41,20 +41,8 @@ const Registered target({
     .file = "run.json",
     .use = use,
     .seeds = seeds,
-    .words =
-        {"\"cores\":",
-         "\"settings\":",
-         "\"machine\":",
-         "\"summary\":",
-         "\"path_offset_m\":",
-         "null",
-         "[]",
-         "{}",
-         "true",
-         "1e308",
-         "\"\\u0000\"",
-         "\"\\ud800\"",
-         "\"f15\""},
+    .words = {"\"cores\":", "\"settings\":", "\"machine\":", "\"summary\":", "\"path_offset_m\":", "null", "[]", "{}",
+        "true", "1e308", "\"\\u0000\"", "\"\\ud800\"", "\"f15\""},
 });
 
 } // namespace

@@ -15,8 +15,7 @@ void use(const std::filesystem::path& file) {
     const std::string text = settings::settings_json(settings::read_settings(file)).dump();
     const std::filesystem::path written = file.parent_path() / "again.json";
     write_file(written, text);
-    expect(
-        settings::settings_json(settings::read_settings(written)).dump() == text, "the same again");
+    expect(settings::settings_json(settings::read_settings(written)).dump() == text, "the same again");
 }
 
 const Registered target({
@@ -28,19 +27,8 @@ const Registered target({
             return std::vector<std::string>{
                 "{}", settings::settings_json({}).dump(), settings::settings_json({}).dump(1)};
         },
-    .words =
-        {"null",
-         "\"\"",
-         "[]",
-         "{}",
-         "true",
-         "1e308",
-         "-1",
-         "\"f15\"",
-         "\"canyon\"",
-         "\"#ff0000\"",
-         "[0,0,0]",
-         "\"\\u0000\""},
+    .words = {"null", "\"\"", "[]", "{}", "true", "1e308", "-1", "\"f15\"", "\"canyon\"", "\"#ff0000\"", "[0,0,0]",
+        "\"\\u0000\""},
 });
 
 } // namespace

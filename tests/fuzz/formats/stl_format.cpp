@@ -19,14 +19,7 @@ const Registered target({
     .file = "input.stl",
     .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
     .seeds = seeds,
-    .words =
-        {"solid ",
-         "facet normal ",
-         "outer loop\n",
-         "vertex ",
-         "endloop\n",
-         "endfacet\n",
-         "endsolid"},
+    .words = {"solid ", "facet normal ", "outer loop\n", "vertex ", "endloop\n", "endfacet\n", "endsolid"},
 });
 
 } // namespace

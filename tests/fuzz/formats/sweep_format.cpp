@@ -13,8 +13,7 @@ void use(const std::filesystem::path& file) {
     expect(!sweep.runs.empty() && sweep.runs.size() <= ui::sweep::max_runs, "as many as may be");
     std::set<std::string> names;
     for (const ui::sweep::SweepRun& run : sweep.runs) {
-        expect(
-            !run.name.empty() && run.name.front() != '.' && run.name.find('/') == std::string::npos,
+        expect(!run.name.empty() && run.name.front() != '.' && run.name.find('/') == std::string::npos,
             "a name that a file can have");
         expect(names.insert(run.name).second, "a name of its own");
     }
@@ -50,23 +49,8 @@ const Registered target({
         [] {
             return std::vector<std::string>{lists, groups};
         },
-    .words =
-        {"[settings]\n",
-         "[vary]\n",
-         "[vary.a.b]\n",
-         "repeats = ",
-         "{ from = 1, to = 9, step = 2 }",
-         "step = 0",
-         "step = -1",
-         "to = 1e18",
-         "\"../x\"",
-         "\".\"",
-         "[[1]]",
-         "path = [\"turn\"]\n",
-         "nan",
-         "inf",
-         "true",
-         "'''"},
+    .words = {"[settings]\n", "[vary]\n", "[vary.a.b]\n", "repeats = ", "{ from = 1, to = 9, step = 2 }", "step = 0",
+        "step = -1", "to = 1e18", "\"../x\"", "\".\"", "[[1]]", "path = [\"turn\"]\n", "nan", "inf", "true", "'''"},
 });
 
 } // namespace

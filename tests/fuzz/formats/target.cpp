@@ -18,14 +18,13 @@ std::vector<Target>& all_targets() {
     return all;
 }
 
-/// In memory where that can be: a disk's file system brings each file that is emptied and written
-/// again to the disk at once.
+/// In memory where that can be: a disk's file system brings each file that is emptied and written again to the disk at
+/// once.
 class InputFolder {
 public:
     InputFolder() {
         const std::filesystem::path in_memory = "/dev/shm";
-        path_ = ::access(in_memory.c_str(), W_OK) == 0 ? in_memory
-                                                       : std::filesystem::temp_directory_path();
+        path_ = ::access(in_memory.c_str(), W_OK) == 0 ? in_memory : std::filesystem::temp_directory_path();
         path_ /= "octant-formats-" + std::to_string(::getpid());
         make_folder(path_);
     }
@@ -47,17 +46,14 @@ private:
 };
 
 void check_message(const std::filesystem::path& folder, const std::string& message) {
-    const auto is_control = [](char c) {
-        return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    };
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
     expect(message.size() > 10, "a message of a few words, got \"" + message + "\"");
     expect(message.size() < 2000, "a short message, got " + message);
     expect(std::ranges::none_of(message, is_control), "one line of text, got " + message);
     expect(message.starts_with(folder.string()), "a message that names the file, got " + message);
 }
 
-std::string
-use_file(const Target& target, const std::filesystem::path& file, std::string_view bytes) {
+std::string use_file(const Target& target, const std::filesystem::path& file, std::string_view bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     try {
@@ -72,9 +68,7 @@ use_file(const Target& target, const std::filesystem::path& file, std::string_vi
 } // namespace
 
 void expect(bool so, const std::string& otherwise) {
-    if (!so) {
-        throw Finding("expected " + otherwise);
-    }
+    if (!so) { throw Finding("expected " + otherwise); }
 }
 
 Registered::Registered(Target target) {
@@ -83,9 +77,7 @@ Registered::Registered(Target target) {
     all.insert(place, std::move(target));
 }
 
-std::span<const Target> targets() {
-    return all_targets();
-}
+std::span<const Target> targets() { return all_targets(); }
 
 const std::filesystem::path& input_folder() {
     static const InputFolder folder;
@@ -98,9 +90,7 @@ std::string tried(const Target& target, std::string_view bytes) {
     if (target.seal) {
         std::string sealed(bytes);
         target.seal(sealed);
-        if (sealed != bytes) {
-            refusal = use_file(target, file, sealed);
-        }
+        if (sealed != bytes) { refusal = use_file(target, file, sealed); }
     }
     return refusal;
 }

@@ -15,15 +15,15 @@ struct Target {
     std::string name;
     /// What the file is called; its ending may say the format.
     std::string file;
-    /// Reads the file and uses what was in it. Throws octant::Error for a file that is refused and
-    /// Finding for what must never be; anything else that it throws is a finding, too.
+    /// Reads the file and uses what was in it. Throws octant::Error for a file that is refused and Finding for what
+    /// must never be; anything else that it throws is a finding, too.
     std::function<void(const std::filesystem::path& file)> use;
     /// Sound files, small, which together reach all of the reader.
     std::function<std::vector<std::string>()> seeds;
     /// Words of the format, for mutations.
     std::vector<std::string> words{};
-    /// Makes lengths and checksums those of the bytes, so that mutations reach what lies behind
-    /// them. Each input is tried as it is and sealed.
+    /// Makes lengths and checksums those of the bytes, so that mutations reach what lies behind them. Each input is
+    /// tried as it is and sealed.
     std::function<void(std::string& bytes)> seal{};
 };
 
@@ -45,17 +45,15 @@ public:
 /// All targets of the program, by name.
 std::span<const Target> targets();
 
-/// A folder of this process for inputs, in memory where the system has such a place; removed when
-/// the process ends as it should.
+/// A folder of this process for inputs, in memory where the system has such a place; removed when the process ends as
+/// it should.
 const std::filesystem::path& input_folder();
 
-/// Why `use` refused the bytes; empty when it took them, as they are or sealed. Throws Finding for
-/// a message that is not one line of printable text that begins with the file, and whatever else
-/// `use` throws.
+/// Why `use` refused the bytes; empty when it took them, as they are or sealed. Throws Finding for a message that is
+/// not one line of printable text that begins with the file, and whatever else `use` throws.
 std::string tried(const Target& target, std::string_view bytes);
 
 /// What `write` writes into a file of this name.
-std::string bytes_written(
-    const std::string& name, const std::function<void(const std::filesystem::path& file)>& write);
+std::string bytes_written(const std::string& name, const std::function<void(const std::filesystem::path& file)>& write);
 
 } // namespace octant::tests::formats

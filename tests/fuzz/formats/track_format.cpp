@@ -30,8 +30,7 @@ void use(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> seeds() {
-    return {
-        "t_s,north_m,east_m,alt_m\n0,0,0,300\n0.5,60,0,300\n1,120,2,301\n2,240,9,300\n",
+    return {"t_s,north_m,east_m,alt_m\n0,0,0,300\n0.5,60,0,300\n1,120,2,301\n2,240,9,300\n",
         "t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,yaw_deg,v_north_mps,v_east_mps,v_up_mps,n_g\n"
         "0,0,0,300,0,1,2,100,0,0,1\n0.05,5,0,300,3,1,2,100,0,0,1.1\n0.1,10,0,300,6,1,2,100,0,0,1."
         "2\n",
@@ -64,22 +63,8 @@ const Registered target({
     .file = "input.csv",
     .use = use,
     .seeds = seeds,
-    .words =
-        {"t_s,",
-         "q_w,",
-         "n_g,",
-         "<trkpt",
-         "</trkpt>",
-         "<!--",
-         "Time\t",
-         "Longitude (deg)\t",
-         "Latitude (deg)\t",
-         ",,",
-         "\r\n",
-         "1e7",
-         "90",
-         "180",
-         "-180"},
+    .words = {"t_s,", "q_w,", "n_g,", "<trkpt", "</trkpt>", "<!--", "Time\t", "Longitude (deg)\t", "Latitude (deg)\t",
+        ",,", "\r\n", "1e7", "90", "180", "-180"},
 });
 
 } // namespace

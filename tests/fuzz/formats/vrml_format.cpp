@@ -26,23 +26,8 @@ const Registered target({
     .file = "input.wrl",
     .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
     .seeds = seeds,
-    .words =
-        {"Transform { ",
-         "Shape { ",
-         "IndexedFaceSet { ",
-         "DEF ",
-         "USE ",
-         "coordIndex [ ",
-         "-1 ",
-         "[ ",
-         "] ",
-         "{ ",
-         "} ",
-         "children [ ",
-         "PROTO ",
-         "#",
-         "TRUE ",
-         "Switch { "},
+    .words = {"Transform { ", "Shape { ", "IndexedFaceSet { ", "DEF ", "USE ", "coordIndex [ ", "-1 ", "[ ", "] ", "{ ",
+        "} ", "children [ ", "PROTO ", "#", "TRUE ", "Switch { "},
 });
 
 } // namespace

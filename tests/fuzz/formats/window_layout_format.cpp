@@ -14,8 +14,7 @@ void use(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> seeds() {
-    const std::string panels =
-        ui::window::text_of_layout({{"Scene", {}}, {"First steps", {}}, {"Terrain", {}}});
+    const std::string panels = ui::window::text_of_layout({{"Scene", {}}, {"First steps", {}}, {"Terrain", {}}});
     return {panels, "[Table][0x00000001,999999999]\n" + panels, ""};
 }
 

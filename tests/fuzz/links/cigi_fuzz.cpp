@@ -18,14 +18,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         octant::tests::expect(
             generator.parts().turned(frame).size() <= CigiArticulatedParts::max_parts, "bounded parts");
         for (const auto& [number, view] : generator.definitions()) {
-            for (const double side_rad :
-                 {view.left_rad, view.right_rad, view.top_rad, view.bottom_rad}) {
+            for (const double side_rad : {view.left_rad, view.right_rad, view.top_rad, view.bottom_rad}) {
                 octant::tests::expect(std::abs(side_rad) < 1.5, "a side ahead");
             }
         }
         const auto answer = generator.message_for(frame, 1.0);
-        octant::tests::expect(
-            answer.size() <= CigiImageGenerator::max_message_bytes, "a message that fits");
+        octant::tests::expect(answer.size() <= CigiImageGenerator::max_message_bytes, "a message that fits");
     }
     return 0;
 }
@@ -40,19 +38,8 @@ std::vector<std::vector<std::byte>> octant::tests::packet_seeds() {
         message.add_zeros(3);
         message.add(std::uint16_t{0x8000});
         message.add_zeros(16);
-        for (const auto& [opcode, bytes] :
-             {std::pair(2, 48),
-              {3, 24},
-              {6, 32},
-              {8, 32},
-              {9, 16},
-              {10, 32},
-              {16, 32},
-              {21, 32},
-              {24, 32},
-              {25, 64},
-              {26, 56},
-              {27, 8}}) {
+        for (const auto& [opcode, bytes] : {std::pair(2, 48), {3, 24}, {6, 32}, {8, 32}, {9, 16}, {10, 32}, {16, 32},
+                 {21, 32}, {24, 32}, {25, 64}, {26, 56}, {27, 8}}) {
             message.add(static_cast<std::uint8_t>(opcode));
             message.add(static_cast<std::uint8_t>(bytes));
             message.add_zeros(static_cast<std::size_t>(bytes) - 2);

@@ -24,9 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 std::vector<std::vector<std::byte>> octant::tests::packet_seeds() {
     std::vector<std::vector<std::byte>> seeds;
-    for (const std::string_view text :
-         {"t_s,lat_deg,lon_deg,alt_m,yaw_deg\n0,47,8,1000,90\n0.1,47.001,8,1000,90\n",
-          "id\tnorth_m\teast_m\talt_m\r\n1\t10\t20\t30\r\n2\t-1e3\t+4\t.5\n"}) {
+    for (const std::string_view text : {"t_s,lat_deg,lon_deg,alt_m,yaw_deg\n0,47,8,1000,90\n0.1,47.001,8,1000,90\n",
+             "id\tnorth_m\teast_m\talt_m\r\n1\t10\t20\t30\r\n2\t-1e3\t+4\t.5\n"}) {
         const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
         seeds.emplace_back(bytes.begin(), bytes.end());
     }

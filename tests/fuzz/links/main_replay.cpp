@@ -1,5 +1,5 @@
-// Drives a target without libFuzzer: with files given, or with its seeds and as many changes of
-// them as the first argument says.
+// Drives a target without libFuzzer: with files given, or with its seeds and as many changes of them as the first
+// argument says.
 
 #include "sim/base/random_generator.h"
 #include "tests/fuzz/links/packet_target.h"
@@ -18,8 +18,7 @@ using Bytes = std::vector<std::byte>;
 void run(const Bytes& bytes) {
     // A block of its own size, so that a sanitizer sees what lies beyond.
     const Bytes exact(bytes.begin(), bytes.end());
-    LLVMFuzzerTestOneInput(
-        reinterpret_cast<const std::uint8_t*>(exact.data()), exact.size()); // NOLINT
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(exact.data()), exact.size()); // NOLINT
 }
 
 std::size_t below(octant::RandomGenerator& dice, std::size_t most) {
@@ -62,9 +61,7 @@ void run_file(const char* name) {
     std::ifstream file(name, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     Bytes bytes;
-    for (const char letter : text) {
-        bytes.push_back(static_cast<std::byte>(letter));
-    }
+    for (const char letter : text) { bytes.push_back(static_cast<std::byte>(letter)); }
     run(bytes);
 }
 
@@ -74,19 +71,13 @@ int main(int count, char** arguments) {
     char* end = nullptr;
     const long tries = count > 1 ? std::strtol(arguments[1], &end, 10) : 0;
     if (count > 1 && *end != '\0') {
-        for (int i = 1; i < count; ++i) {
-            run_file(arguments[i]);
-        }
+        for (int i = 1; i < count; ++i) { run_file(arguments[i]); }
         return 0;
     }
     octant::RandomGenerator dice(11);
     const auto seeds = octant::tests::packet_seeds();
-    for (const Bytes& seed : seeds) {
-        run(seed);
-    }
-    for (long i = 0; i < tries; ++i) {
-        run(changed(seeds[below(dice, seeds.size())], dice));
-    }
+    for (const Bytes& seed : seeds) { run(seed); }
+    for (long i = 0; i < tries; ++i) { run(changed(seeds[below(dice, seeds.size())], dice)); }
     std::printf("%ld changes of %zu packets\n", tries, seeds.size());
     return 0;
 }

@@ -20,9 +20,7 @@ using namespace octant::models;
 
 namespace {
 
-std::vector<polygons::PolygonModel> both() {
-    return {aircraft::detailed_f15(), aircraft::detailed_500md()};
-}
+std::vector<polygons::PolygonModel> both() { return {aircraft::detailed_f15(), aircraft::detailed_500md()}; }
 
 std::filesystem::path shipped(const polygons::PolygonModel& model, const char* ending) {
     return std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / (model.name + ending);
@@ -43,8 +41,7 @@ std::pair<glm::dvec3, glm::dvec3> extent_of(const polygons::PolygonModel& model)
 TEST_CASE("the shipped detailed aircraft are what their makers make") {
     for (const polygons::PolygonModel& model : both()) {
         INFO(model.name << ": OCTANT_APPROVE=1 writes the files anew");
-        const polygons::ObjText text =
-            polygons::obj_text(model, {}, shipped(model, ".mtl").filename().string());
+        const polygons::ObjText text = polygons::obj_text(model, {}, shipped(model, ".mtl").filename().string());
         if (std::getenv("OCTANT_APPROVE") != nullptr) {
             write_file(shipped(model, ".obj"), text.obj);
             write_file(shipped(model, ".mtl"), text.mtl);
@@ -54,8 +51,7 @@ TEST_CASE("the shipped detailed aircraft are what their makers make") {
     }
 }
 
-TEST_CASE(
-    "detailed aircraft are of convex planar polygons, 300 to 1,500, read back without notes") {
+TEST_CASE("detailed aircraft are of convex planar polygons, 300 to 1,500, read back without notes") {
     for (const polygons::PolygonModel& model : both()) {
         INFO(model.name);
         CHECK(model.polygons.size() >= 300);
@@ -79,5 +75,5 @@ TEST_CASE("detailed aircraft have their types' published sizes") {
     CHECK(f15_max.z - f15_min.z == Approx(4.34).margin(0.03)); // height, gear up
     const auto [md_min, md_max] = extent_of(aircraft::detailed_500md());
     CHECK(md_max.y - md_min.y == Approx(8.04).epsilon(0.06)); // rotor, one blade ahead
-    CHECK(1.20 + md_max.z == Approx(2.4).margin(0.05));         // skids 1.20 below the origin
+    CHECK(1.20 + md_max.z == Approx(2.4).margin(0.05));       // skids 1.20 below the origin
 }

@@ -1,5 +1,5 @@
-// Tiles of one degree as one ground, and a map that needs no resampling, judged at 10,000 places by
-// the raw numbers of the files and by PROJ, without the code that reads, joins and resamples maps.
+// Tiles of one degree as one ground, and a map that needs no resampling, judged at 10,000 places by the raw numbers of
+// the files and by PROJ, without the code that reads, joins and resamples maps.
 #include "models/heights/height_field_import.h"
 #include "models/heights/height_source.h"
 #include "models/heights/map_inputs.h"
@@ -39,9 +39,8 @@ struct Numbers {
     double step_y = 0.0;
 
     double at(int column, int row) const {
-        return values
-            [static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-             static_cast<std::size_t>(column)];
+        return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(column)];
     }
 
     double bilinear(double x, double y) const {
@@ -58,14 +57,7 @@ struct Numbers {
 
 Numbers numbers_of(const RasterFile& raster) {
     const std::vector<double>& t = raster.transform;
-    return {
-        raster.columns,
-        raster.rows,
-        raster.values,
-        t[0] + 0.5 * t[1],
-        t[3] + 0.5 * t[5],
-        t[1],
-        -t[5]};
+    return {raster.columns, raster.rows, raster.values, t[0] + 0.5 * t[1], t[3] + 0.5 * t[5], t[1], -t[5]};
 }
 
 RasterFile raster_read(const path& file) {
@@ -75,24 +67,11 @@ RasterFile raster_read(const path& file) {
     RasterFile raster;
     raster.columns = GDALGetRasterXSize(dataset);
     raster.rows = GDALGetRasterYSize(dataset);
-    raster.values.resize(
-        static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
+    raster.values.resize(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
     raster.transform.resize(6);
     REQUIRE(GDALGetGeoTransform(dataset, raster.transform.data()) == CE_None);
-    REQUIRE(
-        GDALRasterIO(
-            GDALGetRasterBand(dataset, 1),
-            GF_Read,
-            0,
-            0,
-            raster.columns,
-            raster.rows,
-            raster.values.data(),
-            raster.columns,
-            raster.rows,
-            GDT_Float64,
-            0,
-            0) == CE_None);
+    REQUIRE(GDALRasterIO(GDALGetRasterBand(dataset, 1), GF_Read, 0, 0, raster.columns, raster.rows,
+                raster.values.data(), raster.columns, raster.rows, GDT_Float64, 0, 0) == CE_None);
     GDALClose(dataset);
     return raster;
 }
@@ -107,8 +86,7 @@ RasterFile mirrored(const RasterFile& tile, double west, double north) {
     const auto fold = [step](int k) { return (k / step) % 2 == 0 ? k % step : step - k % step; };
     for (int row = 0; row < whole.rows; ++row) {
         for (int column = 0; column < whole.columns; ++column) {
-            whole.values.push_back(
-                tile.values[static_cast<std::size_t>(fold(row) * tile.columns + fold(column))]);
+            whole.values.push_back(tile.values[static_cast<std::size_t>(fold(row) * tile.columns + fold(column))]);
         }
     }
     const double cell = 1.0 / step;
@@ -133,8 +111,7 @@ void write_hgt(const path& folder, const RasterFile& tile, int south, int west) 
 /// Random places in degrees, or in units of the file's own system, away from the rim.
 class Places {
 public:
-    explicit Places(const Numbers& numbers)
-        : numbers_(&numbers) {}
+    explicit Places(const Numbers& numbers) : numbers_(&numbers) {}
 
     std::pair<double, double> next() {
         const double x = numbers_->west + share() * (numbers_->columns - 1) * numbers_->step_x;
@@ -159,16 +136,13 @@ using Ground = std::function<std::optional<double>(double x_m, double y_m)>;
 
 /// At 10,000 places that the ground covers. `degrees`: the numbers lie on the globe.
 Apart apart(const Numbers& numbers, const CoordinateSystem& system, bool degrees, const Ground& ground) {
-    const std::unique_ptr<void, decltype(&OSRRelease)> globe(
-        OSRNewSpatialReference(nullptr), OSRRelease);
-    const std::unique_ptr<void, decltype(&OSRRelease)> local(
-        OSRNewSpatialReference(system.wkt.c_str()), OSRRelease);
+    const std::unique_ptr<void, decltype(&OSRRelease)> globe(OSRNewSpatialReference(nullptr), OSRRelease);
+    const std::unique_ptr<void, decltype(&OSRRelease)> local(OSRNewSpatialReference(system.wkt.c_str()), OSRRelease);
     REQUIRE(OSRImportFromEPSG(globe.get(), 4326) == OGRERR_NONE);
     OSRSetAxisMappingStrategy(globe.get(), OAMS_TRADITIONAL_GIS_ORDER);
     OSRSetAxisMappingStrategy(local.get(), OAMS_TRADITIONAL_GIS_ORDER);
     const std::unique_ptr<void, decltype(&OCTDestroyCoordinateTransformation)> to_local(
-        OCTNewCoordinateTransformation(globe.get(), local.get()),
-        OCTDestroyCoordinateTransformation);
+        OCTNewCoordinateTransformation(globe.get(), local.get()), OCTDestroyCoordinateTransformation);
     Apart found;
     Places random(numbers);
     int outside = 0;
@@ -176,9 +150,7 @@ Apart apart(const Numbers& numbers, const CoordinateSystem& system, bool degrees
         const auto [at_x, at_y] = random.next();
         double x = at_x;
         double y = at_y;
-        if (degrees) {
-            REQUIRE(OCTTransform(to_local.get(), 1, &x, &y, nullptr));
-        }
+        if (degrees) { REQUIRE(OCTTransform(to_local.get(), 1, &x, &y, nullptr)); }
         const auto height_m = ground(x - system.centre_x, y - system.centre_y);
         if (!height_m) {
             REQUIRE(++outside < places / 10);
@@ -201,18 +173,15 @@ void check_tiles(const path& folder, const RasterFile& whole) {
     REQUIRE(field.system);
     CHECK(field.filled_voids == 0);
     const Numbers numbers = numbers_of(whole);
-    const auto deviation =
-        source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
+    const auto deviation = source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
     REQUIRE(deviation);
-    const Apart resampled = apart(numbers, *field.system, true, [&field](double x_m, double y_m) {
-        return field.height_at(x_m, y_m);
-    });
+    const Apart resampled =
+        apart(numbers, *field.system, true, [&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
     INFO("said " << deviation->worst_m << " m, got " << resampled.worst_m << " m");
     CHECK(resampled.worst_m <= deviation->worst_m + 0.1);
     CHECK(resampled.rms_m <= 1.2 * deviation->rms_m);
-    const Apart own = apart(numbers, *field.system, true, [&source](double x_m, double y_m) {
-        return source.height_at(x_m, y_m);
-    });
+    const Apart own =
+        apart(numbers, *field.system, true, [&source](double x_m, double y_m) { return source.height_at(x_m, y_m); });
     CHECK(own.worst_m <= 0.1);
 }
 
@@ -221,9 +190,7 @@ template <typename Write>
 void write_tiles(const RasterFile& whole, const Write& write) {
     const int step = (whole.columns - 1) / 2;
     for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 2; ++i) {
-            write(cut(whole, i * step, j * step, step + 1, step + 1), i, j);
-        }
+        for (int i = 0; i < 2; ++i) { write(cut(whole, i * step, j * step, step + 1, step + 1), i, j); }
     }
 }
 
@@ -231,9 +198,8 @@ void check_own_heights(const path& file) {
     const Numbers numbers = numbers_of(raster_read(file));
     const HeightField field = read_height_field(file);
     REQUIRE(field.system);
-    const Apart found = apart(numbers, *field.system, false, [&field](double x_m, double y_m) {
-        return field.height_at(x_m, y_m);
-    });
+    const Apart found =
+        apart(numbers, *field.system, false, [&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
     CHECK(found.worst_m <= 0.1);
 }
 
@@ -262,9 +228,7 @@ TEST_CASE("tiles at 70 degrees north and over the antimeridian are one ground as
 
 TEST_CASE("two by three degrees of SRTM tiles are one ground within the deviation that it states") {
     const auto real = real_terrain_file("srtm3_N49W123.tif");
-    if (!real) {
-        return;
-    }
+    if (!real) { return; }
     RasterFile tile = raster_read(*real);
     REQUIRE((tile.columns == 1201 && tile.rows == 1201));
     for (double& value : tile.values) {
@@ -273,9 +237,7 @@ TEST_CASE("two by three degrees of SRTM tiles are one ground within the deviatio
     const RasterFile whole = mirrored(tile, 8.0, 50.0);
     const path folder = scratch_file("srtm_degrees");
     std::filesystem::create_directories(folder);
-    write_tiles(whole, [&folder](const RasterFile& part, int i, int j) {
-        write_hgt(folder, part, 49 - j, 8 + i);
-    });
+    write_tiles(whole, [&folder](const RasterFile& part, int i, int j) { write_hgt(folder, part, 49 - j, 8 + i); });
     check_tiles(folder, whole);
 }
 
@@ -285,7 +247,5 @@ TEST_CASE("a made map that needs no resampling has its own heights between its s
 }
 
 TEST_CASE("a map that needs no resampling has its own heights between its samples") {
-    if (const auto real = real_terrain_file("vancouver_2049.tif")) {
-        check_own_heights(*real);
-    }
+    if (const auto real = real_terrain_file("vancouver_2049.tif")) { check_own_heights(*real); }
 }

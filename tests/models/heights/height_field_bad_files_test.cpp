@@ -23,8 +23,7 @@ RasterFile flat(int columns, int rows, double height = 5.0) {
     RasterFile raster;
     raster.columns = columns;
     raster.rows = rows;
-    raster.values.assign(
-        static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), height);
+    raster.values.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), height);
     raster.transform = {500000.0, 10.0, 0.0, 5000000.0, 0.0, -10.0};
     raster.system = "EPSG:32610";
     return raster;
@@ -34,15 +33,13 @@ void check_refused(const std::filesystem::path& path, const std::string& message
     CHECK_THROWS_WITH(read_height_field(path), path.string() + ": " + message);
 }
 
-void check_text_refused(
-    const std::string& name, const std::string& bytes, const std::string& message) {
+void check_text_refused(const std::string& name, const std::string& bytes, const std::string& message) {
     const auto path = scratch_file(name);
     write_file(path, bytes);
     check_refused(path, message);
 }
 
-void check_raster_refused(
-    const RasterFile& raster, const std::string& message, const char* driver = "GTiff") {
+void check_raster_refused(const RasterFile& raster, const std::string& message, const char* driver = "GTiff") {
     const auto path = scratch_file(std::string("refused.") + driver);
     write_raster(path, driver, raster);
     check_refused(path, message);
@@ -67,15 +64,13 @@ void check_damaged(const std::filesystem::path& path) {
 
 TEST_CASE("what is no file of this computer is refused") {
     check_refused("/nowhere/a.tif", "expected a file, found none");
-    check_refused(
-        tests::scratch_folder(),
+    check_refused(tests::scratch_folder(),
         std::string(unreadable) + "another kind of file (any raster format of GDAL's is read)");
     check_refused("/dev/zero", "expected a regular file, got a device or pipe");
     const std::string virtual_path = "expected a file on this computer, got a virtual path of GDAL";
     check_refused("/vsicurl/http://localhost/a.tif", virtual_path);
     check_refused("/vsimem/a.tif", virtual_path);
-    check_refused(
-        "GTIFF_DIR:1:/nowhere/a.tif", std::string(unreadable) + "No such file or directory");
+    check_refused("GTIFF_DIR:1:/nowhere/a.tif", std::string(unreadable) + "No such file or directory");
 }
 
 TEST_CASE("a file without read permission is refused") {
@@ -90,22 +85,18 @@ TEST_CASE("a file without read permission is refused") {
 }
 
 TEST_CASE("an empty file and files of other kinds are refused") {
-    const std::string other =
-        std::string(unreadable) + "another kind of file (any raster format of GDAL's is read)";
+    const std::string other = std::string(unreadable) + "another kind of file (any raster format of GDAL's is read)";
     check_text_refused("empty.tif", "", std::string(unreadable) + "an empty file");
     check_text_refused("letter.tif", "Dear reader\n", other);
     check_text_refused("one.byte", "P", other);
-    check_text_refused(
-        "far.vrt",
+    check_text_refused("far.vrt",
         "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><VRTRasterBand dataType=\"Byte\" "
         "band=\"1\"><SimpleSource><SourceFilename>/vsicurl/http://localhost/a.tif"
         "</SourceFilename><SourceProperties RasterXSize=\"2\" RasterYSize=\"2\"/></SimpleSource>"
         "</VRTRasterBand></VRTDataset>",
         "expected heights on this computer, got a reference to "
         "'/vsicurl/http://localhost/a.tif'");
-    check_text_refused(
-        "N51E000.hgt",
-        std::string(1000, '\0'),
+    check_text_refused("N51E000.hgt", std::string(1000, '\0'),
         std::string(unreadable) + "only the first 1000 of the 2884802 bytes of a .hgt tile");
 }
 
@@ -123,9 +114,7 @@ TEST_CASE("damaged files are refused in one line that begins the same for every 
     const auto ascii = scratch_file("cut.asc");
     write_raster(ascii, "AAIGrid", raster);
     truncate_file(ascii, 150000);
-    CHECK_THROWS_WITH(
-        read_height_field(ascii),
-        Catch::Contains("cut.asc:113: expected 90000 heights, got the end"));
+    CHECK_THROWS_WITH(read_height_field(ascii), Catch::Contains("cut.asc:113: expected 90000 heights, got the end"));
     raster.type = GDT_UInt16;
     const auto png = scratch_file("cut.png");
     write_raster(png, "PNG", raster);
@@ -163,22 +152,20 @@ TEST_CASE("pictures in colour and numbers that are no heights are refused") {
     RasterFile warm = flat(4, 4);
     warm.unit = std::string("K");
     check_raster_refused(
-        warm,
-        "expected heights in metres or feet, got 'K': --height-scale says how many metres that is");
+        warm, "expected heights in metres or feet, got 'K': --height-scale says how many metres that is");
 }
 
 TEST_CASE("a field without any height is refused") {
     RasterFile raster = flat(4, 4, -32768.0);
     raster.no_data = -32768.0;
     check_raster_refused(raster, "expected at least one height, got only samples without data");
-    check_raster_refused(
-        flat(4, 4, std::nan("")), "expected at least one height, got only samples without data");
+    check_raster_refused(flat(4, 4, std::nan("")), "expected at least one height, got only samples without data");
 }
 
 TEST_CASE("heights that no ground has are refused") {
     const auto message = [](const std::string& got, const std::string& scale) {
-        return "expected heights from -12000 to 9000 m, got " + got + " m: " + scale + "--void " +
-               got + " treats it as missing";
+        return "expected heights from -12000 to 9000 m, got " + got + " m: " + scale + "--void " + got +
+               " treats it as missing";
     };
     const std::string scale = "--height-scale says how many metres a unit is, ";
     check_raster_refused(flat(4, 4, 9000.5), message("9000.5", scale));
@@ -190,16 +177,11 @@ TEST_CASE("heights that no ground has are refused") {
 }
 
 TEST_CASE("sizes that are too small or too large are refused before anything is read") {
-    const auto message = [](const std::string& got) {
-        return "expected 2 x 2 to 20000 x 20000 samples, got " + got;
-    };
+    const auto message = [](const std::string& got) { return "expected 2 x 2 to 20000 x 20000 samples, got " + got; };
     const std::string streamed = "expected 2 x 2 to 65536 x 65536 samples, got ";
     check_raster_refused(flat(1, 1), streamed + "1 x 1");
     check_raster_refused(flat(1, 5), streamed + "1 x 5");
-    check_text_refused(
-        "huge.asc",
-        "ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n",
-        streamed + "1 x 2");
+    check_text_refused("huge.asc", "ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n", streamed + "1 x 2");
     check_text_refused("huge.pgm", "P2 100000 100000 255 1 2", message("100000 x 100000"));
     check_text_refused("thin.pgm", "P2 1 100 255 1 2", message("1 x 100"));
     const auto path = scratch_file("huge-raw.pgm");
@@ -215,8 +197,7 @@ TEST_CASE("grids that cannot be laid on the ground are refused") {
     degrees = flat(40, 40);
     degrees.system.clear();
     degrees.transform = {8.0, 0.25, 0.0, 47.0, 0.0, -0.25};
-    check_raster_refused(
-        degrees, "expected a coordinate system, got none and cells of 0.25" + which);
+    check_raster_refused(degrees, "expected a coordinate system, got none and cells of 0.25" + which);
     degrees = flat(180, 90);
     degrees.system.clear();
     degrees.transform = {-180.0, 2.0, 0.0, 90.0, 0.0, -2.0};
@@ -224,10 +205,8 @@ TEST_CASE("grids that cannot be laid on the ground are refused") {
     ImportOptions options;
     for (const char* const name : {"nowhere", "EPSG:0", "http://localhost/system.wkt"}) {
         options.system = name;
-        CHECK_THROWS_WITH(
-            read_height_field(tests::scratch_folder() / "refused.GTiff", options),
-            "--terrain-system: expected a coordinate system such as EPSG:4326, got '" +
-                std::string(name) + "'");
+        CHECK_THROWS_WITH(read_height_field(tests::scratch_folder() / "refused.GTiff", options),
+            "--terrain-system: expected a coordinate system such as EPSG:4326, got '" + std::string(name) + "'");
     }
     const std::string no_frame =
         "expected ground up to 1000 km wide and away from the poles that a local frame fits, got ";

@@ -19,9 +19,7 @@ namespace {
 HeightField rough_field(int columns, int rows, double spacing_m) {
     std::vector<float> heights_m;
     for (int i = 0; i < columns * rows; ++i) {
-        heights_m.push_back(
-            static_cast<float>((static_cast<unsigned>(i) * 2654435761U) % 400000U) / 97.0F -
-            1234.5F);
+        heights_m.push_back(static_cast<float>((static_cast<unsigned>(i) * 2654435761U) % 400000U) / 97.0F - 1234.5F);
     }
     return {columns, rows, spacing_m, heights_m};
 }
@@ -90,9 +88,6 @@ TEST_CASE("the same field gives the same bytes") {
 TEST_CASE("a field that cannot be written says why and leaves nothing behind") {
     const HeightField field = rough_field(4, 4, 1.0);
     CHECK_THROWS_WITH(
-        write_height_field("/nowhere/x.tif", field),
-        "/nowhere/x.tif: cannot be written: No such file or directory");
-    CHECK_THROWS_WITH(
-        write_height_field("/dev/full", field),
-        "/dev/full: cannot be written: No space left on device");
+        write_height_field("/nowhere/x.tif", field), "/nowhere/x.tif: cannot be written: No such file or directory");
+    CHECK_THROWS_WITH(write_height_field("/dev/full", field), "/dev/full: cannot be written: No space left on device");
 }

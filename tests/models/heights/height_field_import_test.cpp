@@ -19,9 +19,7 @@ RasterFile counted(int columns, int rows) {
     RasterFile raster;
     raster.columns = columns;
     raster.rows = rows;
-    for (int i = 0; i < columns * rows; ++i) {
-        raster.values.push_back(i);
-    }
+    for (int i = 0; i < columns * rows; ++i) { raster.values.push_back(i); }
     return raster;
 }
 
@@ -95,10 +93,8 @@ TEST_CASE("binary PGM of 8 and of 16 bits and plain PGM are read") {
 
 TEST_CASE("an ASCII grid without a coordinate system counts as metres and its voids are filled") {
     const auto path = scratch_file("grid.asc");
-    write_file(
-        path,
-        "ncols 3\nnrows 3\nxllcorner 1000\nyllcorner 2000\ncellsize 25\nNODATA_value -1\n"
-        "9 2 9\n4 -1 8\n9 6 9\n");
+    write_file(path, "ncols 3\nnrows 3\nxllcorner 1000\nyllcorner 2000\ncellsize 25\nNODATA_value -1\n"
+                     "9 2 9\n4 -1 8\n9 6 9\n");
     const HeightField field = read_height_field(path);
     CHECK(field.spacing_m() == 25.0);
     CHECK(field.filled_voids == 1);
@@ -132,9 +128,7 @@ TEST_CASE("files that run from the south or from the east are turned") {
     write_raster(path, "GTiff", raster);
     const HeightField field = read_height_field(path);
     const std::vector<float> expected = {2, 1, 0, 5, 4, 3};
-    for (int i = 0; i < 6; ++i) {
-        CHECK(field.height_m(i % 3, i / 3) == expected[static_cast<std::size_t>(i)]);
-    }
+    for (int i = 0; i < 6; ++i) { CHECK(field.height_m(i % 3, i / 3) == expected[static_cast<std::size_t>(i)]); }
 }
 
 TEST_CASE("feet on the ground and feet of height become metres") {
@@ -186,21 +180,18 @@ TEST_CASE("degrees become a square grid in metres that keeps the ground where it
     CHECK(field.place->longitude_deg == Approx(8.1).margin(1e-9));
     CHECK(field.place->latitude_deg == Approx(60.2).margin(1e-3));
     // A degree at 60.2 degrees north: 55,455 m east (WGS 84 radius 6,394,260 m), 111,420 m north.
-    const double east_m =
-        6394260.0 * std::cos(60.2 * 3.14159265358979 / 180.0) * 3.14159265358979 / 180.0;
+    const double east_m = 6394260.0 * std::cos(60.2 * 3.14159265358979 / 180.0) * 3.14159265358979 / 180.0;
     const double north_m = 111420.0;
     CHECK(field.spacing_m() == Approx(0.5 * step * east_m).epsilon(1e-3));
     const double width_north_m =
-        0.2 * east_m *
-        (std::cos(60.3 * 3.14159265358979 / 180.0) / std::cos(60.2 * 3.14159265358979 / 180.0));
+        0.2 * east_m * (std::cos(60.3 * 3.14159265358979 / 180.0) / std::cos(60.2 * 3.14159265358979 / 180.0));
     CHECK(2.0 * field.half_extent_m().x == Approx(width_north_m).margin(2.0 * field.spacing_m()));
     CHECK(2.0 * field.half_extent_m().y == Approx(0.2 * north_m).margin(3.0 * field.spacing_m()));
     // On the central meridian straight north is straight up the file.
     const double centre = *field.height_at(0.0, 0.0);
     CHECK(*field.height_at(0.0, 5000.0) - centre == Approx(5000.0 / north_m * 5000.0).margin(0.5));
     CHECK(*field.height_at(3000.0, 0.0) - centre == Approx(3000.0 / east_m * 1000.0).margin(0.5));
-    CHECK(
-        centre == Approx(1000.0 * 0.1 + 5000.0 * (field.place->latitude_deg - 60.1)).margin(0.05));
+    CHECK(centre == Approx(1000.0 * 0.1 + 5000.0 * (field.place->latitude_deg - 60.1)).margin(0.05));
 }
 
 TEST_CASE("web Mercator is brought to true scale") {
@@ -283,9 +274,7 @@ TEST_CASE("reading leaves no file behind and reads the same heights twice") {
     write_raster(scratch_file("alone.png"), "PNG", raster);
     const HeightField first = read_height_field(path);
     const HeightField second = read_height_field(path);
-    for (int i = 0; i < 12; ++i) {
-        CHECK(first.height_m(i % 4, i / 4) == second.height_m(i % 4, i / 4));
-    }
+    for (int i = 0; i < 12; ++i) { CHECK(first.height_m(i % 4, i / 4) == second.height_m(i % 4, i / 4)); }
     for (const auto& entry : std::filesystem::directory_iterator(path.parent_path())) {
         CHECK(entry.path().filename() == "alone.png");
     }

@@ -15,9 +15,7 @@ namespace {
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 /// 3 x 2 samples 10 m apart: south row 0 1 4, north row 2 3 8.
-HeightField small_field() {
-    return {3, 2, 10.0, {0, 1, 4, 2, 3, 8}};
-}
+HeightField small_field() { return {3, 2, 10.0, {0, 1, 4, 2, 3, 8}}; }
 
 } // namespace
 

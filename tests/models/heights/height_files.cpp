@@ -21,14 +21,8 @@ std::filesystem::path scratch_file(const std::string& name) {
 void write_raster(const std::filesystem::path& path, const char* driver, const RasterFile& raster) {
     CPLSetConfigOption("GDAL_PAM_ENABLED", "NO"); // writes no sidecar
     GDALAllRegister();
-    GDALDatasetH memory = GDALCreate(
-        GDALGetDriverByName("MEM"),
-        "",
-        raster.columns,
-        raster.rows,
-        raster.bands,
-        raster.type,
-        nullptr);
+    GDALDatasetH memory =
+        GDALCreate(GDALGetDriverByName("MEM"), "", raster.columns, raster.rows, raster.bands, raster.type, nullptr);
     REQUIRE(memory != nullptr);
     if (!raster.transform.empty()) {
         std::vector<double> transform = raster.transform;
@@ -42,33 +36,16 @@ void write_raster(const std::filesystem::path& path, const char* driver, const R
     }
     for (int i = 1; i <= raster.bands; ++i) {
         const GDALRasterBandH band = GDALGetRasterBand(memory, i);
-        const auto pixels =
-            static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows);
-        const std::size_t first =
-            raster.values.size() > pixels ? static_cast<std::size_t>(i - 1) * pixels : 0;
-        std::vector<double> values(
-            raster.values.begin() + static_cast<long>(first),
+        const auto pixels = static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows);
+        const std::size_t first = raster.values.size() > pixels ? static_cast<std::size_t>(i - 1) * pixels : 0;
+        std::vector<double> values(raster.values.begin() + static_cast<long>(first),
             raster.values.begin() + static_cast<long>(first + pixels));
-        const CPLErr written = GDALRasterIO(
-            band,
-            GF_Write,
-            0,
-            0,
-            raster.columns,
-            raster.rows,
-            values.data(),
-            raster.columns,
-            raster.rows,
-            GDT_Float64,
-            0,
-            0);
+        const CPLErr written = GDALRasterIO(band, GF_Write, 0, 0, raster.columns, raster.rows, values.data(),
+            raster.columns, raster.rows, GDT_Float64, 0, 0);
         REQUIRE(written == CE_None);
-        if (raster.no_data) {
-            GDALSetRasterNoDataValue(band, *raster.no_data);
-        }
+        if (raster.no_data) { GDALSetRasterNoDataValue(band, *raster.no_data); }
         if (raster.bands >= 3) {
-            GDALSetRasterColorInterpretation(
-                band, static_cast<GDALColorInterp>(GCI_RedBand + i - 1));
+            GDALSetRasterColorInterpretation(band, static_cast<GDALColorInterp>(GCI_RedBand + i - 1));
         }
     }
     const GDALRasterBandH first = GDALGetRasterBand(memory, 1);
@@ -85,8 +62,8 @@ void write_raster(const std::filesystem::path& path, const char* driver, const R
         GDALDestroyColorTable(palette);
     }
     CPLPushErrorHandler(CPLQuietErrorHandler);
-    GDALDatasetH copy = GDALCreateCopy(
-        GDALGetDriverByName(driver), path.c_str(), memory, FALSE, nullptr, nullptr, nullptr);
+    GDALDatasetH copy =
+        GDALCreateCopy(GDALGetDriverByName(driver), path.c_str(), memory, FALSE, nullptr, nullptr, nullptr);
     CPLPopErrorHandler();
     REQUIRE(copy != nullptr);
     GDALClose(copy);
@@ -102,11 +79,8 @@ void truncate_file(const std::filesystem::path& path, std::uintmax_t bytes) {
 std::optional<std::filesystem::path> real_terrain_file(const std::string& name) {
     const char* given = std::getenv("OCTANT_SHARED_DATA");
     const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given)
-                         : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
-    if (std::filesystem::exists(folder / "terrain" / name)) {
-        return folder / "terrain" / name;
-    }
+        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
+    if (std::filesystem::exists(folder / "terrain" / name)) { return folder / "terrain" / name; }
     std::cout << "SKIPPED: no terrain/" << name << " in " << folder << '\n';
     return std::nullopt;
 }

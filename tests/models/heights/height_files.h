@@ -16,7 +16,7 @@ struct RasterFile {
     int rows = 0;
     std::vector<double> values;
     GDALDataType type = GDT_Float32;
-    int bands = 1; ///< one behind the other in values, or each gets the same values
+    int bands = 1;                   ///< one behind the other in values, or each gets the same values
     std::vector<double> transform{}; ///< GDAL's six numbers, or none
     std::string system{};            ///< "EPSG:4326", PROJ text or none
     std::string unit{};
@@ -35,8 +35,8 @@ void write_raster(const std::filesystem::path& path, const char* driver, const R
 /// The first `bytes` of a file stay.
 void truncate_file(const std::filesystem::path& path, std::uintmax_t bytes);
 
-/// The folder of large real files, if this computer has it: OCTANT_SHARED_DATA, else beside the
-/// source. Prints "SKIPPED: why" when it has not.
+/// The folder of large real files, if this computer has it: OCTANT_SHARED_DATA, else beside the source. Prints
+/// "SKIPPED: why" when it has not.
 std::optional<std::filesystem::path> real_terrain_file(const std::string& name);
 
 } // namespace octant::models::heights::test

@@ -21,9 +21,7 @@ struct Expected {
 /// Nothing when the file is not on this computer.
 std::optional<HeightField> read_and_check(const std::string& name, const Expected& expected) {
     const auto path = real_terrain_file(name);
-    if (!path) {
-        return std::nullopt;
-    }
+    if (!path) { return std::nullopt; }
     HeightField field = read_height_field(*path);
     CHECK(field.columns() == expected.columns);
     CHECK(field.rows() == expected.rows);

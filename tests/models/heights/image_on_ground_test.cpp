@@ -15,29 +15,25 @@ constexpr int max_px = 1000;
 /// 400 x 400 m of level ground about 500000, 5400000 of UTM 10 N.
 HeightField utm_ground() {
     const auto file = scratch_file("ground.tif");
-    write_raster(
-        file,
-        "GTiff",
+    write_raster(file, "GTiff",
         {.columns = 5,
-         .rows = 5,
-         .values = std::vector<double>(25, 10),
-         .transform = {499750, 100, 0, 5400250, 0, -100},
-         .system = "EPSG:32610"});
+            .rows = 5,
+            .values = std::vector<double>(25, 10),
+            .transform = {499750, 100, 0, 5400250, 0, -100},
+            .system = "EPSG:32610"});
     return read_height_field(file);
 }
 
 /// 100 x 100 m pixels from 500000, 5400100 towards east and south: 10, 20, 30 and 40 of grey.
 Image grey_image(const std::string& system, const std::vector<double>& transform) {
     const auto file = scratch_file("drape.tif");
-    write_raster(
-        file,
-        "GTiff",
+    write_raster(file, "GTiff",
         {.columns = 2,
-         .rows = 2,
-         .values = {10, 20, 30, 40},
-         .type = GDT_Byte,
-         .transform = transform,
-         .system = system});
+            .rows = 2,
+            .values = {10, 20, 30, 40},
+            .type = GDT_Byte,
+            .transform = transform,
+            .system = system});
     return read_image(file);
 }
 
@@ -53,8 +49,8 @@ TEST_CASE("ground read from a map knows the middle of it in the map's own coordi
 
 TEST_CASE("a placed image lies on the ground where its coordinates say, and nowhere else") {
     const HeightField field = utm_ground();
-    const Image laid = resampled_to_ground(
-        grey_image("EPSG:32610", {500000, 100, 0, 5400100, 0, -100}), area_of(field), max_px);
+    const Image laid =
+        resampled_to_ground(grey_image("EPSG:32610", {500000, 100, 0, 5400100, 0, -100}), area_of(field), max_px);
     REQUIRE(laid.width == 4);
     REQUIRE(laid.height == 4);
     CHECK(int{laid.pixel(2, 1)[0]} == 10);
@@ -77,21 +73,12 @@ TEST_CASE("an image in degrees is brought into the ground's system") {
     const HeightField field = utm_ground();
     const double degree = 0.01;
     REQUIRE(field.place);
-    const Image laid = resampled_to_ground(
-        grey_image(
-            "EPSG:4326",
-            {field.place->longitude_deg - degree,
-             degree,
-             0,
-             field.place->latitude_deg + degree,
-             0,
-             -degree}),
-        area_of(field),
-        max_px);
+    const Image laid = resampled_to_ground(grey_image("EPSG:4326", {field.place->longitude_deg - degree, degree, 0,
+                                                                       field.place->latitude_deg + degree, 0, -degree}),
+        area_of(field), max_px);
     const auto at = [&](double east, double north) {
         return int{laid.pixel(
-            static_cast<int>((0.5 + 0.5 * east) * laid.width),
-            static_cast<int>((0.5 - 0.5 * north) * laid.height))[0]};
+            static_cast<int>((0.5 + 0.5 * east) * laid.width), static_cast<int>((0.5 - 0.5 * north) * laid.height))[0]};
     };
     CHECK(at(-0.9, 0.9) < at(0.9, 0.9));
     CHECK(at(0.9, 0.9) < at(-0.9, -0.9));
@@ -124,13 +111,11 @@ TEST_CASE("an image without a place is stretched over the ground, a large one ma
 
 TEST_CASE("an image that lies elsewhere, or that the ground has no coordinates for, is refused") {
     const Image image = grey_image("EPSG:32610", {600000, 100, 0, 5400100, 0, -100});
-    CHECK_THROWS_WITH(
-        resampled_to_ground(image, area_of(utm_ground()), max_px),
+    CHECK_THROWS_WITH(resampled_to_ground(image, area_of(utm_ground()), max_px),
         "drape.tif: expected an image of the ground of ground.tif, got one that lies elsewhere");
     HeightField made(3, 3, 10.0, std::vector<float>(9, 0.0F));
     made.name = "hills";
-    CHECK_THROWS_WITH(
-        resampled_to_ground(image, area_of(made), max_px),
+    CHECK_THROWS_WITH(resampled_to_ground(image, area_of(made), max_px),
         "drape.tif: expected an image without a coordinate system over ground without one "
         "(hills), got one with");
 }

@@ -19,9 +19,7 @@ using namespace octant::models::heights::test;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 HeightField read_written(const RasterFile& raster) {
     const auto path = scratch_file("doubt.tif");
@@ -34,9 +32,7 @@ double& value_at(RasterFile& raster, int column, int line) {
 }
 
 /// A file that was written before.
-std::filesystem::path scratch_folder_file(const std::string& name) {
-    return tests::scratch_folder() / name;
-}
+std::filesystem::path scratch_folder_file(const std::string& name) { return tests::scratch_folder() / name; }
 
 /// What a note of a spike tells to do about it.
 ImportOptions options_of(const MapNote& note) {
@@ -47,9 +43,7 @@ ImportOptions options_of(const MapNote& note) {
     words >> numbers;
     std::istringstream list(numbers);
     ImportOptions options;
-    for (std::string number; std::getline(list, number, ',');) {
-        options.voids.values.push_back(std::stod(number));
-    }
+    for (std::string number; std::getline(list, number, ',');) { options.voids.values.push_back(std::stod(number)); }
     return options;
 }
 
@@ -69,22 +63,9 @@ RasterFile raster_from(const std::filesystem::path& path) {
     RasterFile raster;
     raster.columns = GDALGetRasterXSize(dataset.get());
     raster.rows = GDALGetRasterYSize(dataset.get());
-    raster.values.resize(
-        static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
-    REQUIRE(
-        GDALRasterIO(
-            GDALGetRasterBand(dataset.get(), 1),
-            GF_Read,
-            0,
-            0,
-            raster.columns,
-            raster.rows,
-            raster.values.data(),
-            raster.columns,
-            raster.rows,
-            GDT_Float64,
-            0,
-            0) == CE_None);
+    raster.values.resize(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
+    REQUIRE(GDALRasterIO(GDALGetRasterBand(dataset.get(), 1), GF_Read, 0, 0, raster.columns, raster.rows,
+                raster.values.data(), raster.columns, raster.rows, GDT_Float64, 0, 0) == CE_None);
     raster.transform = {500000.0, 60.0, 0.0, 5500000.0, 0.0, -60.0};
     raster.system = "EPSG:32610";
     return raster;
@@ -93,14 +74,11 @@ RasterFile raster_from(const std::filesystem::path& path) {
 std::string error_of(const std::filesystem::path& path) {
     try {
         read_height_field(path);
-    } catch (const Error& error) {
-        return error.what();
-    }
+    } catch (const Error& error) { return error.what(); }
     return "";
 }
 
-/// Two tiles of smooth ground beside each other, the eastern one raised; they share their border
-/// line where `shared`.
+/// Two tiles of smooth ground beside each other, the eastern one raised; they share their border line where `shared`.
 std::vector<MapNote> notes_of_tiles(double raised_m, bool shared, bool degrees = false) {
     RasterFile whole = degrees ? degree_hills(80, 50, 10.0, 46.0) : metric_hills();
     whole.type = GDT_Float32;
@@ -109,9 +87,7 @@ std::vector<MapNote> notes_of_tiles(double raised_m, bool shared, bool degrees =
     const auto east_path = scratch_file("east.tif");
     write_raster(west_path, "GTiff", cut(whole, 0, 0, shared ? east + 1 : east, whole.rows));
     RasterFile raised = cut(whole, east, 0, whole.columns - east, whole.rows);
-    for (double& value : raised.values) {
-        value += raised_m;
-    }
+    for (double& value : raised.values) { value += raised_m; }
     write_raster(east_path, "GTiff", raised);
     return read_height_field({west_path, east_path}).notes;
 }
@@ -147,12 +123,11 @@ TEST_CASE("the option that a needle's note names takes it away, in any unit and 
         const char* told; ///< what --void takes, which is the number that the file stores
     };
 
-    for (const Kind& kind :
-         {Kind{"m", 0.5, 100.0, GDT_Int16, 9500.0, "--void 9500 "},
-          Kind{"ft", 1.0, 0.0, GDT_Int16, 15000.0, "--void 15000 "},
-          Kind{"", 1.0, 0.0, GDT_Float32, 4321.1234, "--void 4321.1235 "},
-          Kind{"", 1.0, 0.0, GDT_Float64, 4321.1234567, "--void 4321.1234567 "},
-          Kind{"ft", 0.1, 0.0, GDT_Float64, 123456.75, "--void 123456.75 "}}) {
+    for (const Kind& kind : {Kind{"m", 0.5, 100.0, GDT_Int16, 9500.0, "--void 9500 "},
+             Kind{"ft", 1.0, 0.0, GDT_Int16, 15000.0, "--void 15000 "},
+             Kind{"", 1.0, 0.0, GDT_Float32, 4321.1234, "--void 4321.1235 "},
+             Kind{"", 1.0, 0.0, GDT_Float64, 4321.1234567, "--void 4321.1234567 "},
+             Kind{"ft", 0.1, 0.0, GDT_Float64, 123456.75, "--void 123456.75 "}}) {
         RasterFile raster = metric_hills();
         raster.unit = kind.unit;
         raster.scale = kind.scale;
@@ -171,9 +146,7 @@ TEST_CASE("the option that a needle's note names takes it away, in any unit and 
     }
     const auto pgm = scratch_file("needle.pgm");
     std::string text = "P2 20 20 65535";
-    for (int i = 0; i < 400; ++i) {
-        text += i == 210 ? " 25001" : i == 17 ? " 1001" : " 1000";
-    }
+    for (int i = 0; i < 400; ++i) { text += i == 210 ? " 25001" : i == 17 ? " 1001" : " 1000"; }
     std::ofstream(pgm) << text;
     ImportOptions options;
     options.height_scale = 0.1;
@@ -189,15 +162,12 @@ TEST_CASE("a note of a needle says how many samples have its number") {
     RasterFile raster = metric_hills();
     raster.type = GDT_Float32;
     for (int line = 0; line < 10; ++line) { // a slope of 30 m a sample that reaches the number
-        for (int column = 0; column < 60; ++column) {
-            value_at(raster, column, line) = 4000.0 - 30.0 * line;
-        }
+        for (int column = 0; column < 60; ++column) { value_at(raster, column, line) = 4000.0 - 30.0 * line; }
     }
     value_at(raster, 20, 40) = 4000.0;
     const std::vector<MapNote> notes = read_written(raster).notes;
     REQUIRE(notes.size() == 1);
-    CHECK(
-        has(notes.front().text, "--void 4000 treats every sample of that value as missing (61 in"));
+    CHECK(has(notes.front().text, "--void 4000 treats every sample of that value as missing (61 in"));
 }
 
 TEST_CASE("a spike of several samples is one note, which cures all of it") {
@@ -209,8 +179,7 @@ TEST_CASE("a spike of several samples is one note, which cures all of it") {
             RasterFile raster = metric_hills();
             raster.type = GDT_Float32;
             for (int i = 0; i < size * size; ++i) {
-                value_at(raster, 25 + i % size, 20 + i / size) =
-                    6000.0 + (is_rough ? 7 * i % 11 : 0);
+                value_at(raster, 25 + i % size, 20 + i / size) = 6000.0 + (is_rough ? 7 * i % 11 : 0);
             }
             const auto path = scratch_file("doubt.tif");
             write_raster(path, "GTiff", raster);
@@ -240,9 +209,7 @@ TEST_CASE("spikes and pits in the corners and among voids are told") {
     }
     RasterFile raster = metric_hills();
     raster.no_data = -32000.0;
-    for (const int column : {12, 19, 21, 28}) {
-        value_at(raster, column, 20) = -32000.0;
-    }
+    for (const int column : {12, 19, 21, 28}) { value_at(raster, column, 20) = -32000.0; }
     value_at(raster, 20, 20) = 6000.0;
     CHECK(read_written(raster).notes.size() == 1);
 }
@@ -253,8 +220,7 @@ TEST_CASE("a needle in degrees is told with the height that the file has") {
     const HeightField field = read_written(raster);
     REQUIRE(field.notes.size() == 1);
     CHECK(has(field.notes.front().text, "--void 7777 "));
-    CHECK(read_height_field(scratch_folder_file("doubt.tif"), options_of(field.notes.front()))
-              .notes.empty());
+    CHECK(read_height_field(scratch_folder_file("doubt.tif"), options_of(field.notes.front())).notes.empty());
     // The sample lies at 10 E + 20 / 400 degrees and 46 N - 10 / 400 degrees.
     CHECK(has(field.notes.front().text, "at 45.97"));
     CHECK(has(field.notes.front().text, ", 10.0"));
@@ -263,9 +229,7 @@ TEST_CASE("a needle in degrees is told with the height that the file has") {
 TEST_CASE("a needle beside voids and at the map's edge is told, also by an import in bands") {
     RasterFile raster = metric_hills();
     raster.no_data = -32000.0;
-    for (int column = 24; column < 30; ++column) {
-        value_at(raster, column, 20) = -32000.0;
-    }
+    for (int column = 24; column < 30; ++column) { value_at(raster, column, 20) = -32000.0; }
     value_at(raster, 26, 21) = 5000.0;
     value_at(raster, 0, 40) = 5000.0;
     const auto path = scratch_file("edge.tif");
@@ -274,9 +238,7 @@ TEST_CASE("a needle beside voids and at the map's edge is told, also by an impor
     HeightSource source({path});
     REQUIRE(source.has_integer_metres());
     std::vector<std::int16_t> band(static_cast<std::size_t>(source.columns()) * 10);
-    for (int row = 0; row < source.rows(); row += 10) {
-        source.read(row, band);
-    }
+    for (int row = 0; row < source.rows(); row += 10) { source.read(row, band); }
     CHECK(source.notes().size() == 2);
 }
 
@@ -298,16 +260,12 @@ TEST_CASE("cliffs, ridges, mesas, steps and peaks are no needles") {
             }
         }
     }
-    for (const MapNote& note : read_written(raster).notes) {
-        FAIL_CHECK(note.text);
-    }
+    for (const MapNote& note : read_written(raster).notes) { FAIL_CHECK(note.text); }
 }
 
 TEST_CASE("many needles make three sentences and a number, and all are marked") {
     RasterFile raster = metric_hills();
-    for (int i = 0; i < 9; ++i) {
-        value_at(raster, 5 + 20 * (i % 3), 5 + 20 * (i / 3)) = 4000.0 + i;
-    }
+    for (int i = 0; i < 9; ++i) { value_at(raster, 5 + 20 * (i % 3), 5 + 20 * (i / 3)) = 4000.0 + i; }
     const std::vector<MapNote> notes = read_written(raster).notes;
     REQUIRE(notes.size() == 3);
     CHECK(has(notes.back().text, "; 6 more such places are marked in --picture"));
@@ -316,17 +274,13 @@ TEST_CASE("many needles make three sentences and a number, and all are marked") 
 
 TEST_CASE("ground that is too steep everywhere has another width of cells, and one note says so") {
     RasterFile raster = hills(60, 50); // without a place, 400 m up and down
-    for (int i = 0; i < 36; ++i) {
-        value_at(raster, 5 + 10 * (i % 6), 5 + 8 * (i / 6)) += 1500.0;
-    }
+    for (int i = 0; i < 36; ++i) { value_at(raster, 5 + 10 * (i % 6), 5 + 8 * (i / 6)) += 1500.0; }
     const auto path = scratch_file("steep.tif");
     write_raster(path, "GTiff", raster);
     const std::vector<MapNote> notes = read_height_field(path).notes;
     REQUIRE(notes.size() == 1);
-    CHECK(
-        has(notes.front().text,
-            "steep.tif: 36 places are steeper than any ground on earth if cells are 30 m wide: "
-            "--terrain-spacing says how wide they are"));
+    CHECK(has(notes.front().text, "steep.tif: 36 places are steeper than any ground on earth if cells are 30 m wide: "
+                                  "--terrain-spacing says how wide they are"));
     ImportOptions options;
     options.spacing_m = 2000.0;
     CHECK(read_height_field(path, options).notes.empty());
@@ -362,16 +316,12 @@ TEST_CASE("a step of a few metres in rugged ground is told, and none where there
     for (const bool is_east : {true, false}) {
         for (const double raised_m : {0.0, 0.5, 7.0, -7.0, 20.0}) {
             RasterFile first = is_east ? cut(whole, 0, 0, 100, 300) : cut(whole, 0, 0, 200, 150);
-            RasterFile other =
-                is_east ? cut(whole, 100, 0, 100, 300) : cut(whole, 0, 150, 200, 150);
-            for (double& value : other.values) {
-                value += raised_m;
-            }
+            RasterFile other = is_east ? cut(whole, 100, 0, 100, 300) : cut(whole, 0, 150, 200, 150);
+            for (double& value : other.values) { value += raised_m; }
             write_raster(scratch_file("first.tif"), "GTiff", first);
             write_raster(scratch_file("other.tif"), "GTiff", other);
             const auto notes =
-                read_height_field(
-                    std::vector{scratch_folder_file("first.tif"), scratch_folder_file("other.tif")})
+                read_height_field(std::vector{scratch_folder_file("first.tif"), scratch_folder_file("other.tif")})
                     .notes;
             CAPTURE(is_east, raised_m);
             REQUIRE(notes.size() == (std::abs(raised_m) > 1.0 ? 1 : 0));
@@ -386,26 +336,18 @@ TEST_CASE("a step of a few metres in rugged ground is told, and none where there
 TEST_CASE("real rugged maps in two tiles: a step of 7 m is told, and none where there is none") {
     for (const char* const name : {"gcanyon_1025.tif", "pugetsound_1025.tif"}) {
         const auto path = real_terrain_file(name);
-        if (!path) {
-            continue;
-        }
+        if (!path) { continue; }
         const RasterFile whole = raster_from(*path);
         for (const double raised_m : {0.0, 7.0}) {
             RasterFile east = cut(whole, 500, 0, whole.columns - 500, whole.rows);
-            for (double& value : east.values) {
-                value += raised_m;
-            }
+            for (double& value : east.values) { value += raised_m; }
             write_raster(scratch_file("west.tif"), "GTiff", cut(whole, 0, 0, 501, whole.rows));
             write_raster(scratch_file("east.tif"), "GTiff", east);
             const auto notes =
-                read_height_field(
-                    std::vector{scratch_folder_file("west.tif"), scratch_folder_file("east.tif")})
-                    .notes;
+                read_height_field(std::vector{scratch_folder_file("west.tif"), scratch_folder_file("east.tif")}).notes;
             CAPTURE(name, raised_m);
             REQUIRE(notes.size() == (raised_m > 0.0 ? 1 : 0));
-            if (!notes.empty()) {
-                CHECK(step_told_m(notes.front()) == Approx(raised_m).margin(2.0));
-            }
+            if (!notes.empty()) { CHECK(step_told_m(notes.front()) == Approx(raised_m).margin(2.0)); }
         }
     }
 }
@@ -448,22 +390,16 @@ TEST_CASE("a file that is cut short is refused with its bytes and how many there
     std::ofstream(tile, std::ios::binary) << std::string(2000000, '\0');
     CHECK(has(error_of(tile), "only the first 2000000 of the 2884802 bytes of a .hgt tile"));
     const auto late = scratch_file("late.tif"); // its description would lie behind the heights
-    std::ofstream(late, std::ios::binary)
-        << std::string("II*\0\x00\x10\x00\x00", 8) + std::string(100, 'x');
+    std::ofstream(late, std::ios::binary) << std::string("II*\0\x00\x10\x00\x00", 8) + std::string(100, 'x');
     CHECK(has(error_of(late), "only the first 108 of its at least 4102 bytes"));
 }
 
 TEST_CASE("pictures and containers that are cut short are refused in the same words") {
     RasterFile raster = metric_hills();
     raster.type = GDT_UInt16;
-    for (const auto& [driver, name] : std::vector<std::pair<const char*, const char*>>{
-             {"PNG", "cut.png"},
-             {"JP2OpenJPEG", "cut.jp2"},
-             {"HFA", "cut.img"},
-             {"netCDF", "cut.nc"},
-             {"GTiff", "cut.tif"},
-             {"GPKG", "cut.gpkg"},
-             {"SAGA", "cut.sdat"}}) {
+    for (const auto& [driver, name] : std::vector<std::pair<const char*, const char*>>{{"PNG", "cut.png"},
+             {"JP2OpenJPEG", "cut.jp2"}, {"HFA", "cut.img"}, {"netCDF", "cut.nc"}, {"GTiff", "cut.tif"},
+             {"GPKG", "cut.gpkg"}, {"SAGA", "cut.sdat"}}) {
         RasterFile same = raster;
         same.type = std::string(driver) == "GPKG" ? GDT_Float32 : raster.type;
         const auto path = scratch_file(name);
@@ -489,15 +425,9 @@ TEST_CASE("pictures and containers that are cut short are refused in the same wo
 
 TEST_CASE("good maps get no warnings") {
     for (const char* const name :
-         {"vancouver_2049.tif",
-          "pugetsound_1025.tif",
-          "gcanyon_1025.tif",
-          "srtm3_N49W123.tif",
-          "N51E000.hgt"}) {
+        {"vancouver_2049.tif", "pugetsound_1025.tif", "gcanyon_1025.tif", "srtm3_N49W123.tif", "N51E000.hgt"}) {
         if (const auto path = real_terrain_file(name)) {
-            for (const MapNote& note : read_height_field(*path).notes) {
-                FAIL_CHECK(note.text);
-            }
+            for (const MapNote& note : read_height_field(*path).notes) { FAIL_CHECK(note.text); }
         }
     }
 }

@@ -32,8 +32,7 @@ TEST_CASE("systems in other units and of other projections have their own frames
     constexpr double foot_m = 1200.0 / 3937.0;
     const CoordinateSystem feet{"EPSG:2227", 6000000.0, 2100000.0, foot_m}; // California zone 3
     const auto bay = frame_of_ground(feet, GeoPosition{37.75, -122.44});
-    const glm::dvec2 way_m =
-        bay->local_from_geo({37.76, -122.44}) - bay->local_from_geo({37.75, -122.44});
+    const glm::dvec2 way_m = bay->local_from_geo({37.76, -122.44}) - bay->local_from_geo({37.75, -122.44});
     CHECK(glm::length(way_m) == Approx(1110.0).epsilon(1e-3));
 }
 
@@ -48,8 +47,7 @@ TEST_CASE("by PROJ and by its own series a transverse Mercator frame is the same
     }
 }
 
-TEST_CASE(
-    "where a system does not reach, a map's frame goes on, and ground without a place has none") {
+TEST_CASE("where a system does not reach, a map's frame goes on, and ground without a place has none") {
     const CoordinateSystem utm_10{"EPSG:32610", 492729.777625, 5460811.038490, 1.0};
     const auto frame = frame_of_ground(utm_10, GeoPosition{49.3, -123.1});
     for (const GeoPosition& place : {GeoPosition{-49.3, 56.9}, {90.0, 0.0}, {0.0, -33.1}}) {

@@ -25,8 +25,8 @@ using std::filesystem::path;
 
 void write_reference(const path& file, const path& to) {
     const Dataset source(GDALOpen(to.c_str(), GA_ReadOnly));
-    const Dataset made(GDALCreateCopy(
-        GDALGetDriverByName("VRT"), file.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));
+    const Dataset made(
+        GDALCreateCopy(GDALGetDriverByName("VRT"), file.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));
     REQUIRE(made);
 }
 
@@ -42,10 +42,8 @@ void place_by_points(const path& file, const RasterFile& raster) {
         points[k].dfGCPX = raster.transform[0] + points[k].dfGCPPixel * raster.transform[1];
         points[k].dfGCPY = raster.transform[3] + points[k].dfGCPLine * raster.transform[5];
     }
-    REQUIRE(
-        GDALSetGCPs(
-            made.get(), 4, points.data(), wkt_of(models::heights::geographic_coordinate_system(wgs84).get()).c_str()) ==
-        CE_None);
+    REQUIRE(GDALSetGCPs(made.get(), 4, points.data(),
+                wkt_of(models::heights::geographic_coordinate_system(wgs84).get()).c_str()) == CE_None);
     GDALDeinitGCPs(4, points.data());
 }
 
@@ -67,14 +65,11 @@ TEST_CASE("maps of twenty kinds are the same ground") {
         double off_m = 0.0; ///< what the kind itself loses
     };
 
-    const std::array<Kind, 20> kinds = {
-        {{"GTiff", "map.tif"},       {"COG", "cloud.tif"},    {"VRT", "map.vrt"},
-         {"netCDF", "map.nc"},       {"EHdr", "map.bil"},     {"HFA", "map.img"},
-         {"ENVI", "map.envi"},       {"XYZ", "map.xyz"},      {"JP2OpenJPEG", "map.jp2", 40.0},
-         {"GPKG", "map.gpkg", 30.0}, {"AAIGrid", "map.asc"},  {"SAGA", "map.sdat"},
-         {"RST", "map.rst"},         {"GSBG", "map.grd"},     {"GS7BG", "map7.grd"},
-         {"BT", "map.bt"},           {"ERS", "map.ers"},      {"PCIDSK", "map.pix"},
-         {"ISIS3", "map.cub"},       {"SIGDEM", "map.sigdem"}}};
+    const std::array<Kind, 20> kinds = {{{"GTiff", "map.tif"}, {"COG", "cloud.tif"}, {"VRT", "map.vrt"},
+        {"netCDF", "map.nc"}, {"EHdr", "map.bil"}, {"HFA", "map.img"}, {"ENVI", "map.envi"}, {"XYZ", "map.xyz"},
+        {"JP2OpenJPEG", "map.jp2", 40.0}, {"GPKG", "map.gpkg", 30.0}, {"AAIGrid", "map.asc"}, {"SAGA", "map.sdat"},
+        {"RST", "map.rst"}, {"GSBG", "map.grd"}, {"GS7BG", "map7.grd"}, {"BT", "map.bt"}, {"ERS", "map.ers"},
+        {"PCIDSK", "map.pix"}, {"ISIS3", "map.cub"}, {"SIGDEM", "map.sigdem"}}};
     const RasterFile raster = metric_hills();
     write_raster(scratch_file("expected.tif"), "GTiff", raster);
     const HeightField expected = read_height_field(tests::scratch_folder() / "expected.tif");
@@ -112,24 +107,19 @@ TEST_CASE("tiles that share their borders are the ground of the whole, also from
     for (int j = 0; j < 2; ++j) {
         for (int i = 0; i < 3; ++i) {
             write_raster(
-                folder / ("tile" + std::to_string(3 * j + i) + ".tif"),
-                "GTiff",
-                cut(whole, 40 * i, 40 * j, 41, 41));
+                folder / ("tile" + std::to_string(3 * j + i) + ".tif"), "GTiff", cut(whole, 40 * i, 40 * j, 41, 41));
         }
     }
     const HeightField expected = read_height_field(tests::scratch_folder() / "whole.tif");
     const HeightField from_folder = read_height_field(map_inputs({folder.string()}));
     CHECK(from_folder.filled_voids == 0);
     CHECK(max_apart_m(from_folder, expected) == 0.0);
-    const HeightField from_pattern =
-        read_height_field(map_inputs({folder.string() + "/tile?.tif"}));
+    const HeightField from_pattern = read_height_field(map_inputs({folder.string() + "/tile?.tif"}));
     CHECK(max_apart_m(from_pattern, expected) == 0.0);
-    CHECK_THROWS_WITH(
-        map_inputs({folder.string() + "/none*.tif"}), Catch::Matchers::Contains("found none"));
+    CHECK_THROWS_WITH(map_inputs({folder.string() + "/none*.tif"}), Catch::Matchers::Contains("found none"));
 }
 
-TEST_CASE(
-    "longitudes beyond 180 degrees and maps over the antimeridian are what they are elsewhere") {
+TEST_CASE("longitudes beyond 180 degrees and maps over the antimeridian are what they are elsewhere") {
     write_raster(scratch_file("west.tif"), "GTiff", degree_hills(81, 81, -122.0, 47.0));
     write_raster(scratch_file("turned.tif"), "GTiff", degree_hills(81, 81, 238.0, 47.0));
     const HeightField west = read_height_field(tests::scratch_folder() / "west.tif");
@@ -147,8 +137,7 @@ TEST_CASE(
     write_raster(scratch_file("west_side.tif"), "GTiff", west_side);
     const path folder = tests::scratch_folder();
     const HeightField expected = read_height_field(folder / "here.tif");
-    const HeightField over =
-        read_height_field(std::vector<path>{folder / "east_side.tif", folder / "west_side.tif"});
+    const HeightField over = read_height_field(std::vector<path>{folder / "east_side.tif", folder / "west_side.tif"});
     CHECK(max_apart_m(over, expected) < 1e-3);
     CHECK(std::abs(over.place->longitude_deg) == Approx(180.0).margin(0.01));
 }
@@ -224,10 +213,8 @@ TEST_CASE("a map in an archive is read, and one of several in a file is asked fo
     two.bands = 2;
     const path several = scratch_file("several.nc");
     write_raster(several, "netCDF", two);
-    CHECK_THROWS_WITH(
-        read_height_field(several),
-        Catch::Matchers::Contains("expected one raster, got 2") &&
-            Catch::Matchers::Contains("Band2"));
+    CHECK_THROWS_WITH(read_height_field(several),
+        Catch::Matchers::Contains("expected one raster, got 2") && Catch::Matchers::Contains("Band2"));
     const std::string second = "NETCDF:\"" + several.string() + "\":Band2";
     CHECK(max_apart_m(read_height_field(map_inputs({second})), expected) == 0.0);
 }

@@ -65,8 +65,7 @@ TEST_CASE("with its standard parallel there, an equirectangular map is taken sam
 TEST_CASE("degrees of Mars are as long as its ellipsoid has them") {
     RasterFile raster = flat(-2400.0);
     raster.transform = {-134.0, 1.0 / 128.0, 0.0, 18.0, 0.0, -1.0 / 128.0};
-    const HeightField field = read_with_system(
-        raster,
+    const HeightField field = read_with_system(raster,
         "GEOGCS[\"GCS_Mars_2000\",DATUM[\"D_Mars_2000\",SPHEROID[\"Mars_2000_IAU_IAG\",3396190,"
         "169.894447223612]],PRIMEM[\"Reference_Meridian\",0],UNIT[\"degree\",0.0174532925199433]]");
     REQUIRE(field.place);
@@ -78,9 +77,8 @@ TEST_CASE("degrees of Mars are as long as its ellipsoid has them") {
     CHECK(2.0 * field.half_extent_m().y == Approx(58.7 * north_m).epsilon(0.01));
     const auto frame = frame_of_ground(field.system, field.place);
     const double degree_m = 1.0 * rad * 3361839.0;
-    CHECK(
-        frame->local_from_geo({field.place->latitude_deg + 1.0, field.place->longitude_deg}).y ==
-        Approx(degree_m).epsilon(1e-3));
+    CHECK(frame->local_from_geo({field.place->latitude_deg + 1.0, field.place->longitude_deg}).y ==
+          Approx(degree_m).epsilon(1e-3));
 }
 
 TEST_CASE("Olympus Mons is believed on Mars and not on the earth") {
@@ -96,8 +94,7 @@ TEST_CASE("distances from the centre of the Moon become heights, with a note") {
     RasterFile raster = flat(moon_m + 1234.0);
     raster.type = GDT_Float64;
     raster.transform = {0.0, 100.0, 0.0, 5000.0, 0.0, -100.0};
-    const HeightField field =
-        read_with_system(raster, "+proj=stere +lat_0=-90 +R=1737400 +units=m");
+    const HeightField field = read_with_system(raster, "+proj=stere +lat_0=-90 +R=1737400 +units=m");
     CHECK(field.lowest_m() == 1234.0F);
     REQUIRE(field.notes.size() == 1);
     CHECK(field.notes.front().text.find("centre of the Moon") != std::string::npos);
@@ -105,9 +102,7 @@ TEST_CASE("distances from the centre of the Moon become heights, with a note") {
     raster.type = GDT_Int16;
     raster.scale = 0.5;
     raster.offset = moon_m;
-    CHECK(
-        read_with_system(raster, "+proj=stere +lat_0=-90 +R=1737400 +units=m").lowest_m() ==
-        1234.0F);
+    CHECK(read_with_system(raster, "+proj=stere +lat_0=-90 +R=1737400 +units=m").lowest_m() == 1234.0F);
 }
 
 TEST_CASE("files of two planets make no ground") {

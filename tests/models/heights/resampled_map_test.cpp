@@ -24,9 +24,7 @@ using std::filesystem::path;
 
 HeightDeviation deviation_of(const std::vector<path>& files, const HeightField& field) {
     const HeightSource source(files);
-    return source
-        .deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); })
-        .value();
+    return source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); }).value();
 }
 
 } // namespace
@@ -57,15 +55,12 @@ TEST_CASE("a rotated map lies where its six numbers say") {
     const double across_y = cell_m * std::sin(angle);
     raster.transform = {500000.0, across_x, across_y, 5500000.0, across_y, -across_x};
     raster.system = "EPSG:32610";
-    const auto plane_m = [](double x, double y) {
-        return 0.1 * (x - 500000.0) - 0.05 * (y - 5500000.0) + 500.0;
-    };
+    const auto plane_m = [](double x, double y) { return 0.1 * (x - 500000.0) - 0.05 * (y - 5500000.0) + 500.0; };
     for (int y = 0; y < raster.rows; ++y) {
         for (int x = 0; x < raster.columns; ++x) {
             const double px = x + 0.5;
             const double py = y + 0.5;
-            raster.values.push_back(plane_m(
-                raster.transform[0] + px * raster.transform[1] + py * raster.transform[2],
+            raster.values.push_back(plane_m(raster.transform[0] + px * raster.transform[1] + py * raster.transform[2],
                 raster.transform[3] + px * raster.transform[4] + py * raster.transform[5]));
         }
     }
@@ -76,10 +71,8 @@ TEST_CASE("a rotated map lies where its six numbers say") {
     CHECK(field.filled_voids > 0);
     REQUIRE(field.system);
     for (const double off : {-400.0, 0.0, 300.0}) {
-        CHECK(
-            *field.height_at(off, 0.5 * off) ==
-            Approx(plane_m(field.system->centre_x + off, field.system->centre_y + 0.5 * off))
-                .margin(0.05));
+        CHECK(*field.height_at(off, 0.5 * off) ==
+              Approx(plane_m(field.system->centre_x + off, field.system->centre_y + 0.5 * off)).margin(0.05));
     }
 }
 
@@ -92,17 +85,14 @@ TEST_CASE("at 70 degrees north the frame is true and its corners say how true") 
     const auto distortion = distortion_at_corners(*field.system, field.half_extent_m());
     REQUIRE(distortion);
     CHECK(distortion->scale_percent < 0.001);
-    CHECK(
-        distortion->turn_deg ==
-        Approx(0.25 * std::sin(70.0 * std::numbers::pi / 180.0)).epsilon(0.05));
+    CHECK(distortion->turn_deg == Approx(0.25 * std::sin(70.0 * std::numbers::pi / 180.0)).epsilon(0.05));
     const HeightDeviation deviation = deviation_of({file}, field);
     CHECK(deviation.places > 10000);
     CHECK(deviation.rms_m < 1.5);
 }
 
 TEST_CASE("oblong cells whose sides are in simple proportion keep every sample") {
-    for (const auto& [east_m, north_m, expected_m] :
-         {std::array{90.0, 270.0, 90.0}, std::array{90.0, 60.0, 30.0}}) {
+    for (const auto& [east_m, north_m, expected_m] : {std::array{90.0, 270.0, 90.0}, std::array{90.0, 60.0, 30.0}}) {
         RasterFile raster = hills(40, 30);
         raster.transform = {500000.0, east_m, 0.0, 5500000.0, 0.0, -north_m};
         raster.system = "EPSG:32610";
@@ -123,8 +113,8 @@ TEST_CASE("summits keep their heights where a map is resampled") {
     double highest_inside_m = 0.0;
     for (int y = 3; y < raster.rows - 3; ++y) {
         for (int x = 3; x < raster.columns - 3; ++x) {
-            highest_inside_m = std::max(
-                highest_inside_m, raster.values[static_cast<std::size_t>(y * raster.columns + x)]);
+            highest_inside_m =
+                std::max(highest_inside_m, raster.values[static_cast<std::size_t>(y * raster.columns + x)]);
         }
     }
     CHECK(static_cast<double>(field.highest_m()) >= highest_inside_m);
@@ -133,9 +123,7 @@ TEST_CASE("summits keep their heights where a map is resampled") {
 TEST_CASE("maps of different systems and resolutions make one ground") {
     const path coarse = scratch_file("coarse.tif");
     RasterFile wide = hills(60, 60);
-    for (double& value : wide.values) {
-        value = 700.0;
-    }
+    for (double& value : wide.values) { value = 700.0; }
     wide.transform = {399000.0, 300.0, 0.0, 5213000.0, 0.0, -300.0};
     wide.system = "EPSG:32632";
     write_raster(coarse, "GTiff", wide);
@@ -144,8 +132,7 @@ TEST_CASE("maps of different systems and resolutions make one ground") {
     const HeightField field = read_height_field(std::vector<path>{fine, coarse});
     CHECK(field.spacing_m() == Approx(95.0).epsilon(0.01));
     const HeightSource source({fine, coarse});
-    const auto deviation =
-        source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
+    const auto deviation = source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
     REQUIRE(deviation);
     CHECK(field.lowest_m() < 700.0F);
     CHECK(2.0 * field.half_extent_m().x == Approx(17700.0).epsilon(0.05));

@@ -23,16 +23,13 @@ HeightField field_of(const std::function<double(double x_m, double y_m)>& height
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights_m.push_back(
-                static_cast<float>(height_m((column - 400) * spacing_m, (row - 400) * spacing_m)));
+            heights_m.push_back(static_cast<float>(height_m((column - 400) * spacing_m, (row - 400) * spacing_m)));
         }
     }
     return {side, side, spacing_m, heights_m};
 }
 
-double rolling_m(double x_m, double y_m) {
-    return 400.0 + 8.0 * std::sin(x_m / 300.0) + 6.0 * std::cos(y_m / 250.0);
-}
+double rolling_m(double x_m, double y_m) { return 400.0 + 8.0 * std::sin(x_m / 300.0) + 6.0 * std::cos(y_m / 250.0); }
 
 double gap_to(const RunwayStrip& strip, const HeightField& field, const glm::dvec2& place_m) {
     return std::abs(*field.height_at(place_m.x, place_m.y) - strip.plane_m(place_m));
@@ -72,8 +69,8 @@ TEST_CASE("ground is levelled on a runway and 60 m beside it, and kept far from 
     double max_m = 0.0;
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
-            const double by_m = std::abs(
-                static_cast<double>(level.height_m(column, row)) - field.height_m(column, row));
+            const double by_m =
+                std::abs(static_cast<double>(level.height_m(column, row)) - field.height_m(column, row));
             const glm::dvec2 at_m(field.sample_m(column, row));
             REQUIRE((by_m == 0.0 || strip.distance_m(at_m) < reach_m(field)));
             max_m = std::max(max_m, by_m);
@@ -93,17 +90,13 @@ TEST_CASE("cuttings and embankments rise by one in seven, and end where they mee
         const double towards = own_m < 100.0 ? -1.0 : 1.0;
         const double begins_m = 22.5 + level_margin_m + std::sqrt(2.0) * spacing_m;
         for (double x_m = 150.0; x_m < 300.0; x_m += spacing_m) {
-            CHECK(
-                *level.height_at(x_m, 0.0) ==
-                Approx(100.0 + towards * (x_m - begins_m) / 7.0).margin(1e-3));
+            CHECK(*level.height_at(x_m, 0.0) == Approx(100.0 + towards * (x_m - begins_m) / 7.0).margin(1e-3));
         }
         CHECK(*level.height_at(540.0, 0.0) == own_m);
         double steepest = 0.0;
         for (double x_m = 0.0; x_m < 900.0; x_m += spacing_m) {
             steepest = std::max(
-                steepest,
-                std::abs(*level.height_at(x_m + spacing_m, 0.0) - *level.height_at(x_m, 0.0)) /
-                    spacing_m);
+                steepest, std::abs(*level.height_at(x_m + spacing_m, 0.0) - *level.height_at(x_m, 0.0)) / spacing_m);
         }
         CHECK(steepest < 0.17); // one in seven, and the way over to the ground where both end
     }
@@ -124,14 +117,12 @@ TEST_CASE("a levelled field is the same place on the earth") {
 
 TEST_CASE("a runway follows a gentle slope and cuts through a steep one") {
     const RunwayRequest north{{{0.0, 0.0}}, 0.0, 0.0};
-    const auto gentle =
-        runway_site(field_of([](double, double y_m) { return 300.0 + 0.006 * y_m; }), north);
+    const auto gentle = runway_site(field_of([](double, double y_m) { return 300.0 + 0.006 * y_m; }), north);
     REQUIRE(gentle);
     CHECK(gentle->strip.rise == Approx(0.006).margin(1e-6));
     CHECK(gentle->earthwork_m < 0.01);
     CHECK(gentle->strip.begin_m.y == Approx(-300.0));
-    const auto steep =
-        runway_site(field_of([](double, double y_m) { return 800.0 + 0.02 * y_m; }), north);
+    const auto steep = runway_site(field_of([](double, double y_m) { return 800.0 + 0.02 * y_m; }), north);
     REQUIRE(steep);
     CHECK(steep->strip.rise == Approx(max_rise));
     CHECK(steep->earthwork_m == Approx(10.0).margin(2.0));
@@ -167,8 +158,7 @@ TEST_CASE("no runway lies in water or beyond the edge of the map") {
     const auto ashore = runway_site(field_of(lake), {{{0.0, 0.0}}, 0.0, 0.0});
     REQUIRE(ashore);
     CHECK(ashore->strip.begin_m.x > 1000.0);
-    CHECK_FALSE(
-        runway_site(field_of([](double, double) { return -2.0; }), {{{0.0, 0.0}}, 0.0, 0.0}));
+    CHECK_FALSE(runway_site(field_of([](double, double) { return -2.0; }), {{{0.0, 0.0}}, 0.0, 0.0}));
     const auto at_the_edge = runway_site(field_of(rolling_m), {{{0.0, 11500.0}}, 0.0, 0.0});
     REQUIRE(at_the_edge);
     CHECK(at_the_edge->strip.place({1860.0, 0.0}).y <= 12000.0);

@@ -17,9 +17,7 @@ RasterFile hills(int columns, int rows) {
     raster.columns = columns;
     raster.rows = rows;
     for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
-            raster.values.push_back(hills_m(x, y));
-        }
+        for (int x = 0; x < columns; ++x) { raster.values.push_back(hills_m(x, y)); }
     }
     raster.type = GDT_Int16;
     return raster;
@@ -47,9 +45,7 @@ RasterFile cut(const RasterFile& whole, int first_x, int first_y, int columns, i
     part.values.clear();
     for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < columns; ++x) {
-            part.values.push_back(
-                whole
-                    .values[static_cast<std::size_t>((first_y + y) * whole.columns + first_x + x)]);
+            part.values.push_back(whole.values[static_cast<std::size_t>((first_y + y) * whole.columns + first_x + x)]);
         }
     }
     part.transform[0] += first_x * whole.transform[1];
@@ -63,9 +59,7 @@ double max_apart_m(const HeightField& a, const HeightField& b) {
     double most = 0.0;
     for (int row = 0; row < a.rows(); ++row) {
         for (int column = 0; column < a.columns(); ++column) {
-            most = std::max(
-                most,
-                std::abs(static_cast<double>(a.height_m(column, row) - b.height_m(column, row))));
+            most = std::max(most, std::abs(static_cast<double>(a.height_m(column, row) - b.height_m(column, row))));
         }
     }
     return most;

@@ -1,5 +1,5 @@
-// Maps as strangers send them. Right values are those of gdalinfo and gdallocationinfo
-// (GDAL 3.6.2), which read the same files without any of our code, or are computed by hand.
+// Maps as strangers send them. Right values are those of gdalinfo and gdallocationinfo (GDAL 3.6.2), which read the
+// same files without any of our code, or are computed by hand.
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
 #include "models/heights/height_field_import.h"
@@ -28,16 +28,12 @@ using std::filesystem::path;
 
 namespace {
 
-path kept_map(const std::string& name) {
-    return path(OCTANT_SOURCE_DIR) / "tests/data/maps" / name;
-}
+path kept_map(const std::string& name) { return path(OCTANT_SOURCE_DIR) / "tests/data/maps" / name; }
 
 /// The notes of a field, one a line.
 std::string notes_text(const HeightField& field) {
     std::string text;
-    for (const MapNote& note : field.notes) {
-        text += note.text + "\n";
-    }
+    for (const MapNote& note : field.notes) { text += note.text + "\n"; }
     return text;
 }
 
@@ -46,18 +42,14 @@ double height_at(const HeightField& field, int column, int line) {
     return static_cast<double>(field.height_m(column, field.rows() - 1 - line));
 }
 
-void write_text(const path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
+void write_text(const path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 /// 8 x 6 heights from 100 to 147 m, 30 m apart.
 RasterFile small_map() {
     RasterFile raster;
     raster.columns = 8;
     raster.rows = 6;
-    for (int i = 0; i < 48; ++i) {
-        raster.values.push_back(100.0 + i);
-    }
+    for (int i = 0; i < 48; ++i) { raster.values.push_back(100.0 + i); }
     raster.transform = {500000.0, 30.0, 0.0, 5000000.0, 0.0, -30.0};
     raster.system = "EPSG:32632";
     return raster;
@@ -72,9 +64,7 @@ HeightField read_small(const RasterFile& raster, const ImportOptions& options = 
 /// A text grid of 3 x 2 samples with these words for heights.
 path ascii_grid(const std::string& heights, const std::string& header = "") {
     const path file = scratch_file("words.asc");
-    write_text(
-        file,
-        "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 30\n" + header + heights + "\n");
+    write_text(file, "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 30\n" + header + heights + "\n");
     return file;
 }
 
@@ -102,8 +92,7 @@ TEST_CASE("a sidecar gives georeference, unit and scale to a file that has none"
     raster.type = GDT_UInt16;
     const path file = scratch_file("plain.png");
     write_raster(file, "PNG", raster);
-    write_text(
-        file.string() + ".aux.xml",
+    write_text(file.string() + ".aux.xml",
         "<PAMDataset><SRS>EPSG:32632</SRS><GeoTransform>500000, 25, 0, 5000000, 0, -25"
         "</GeoTransform><PAMRasterBand band=\"1\"><UnitType>ft</UnitType><Scale>2</Scale>"
         "<Offset>10</Offset></PAMRasterBand></PAMDataset>");
@@ -149,20 +138,8 @@ TEST_CASE("a mask beside a file, in another format, tells where there is no data
         REQUIRE(GDALCreateDatasetMaskBand(dataset.get(), GMF_PER_DATASET) == CE_None);
         std::vector<std::uint8_t> there(48, 255);
         there[0] = 0;
-        REQUIRE(
-            GDALRasterIO(
-                GDALGetMaskBand(GDALGetRasterBand(dataset.get(), 1)),
-                GF_Write,
-                0,
-                0,
-                8,
-                6,
-                there.data(),
-                8,
-                6,
-                GDT_Byte,
-                0,
-                0) == CE_None);
+        REQUIRE(GDALRasterIO(GDALGetMaskBand(GDALGetRasterBand(dataset.get(), 1)), GF_Write, 0, 0, 8, 6, there.data(),
+                    8, 6, GDT_Byte, 0, 0) == CE_None);
         CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
     }
     CHECK(read_height_field(file).filled_voids == 1);
@@ -172,10 +149,8 @@ TEST_CASE("a mask beside a file, in another format, tells where there is no data
 TEST_CASE("undeclared values that no height has are voids, counted in a note") {
     const HeightField kept = read_height_field(kept_map("minus99999.tif"));
     CHECK(kept.filled_voids == 400);
-    CHECK_THAT(
-        notes_text(kept), Contains("minus99999.tif: 400 samples of -99999 count as missing"));
-    for (const double mark :
-         {-9999.0, -10000.0, -32768.0, -99999.0, 32767.0, 65535.0, -999.0, 1e20, -1e9}) {
+    CHECK_THAT(notes_text(kept), Contains("minus99999.tif: 400 samples of -99999 count as missing"));
+    for (const double mark : {-9999.0, -10000.0, -32768.0, -99999.0, 32767.0, 65535.0, -999.0, 1e20, -1e9}) {
         RasterFile raster = small_map();
         raster.values[9] = mark;
         raster.values[30] = mark;
@@ -210,8 +185,7 @@ TEST_CASE("negative heights that were stored unsigned are voids with a note") {
         CHECK(read_small(raster).filled_voids == 3);
     }
     const HeightField field = read_small(raster);
-    CHECK_THAT(
-        notes_text(field), Contains("2 samples from 65524 to 65533 (negative numbers stored"));
+    CHECK_THAT(notes_text(field), Contains("2 samples from 65524 to 65533 (negative numbers stored"));
     CHECK_THAT(notes_text(field), Contains("1 sample of 55537"));
 }
 
@@ -281,9 +255,7 @@ TEST_CASE("numbers beyond all heights are voids, counted in a note") {
         CHECK(read_small(raster).notes.empty());
     }
     RasterFile many = small_map();
-    for (std::size_t i = 0; i < 6; ++i) {
-        many.values[7 * i] = -1e33 - 1e32 * static_cast<double>(i);
-    }
+    for (std::size_t i = 0; i < 6; ++i) { many.values[7 * i] = -1e33 - 1e32 * static_cast<double>(i); }
     CHECK(read_small(many).filled_voids == 6);
     RasterFile large = small_map();
     large.values[9] = 1e20; // the nearest float is 100000002004087734272
@@ -307,38 +279,30 @@ TEST_CASE("a plain PGM has its undeclared voids found and the option's honoured"
 
 TEST_CASE("a damaged number in a text grid is refused with its line") {
     CHECK_THROWS_WITH(
-        read_height_field(kept_map("letter.asc")),
-        Contains("letter.asc:27: expected a height, got '4O7'"));
+        read_height_field(kept_map("letter.asc")), Contains("letter.asc:27: expected a height, got '4O7'"));
     CHECK_THROWS_WITH(
-        read_height_field(ascii_grid("1 2 3\n4 5x 6")),
-        Contains("words.asc:7: expected a height, got '5x'"));
+        read_height_field(ascii_grid("1 2 3\n4 5x 6")), Contains("words.asc:7: expected a height, got '5x'"));
     CHECK_THROWS_WITH(read_height_field(ascii_grid("1 2 3\n4 1.5D+02 6")), Contains(":7: "));
     CHECK_THROWS_WITH(read_height_field(ascii_grid("1 2 3\n4 5e 6")), Contains(":7: "));
-    CHECK_THROWS_WITH(
-        read_height_field(ascii_grid("1 2 3\n4 5")),
+    CHECK_THROWS_WITH(read_height_field(ascii_grid("1 2 3\n4 5")),
         Contains(":8: expected 6 heights, got the end of the file after 5"));
     CHECK_THROWS_WITH(
-        read_height_field(ascii_grid("O1 2 3\n4 5 6")),
-        Contains("words.asc:6: expected a height, got 'O1'"));
-    CHECK_THROWS_WITH(
-        read_height_field(ascii_grid("1 2 3\n4 " + std::string(5000000, '5') + " 6")),
+        read_height_field(ascii_grid("O1 2 3\n4 5 6")), Contains("words.asc:6: expected a height, got 'O1'"));
+    CHECK_THROWS_WITH(read_height_field(ascii_grid("1 2 3\n4 " + std::string(5000000, '5') + " 6")),
         Contains("words.asc:7: expected a number, got a word of more than 1000 letters"));
     const path surfer = scratch_file("surfer.grd");
     write_text(surfer, "DSAA\n2 2\n0 30\n0 30\n1 4\n1 2\n3 NA\n");
-    CHECK_THROWS_WITH(
-        read_height_field(surfer), Contains("surfer.grd:7: expected a height, got 'NA'"));
+    CHECK_THROWS_WITH(read_height_field(surfer), Contains("surfer.grd:7: expected a height, got 'NA'"));
 }
 
 TEST_CASE("a damaged number in points is refused with its line, also in the first one") {
     const path points = scratch_file("points.xyz");
     const std::string rest = "30 0 2\n0 30 3\n30 30 ";
     write_text(points, "x y z\n0 0 1\n" + rest + "4O\n");
-    CHECK_THROWS_WITH(
-        read_height_field(points), Contains("points.xyz:5: expected a number, got '4O'"));
+    CHECK_THROWS_WITH(read_height_field(points), Contains("points.xyz:5: expected a number, got '4O'"));
     for (const char* const first : {"0 0 4O\n", "O 0 4\n", "0,0,1m\n"}) {
         write_text(points, first + rest + "4\n");
-        CHECK_THROWS_WITH(
-            read_height_field(points), Contains("points.xyz:1: expected a number, got '"));
+        CHECK_THROWS_WITH(read_height_field(points), Contains("points.xyz:1: expected a number, got '"));
     }
     for (const char* const first : {"x y z\n", "X,Y,Z\n", ""}) {
         write_text(points, std::string(first) + "0 0 1\n" + rest + "4\n");
@@ -351,8 +315,7 @@ TEST_CASE("a text grid may begin with a word without data") {
         CAPTURE(word);
         const std::string first = word;
         for (const std::string& header : {std::string(), "NODATA_value " + first + "\n"}) {
-            const HeightField field =
-                read_height_field(ascii_grid(first + " 0 12\n13 0 15", header));
+            const HeightField field = read_height_field(ascii_grid(first + " 0 12\n13 0 15", header));
             CHECK(field.filled_voids == 1);
             CHECK(height_at(field, 1, 0) == 0.0);
             CHECK(height_at(field, 2, 0) == 12.0);
@@ -361,13 +324,11 @@ TEST_CASE("a text grid may begin with a word without data") {
             CHECK_THAT(notes_text(field), Contains("1 sample with a word such as '" + first + "'"));
         }
         // GDAL alone takes each such row for a part of the header and finds no heights.
-        CHECK(
-            read_height_field(ascii_grid(first + " 11 12\n" + first + " 14 15")).filled_voids == 2);
+        CHECK(read_height_field(ascii_grid(first + " 11 12\n" + first + " 14 15")).filled_voids == 2);
         CHECK(read_height_field(ascii_grid(first + "\n11\n12\n13\n14\n15")).filled_voids == 1);
     }
     const path grid = ascii_grid("NA 11 12\n13 14 15");
-    write_text(
-        path(grid).replace_extension(".prj"),
+    write_text(path(grid).replace_extension(".prj"),
         "Projection    UTM\nZone          32\nDatum         WGS84\nSpheroid      WGS84\n"
         "Units         METERS\nZunits        NO\nParameters\n");
     const HeightSource source({grid});
@@ -378,9 +339,7 @@ TEST_CASE("a text grid may begin with a word without data") {
 TEST_CASE("words without data at every other sample are found, and extra numbers are told") {
     std::string heights;
     for (int i = 0; i < 100; ++i) {
-        for (int j = 0; j < 100; ++j) {
-            heights += (i + j) % 2 == 0 ? "NA " : "7 ";
-        }
+        for (int j = 0; j < 100; ++j) { heights += (i + j) % 2 == 0 ? "NA " : "7 "; }
         heights += "\n";
     }
     const path file = scratch_file("chess.asc");
@@ -388,8 +347,7 @@ TEST_CASE("words without data at every other sample are found, and extra numbers
     write_text(file, header + heights);
     CHECK(read_height_field(file).filled_voids == 5000);
     write_text(file, header + heights + "8 9\n");
-    CHECK_THAT(
-        notes_text(read_height_field(file)),
+    CHECK_THAT(notes_text(read_height_field(file)),
         Contains("2 extra numbers after the last height ignored; a row may be too long, which "
                  "shifts all rows below it"));
 }
@@ -401,8 +359,7 @@ TEST_CASE("words without data in a text grid are voids, counted in a note") {
     CHECK_THAT(notes_text(kept), Contains("na.asc: 1 sample with a word such as 'NA'"));
     for (const char* const word : {"NA", "***", "*****", "null", "NaN", "-nan", "N/A", "1.#QNAN"}) {
         CAPTURE(word);
-        const HeightField field =
-            read_height_field(ascii_grid(std::string("10 11 12\n13 ") + word + " 15"));
+        const HeightField field = read_height_field(ascii_grid(std::string("10 11 12\n13 ") + word + " 15"));
         CHECK(field.filled_voids == 1);
         CHECK(field.lowest_m() == 10.0F);
     }
@@ -419,12 +376,9 @@ TEST_CASE("axes in degrees are never metres, at any spacing") {
     REQUIRE(coarse.place);
     CHECK(coarse.place->latitude_deg == Approx(46.983).margin(0.01)); // by gdalinfo's corners
     CHECK(coarse.place->longitude_deg == Approx(6.983).margin(0.01));
-    CHECK_THAT(
-        notes_text(coarse), Contains("axes are in degrees: taken as longitude and latitude"));
+    CHECK_THAT(notes_text(coarse), Contains("axes are in degrees: taken as longitude and latitude"));
     const HeightSource source({kept_map("cf-degrees.nc")});
-    CHECK(
-        source.cell_m().x ==
-        Approx(111320.0 / 30.0 * std::cos(46.983 * 3.14159265 / 180.0)).epsilon(3e-3));
+    CHECK(source.cell_m().x == Approx(111320.0 / 30.0 * std::cos(46.983 * 3.14159265 / 180.0)).epsilon(3e-3));
     CHECK(source.system_name() == "WGS 84");
     for (const double cell_deg : {0.0003, 0.02, 0.1, 0.5}) {
         RasterFile raster = small_map();
@@ -432,8 +386,7 @@ TEST_CASE("axes in degrees are never metres, at any spacing") {
         raster.transform = {8.0, cell_deg, 0.0, 47.0, 0.0, -cell_deg};
         const HeightField field = read_small(raster);
         CHECK(field.spacing_m() > 0.3 * 111000.0 * cell_deg);
-        CHECK_THAT(
-            notes_text(field), Contains("look like degrees: taken as longitude and latitude"));
+        CHECK_THAT(notes_text(field), Contains("look like degrees: taken as longitude and latitude"));
     }
     RasterFile metres = small_map();
     metres.system.clear();
@@ -465,26 +418,22 @@ TEST_CASE("coordinates in metres are refused where a system says that they are d
     raster.system.clear();
     ImportOptions options;
     options.system = "EPSG:4326";
-    CHECK_THROWS_WITH(
-        read_small(raster, options),
+    CHECK_THROWS_WITH(read_small(raster, options),
         Contains("small.tif: expected longitudes and latitudes, as --terrain-system says, got "
                  "coordinates up to 5000000: --terrain-system takes a system in metres"));
     raster.system = "EPSG:4326";
-    CHECK_THROWS_WITH(
-        read_small(raster), Contains("as the system of the file says, got coordinates up to"));
+    CHECK_THROWS_WITH(read_small(raster), Contains("as the system of the file says, got coordinates up to"));
     options.system = "EPSG:32632";
     raster.transform = {8.0, 0.01, 0.0, 47.0, 0.0, -0.01};
     CHECK_THAT(
-        notes_text(read_small(raster, options)),
-        Contains("--terrain-system ignored: the file names its own system"));
+        notes_text(read_small(raster, options)), Contains("--terrain-system ignored: the file names its own system"));
 }
 
 TEST_CASE("degrees on a datum without a name are taken as WGS 84, with a note") {
     RasterFile raster = small_map();
     raster.transform = {8.0, 0.01, 0.0, 47.0, 0.0, -0.01};
-    raster.system =
-        "GEOGCS[\"unnamed\",DATUM[\"unknown\",SPHEROID[\"GRS 1980\",6378137,298.257222101]],"
-        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
+    raster.system = "GEOGCS[\"unnamed\",DATUM[\"unknown\",SPHEROID[\"GRS 1980\",6378137,298.257222101]],"
+                    "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
     const HeightField field = read_small(raster);
     REQUIRE(field.place);
     CHECK(field.place->latitude_deg == Approx(46.97).margin(1e-6));
@@ -497,35 +446,20 @@ TEST_CASE("degrees on a datum without a name are taken as WGS 84, with a note") 
 
 TEST_CASE("units of heights are recognised by their meaning") {
     for (const char* const metre :
-         {"m",
-          "Meters",
-          "METRE",
-          "metres",
-          "m asl",
-          "m a.s.l.",
-          "[m]",
-          "Metres above mean sea level"}) {
+        {"m", "Meters", "METRE", "metres", "m asl", "m a.s.l.", "[m]", "Metres above mean sea level"}) {
         CHECK(metres_from_unit(metre) == 1.0);
     }
     for (const char* const foot :
-         {"ft", "Feet", "FOOT", "foot", "feet above MSL", "ft (NAVD88)", "International Foot"}) {
+        {"ft", "Feet", "FOOT", "foot", "feet above MSL", "ft (NAVD88)", "International Foot"}) {
         CHECK(metres_from_unit(foot) == 0.3048);
     }
-    for (const char* const survey :
-         {"US_survey_foot",
-          "U.S. Survey Feet",
-          "US survey foot",
-          "us-ft",
-          "ftUS",
-          "Foot_US",
-          "foot (US survey)",
-          "ussurveyft"}) {
+    for (const char* const survey : {"US_survey_foot", "U.S. Survey Feet", "US survey foot", "us-ft", "ftUS", "Foot_US",
+             "foot (US survey)", "ussurveyft"}) {
         CHECK(metres_from_unit(survey).value_or(0.0) == Approx(0.3048006096).epsilon(1e-9));
     }
     CHECK(metres_from_unit("Kilometers") == 1000.0);
     CHECK(metres_from_unit("cm") == 0.01);
-    for (const char* const other :
-         {"K", "m/s", "m s-1", "m2", "m\u00b2", "degrees", "percent", "mm/day"}) {
+    for (const char* const other : {"K", "m/s", "m s-1", "m2", "m\u00b2", "degrees", "percent", "mm/day"}) {
         CAPTURE(other);
         CHECK(!metres_from_unit(other));
     }
@@ -537,9 +471,7 @@ TEST_CASE("units of heights are recognised by their meaning") {
 TEST_CASE("a system in feet whose heights name no unit gets a note") {
     const HeightField field = read_height_field(kept_map("stateplane-feet.tif"));
     CHECK(height_at(field, 20, 30) == Approx(1590.88806152344));
-    CHECK_THAT(
-        notes_text(field),
-        Contains("in feet (US survey foot)") && Contains("--height-scale 0.30480061"));
+    CHECK_THAT(notes_text(field), Contains("in feet (US survey foot)") && Contains("--height-scale 0.30480061"));
     ImportOptions options;
     options.height_scale = 0.30480061;
     CHECK(read_height_field(kept_map("stateplane-feet.tif"), options).notes.empty());
@@ -548,9 +480,7 @@ TEST_CASE("a system in feet whose heights name no unit gets a note") {
 TEST_CASE("the band whose name says elevation is taken, and an option takes any") {
     const HeightField field = read_height_field(kept_map("band2-is-elevation.tif"));
     CHECK(height_at(field, 20, 30) == Approx(484.902679443359));
-    CHECK_THAT(
-        notes_text(field),
-        Contains("band 2 (elevation) of 1 (slope), 2 (elevation) is taken for heights"));
+    CHECK_THAT(notes_text(field), Contains("band 2 (elevation) of 1 (slope), 2 (elevation) is taken for heights"));
     ImportOptions options;
     for (const char* const slope : {"1", "slope", "SLOPE"}) {
         options.band = slope;
@@ -559,8 +489,7 @@ TEST_CASE("the band whose name says elevation is taken, and an option takes any"
         CHECK(other.notes.empty());
     }
     options.band = "3";
-    CHECK_THROWS_WITH(
-        read_height_field(kept_map("band2-is-elevation.tif"), options),
+    CHECK_THROWS_WITH(read_height_field(kept_map("band2-is-elevation.tif"), options),
         Contains("--band 3: the file has 2 bands, 1 (slope), 2 (elevation)"));
     RasterFile two = small_map();
     two.bands = 2;
@@ -569,9 +498,7 @@ TEST_CASE("the band whose name says elevation is taken, and an option takes any"
 
 TEST_CASE("three bands of bytes are a picture, one of them is heights if an option says so") {
     const path file = kept_map("rgb-undefined.tif");
-    CHECK_THROWS_WITH(
-        read_height_field(file),
-        Contains("expected one band of heights, got 3 of 8 bits, which make a"));
+    CHECK_THROWS_WITH(read_height_field(file), Contains("expected one band of heights, got 3 of 8 bits, which make a"));
     ImportOptions options;
     options.band = "2";
     CHECK(read_height_field(file, options).columns() == 60);
@@ -593,22 +520,17 @@ TEST_CASE("Terrarium and Mapbox tiles are decoded and placed by their number") {
         }
     }
     for (const int shift : {16, 8, 0}) {
-        for (const long code : codes) {
-            mapbox.values.push_back(static_cast<double>((code >> shift) & 255));
-        }
+        for (const long code : codes) { mapbox.values.push_back(static_cast<double>((code >> shift) & 255)); }
     }
     const path folder = tests::empty_folder("tiles") / "9" / "268";
     std::filesystem::create_directories(folder);
     write_raster(folder / "179.png", "PNG", mapbox);
     const HeightSource tile({folder / "179.png"});
-    // Column 268 of 2^9 is at 8.4375 degrees east; row 179 begins 47.5172 degrees north
-    // (OpenStreetMap).
+    // Column 268 of 2^9 is at 8.4375 degrees east; row 179 begins 47.5172 degrees north (OpenStreetMap).
     REQUIRE(tile.place());
     CHECK(tile.place()->longitude_deg == Approx(8.4375 + 0.5 * 0.703125).margin(1e-3));
     CHECK(tile.place()->latitude_deg == Approx(0.5 * (47.5172 + 47.0401)).margin(1e-2));
-    CHECK(
-        tile.height_at(0.0, 0.0).value_or(0.0) ==
-        Approx(300.0 + 25.0 * std::sin(3.15) * 31.5).margin(8.0));
+    CHECK(tile.height_at(0.0, 0.0).value_or(0.0) == Approx(300.0 + 25.0 * std::sin(3.15) * 31.5).margin(8.0));
     CHECK_THAT(tile.notes().front().text, Contains("by the rule of Mapbox tiles"));
 }
 
@@ -617,9 +539,7 @@ TEST_CASE("a band that tells the error of heights or the like is not taken for h
         RasterFile raster = small_map();
         raster.bands = static_cast<int>(names.size());
         raster.values.clear();
-        for (int i = 0; i < 48 * raster.bands; ++i) {
-            raster.values.push_back(100.0 * (i / 48));
-        }
+        for (int i = 0; i < 48 * raster.bands; ++i) { raster.values.push_back(100.0 * (i / 48)); }
         const path file = scratch_file("bands.tif");
         write_raster(file, "GTiff", raster);
         {
@@ -632,16 +552,8 @@ TEST_CASE("a band that tells the error of heights or the like is not taken for h
         }
         return read_height_field(file);
     };
-    for (const char* const other :
-         {"height_error",
-          "dem_std",
-          "Elevation uncertainty",
-          "slope of DEM",
-          "dem-count",
-          "DSM mask",
-          "canopy_height",
-          "geoid height",
-          "heightError"}) {
+    for (const char* const other : {"height_error", "dem_std", "Elevation uncertainty", "slope of DEM", "dem-count",
+             "DSM mask", "canopy_height", "geoid height", "heightError"}) {
         CAPTURE(other);
         CHECK(field_of({other, "height"}).lowest_m() == 100.0F);
         CHECK(field_of({other, "z"}).lowest_m() == 100.0F);
@@ -650,14 +562,12 @@ TEST_CASE("a band that tells the error of heights or the like is not taken for h
         CHECK(first.notes.empty());
     }
     CHECK(field_of({"height above geoid", "count"}).notes.empty());
-    CHECK_THAT(
-        notes_text(field_of({"dem_first", "dem_last"})),
+    CHECK_THAT(notes_text(field_of({"dem_first", "dem_last"})),
         Contains("band 1 (dem_first) of 1 (dem_first), 2 (dem_last) is taken for heights"));
     RasterFile one = small_map();
     ImportOptions options;
     options.band = "7";
-    CHECK_THROWS_WITH(
-        read_small(one, options), Contains("small.tif: --band 7: the file has one band, 1"));
+    CHECK_THROWS_WITH(read_small(one, options), Contains("small.tif: --band 7: the file has one band, 1"));
 }
 
 TEST_CASE("the sea of a Mapbox tile is at 0 m") {
@@ -689,8 +599,7 @@ TEST_CASE("photographs and drawings are no coded heights") {
     for (const double part : {128.0, 90.0, 60.0}) { // soft colours in the range of Terrarium's red
         for (int y = 0; y < 64; ++y) {
             for (int x = 0; x < 64; ++x) {
-                picture.values.push_back(
-                    part + std::floor(20.0 * std::sin(0.2 * x + part) * std::cos(0.1 * y)));
+                picture.values.push_back(part + std::floor(20.0 * std::sin(0.2 * x + part) * std::cos(0.1 * y)));
             }
         }
     }
@@ -733,19 +642,9 @@ TEST_CASE("Cesium heightmaps are decoded, compressed or not, and placed by their
 
 TEST_CASE("reading maps of any format leaves their folder as it is") {
     const path folder = tests::empty_folder("listing");
-    const std::vector<std::pair<const char*, const char*>> formats = {
-        {"GTiff", "a.tif"},
-        {"PNG", "a.png"},
-        {"HFA", "a.img"},
-        {"AAIGrid", "b.asc"},
-        {"EHdr", "c.bil"},
-        {"netCDF", "a.nc"},
-        {"XYZ", "a.xyz"},
-        {"ENVI", "d.envi"},
-        {"SAGA", "e.sdat"},
-        {"RST", "f.rst"},
-        {"JP2OpenJPEG", "a.jp2"},
-        {"GPKG", "a.gpkg"}};
+    const std::vector<std::pair<const char*, const char*>> formats = {{"GTiff", "a.tif"}, {"PNG", "a.png"},
+        {"HFA", "a.img"}, {"AAIGrid", "b.asc"}, {"EHdr", "c.bil"}, {"netCDF", "a.nc"}, {"XYZ", "a.xyz"},
+        {"ENVI", "d.envi"}, {"SAGA", "e.sdat"}, {"RST", "f.rst"}, {"JP2OpenJPEG", "a.jp2"}, {"GPKG", "a.gpkg"}};
     for (const auto& [driver, name] : formats) {
         RasterFile raster = metric_hills();
         raster.type = std::string(driver) == "PNG"    ? GDT_UInt16
@@ -756,9 +655,8 @@ TEST_CASE("reading maps of any format leaves their folder as it is") {
     const auto listing = [&folder] {
         std::vector<std::string> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-            files.push_back(
-                entry.path().string() + " " + std::to_string(entry.file_size()) + " " +
-                std::to_string(entry.last_write_time().time_since_epoch().count()));
+            files.push_back(entry.path().string() + " " + std::to_string(entry.file_size()) + " " +
+                            std::to_string(entry.last_write_time().time_since_epoch().count()));
         }
         std::ranges::sort(files);
         return files;
@@ -772,8 +670,7 @@ TEST_CASE("reading maps of any format leaves their folder as it is") {
         CHECK(listing() == before);
     }
     {
-        // A GeoPackage in the mode in which SQLite keeps a log beside it, by two bytes of its
-        // header.
+        // A GeoPackage in the mode in which SQLite keeps a log beside it, by two bytes of its header.
         std::fstream header(folder / "a.gpkg", std::ios::binary | std::ios::in | std::ios::out);
         header.seekp(18);
         header.write("\2\2", 2);
@@ -805,18 +702,11 @@ TEST_CASE("libraries print nothing on any thread and warn once") {
     write_raster(scratch_file("three.tif"), "GTiff", raster);
     {
         GDALAllRegister();
-        const Dataset source(
-            GDALOpen(scratch_file("gone").parent_path().append("three.tif").c_str(), GA_ReadOnly));
+        const Dataset source(GDALOpen(scratch_file("gone").parent_path().append("three.tif").c_str(), GA_ReadOnly));
         REQUIRE(source);
         char** options = CSLSetNameValue(nullptr, "FORMAT", "NC4");
         const Dataset made(GDALCreateCopy(
-            GDALGetDriverByName("netCDF"),
-            file.c_str(),
-            source.get(),
-            FALSE,
-            options,
-            nullptr,
-            nullptr));
+            GDALGetDriverByName("netCDF"), file.c_str(), source.get(), FALSE, options, nullptr, nullptr));
         CSLDestroy(options);
         REQUIRE(made);
     }

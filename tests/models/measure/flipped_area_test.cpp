@@ -12,9 +12,7 @@ using models::measure::FlippedAreaOptions;
 
 namespace {
 
-void turn(models::Triangle& triangle) {
-    std::swap(triangle[0], triangle[1]);
-}
+void turn(models::Triangle& triangle) { std::swap(triangle[0], triangle[1]); }
 
 /// Two plates `thickness_m` apart that face away from each other.
 TriangleMesh sheet(int n, double thickness_m) {
@@ -22,9 +20,7 @@ TriangleMesh sheet(int n, double thickness_m) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
     const TriangleMesh below = tests::plate(n);
     mesh.vertices_m.insert(mesh.vertices_m.end(), below.vertices_m.begin(), below.vertices_m.end());
-    for (const auto& [a, b, c] : below.triangles) {
-        mesh.triangles.push_back({first + b, first + a, first + c});
-    }
+    for (const auto& [a, b, c] : below.triangles) { mesh.triangles.push_back({first + b, first + a, first + c}); }
     return mesh;
 }
 
@@ -34,9 +30,7 @@ TEST_CASE("nothing of a mesh is flipped against itself, all of it against its ba
     TriangleMesh mesh = tests::ball(12);
     CHECK(flipped_area_share(mesh, mesh) == 0.0);
     TriangleMesh back = mesh;
-    for (models::Triangle& triangle : back.triangles) {
-        turn(triangle);
-    }
+    for (models::Triangle& triangle : back.triangles) { turn(triangle); }
     CHECK(flipped_area_share(back, mesh) == 1.0);
 }
 

@@ -22,9 +22,7 @@ TriangleMesh plate(int n, double edge_m, double z_m) {
     TriangleMesh mesh;
     mesh.name = "plate";
     for (int y = 0; y <= n; ++y) {
-        for (int x = 0; x <= n; ++x) {
-            mesh.vertices_m.emplace_back(edge_m * x / n, edge_m * y / n, z_m);
-        }
+        for (int x = 0; x <= n; ++x) { mesh.vertices_m.emplace_back(edge_m * x / n, edge_m * y / n, z_m); }
     }
     const auto row = static_cast<std::uint32_t>(n + 1);
     for (std::uint32_t y = 0; y + 1 < row; ++y) {
@@ -45,11 +43,8 @@ TriangleMesh ball(int rings, double radius_m) {
         const double polar = std::numbers::pi * (ring + 1) / (rings + 1);
         for (int meridian = 0; meridian < rings; ++meridian) {
             const double around = 2.0 * std::numbers::pi * meridian / rings;
-            mesh.vertices_m.push_back(
-                radius_m * glm::dvec3(
-                               std::sin(polar) * std::cos(around),
-                               std::sin(polar) * std::sin(around),
-                               std::cos(polar)));
+            mesh.vertices_m.push_back(radius_m * glm::dvec3(std::sin(polar) * std::cos(around),
+                                                     std::sin(polar) * std::sin(around), std::cos(polar)));
         }
     }
     const std::uint32_t top = count * count;
@@ -92,9 +87,7 @@ TriangleMesh scattered(std::uint64_t seed, int triangles, double size_m) {
 
 TriangleMesh shaken(TriangleMesh mesh, std::uint64_t seed, double max_m) {
     Dice dice(seed);
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m += dice.point(-max_m, max_m);
-    }
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m += dice.point(-max_m, max_m); }
     return mesh;
 }
 

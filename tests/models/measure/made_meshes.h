@@ -13,8 +13,7 @@ namespace octant::tests {
 /// Numbers that are the same on every platform.
 class Dice {
 public:
-    explicit Dice(std::uint64_t seed)
-        : state_(seed) {}
+    explicit Dice(std::uint64_t seed) : state_(seed) {}
 
     double between(double least, double most);
     glm::dvec3 point(double least, double most);
@@ -23,8 +22,7 @@ private:
     std::uint64_t state_;
 };
 
-/// A flat square of n x n fields, two triangles each, from (0, 0, z) to (edge, edge, z), seen from
-/// above.
+/// A flat square of n x n fields, two triangles each, from (0, 0, z) to (edge, edge, z), seen from above.
 models::TriangleMesh plate(int n, double edge_m = 1.0, double z_m = 0.0);
 
 /// A ball of `rings` rings and as many meridians around the origin, closed, seen from outside.

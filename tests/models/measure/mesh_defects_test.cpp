@@ -19,16 +19,13 @@ TriangleMesh tetrahedron() {
     return mesh;
 }
 
-/// n x n fields joined at opposite sides: closed, of genus 1. Where it lies in space does not
-/// matter.
+/// n x n fields joined at opposite sides: closed, of genus 1. Where it lies in space does not matter.
 TriangleMesh torus(std::uint32_t n) {
     TriangleMesh mesh = tests::plate(static_cast<int>(n) - 1);
     mesh.triangles.clear();
     for (std::uint32_t y = 0; y < n; ++y) {
         for (std::uint32_t x = 0; x < n; ++x) {
-            const auto at = [&](std::uint32_t right, std::uint32_t up) {
-                return (y + up) % n * n + (x + right) % n;
-            };
+            const auto at = [&](std::uint32_t right, std::uint32_t up) { return (y + up) % n * n + (x + right) % n; };
             mesh.triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
             mesh.triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
         }
@@ -52,9 +49,7 @@ TEST_CASE("a torus has one handle, two shells add theirs") {
     CHECK(defects(torus(5)).euler_characteristic == 0);
     CHECK(defects(torus(5)).genus == 1);
     TriangleMesh both = torus(4);
-    for (const auto& [a, b, c] : tetrahedron().triangles) {
-        both.triangles.push_back({a + 16, b + 16, c + 16});
-    }
+    for (const auto& [a, b, c] : tetrahedron().triangles) { both.triangles.push_back({a + 16, b + 16, c + 16}); }
     for (const glm::dvec3& vertex_m : tetrahedron().vertices_m) {
         both.vertices_m.push_back(vertex_m + glm::dvec3(5.0));
     }

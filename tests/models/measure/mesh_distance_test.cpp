@@ -36,8 +36,7 @@ double by_points(const TriangleMesh& mesh, const TriangleMesh& target) {
         const glm::dvec3& start = mesh.vertices_m[a];
         for (int i = 0; i <= steps; ++i) {
             for (int j = 0; i + j <= steps; ++j) {
-                const glm::dvec3 point = start +
-                                         (mesh.vertices_m[b] - start) * (i / double{steps}) +
+                const glm::dvec3 point = start + (mesh.vertices_m[b] - start) * (i / double{steps}) +
                                          (mesh.vertices_m[c] - start) * (j / double{steps});
                 most2 = std::max(most2, bvh.nearest(point).distance2);
             }
@@ -70,9 +69,8 @@ bool same_bits(double one, double other) {
 
 bool same_bits(const OneWayDistance& one, const OneWayDistance& other) {
     return same_bits(one.min_hausdorff_m, other.min_hausdorff_m) &&
-           same_bits(one.max_hausdorff_m, other.max_hausdorff_m) &&
-           same_bits(one.rms_m, other.rms_m) && same_bits(one.mean_m, other.mean_m) &&
-           same_bits(one.colour_rms, other.colour_rms);
+           same_bits(one.max_hausdorff_m, other.max_hausdorff_m) && same_bits(one.rms_m, other.rms_m) &&
+           same_bits(one.mean_m, other.mean_m) && same_bits(one.colour_rms, other.colour_rms);
 }
 
 } // namespace
@@ -99,8 +97,8 @@ TEST_CASE("a square cut along the other diagonal is still the same square") {
     TriangleMesh square = tests::plate(1);
     TriangleMesh other = square;
     other.triangles = {{0, 1, 2}, {1, 3, 2}};
-    const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
-        square, models::measure::TargetSurface(other), {.negligible_m = 1e-12});
+    const models::measure::HausdorffBounds bounds =
+        models::measure::one_way_hausdorff(square, models::measure::TargetSurface(other), {.negligible_m = 1e-12});
     CHECK(bounds.min_m == 0.0);
     CHECK(bounds.max_m < 1e-12);
     CHECK(bounds.cuts <= 2); // each half at the one edge that it crosses
@@ -123,8 +121,8 @@ TEST_CASE("flats cut unlike each other take cuts by their triangles, not by thei
     for (const double apart_m : {0.0, 1e-7, 1e-3}) {
         const TriangleMesh fine = sheet(20, 2, apart_m);
         for (const auto& [from, to] : {std::pair{&coarse, &fine}, std::pair{&fine, &coarse}}) {
-            const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
-                *from, models::measure::TargetSurface(*to), {.negligible_m = 1e-9});
+            const models::measure::HausdorffBounds bounds =
+                models::measure::one_way_hausdorff(*from, models::measure::TargetSurface(*to), {.negligible_m = 1e-9});
             INFO(apart_m << " apart, " << bounds.cuts << " cuts");
             CHECK(bounds.min_m <= apart_m);
             CHECK(bounds.max_m >= apart_m);
@@ -191,7 +189,7 @@ TEST_CASE("the farthest point is found in the middle of a face, where no vertex 
 
 TEST_CASE("equal meshes are at no distance") {
     for (const TriangleMesh& mesh :
-         {tests::ball(16), tests::shaken(tests::plate(9), 1, 0.03), tests::scattered(2, 80)}) {
+        {tests::ball(16), tests::shaken(tests::plate(9), 1, 0.03), tests::scattered(2, 80)}) {
         const MeshDistance found = distance(mesh, mesh, few_samples());
         CHECK(found.min_hausdorff_m() == 0.0);
         CHECK(found.max_hausdorff_m() < 1e-8);
@@ -200,11 +198,9 @@ TEST_CASE("equal meshes are at no distance") {
 }
 
 TEST_CASE("no point of a mesh is farther away than certified, and one is nearly so") {
-    const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs = {
-        {tests::ball(5), tests::ball(30)},
+    const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs = {{tests::ball(5), tests::ball(30)},
         {tests::shaken(tests::plate(5), 3, 0.1), tests::shaken(tests::plate(17), 4, 0.02)},
-        {tests::scattered(5, 40), tests::scattered(6, 40)},
-        {tests::scattered(7, 100), tests::ball(9, 0.7)},
+        {tests::scattered(5, 40), tests::scattered(6, 40)}, {tests::scattered(7, 100), tests::ball(9, 0.7)},
         {tests::shaken(tests::ball(12), 8, 0.05), tests::ball(12)}};
     for (const auto& [a, b] : pairs) {
         INFO(a.name << " and " << b.name);
@@ -234,9 +230,7 @@ TEST_CASE("a distance grows with the meshes and moves with them") {
     TriangleMesh far_a = a;
     TriangleMesh far_b = b;
     for (TriangleMesh* mesh : {&far_a, &far_b}) {
-        for (glm::dvec3& vertex_m : mesh->vertices_m) {
-            vertex_m = 1000.0 * vertex_m + glm::dvec3(4e6, -3e6, 500.0);
-        }
+        for (glm::dvec3& vertex_m : mesh->vertices_m) { vertex_m = 1000.0 * vertex_m + glm::dvec3(4e6, -3e6, 500.0); }
     }
     const MeshDistance there = distance(far_a, far_b, few_samples());
     CHECK(there.rms_m() == Approx(1000.0 * here.rms_m()).epsilon(1e-6));
@@ -261,17 +255,13 @@ TEST_CASE("colours are compared where the nearest points lie") {
     TriangleMesh a = tests::plate(2);
     TriangleMesh b = tests::plate(5, 1.0, 0.5);
     const auto ramp = [](TriangleMesh& mesh) { // linear: any triangulation has the same colours
-        for (const glm::dvec3& vertex_m : mesh.vertices_m) {
-            mesh.colours.emplace_back(vertex_m.x, vertex_m.y, 0.5);
-        }
+        for (const glm::dvec3& vertex_m : mesh.vertices_m) { mesh.colours.emplace_back(vertex_m.x, vertex_m.y, 0.5); }
     };
     ramp(a);
     CHECK(distance(a, b, few_samples()).colour_rms() == 0.0); // b has none
     ramp(b);
     CHECK(distance(a, b, few_samples()).colour_rms() < 1e-6);
-    for (glm::vec3& colour : b.colours) {
-        colour.z = 0.75F;
-    }
+    for (glm::vec3& colour : b.colours) { colour.z = 0.75F; }
     CHECK(distance(a, b, few_samples()).colour_rms() == Approx(0.25));
 }
 

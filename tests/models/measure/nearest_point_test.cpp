@@ -15,9 +15,7 @@ const glm::dvec3 a(0.0, 0.0, 0.0);
 const glm::dvec3 b(4.0, 0.0, 0.0);
 const glm::dvec3 c(0.0, 4.0, 0.0);
 
-double distance(const glm::dvec3& point) {
-    return std::sqrt(nearest_on_triangle(point, a, b, c).distance2);
-}
+double distance(const glm::dvec3& point) { return std::sqrt(nearest_on_triangle(point, a, b, c).distance2); }
 
 /// The least distance to many points of the triangle, its corners among them.
 double by_grid(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, const glm::dvec3& s) {
@@ -25,8 +23,7 @@ double by_grid(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, co
     double least = glm::distance(p, q);
     for (int i = 0; i <= steps; ++i) {
         for (int j = 0; i + j <= steps; ++j) {
-            const glm::dvec3 point =
-                q + (r - q) * (i / double{steps}) + (s - q) * (j / double{steps});
+            const glm::dvec3 point = q + (r - q) * (i / double{steps}) + (s - q) * (j / double{steps});
             least = std::min(least, glm::distance(p, point));
         }
     }
@@ -100,8 +97,7 @@ TEST_CASE("the distance to a needle keeps its accuracy, however thin it is") {
         for (const double height : {0.0, 1e-9, 1e-3, 1.0}) {
             const glm::dvec3 apex = start + along * 0.4 + across * width;
             const glm::dvec3 p = start + along * 0.45 + across * (0.3 * width) + up * height;
-            const double found =
-                std::sqrt(nearest_on_triangle(p, start, start + along, apex).distance2);
+            const double found = std::sqrt(nearest_on_triangle(p, start, start + along, apex).distance2);
             INFO("width " << width << ", height " << height);
             CHECK(std::abs(found - height) < 1e-14);
         }

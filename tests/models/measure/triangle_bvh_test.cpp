@@ -19,8 +19,7 @@ namespace {
 
 double distance2_to(const TriangleMesh& mesh, std::size_t triangle, const glm::dvec3& point) {
     const auto& [a, b, c] = mesh.triangles[triangle];
-    return nearest_on_triangle(point, mesh.vertices_m[a], mesh.vertices_m[b], mesh.vertices_m[c])
-        .distance2;
+    return nearest_on_triangle(point, mesh.vertices_m[a], mesh.vertices_m[b], mesh.vertices_m[c]).distance2;
 }
 
 /// The nearest triangle, of the lowest index, by trying all.
@@ -28,9 +27,7 @@ std::pair<std::uint32_t, double> by_all(const TriangleMesh& mesh, const glm::dve
     std::pair<std::uint32_t, double> best{0, distance2_to(mesh, 0, point)};
     for (std::size_t i = 1; i < mesh.triangles.size(); ++i) {
         const double distance2 = distance2_to(mesh, i, point);
-        if (distance2 < best.second) {
-            best = {static_cast<std::uint32_t>(i), distance2};
-        }
+        if (distance2 < best.second) { best = {static_cast<std::uint32_t>(i), distance2}; }
     }
     return best;
 }
@@ -44,8 +41,7 @@ void check_against_all(const TriangleMesh& mesh, std::uint64_t seed, double reac
         const NearestOnMesh found = bvh.nearest(point);
         CHECK(found.triangle == triangle);
         CHECK(found.distance2 == distance2);
-        CHECK(
-            std::abs(glm::distance(found.point, point) - std::sqrt(distance2)) <= 1e-12 * reach_m);
+        CHECK(std::abs(glm::distance(found.point, point) - std::sqrt(distance2)) <= 1e-12 * reach_m);
     }
 }
 
@@ -77,9 +73,7 @@ TEST_CASE("the nearest triangle is the one found by trying all") {
 TEST_CASE("a mesh of any size is looked through in full, from near and far") {
     for (const double size_m : {1e-12, 1e-3, 1e6, 1e15}) {
         TriangleMesh mesh = tests::shaken(tests::ball(12), 5, 0.02);
-        for (glm::dvec3& vertex_m : mesh.vertices_m) {
-            vertex_m *= size_m;
-        }
+        for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m *= size_m; }
         check_against_all(mesh, 41, 2.0 * size_m);
         check_against_all(mesh, 42, 1e3 * size_m);
         check_against_all(mesh, 43, 1e7 * size_m); // single precision tells nothing apart
@@ -109,9 +103,7 @@ TEST_CASE("short triangles of next to no height are found from far away") {
         const double height = std::pow(10.0, -14.0 + 5.0 * (i % 7) / 7.0);
         const glm::dvec3 a = dice.point(-1.0, 1.0);
         const glm::dvec3 along = edge * dice.point(-1.0, 1.0);
-        mesh.vertices_m.insert(
-            mesh.vertices_m.end(),
-            {a, a + along, a + 0.3 * along + height * dice.point(-1.0, 1.0)});
+        mesh.vertices_m.insert(mesh.vertices_m.end(), {a, a + along, a + 0.3 * along + height * dice.point(-1.0, 1.0)});
         const auto first = static_cast<std::uint32_t>(3 * i);
         mesh.triangles.push_back({first, first + 1, first + 2});
     }
@@ -127,8 +119,7 @@ TEST_CASE("a tree of a few triangles finds each, and what touches a place at no 
         const glm::dvec3 vertex_m = mesh.vertices_m[mesh.triangles.back()[1]];
         CHECK(bvh.nearest(vertex_m, 0.0).distance2 == 0.0);
         int near = 0;
-        bvh.for_each_near(
-            vertex_m, std::numeric_limits<double>::infinity(), [&](std::uint32_t) { ++near; });
+        bvh.for_each_near(vertex_m, std::numeric_limits<double>::infinity(), [&](std::uint32_t) { ++near; });
         CHECK(near == count);
         int touching = 0;
         bvh.for_each_near(vertex_m, 0.0, [&](std::uint32_t) { ++touching; });
@@ -162,9 +153,7 @@ TEST_CASE("a mesh far from the origin is measured as well as one at it") {
     TriangleMesh mesh = tests::shaken(tests::plate(10), 6, 0.02);
     const glm::dvec3 far(4.5e6, -7e5, 3000.0);
     TriangleMesh moved = mesh;
-    for (glm::dvec3& vertex_m : moved.vertices_m) {
-        vertex_m += far;
-    }
+    for (glm::dvec3& vertex_m : moved.vertices_m) { vertex_m += far; }
     const TriangleBvh near_bvh(mesh);
     const TriangleBvh far_bvh(moved);
     tests::Dice dice(8);
@@ -196,9 +185,7 @@ TEST_CASE("every triangle within reach is among the near ones") {
         CHECK(std::ranges::adjacent_find(near) == near.end());
         CHECK(near.size() < mesh.triangles.size() / 2);
         for (std::uint32_t j = 0; j < mesh.triangles.size(); ++j) {
-            if (distance2_to(mesh, j, point) <= 0.09) {
-                CHECK(std::ranges::binary_search(near, j));
-            }
+            if (distance2_to(mesh, j, point) <= 0.09) { CHECK(std::ranges::binary_search(near, j)); }
         }
     }
 }
@@ -210,9 +197,6 @@ TEST_CASE("many threads may ask one tree") {
     std::vector<glm::dvec3> points(2000);
     std::ranges::generate(points, [&] { return dice.point(-1.5, 1.5); });
     std::vector<NearestOnMesh> found(points.size());
-    parallel_for(
-        points.size(), 4, [&](std::size_t i, std::size_t) { found[i] = bvh.nearest(points[i]); });
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        CHECK(found[i].triangle == bvh.nearest(points[i]).triangle);
-    }
+    parallel_for(points.size(), 4, [&](std::size_t i, std::size_t) { found[i] = bvh.nearest(points[i]); });
+    for (std::size_t i = 0; i < points.size(); ++i) { CHECK(found[i].triangle == bvh.nearest(points[i]).triangle); }
 }

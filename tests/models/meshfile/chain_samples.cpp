@@ -35,9 +35,7 @@ LevelChain sample_chain() {
 
 std::string sealed(std::string bytes) {
     constexpr std::size_t head_bytes = 32;
-    if (bytes.size() < head_bytes) {
-        return bytes;
-    }
+    if (bytes.size() < head_bytes) { return bytes; }
     Hash hash;
     hash.add(std::as_bytes(std::span(bytes).subspan(head_bytes)));
     const std::uint64_t size = bytes.size() - head_bytes;

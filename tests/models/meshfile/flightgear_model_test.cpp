@@ -18,16 +18,13 @@ using namespace octant::models::meshfile::test;
 
 TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
     file_with("square.ac", ac3d_square("0x0"));
-    file_with(
-        "part.xml",
-        "<?xml version=\"1.0\"?><!-- one > two --><PropertyList><path>square.ac</path>"
-        "<offsets><z-m> 3 </z-m></offsets></PropertyList>");
-    const auto file = file_with(
-        "plane.xml",
-        "<PropertyList>\n <path>square.ac</path>\n <model n=\"1\"><path>part.xml</path><offsets>"
-        "<x-m>10</x-m><heading-deg>90</heading-deg></offsets></model>\n"
-        "<animation><type>spin</type><property>gear/rollspeed-ms</property></animation>"
-        "</PropertyList>");
+    file_with("part.xml", "<?xml version=\"1.0\"?><!-- one > two --><PropertyList><path>square.ac</path>"
+                          "<offsets><z-m> 3 </z-m></offsets></PropertyList>");
+    const auto file =
+        file_with("plane.xml", "<PropertyList>\n <path>square.ac</path>\n <model n=\"1\"><path>part.xml</path><offsets>"
+                               "<x-m>10</x-m><heading-deg>90</heading-deg></offsets></model>\n"
+                               "<animation><type>spin</type><property>gear/rollspeed-ms</property></animation>"
+                               "</PropertyList>");
     const TriangleMesh mesh = read_mesh(file);
     REQUIRE(mesh.vertices_m.size() == 8);
     CHECK(mesh.vertices_m[2].x == Approx(1.0)); // AC3D's y is up
@@ -42,63 +39,42 @@ TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
 TEST_CASE("an aircraft of FlightGear is read by its own file, which names its model") {
     file_with("square.ac", ac3d_square("0x0"));
     file_with("flier.xml", "<PropertyList><path>square.ac</path></PropertyList>");
-    file_with(
-        "base.xml",
-        "<PropertyList><sim><model><path>flier.xml</path></model></sim></PropertyList>");
+    file_with("base.xml", "<PropertyList><sim><model><path>flier.xml</path></model></sim></PropertyList>");
     const auto read_set = [](const std::string& sim) {
-        return file_with(
-            "flier-set.xml", "<PropertyList include='base.xml'>" + sim + "</PropertyList>");
+        return file_with("flier-set.xml", "<PropertyList include='base.xml'>" + sim + "</PropertyList>");
     };
     CHECK(read_mesh(read_set("<sim><aero>x</aero></sim>")).triangles.size() == 2);
-    CHECK(
-        read_mesh(read_set("<sim><model><path>Aircraft/F/square.ac</path></model></sim>"))
-            .triangles.size() == 2);
-    CHECK_THAT(
-        read_mesh(file_with(
-                      "first.xml",
-                      "<PropertyList><model><path>none.xml</path></model>"
-                      "<model><path>square.ac</path></model></PropertyList>"))
-            .notes.front(),
+    CHECK(read_mesh(read_set("<sim><model><path>Aircraft/F/square.ac</path></model></sim>")).triangles.size() == 2);
+    CHECK_THAT(read_mesh(file_with("first.xml", "<PropertyList><model><path>none.xml</path></model>"
+                                                "<model><path>square.ac</path></model></PropertyList>"))
+                   .notes.front(),
         Catch::Contains("no file of path 'none.xml'"));
-    CHECK_THAT(
-        error_of("first.xml", "<PropertyList><path>none.ac</path></PropertyList>"),
+    CHECK_THAT(error_of("first.xml", "<PropertyList><path>none.ac</path></PropertyList>"),
         Catch::Contains("expected a file of its path, got none called 'none.ac'"));
-    CHECK_THAT(
-        error_of(
-            "none-set.xml",
-            "<PropertyList><sim><model><path>none.xml</path></model></sim></PropertyList>"),
+    CHECK_THAT(error_of("none-set.xml", "<PropertyList><sim><model><path>none.xml</path></model></sim></PropertyList>"),
         Catch::Contains("expected a file of its sim/model/path, got none called 'none.xml'"));
-    CHECK_THAT(
-        error_of("void-set.xml", "<PropertyList><sim/></PropertyList>"),
+    CHECK_THAT(error_of("void-set.xml", "<PropertyList><sim/></PropertyList>"),
         Catch::Contains("expected a model's path in sim/model, got none"));
 }
 
 TEST_CASE("a faulty number in a range costs the range alone") {
     file_with("square.ac", ac3d_square("0x0", "near"));
     const RotatingModel model = read_rotating_model(
-        file_with(
-            "ranges.xml",
-            "<PropertyList><path>square.ac</path><animation><type>range</type>"
-            "<object-name>near</object-name><min-m>10,5</min-m></animation></PropertyList>"),
+        file_with("ranges.xml", "<PropertyList><path>square.ac</path><animation><type>range</type>"
+                                "<object-name>near</object-name><min-m>10,5</min-m></animation></PropertyList>"),
         {});
     CHECK(model.body.triangles.size() == 2);
     CHECK_THAT(
-        model.body.notes.front(),
-        Catch::Contains("expected a number, got '10,5'; what it names is always shown"));
+        model.body.notes.front(), Catch::Contains("expected a number, got '10,5'; what it names is always shown"));
 }
 
 TEST_CASE("a FlightGear model includes files and names groups of objects") {
     file_with("square.ac", ac3d_square("0x0", "blade"));
-    file_with(
-        "spin.xml",
-        "<PropertyList><type>spin</type><property>rotors/tail/rpm</property><axis><y>1</y></axis>"
-        "</PropertyList>");
-    file_with(
-        "common.xml",
-        "<PropertyList><model><path>square.ac</path></model><animation><name>all</name>"
-        "<object-name>blade</object-name></animation></PropertyList>");
-    const auto file = file_with(
-        "including.xml",
+    file_with("spin.xml", "<PropertyList><type>spin</type><property>rotors/tail/rpm</property><axis><y>1</y></axis>"
+                          "</PropertyList>");
+    file_with("common.xml", "<PropertyList><model><path>square.ac</path></model><animation><name>all</name>"
+                            "<object-name>blade</object-name></animation></PropertyList>");
+    const auto file = file_with("including.xml",
         "<PropertyList include=\"common.xml\"><path>square.ac</path><animation n='3' include = "
         "'spin.xml'><object-name>all</object-name></animation><animation include='gone.xml'/>"
         "</PropertyList>");
@@ -107,26 +83,21 @@ TEST_CASE("a FlightGear model includes files and names groups of objects") {
     REQUIRE(model.parts.size() == 1);
     CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 1.0, 0.0));
     CHECK_THROWS_WITH(
-        read_mesh(file_with(
-            "endless.xml", "<PropertyList include='endless.xml'><path>x.ac</path></PropertyList>")),
+        read_mesh(file_with("endless.xml", "<PropertyList include='endless.xml'><path>x.ac</path></PropertyList>")),
         Catch::Contains("expected includes at most 8 deep, got more"));
 }
 
 TEST_CASE("includes that multiply are refused, and words in other attributes include nothing") {
     for (int i = 3; i > 0; --i) {
         std::string text = "<PropertyList>";
-        for (int k = 0; k < 10; ++k) {
-            text += "<a include='many" + std::to_string(i) + ".xml'/>";
-        }
+        for (int k = 0; k < 10; ++k) { text += "<a include='many" + std::to_string(i) + ".xml'/>"; }
         file_with("many" + std::to_string(i - 1) + ".xml", text + "</PropertyList>");
     }
     file_with("many3.xml", "<PropertyList/>");
     CHECK_THROWS_WITH(
-        read_mesh(file_with(
-            "most.xml", "<PropertyList include='many0.xml'><path>x.ac</path></PropertyList>")),
+        read_mesh(file_with("most.xml", "<PropertyList include='many0.xml'><path>x.ac</path></PropertyList>")),
         Catch::Contains("expected at most 500 includes, got more"));
-    const auto quoted =
-        file_with("quoted.xml", "<PropertyList note=\"use include='gone.xml'\" n='1'/>");
+    const auto quoted = file_with("quoted.xml", "<PropertyList note=\"use include='gone.xml'\" n='1'/>");
     CHECK(xml_tree(quoted, "<a note=\"use include='b.xml'\" n='1'/>").include.empty());
     CHECK(xml_tree(quoted, "<a n='1' include = \"b.xml\"/>").include == "b.xml");
 }
@@ -134,13 +105,10 @@ TEST_CASE("includes that multiply are refused, and words in other attributes inc
 TEST_CASE("what a range shows from afar only is left out of a FlightGear model") {
     file_with("square.ac", ac3d_square("0x0", "far"));
     const auto near_file = file_with("near.ac", ac3d_square("0x0", "near"));
-    const auto file = file_with(
-        "ranges.xml",
-        "<PropertyList><path>near.ac</path><model><path>far.xml</path></model></PropertyList>");
-    file_with(
-        "far.xml",
-        "<PropertyList><path>square.ac</path><animation><type>range</type><min-m>100</min-m>"
-        "<object-name>far</object-name></animation></PropertyList>");
+    const auto file =
+        file_with("ranges.xml", "<PropertyList><path>near.ac</path><model><path>far.xml</path></model></PropertyList>");
+    file_with("far.xml", "<PropertyList><path>square.ac</path><animation><type>range</type><min-m>100</min-m>"
+                         "<object-name>far</object-name></animation></PropertyList>");
     CHECK(read_mesh(file).triangles.size() == 2);
     CHECK(read_mesh(near_file).triangles.size() == 2);
 }
@@ -149,10 +117,9 @@ TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from
     file_with("square.ac", ac3d_square("0x0", "pilot"));
     const auto shown = [](const std::string& animation) {
         const auto file = file_with(
-            "outside.xml",
-            "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
-            "<object-name>pilot</object-name>" +
-                animation + "</animation></PropertyList>");
+            "outside.xml", "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+                           "<object-name>pilot</object-name>" +
+                               animation + "</animation></PropertyList>");
         return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
     };
     CHECK(shown("<type>range</type><min-m>1</min-m><max-m>500</max-m>")); // not from his own eye
@@ -161,8 +128,8 @@ TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from
     CHECK_FALSE(shown("<type>light</type><light-type>point</light-type>"));
     const auto in_view = [](const std::string& relation, const std::string& number) {
         return "<type>select</type><condition><" + relation +
-               "><property>sim/current-view/view-number</property><value>" + number + "</value></" +
-               relation + "></condition>";
+               "><property>sim/current-view/view-number</property><value>" + number + "</value></" + relation +
+               "></condition>";
     };
     CHECK_FALSE(shown(in_view("equals", "0")));
     CHECK(shown(in_view("not-equals", "0")));
@@ -172,11 +139,10 @@ TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from
 TEST_CASE("what animations move stands where it is at rest: landing gear up") {
     file_with("square.ac", ac3d_square("0x0", "leg"));
     const auto corner_m = [](const std::string& animations) {
-        const TriangleMesh mesh = read_mesh(file_with(
-            "gear.xml",
-            "<PropertyList><path>square.ac</path><model><name>wheel</name><path>square.ac</path>"
-            "</model>" +
-                animations + "</PropertyList>"));
+        const TriangleMesh mesh = read_mesh(
+            file_with("gear.xml", "<PropertyList><path>square.ac</path><model><name>wheel</name><path>square.ac</path>"
+                                  "</model>" +
+                                      animations + "</PropertyList>"));
         REQUIRE(mesh.vertices_m.size() == 8);
         CHECK(mesh.notes.size() == 1); // of what is left at rest
         return std::pair(mesh.vertices_m[2], mesh.vertices_m[6]);
@@ -184,46 +150,39 @@ TEST_CASE("what animations move stands where it is at rest: landing gear up") {
     const auto is_at = [](const glm::dvec3& place_m, double x_m, double z_m) {
         return glm::distance(place_m, glm::dvec3(x_m, 0.0, z_m)) < 1e-9;
     };
-    const std::string turned =
-        "<animation><type>rotate</type><object-name>leg</object-name><object-name>wheel</"
-        "object-name>"
-        "<property>gear/gear/position-norm</property><interpolation><entry><ind>0</ind><dep>90</"
-        "dep>"
-        "</entry><entry><ind>1</ind><dep>0</dep></entry></interpolation><axis><y>2</y></axis>"
-        "<center><x-m>1</x-m></center></animation>";
-    const std::string shifted =
-        "<animation><type>translate</type><object-name>leg</object-name><offset-m>2</offset-m>"
-        "<axis><x>1</x></axis></animation>";
+    const std::string turned = "<animation><type>rotate</type><object-name>leg</object-name><object-name>wheel</"
+                               "object-name>"
+                               "<property>gear/gear/position-norm</property><interpolation><entry><ind>0</ind><dep>90</"
+                               "dep>"
+                               "</entry><entry><ind>1</ind><dep>0</dep></entry></interpolation><axis><y>2</y></axis>"
+                               "<center><x-m>1</x-m></center></animation>";
+    const std::string shifted = "<animation><type>translate</type><object-name>leg</object-name><offset-m>2</offset-m>"
+                                "<axis><x>1</x></axis></animation>";
     const auto [leg_m, wheel_m] = corner_m(turned); // from x = 1, z = 1
     CHECK(is_at(leg_m, 2.0, 0.0));
     CHECK(is_at(wheel_m, 2.0, 0.0));
     CHECK(is_at(corner_m(turned + shifted).first, 2.0, -2.0)); // shifted, then turned
     CHECK(is_at(corner_m(shifted + turned).first, 4.0, 0.0));
     CHECK(is_at(corner_m(turned + shifted).second, 2.0, 0.0));
-    const std::string limited =
-        "<animation><type>rotate</type><property>canopy</property><offset-deg>400</offset-deg>"
-        "<max-deg>180</max-deg><axis><x1-m>0</x1-m><y1-m>-1</y1-m><y2-m>1</y2-m></axis></"
-        "animation>";
-    CHECK(is_at(
-        corner_m("<animation><type>rotate</type><property>canopy</property><factor>7</factor>"
-                 "<axis><y>1</y></axis></animation>")
-            .first,
-        1.0,
-        1.0));
+    const std::string limited = "<animation><type>rotate</type><property>canopy</property><offset-deg>400</offset-deg>"
+                                "<max-deg>180</max-deg><axis><x1-m>0</x1-m><y1-m>-1</y1-m><y2-m>1</y2-m></axis></"
+                                "animation>";
+    CHECK(is_at(corner_m("<animation><type>rotate</type><property>canopy</property><factor>7</factor>"
+                         "<axis><y>1</y></axis></animation>")
+                    .first,
+        1.0, 1.0));
     file_with("whole.xml", "<PropertyList><path>square.ac</path>" + limited + "</PropertyList>");
-    const TriangleMesh whole = read_mesh(file_with(
-        "holder.xml", "<PropertyList><model><path>whole.xml</path></model></PropertyList>"));
+    const TriangleMesh whole =
+        read_mesh(file_with("holder.xml", "<PropertyList><model><path>whole.xml</path></model></PropertyList>"));
     CHECK(is_at(whole.vertices_m.at(2), -1.0, -1.0));
 }
 
 TEST_CASE("what is said of a FlightGear model's many parts ends with a count") {
     std::string models;
-    for (int i = 0; i < 30; ++i) {
-        models += "<model><path>none" + std::to_string(i) + ".ac</path></model>";
-    }
+    for (int i = 0; i < 30; ++i) { models += "<model><path>none" + std::to_string(i) + ".ac</path></model>"; }
     file_with("square.ac", ac3d_square("0x0"));
-    const TriangleMesh mesh = read_mesh(
-        file_with("many.xml", "<PropertyList><path>square.ac</path>" + models + "</PropertyList>"));
+    const TriangleMesh mesh =
+        read_mesh(file_with("many.xml", "<PropertyList><path>square.ac</path>" + models + "</PropertyList>"));
     REQUIRE(mesh.notes.size() == 21);
     CHECK_THAT(mesh.notes.front(), Catch::Contains("no file of path 'none0.ac'"));
     CHECK_THAT(mesh.notes.back(), Catch::Contains("10 more notes on its sub-models"));
@@ -233,10 +192,9 @@ TEST_CASE("what FlightGear shows under a condition is there if it holds at rest"
     file_with("square.ac", ac3d_square("0x0", "lamp"));
     const auto shown = [](const std::string& condition) {
         const auto file = file_with(
-            "selected.xml",
-            "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
-            "<type>select</type><object-name>lamp</object-name><condition>" +
-                condition + "</condition></animation></PropertyList>");
+            "selected.xml", "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+                            "<type>select</type><object-name>lamp</object-name><condition>" +
+                                condition + "</condition></animation></PropertyList>");
         return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
     };
     CHECK_FALSE(shown("<property>on</property>"));

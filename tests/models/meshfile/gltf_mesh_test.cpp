@@ -1,6 +1,6 @@
-#include "models/srgb.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/srgb.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -19,8 +19,7 @@ namespace {
 /// Places (0 0 0), (1 0 0), (0 1 0), (1 1 0) as floats, then 0 1 2 3 as bytes: 52 bytes.
 std::string square_bytes() {
     std::string bytes;
-    for (const float part :
-         {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 1.0F, 1.0F, 0.0F}) {
+    for (const float part : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 1.0F, 1.0F, 0.0F}) {
         const auto own = std::bit_cast<std::array<char, 4>>(part);
         bytes.append(own.data(), 4);
     }
@@ -40,10 +39,10 @@ struct Parts {
 };
 
 std::string gltf(const Parts& parts) {
-    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" +
-           parts.nodes + R"(,"meshes":[{"primitives":[)" + parts.primitive + R"(]}],"accessors":)" +
-           parts.accessors + R"(,"bufferViews":)" + parts.views +
-           R"(,"buffers":[{"byteLength":52,"uri":")" + parts.uri + "\"}]" + parts.more + "}";
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + parts.nodes +
+           R"(,"meshes":[{"primitives":[)" + parts.primitive + R"(]}],"accessors":)" + parts.accessors +
+           R"(,"bufferViews":)" + parts.views + R"(,"buffers":[{"byteLength":52,"uri":")" + parts.uri + "\"}]" +
+           parts.more + "}";
 }
 
 TriangleMesh read_gltf(const Parts& parts) {
@@ -52,16 +51,12 @@ TriangleMesh read_gltf(const Parts& parts) {
     return mesh;
 }
 
-std::string refused_gltf(const Parts& parts) {
-    return error_of("part.gltf", gltf(parts));
-}
+std::string refused_gltf(const Parts& parts) { return error_of("part.gltf", gltf(parts)); }
 
 } // namespace
 
 TEST_CASE("base64 comes back, and what is none is refused") {
-    for (const std::string text : {"", "a", "ab", "abc", "abcd"}) {
-        CHECK(base64_bytes(base64_text(text)) == text);
-    }
+    for (const std::string text : {"", "a", "ab", "abc", "abcd"}) { CHECK(base64_bytes(base64_text(text)) == text); }
     CHECK(base64_text("Man") == "TWFu");
     CHECK(base64_text("Ma") == "TWE=");
     CHECK(base64_bytes("TWE") == "Ma");
@@ -119,8 +114,7 @@ TEST_CASE("nodes of glTF place their meshes; a mirror turns triangles round agai
 
 TEST_CASE("primitives of one glTF mesh share the vertices of the same accessor") {
     Parts parts;
-    parts.primitive = Parts().primitive + "," +
-                      R"({"attributes":{"POSITION":0},"indices":1,"mode":6,"material":1})";
+    parts.primitive = Parts().primitive + "," + R"({"attributes":{"POSITION":0},"indices":1,"mode":6,"material":1})";
     parts.more = R"(,"materials":[{},{"name":"red","pbrMetallicRoughness":
         {"baseColorFactor":[1,0.5,0,1]}}])";
     const TriangleMesh mesh = read_gltf(parts);
@@ -156,65 +150,47 @@ TEST_CASE("data of glTF may lie in files beside it, but not outside its folder")
     parts.uri = "square%20data.bin";
     CHECK(read_gltf(parts).triangles.size() == 2);
     for (const std::string uri :
-         {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "file:///x", "..\\\\x", ""}) {
+        {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "file:///x", "..\\\\x", ""}) {
         parts.uri = uri;
         CHECK_THAT(
-            refused_gltf(parts),
-            Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this "
-                              "one, got '"));
+            refused_gltf(parts), Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this "
+                                                   "one, got '"));
     }
     parts.uri = "none.bin";
     CHECK(
-        refused_gltf(parts) ==
-        "part.gltf: buffers[0].uri: expected a file that lies beside this one, got 'none.bin'");
+        refused_gltf(parts) == "part.gltf: buffers[0].uri: expected a file that lies beside this one, got 'none.bin'");
 }
 
 TEST_CASE("a faulty glTF file is refused in one line that says what") {
-    CHECK(
-        error_of("part.gltf", "{\n\"a\":\n") ==
-        "part.gltf:3: expected JSON, got the end of the text");
+    CHECK(error_of("part.gltf", "{\n\"a\":\n") == "part.gltf:3: expected JSON, got the end of the text");
     CHECK(error_of("part.gltf", "{\n\"a\": tru}\n") == "part.gltf:2: expected JSON, got '}?'");
     CHECK(error_of("part.gltf", "[]") == "part.gltf: expected a JSON object, got '[]'");
-    CHECK(
-        error_of("part.gltf", R"({"asset":{"version":"1.0"}})") ==
-        "part.gltf: asset.version: expected 2.0, got '\"1.0\"'");
-    CHECK(
-        error_of("part.gltf", std::string(100000, '[')) ==
-        "part.gltf: expected JSON at most 64 deep, got more");
+    CHECK(error_of("part.gltf", R"({"asset":{"version":"1.0"}})") ==
+          "part.gltf: asset.version: expected 2.0, got '\"1.0\"'");
+    CHECK(error_of("part.gltf", std::string(100000, '[')) == "part.gltf: expected JSON at most 64 deep, got more");
     Parts parts;
     parts.nodes = R"([{"mesh":7}])";
-    CHECK(
-        refused_gltf(parts) ==
-        "part.gltf: nodes[0].mesh: expected a whole number below 1, got '7'");
+    CHECK(refused_gltf(parts) == "part.gltf: nodes[0].mesh: expected a whole number below 1, got '7'");
     parts.nodes = R"([{"mesh":0,"children":[0]}])";
-    CHECK(
-        refused_gltf(parts) ==
-        "part.gltf: nodes[0]: expected a node with one parent, got one that is met again");
+    CHECK(refused_gltf(parts) == "part.gltf: nodes[0]: expected a node with one parent, got one that is met again");
     parts = {};
     parts.accessors =
         R"([{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
-    CHECK(
-        refused_gltf(parts) ==
-        "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 "
-        "bytes of the view, got 5 from byte 0, 12 apart");
+    CHECK(refused_gltf(parts) == "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 "
+                                 "bytes of the view, got 5 from byte 0, 12 apart");
     parts.accessors =
         R"([{"sparse":{},"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
-    CHECK(
-        refused_gltf(parts) ==
-        "part.gltf: accessors[0]: expected an accessor that is not sparse, got a sparse one");
+    CHECK(refused_gltf(parts) == "part.gltf: accessors[0]: expected an accessor that is not sparse, got a sparse one");
     parts.accessors =
         R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
-    CHECK(
-        refused_gltf(parts) == "part.gltf: meshes[0].primitives: expected indices below 3, got 3");
+    CHECK(refused_gltf(parts) == "part.gltf: meshes[0].primitives: expected indices below 3, got 3");
     parts = {};
     parts.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
-    CHECK(
-        refused_gltf(parts) == "part.gltf: extensionsRequired: expected plain accessors, got "
-                               "KHR_draco_mesh_compression");
-    CHECK(
-        error_of("part.glb", std::string("glTF\2\0\0\0\77\0\0\0", 12)) ==
-        "part.glb: at byte 8: expected a length of 12, got 63");
+    CHECK(refused_gltf(parts) == "part.gltf: extensionsRequired: expected plain accessors, got "
+                                 "KHR_draco_mesh_compression");
+    CHECK(error_of("part.glb", std::string("glTF\2\0\0\0\77\0\0\0", 12)) ==
+          "part.glb: at byte 8: expected a length of 12, got 63");
 }

@@ -78,21 +78,15 @@ TEST_CASE("a file that is no chain, of another version, cut or changed is refuse
     write_chain(path, sample_chain());
     const std::string good = octant::read_file(path);
     CHECK(refused_chain(good).empty());
-    CHECK(
-        refused_chain("octopus!") ==
-        "a.chain: at byte 0: expected a chain of levels, got another file");
-    CHECK_THAT(
-        refused_chain("oct"),
-        Catch::StartsWith("a.chain: at byte 0: expected a chain of levels (8"));
+    CHECK(refused_chain("octopus!") == "a.chain: at byte 0: expected a chain of levels, got another file");
+    CHECK_THAT(refused_chain("oct"), Catch::StartsWith("a.chain: at byte 0: expected a chain of levels (8"));
     std::string newer = good;
     newer[8] = 2;
     CHECK(refused_chain(newer) == "a.chain: at byte 8: expected version 1, got 2");
-    CHECK_THAT(
-        refused_chain(good.substr(0, good.size() - 1)), Catch::StartsWith("a.chain: at byte 16: "));
+    CHECK_THAT(refused_chain(good.substr(0, good.size() - 1)), Catch::StartsWith("a.chain: at byte 16: "));
     std::string changed = good;
     changed[100] = static_cast<char>(changed[100] ^ 1);
-    CHECK_THAT(
-        refused_chain(changed), Catch::StartsWith("a.chain: at byte 24: expected the checksum "));
+    CHECK_THAT(refused_chain(changed), Catch::StartsWith("a.chain: at byte 24: expected the checksum "));
 }
 
 TEST_CASE("a chain whose checksum is right but whose content is not is refused") {
@@ -110,14 +104,12 @@ TEST_CASE("a chain whose checksum is right but whose content is not is refused")
     CHECK_THAT(said(chain), Catch::Contains("expected triangles before"));
     chain = sample_chain();
     chain.levels[0].error_m = 0.01;
-    CHECK_THAT(
-        said(chain), Catch::Contains("expected an error of 0 of the finest level, got 0.01"));
+    CHECK_THAT(said(chain), Catch::Contains("expected an error of 0 of the finest level, got 0.01"));
     const std::filesystem::path path = scratch_file("d.chain");
     write_chain(path, sample_chain());
     std::string bytes = octant::read_file(path);
     bytes[32 + 4] = 1; // of the name's length: now 2^32 more
-    CHECK_THAT(
-        refused_chain(sealed(bytes)), Catch::StartsWith("a.chain: at byte 40: expected a text ("));
+    CHECK_THAT(refused_chain(sealed(bytes)), Catch::StartsWith("a.chain: at byte 40: expected a text ("));
 }
 
 TEST_CASE("polygons of a chain that no model can have are refused") {
@@ -127,21 +119,18 @@ TEST_CASE("polygons of a chain that no model can have are refused") {
         return said(chain);
     };
     CHECK(said_of([](PolygonModel&) {}).empty());
-    CHECK_THAT(
-        said_of([](PolygonModel& model) { model.parents[0] = 1; }),
+    CHECK_THAT(said_of([](PolygonModel& model) { model.parents[0] = 1; }),
         Catch::Contains("expected indices in range before"));
     for (const Polygon& polygon : {Polygon{0, 9, 0, 1}, Polygon{0, 3, 0, 1}, Polygon{1, 3, 0, 1}}) {
         CHECK_THAT( // more corners than there are, one behind or one before that is in none
             said_of([&](PolygonModel& model) { model.polygons[0] = polygon; }),
             Catch::Contains("expected polygons of 3 to 1000 corners, one behind the other before"));
     }
-    CHECK_THAT(
-        said_of([](PolygonModel& model) {
-            model.pivots[0].axis = {0.0, 0.5, 0.0};
-        }),
+    CHECK_THAT(said_of([](PolygonModel& model) {
+        model.pivots[0].axis = {0.0, 0.5, 0.0};
+    }),
         Catch::Contains("expected axes of length 1 before"));
-    CHECK_THAT(
-        said_of([](PolygonModel& model) { model.pivots.push_back(model.pivots[0]); }),
+    CHECK_THAT(said_of([](PolygonModel& model) { model.pivots.push_back(model.pivots[0]); }),
         Catch::Contains("expected one pivot a part at most before"));
     for (const glm::dvec3 place : {glm::dvec3(0.2, 0.2, 0.0), glm::dvec3(1.0, 1.0, 0.3)}) {
         CHECK_THAT( // a dent, a bend

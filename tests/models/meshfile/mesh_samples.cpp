@@ -39,9 +39,8 @@ std::string error_of(const std::string& name, std::string_view content) {
 std::string ac3d_square(const std::string& flags, const std::string& name) {
     return "AC3Db\nMATERIAL \"white\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
            "OBJECT world\nkids 1\nOBJECT poly\nname \"" +
-           name +
-           "\"\ntexture \"two.bmp\"\nnumvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF " +
-           flags + "\nmat 0\nrefs 4\n0 0.01 0\n1 0.99 0\n2 0.99 1\n3 0.01 1\nkids 0\n";
+           name + "\"\ntexture \"two.bmp\"\nnumvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF " + flags +
+           "\nmat 0\nrefs 4\n0 0.01 0\n1 0.99 0\n2 0.99 1\n3 0.01 1\nkids 0\n";
 }
 
 void check_same(const TriangleMesh& a, const TriangleMesh& b) {
@@ -63,11 +62,8 @@ void check_same(const TriangleMesh& a, const TriangleMesh& b) {
 std::optional<std::filesystem::path> real_mesh_file(const std::string& name) {
     const char* given = std::getenv("OCTANT_SHARED_DATA");
     const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given)
-                         : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
-    if (std::filesystem::exists(folder / "meshes" / name)) {
-        return folder / "meshes" / name;
-    }
+        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
+    if (std::filesystem::exists(folder / "meshes" / name)) { return folder / "meshes" / name; }
     std::cout << "SKIPPED: no meshes/" << name << " in " << folder << '\n';
     return std::nullopt;
 }

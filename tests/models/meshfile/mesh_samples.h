@@ -16,12 +16,10 @@ std::filesystem::path scratch_file(const std::string& name);
 /// scratch_file with this content.
 std::filesystem::path file_with(const std::string& name, std::string_view content);
 
-/// An AC3D file with one square in x and y, over which the picture two.bmp lies; `flags` as its
-/// SURF line has them.
+/// An AC3D file with one square in x and y, over which the picture two.bmp lies; `flags` as its SURF line has them.
 std::string ac3d_square(const std::string& flags, const std::string& name = "square");
 
-/// What reading a file of this name and content says; empty when it is read. The path's folder is
-/// left out.
+/// What reading a file of this name and content says; empty when it is read. The path's folder is left out.
 std::string error_of(const std::string& name, std::string_view content);
 
 /// Checks that everything two meshes hold is the same.

@@ -19,15 +19,11 @@ struct Piece {
 
 class Mutation {
 public:
-    Mutation(std::string bytes, std::uint32_t seed)
-        : bytes_(std::move(bytes))
-        , random_(seed) {}
+    Mutation(std::string bytes, std::uint32_t seed) : bytes_(std::move(bytes)), random_(seed) {}
 
     std::string made() {
         const std::size_t faults = 1 + below(3);
-        for (std::size_t i = 0; i < faults && !bytes_.empty(); ++i) {
-            make_fault();
-        }
+        for (std::size_t i = 0; i < faults && !bytes_.empty(); ++i) { make_fault(); }
         return std::move(bytes_);
     }
 
@@ -62,46 +58,24 @@ private:
     }
 
     void replace_written_number() {
-        constexpr std::array<std::string_view, 14> numbers{
-            "-1",
-            "0",
-            "nan",
-            "-inf",
-            "1e300",
-            "-1e308",
-            "1e-320",
-            "2147483648",
-            "4294967295",
-            "9223372036854775807",
-            "99999999999999999999",
-            "0.5",
-            "3",
-            ""};
+        constexpr std::array<std::string_view, 14> numbers{"-1", "0", "nan", "-inf", "1e300", "-1e308", "1e-320",
+            "2147483648", "4294967295", "9223372036854775807", "99999999999999999999", "0.5", "3", ""};
         const std::size_t from = below(bytes_.size());
         std::size_t first = from;
         const auto in_number = [&](std::size_t at) {
-            return at < bytes_.size() &&
-                   std::string_view("+-.0123456789").find(bytes_[at]) != std::string_view::npos;
+            return at < bytes_.size() && std::string_view("+-.0123456789").find(bytes_[at]) != std::string_view::npos;
         };
-        while (first < bytes_.size() && !in_number(first)) {
-            ++first;
-        }
+        while (first < bytes_.size() && !in_number(first)) { ++first; }
         std::size_t last = first;
-        while (in_number(last)) {
-            ++last;
-        }
+        while (in_number(last)) { ++last; }
         bytes_.replace(first, last - first, numbers[below(numbers.size())]);
     }
 
     void replace_binary_number() {
-        constexpr std::array<std::string_view, 7> numbers{
-            std::string_view("\xff\xff\xff\xff", 4),
-            std::string_view("\x00\x00\x00\x80", 4),
-            std::string_view("\xff\xff\xff\x7f", 4),
-            std::string_view("\x00\x00\xc0\x7f", 4),
-            std::string_view("\x00\x00\x80\xff", 4),
-            std::string_view("\x00\x00\x00\x00", 4),
-            std::string_view("\xff\xff\xff\xff\xff\xff\xff\x7f", 8)};
+        constexpr std::array<std::string_view, 7> numbers{std::string_view("\xff\xff\xff\xff", 4),
+            std::string_view("\x00\x00\x00\x80", 4), std::string_view("\xff\xff\xff\x7f", 4),
+            std::string_view("\x00\x00\xc0\x7f", 4), std::string_view("\x00\x00\x80\xff", 4),
+            std::string_view("\x00\x00\x00\x00", 4), std::string_view("\xff\xff\xff\xff\xff\xff\xff\x7f", 8)};
         const std::string_view number = numbers[below(numbers.size())];
         const std::size_t first = below(bytes_.size());
         bytes_.replace(first, std::min(number.size(), bytes_.size() - first), number);
@@ -122,9 +96,7 @@ private:
 
     /// Takes the piece out, doubles it or swaps it with another.
     void move_piece(Piece a, Piece b) {
-        if (b.first < a.first) {
-            std::swap(a, b);
-        }
+        if (b.first < a.first) { std::swap(a, b); }
         const std::string text = bytes_.substr(a.first, a.count);
         switch (below(3)) {
         case 0:
@@ -149,8 +121,6 @@ private:
 
 } // namespace
 
-std::string mutated(std::string bytes, std::uint32_t seed) {
-    return Mutation(std::move(bytes), seed).made();
-}
+std::string mutated(std::string bytes, std::uint32_t seed) { return Mutation(std::move(bytes), seed).made(); }
 
 } // namespace octant::models::meshfile::test

@@ -14,26 +14,20 @@ using namespace octant::tests;
 
 TEST_CASE("the scanned bunny is read and mended as published") {
     const auto path = real_mesh_file("bun_zipper.ply");
-    if (!path) {
-        return;
-    }
+    if (!path) { return; }
     const TriangleMesh mesh = read_mesh(*path);
     CHECK(mesh.vertices_m.size() == 35947);
     CHECK(mesh.triangles.size() == 69451);
     CHECK(mesh.vertices_m[0] == glm::dvec3(-0.0378297, 0.12794, 0.00447467));
     const RepairedMesh after = repaired(mesh);
-    CHECK(
-        after.counts ==
-        RepairCounts{.unreferenced_vertices = 1113, .boundary_loops = 5, .shells = 1});
+    CHECK(after.counts == RepairCounts{.unreferenced_vertices = 1113, .boundary_loops = 5, .shells = 1});
     CHECK(after.mesh.triangles.size() == 69451);
     CHECK(manifold_fault(after.mesh).empty());
 }
 
 TEST_CASE("the bunny goes through every format") {
     const auto path = real_mesh_file("bun_zipper.ply");
-    if (!path) {
-        return;
-    }
+    if (!path) { return; }
     const TriangleMesh mesh = read_mesh(*path);
     for (const std::string ending : {".obj", ".ply", ".ac", ".wrl", ".gltf", ".glb"}) {
         INFO(ending);
@@ -60,9 +54,7 @@ TEST_CASE("the bunny goes through every format") {
 
 TEST_CASE("the cow has one vertex where two fans meet") {
     const auto path = real_mesh_file("cow.obj");
-    if (!path) {
-        return;
-    }
+    if (!path) { return; }
     const TriangleMesh mesh = read_mesh(*path);
     const RepairedMesh after = repaired(mesh);
     CHECK(after.counts.split_vertices == 1);
@@ -74,9 +66,7 @@ TEST_CASE("the cow has one vertex where two fans meet") {
 
 TEST_CASE("the spotted cow is a clean closed mesh") {
     const auto path = real_mesh_file("spot.obj");
-    if (!path) {
-        return;
-    }
+    if (!path) { return; }
     const RepairedMesh after = repaired(read_mesh(*path));
     CHECK(after.counts == RepairCounts{.shells = 1});
     CHECK(manifold_fault(after.mesh).empty());

@@ -1,7 +1,7 @@
+#include "models/invalid_index.h"
+#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/mesh_append.h"
-#include "models/invalid_index.h"
 #include "models/repair/repair.h"
 #include "sim/base/text_file.h"
 #include "tests/models/meshfile/mesh_samples.h"
@@ -49,9 +49,7 @@ TEST_CASE("a cube comes back from STL with its vertices in the order of their fi
     CHECK(after.vertices_m.size() == 8);
     for (std::size_t t = 0; t < 12; ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            CHECK(
-                after.vertices_m[after.triangles[t][k]] ==
-                cube().vertices_m[cube().triangles[t][k]]);
+            CHECK(after.vertices_m[after.triangles[t][k]] == cube().vertices_m[cube().triangles[t][k]]);
         }
     }
     CHECK(repaired(after).counts == RepairCounts{.shells = 1});
@@ -101,8 +99,7 @@ TEST_CASE("places that are no floats come back bit for bit from the formats that
 TEST_CASE("texture coordinates that break along an edge come back corner by corner") {
     TriangleMesh before = coloured_cube();
     for (int i = 0; i < 36; ++i) { // each corner has its own; parts of 1/64 are floats
-        before.texture_coordinates.emplace_back(
-            static_cast<float>(i) / 64.0F, 1.25F - static_cast<float>(i % 7));
+        before.texture_coordinates.emplace_back(static_cast<float>(i) / 64.0F, 1.25F - static_cast<float>(i % 7));
     }
     for (std::uint32_t t = 0; t < 12; ++t) {
         before.corner_texture_coordinates.push_back({3 * t, 3 * t + 1, 3 * t + 2});
@@ -116,9 +113,8 @@ TEST_CASE("texture coordinates that break along an edge come back corner by corn
             for (std::size_t k = 0; k < 3 && t != 5; ++k) {
                 const std::uint32_t is = after.corner_texture_coordinates[t][k];
                 REQUIRE(is != invalid_index);
-                CHECK(
-                    after.texture_coordinates[is] ==
-                    before.texture_coordinates[before.corner_texture_coordinates[t][k]]);
+                CHECK(after.texture_coordinates[is] ==
+                      before.texture_coordinates[before.corner_texture_coordinates[t][k]]);
             }
         }
         // glTF has them for all vertices or for none.
@@ -149,11 +145,8 @@ TEST_CASE("a mesh far from the origin keeps its digits in glTF, by the translati
         double largest_m = 0.0;
         for (std::size_t t = 0; t < 4; ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
-                largest_m = std::max(
-                    largest_m,
-                    glm::distance(
-                        after.vertices_m[after.triangles[t][k]],
-                        before.vertices_m[before.triangles[t][k]]));
+                largest_m = std::max(largest_m,
+                    glm::distance(after.vertices_m[after.triangles[t][k]], before.vertices_m[before.triangles[t][k]]));
             }
         }
         CHECK(largest_m <= rounding_m("cube" + ending, bounds_of(before)));
@@ -174,14 +167,11 @@ TEST_CASE("what a format does not hold is told") {
     CHECK(write_warnings("a.glb", mesh).empty());
     mesh.texture_coordinates = {{0.0F, 0.0F}};
     mesh.corner_texture_coordinates.assign(12, {0, 0, 0});
-    CHECK(
-        write_warnings("a.stl", mesh) ==
-        std::vector<std::string>{"a.stl: the format holds no normals, colours of vertices, "
-                                 "materials, texture coordinates; they are left out"});
-    CHECK(
-        write_warnings("a.wrl", mesh) ==
-        std::vector<std::string>{
-            "a.wrl: the format holds no texture coordinates; they are left out"});
+    CHECK(write_warnings("a.stl", mesh) == std::vector<std::string>{
+                                               "a.stl: the format holds no normals, colours of vertices, "
+                                               "materials, texture coordinates; they are left out"});
+    CHECK(write_warnings("a.wrl", mesh) ==
+          std::vector<std::string>{"a.wrl: the format holds no texture coordinates; they are left out"});
     CHECK(write_warnings("a.stl", cube()).empty());
 }
 
@@ -230,8 +220,6 @@ TEST_CASE("parts of a joined mesh come out as they went in") {
 }
 
 TEST_CASE("a file that cannot be written says so and a wrong ending is refused") {
-    CHECK_THROWS_WITH(
-        write_mesh("/no/such/folder/a.ply", cube()), Catch::Contains("cannot be written"));
-    CHECK_THROWS_WITH(
-        write_mesh(scratch_file("a.step"), cube()), Catch::Contains("expected a mesh file"));
+    CHECK_THROWS_WITH(write_mesh("/no/such/folder/a.ply", cube()), Catch::Contains("cannot be written"));
+    CHECK_THROWS_WITH(write_mesh(scratch_file("a.step"), cube()), Catch::Contains("expected a mesh file"));
 }

@@ -26,28 +26,11 @@ namespace {
 std::string red_and_blue() {
     std::string bytes = "BM";
     const auto add = [&](std::uint32_t number, int size) {
-        for (int i = 0; i < size; ++i) {
-            bytes += static_cast<char>(number >> (8 * i) & 0xffU);
-        }
+        for (int i = 0; i < size; ++i) { bytes += static_cast<char>(number >> (8 * i) & 0xffU); }
     };
-    for (const auto& [number, size] : std::initializer_list<std::pair<std::uint32_t, int>>{
-             {62, 4},
-             {0, 4},
-             {54, 4},
-             {40, 4},
-             {2, 4},
-             {1, 4},
-             {1, 2},
-             {24, 2},
-             {0, 4},
-             {8, 4},
-             {2835, 4},
-             {2835, 4},
-             {0, 4},
-             {0, 4},
-             {0xff0000, 3},
-             {0x0000ff, 3},
-             {0, 2}}) {
+    for (const auto& [number, size] :
+        std::initializer_list<std::pair<std::uint32_t, int>>{{62, 4}, {0, 4}, {54, 4}, {40, 4}, {2, 4}, {1, 4}, {1, 2},
+            {24, 2}, {0, 4}, {8, 4}, {2835, 4}, {2835, 4}, {0, 4}, {0, 4}, {0xff0000, 3}, {0x0000ff, 3}, {0, 2}}) {
         add(number, size);
     }
     return bytes;
@@ -57,26 +40,15 @@ std::string red_and_blue() {
 std::string tiff_of_opacity(std::uint32_t opacity) {
     std::string bytes = "II";
     const auto add = [&](std::uint32_t number, int size) {
-        for (int i = 0; i < size; ++i) {
-            bytes += static_cast<char>(number >> (8 * i) & 0xffU);
-        }
+        for (int i = 0; i < size; ++i) { bytes += static_cast<char>(number >> (8 * i) & 0xffU); }
     };
     add(42, 2);
     add(20, 4);                         // where the directory stands
     add(0x00ff00U | opacity << 24U, 4); // the pixel, at byte 8
     add(0x00080008U, 4);                // bits of its parts, at byte 12
     add(0x00080008U, 4);
-    constexpr std::uint32_t entries[][3] = {
-        {256, 1, 1},
-        {257, 1, 1},
-        {258, 4, 12},
-        {259, 1, 1},
-        {262, 1, 2},
-        {273, 1, 8},
-        {277, 1, 4},
-        {278, 1, 1},
-        {279, 1, 4},
-        {338, 1, 2}};
+    constexpr std::uint32_t entries[][3] = {{256, 1, 1}, {257, 1, 1}, {258, 4, 12}, {259, 1, 1}, {262, 1, 2},
+        {273, 1, 8}, {277, 1, 4}, {278, 1, 1}, {279, 1, 4}, {338, 1, 2}};
     add(std::size(entries), 2);
     for (const auto& [tag, count, value] : entries) {
         add(tag, 2);
@@ -120,9 +92,7 @@ TEST_CASE("what is mostly transparent is left out or glass, unless nothing else 
         CHECK(parts.body.triangles.size() == (is_transparent ? 1U : 3U));
         CHECK(parts.clear.mesh.triangles.size() == (opacity == 20U ? 2U : 0U));
         CHECK(parts.body.notes.size() == (opacity == 5U ? 1U : 0U));
-        if (opacity == 20U) {
-            CHECK(parts.clear.opacity == Approx(20.0 / 255.0));
-        }
+        if (opacity == 20U) { CHECK(parts.clear.opacity == Approx(20.0 / 255.0)); }
         if (is_transparent) {
             CHECK(read_parts(alone, {.pictures = true}).body.triangles.empty());
             CHECK(read_rotating_model(alone, {.pictures = true}).body.triangles.size() == 2);
@@ -137,9 +107,7 @@ TEST_CASE("a FlightGear model says in which folder its pictures lie") {
     std::filesystem::remove(mesh.parent_path() / "two.bmp");
     write_file(folder / "two.bmp", red_and_blue());
     const auto model = [](const std::string& where) {
-        return read_mesh(
-            file_with(
-                "painted.xml", "<PropertyList><path>painted.ac</path>" + where + "</PropertyList>"),
+        return read_mesh(file_with("painted.xml", "<PropertyList><path>painted.ac</path>" + where + "</PropertyList>"),
             {.pictures = true});
     };
     CHECK(model("").colours.empty());
@@ -175,8 +143,7 @@ TEST_CASE("a two-sided sheet gets a back that welding keeps apart") {
 TEST_CASE("clear materials of AC3D, glTF and FlightGear files come apart") {
     std::string two = ac3d_square("0x0");
     two.replace(two.find("kids 1"), 6, "kids 2");
-    two.insert(
-        two.find("OBJECT world"),
+    two.insert(two.find("OBJECT world"),
         "MATERIAL \"glass\" rgb 0.5 0.5 0.6 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0.7\n");
     const std::string pane = "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
                              "mat 1\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
@@ -187,8 +154,7 @@ TEST_CASE("clear materials of AC3D, glTF and FlightGear files come apart") {
         CHECK(model.clear.opacity == Approx(0.3F));
     };
     check(read_rotating_model(file, {}));
-    check(read_rotating_model(
-        file_with("canopy.xml", "<PropertyList><path>canopy.ac</path></PropertyList>"), {}));
+    check(read_rotating_model(file_with("canopy.xml", "<PropertyList><path>canopy.ac</path></PropertyList>"), {}));
     CHECK(read_mesh(file).triangles.size() == 3); // as one mesh all of it is there
 
     std::string all = ac3d_square("0x0");

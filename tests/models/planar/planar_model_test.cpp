@@ -1,7 +1,7 @@
-#include "models/procedural/background60.h"
 #include "models/planar/planar_model.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_check.h"
+#include "models/procedural/background60.h"
 #include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>
@@ -90,9 +90,7 @@ TEST_CASE("the grid of a file is the last decimal that any coordinate needs") {
     CHECK(decimal_grid(std::vector<glm::dvec3>{{1e6 + 0.125, 2e-3, 0.0}}) == Approx(1e-3));
     const std::vector<glm::dvec3> eight_decimals{{-10.534324, -6.385421, -0.00775233}};
     for (const double scale : {1e-6, 1.0, 1e6}) {
-        CHECK(
-            decimal_grid(std::vector<glm::dvec3>{scale * (eight_decimals[0] + 1e6)}) ==
-            Approx(scale * 1e-8));
+        CHECK(decimal_grid(std::vector<glm::dvec3>{scale * (eight_decimals[0] + 1e6)}) == Approx(scale * 1e-8));
     }
     CHECK(decimal_grid(std::vector<glm::dvec3>{{1.0 / 3.0, 1.0, 0.0}}) == 0.0);
     CHECK(decimal_grid(std::vector<glm::dvec3>{1e6 + glm::dvec3(1.0, 2.0, 4.0) / 3.0}) == 0.0);
@@ -126,9 +124,7 @@ TEST_CASE("a planar model keeps its bits, whatever its place and size") {
     for (const double scale : {1e-6, 1.0, 1e6}) {
         for (const double away : {0.0, 1e6}) {
             PolygonModel model = plate();
-            for (glm::dvec3& vertex : model.vertices_m) {
-                vertex = vertex * scale + away * scale;
-            }
+            for (glm::dvec3& vertex : model.vertices_m) { vertex = vertex * scale + away * scale; }
             const PlanarModel planar = planar_model(model);
             CHECK(planar.radius_m == Approx(std::sqrt(0.5) * scale));
             CHECK(in_model_frame(planar.model, planar, model).vertices_m == model.vertices_m);
@@ -136,31 +132,17 @@ TEST_CASE("a planar model keeps its bits, whatever its place and size") {
     }
 }
 
-TEST_CASE(
-    "of polygons that cannot all be planar the one that was bent gives up, whatever the order") {
+TEST_CASE("of polygons that cannot all be planar the one that was bent gives up, whatever the order") {
     // Three corners of the square touch a triangle at height 0, the fourth one at 2e-6.
-    const std::vector<glm::dvec3> given{
-        {-1, -1, 0},
-        {3, -1, 0},
-        {-1, 3, 0},
-        {-0.5, 0.5, 2e-6},
-        {0.5, 1.5, 2e-6},
-        {-0.5, 1.5, 2e-6},
-        {0, 0, 0},
-        {1, 0, 0},
-        {1, 1, 0},
-        {0, 1, 2e-6}};
+    const std::vector<glm::dvec3> given{{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}, {-0.5, 0.5, 2e-6}, {0.5, 1.5, 2e-6},
+        {-0.5, 1.5, 2e-6}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 2e-6}};
     const Incidence low{.corners = {0, 1, 2}, .touching = {6, 7, 8}};
     const Incidence high{.corners = {3, 4, 5}, .touching = {9}};
     const Incidence square{.corners = {6, 7, 8, 9}, .touching = {}};
     std::vector<glm::dvec3> points = given;
-    CHECK(
-        planarize(points, std::vector{low, high, square}, 4e-6) ==
-        std::vector<bool>{false, false, true});
+    CHECK(planarize(points, std::vector{low, high, square}, 4e-6) == std::vector<bool>{false, false, true});
     CHECK(points == given);
-    CHECK(
-        planarize(points, std::vector{square, low, high}, 4e-6) ==
-        std::vector<bool>{true, false, false});
+    CHECK(planarize(points, std::vector{square, low, high}, 4e-6) == std::vector<bool>{true, false, false});
     CHECK(points == given);
 }
 
@@ -171,9 +153,7 @@ TEST_CASE("six decimals are the same model at any place and in any unit, to the 
     for (const double scale : {1e-6, 1.0, 1e6}) {
         for (const double away : {0.0, 1e6}) {
             PolygonModel model = given;
-            for (glm::dvec3& vertex : model.vertices_m) {
-                vertex = (vertex + away) * scale;
-            }
+            for (glm::dvec3& vertex : model.vertices_m) { vertex = (vertex + away) * scale; }
             CHECK(planar_model(model).model.vertices_m == planar.model.vertices_m);
         }
     }
@@ -181,8 +161,7 @@ TEST_CASE("six decimals are the same model at any place and in any unit, to the 
 
 TEST_CASE("what ends a hair beside a polygon ends on it") {
     PolygonModel model = plate();
-    model.vertices_m.insert(
-        model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, -3e-7}, {0.5, 0.3, 0.812345}});
+    model.vertices_m.insert(model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, -3e-7}, {0.5, 0.3, 0.812345}});
     add(model, {4, 5, 6});
     const PlanarModel planar = planar_model(model);
     CHECK(planar.triangulated_polygons == 0);
@@ -229,8 +208,8 @@ TEST_CASE("a polygon that only rounding dents is cut, but not counted") {
 TEST_CASE("no polygon of the shipped aircraft is bent or dented") {
     for (const std::string name : {"f15", "500md", "f15-detailed", "500md-detailed"}) {
         INFO(name);
-        const PlanarModel planar = planar_model(octant::models::polygons::read_obj(
-            std::string(OCTANT_SOURCE_DIR) + "/models/" + name + ".obj"));
+        const PlanarModel planar = planar_model(
+            octant::models::polygons::read_obj(std::string(OCTANT_SOURCE_DIR) + "/models/" + name + ".obj"));
         CHECK(planar.triangulated_polygons == 0);
         CHECK(planar.dropped_polygons == 0);
     }
@@ -240,8 +219,7 @@ TEST_CASE("parts that turn do not stick to what they touch") {
     PolygonModel model = plate();
     model.parts = {"hull", "rotor"};
     model.pivots = {{.part = 1, .point_m = {0.5, 0.5, 0.0}}};
-    model.vertices_m.insert(
-        model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, 4e-7}, {0.5, 0.6, 4e-7}});
+    model.vertices_m.insert(model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, 4e-7}, {0.5, 0.6, 4e-7}});
     add(model, {4, 5, 6});
     model.polygons[1].part = 1;
     const PlanarModel planar = planar_model(model);

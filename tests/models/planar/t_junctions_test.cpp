@@ -10,22 +10,14 @@ using octant::models::polygons::PolygonModel;
 
 namespace {
 
-/// A plate of two metres in the plane z = 0 and, at its side x = 1, two plates of one metre; their
-/// common corners are `beside_m` off that side.
+/// A plate of two metres in the plane z = 0 and, at its side x = 1, two plates of one metre; their common corners are
+/// `beside_m` off that side.
 PolygonModel three_plates(double beside_m) {
     PolygonModel model;
     model.materials.resize(1);
     model.parts = {"all"};
-    model.vertices_m = {
-        {-1, -1, 0},
-        {1, -1, 0},
-        {1, 1, 0},
-        {-1, 1, 0},
-        {1.0 + beside_m, 0, 0},
-        {2, -1, 0},
-        {2, 0, 0},
-        {2, 1, 0},
-        {1.0 + beside_m, 0, 0}};
+    model.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1.0 + beside_m, 0, 0}, {2, -1, 0}, {2, 0, 0},
+        {2, 1, 0}, {1.0 + beside_m, 0, 0}};
     model.corner_vertices = {0, 1, 2, 3, 1, 5, 6, 4, 8, 6, 7, 2};
     model.polygons = {{0, 4, 0, 0}, {4, 4, 0, 0}, {8, 4, 0, 0}};
     return model;

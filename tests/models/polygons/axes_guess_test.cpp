@@ -16,32 +16,22 @@ namespace {
 
 TriangleMesh in_file(const PolygonModel& body, const FileAxes& axes) {
     TriangleMesh mesh = mesh_from_polygons(body);
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m = axes.file_from_body(vertex_m);
-    }
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = axes.file_from_body(vertex_m); }
     return mesh;
 }
 
 TriangleMesh box(const glm::dvec3& half_m) {
     TriangleMesh mesh = octant::tests::cube();
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m = half_m * (2.0 * vertex_m - 1.0);
-    }
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = half_m * (2.0 * vertex_m - 1.0); }
     return mesh;
 }
 
 } // namespace
 
 TEST_CASE("nose and top of the F-15 are found whichever way its file turns it") {
-    const PolygonModel body =
-        read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
+    const PolygonModel body = read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
     for (const std::string axes :
-         {"right,up,back",
-          "back,up,left",
-          "left,up,forward",
-          "forward,left,up",
-          "right,forward,up",
-          "back,right,up"}) {
+        {"right,up,back", "back,up,left", "left,up,forward", "forward,left,up", "right,forward,up", "back,right,up"}) {
         CAPTURE(axes);
         const auto guess = guess_axes(in_file(body, FileAxes::from_text(axes)));
         REQUIRE(guess.has_value());

@@ -30,10 +30,7 @@ TEST_CASE("of polygons that repeat each other the last one of the file is kept")
     using Numbers = std::vector<std::uint32_t>;
     CHECK(distinct_polygons(model_of({})).empty());
     // The second one begins elsewhere, and has a vertex of its own in one of the places.
-    CHECK(
-        distinct_polygons(model_of({{0, 1, 2, 3}, {4, 3, 0, 1}, {0, 1, 2}})) ==
-        Numbers{1, 2});
+    CHECK(distinct_polygons(model_of({{0, 1, 2, 3}, {4, 3, 0, 1}, {0, 1, 2}})) == Numbers{1, 2});
     // Its back, and another polygon with corners in the same places, are no repeats.
-    CHECK(
-        distinct_polygons(model_of({{0, 1, 2}, {2, 1, 0}, {0, 1, 3}})) == Numbers{0, 1, 2});
+    CHECK(distinct_polygons(model_of({{0, 1, 2}, {2, 1, 0}, {0, 1, 3}})) == Numbers{0, 1, 2});
 }

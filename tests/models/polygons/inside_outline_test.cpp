@@ -25,12 +25,8 @@ TEST_CASE("A side as short as rounding does not cut an outline, whichever way it
     const glm::dvec3 corner(1e6, 1e6, 0);
     const double ulp = 1.2e-10;
     for (const glm::dvec3 aside : {glm::dvec3(ulp, ulp, 0), glm::dvec3(-ulp, ulp, 0)}) {
-        const std::vector<glm::dvec3> outline{
-            corner,
-            corner + glm::dvec3(1, 0, 0),
-            corner + glm::dvec3(1, 1, 0),
-            corner + glm::dvec3(1, 1, 0) + aside,
-            corner + glm::dvec3(0, 1, 0)};
+        const std::vector<glm::dvec3> outline{corner, corner + glm::dvec3(1, 0, 0), corner + glm::dvec3(1, 1, 0),
+            corner + glm::dvec3(1, 1, 0) + aside, corner + glm::dvec3(0, 1, 0)};
         CHECK(is_inside(outline, up, corner + glm::dvec3(0.1, 0.1, 0)));
         CHECK(is_inside(outline, up, corner + glm::dvec3(0.9, 0.1, 0)));
         CHECK(is_inside(outline, up, corner + glm::dvec3(0.1, 0.9, 0)));

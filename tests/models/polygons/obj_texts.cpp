@@ -16,9 +16,7 @@ std::string without_folder(const std::string& text) {
 
 } // namespace
 
-std::filesystem::path scratch(const std::string& name) {
-    return octant::tests::scratch_folder() / name;
-}
+std::filesystem::path scratch(const std::string& name) { return octant::tests::scratch_folder() / name; }
 
 PolygonModel model_of(const std::string& text, const FileAxes& axes) {
     write_file(scratch("m.obj"), text);
@@ -28,17 +26,13 @@ PolygonModel model_of(const std::string& text, const FileAxes& axes) {
 std::string message(const std::string& text) {
     try {
         model_of(text);
-    } catch (const Error& error) {
-        return without_folder(error.what());
-    }
+    } catch (const Error& error) { return without_folder(error.what()); }
     return "accepted";
 }
 
 std::vector<std::string> notes_of(const PolygonModel& model) {
     std::vector<std::string> notes;
-    for (const std::string& note : model.notes) {
-        notes.push_back(without_folder(note));
-    }
+    for (const std::string& note : model.notes) { notes.push_back(without_folder(note)); }
     return notes;
 }
 

@@ -17,9 +17,7 @@ const std::array<std::string, 6> names{"right", "left", "up", "down", "forward",
 std::string message(const std::string& text) {
     try {
         FileAxes::from_text(text);
-    } catch (const octant::Error& error) {
-        return error.what();
-    }
+    } catch (const octant::Error& error) { return error.what(); }
     return "accepted";
 }
 
@@ -46,9 +44,7 @@ TEST_CASE("of all 216 triples 24 are right-handed, and each of them converts the
         for (const auto& y : names) {
             for (const auto& z : names) {
                 const std::string text = fmt::format("{},{},{}", x, y, z);
-                if (message(text) != "accepted") {
-                    continue;
-                }
+                if (message(text) != "accepted") { continue; }
                 ++accepted;
                 const FileAxes axes = FileAxes::from_text(text);
                 CHECK(axes.text() == text);
@@ -63,9 +59,7 @@ TEST_CASE("of all 216 triples 24 are right-handed, and each of them converts the
 
 TEST_CASE("zero stays a plain zero") {
     const glm::dvec3 zero = FileAxes().body_from_file({0, 0, 0});
-    for (int i = 0; i < 3; ++i) {
-        CHECK_FALSE(std::signbit(zero[i]));
-    }
+    for (int i = 0; i < 3; ++i) { CHECK_FALSE(std::signbit(zero[i])); }
 }
 
 TEST_CASE("wrong axes are refused with what was expected") {

@@ -1,5 +1,5 @@
-#include "models/procedural/background60.h"
 #include "models/polygons/polygon_check.h"
+#include "models/procedural/background60.h"
 #include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>
@@ -22,9 +22,7 @@ glm::dvec3 point_inside(octant::RandomGenerator& dice, double min_height_m, doub
     while (true) {
         const double x = dice.between(-inner_radius_m, inner_radius_m);
         const double y = dice.between(-inner_radius_m, inner_radius_m);
-        if (std::hypot(x, y) < inner_radius_m) {
-            return {x, y, -dice.between(min_height_m, max_height_m)};
-        }
+        if (std::hypot(x, y) < inner_radius_m) { return {x, y, -dice.between(min_height_m, max_height_m)}; }
     }
 }
 
@@ -34,17 +32,13 @@ std::optional<double> front_hit(
     const glm::dvec3 normal = normal_of(model, polygon);
     const auto corners = model.corners(polygon);
     const double slope = glm::dot(ray, normal);
-    if (slope >= 0.0) {
-        return std::nullopt;
-    }
+    if (slope >= 0.0) { return std::nullopt; }
     const double at = glm::dot(model.vertices_m[corners[0]] - eye, normal) / slope;
     const glm::dvec3 hit = eye + ray * at;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3& from = model.vertices_m[corners[i]];
         const glm::dvec3& to = model.vertices_m[corners[(i + 1) % corners.size()]];
-        if (glm::dot(glm::cross(to - from, hit - from), normal) < 0.0) {
-            return std::nullopt;
-        }
+        if (glm::dot(glm::cross(to - from, hit - from), normal) < 0.0) { return std::nullopt; }
     }
     return at > 0.0 ? std::optional(at) : std::nullopt;
 }
@@ -87,17 +81,13 @@ TEST_CASE("the ground lies at height 0, faces up and covers every place once") {
     const PolygonModel model = background60();
     for (std::size_t i = 24; i < 60; ++i) {
         CHECK(glm::distance(normal_of(model, i), glm::dvec3(0, 0, -1)) < 1e-12);
-        for (const std::uint32_t vertex : model.corners(i)) {
-            CHECK(model.vertices_m[vertex].z == 0.0);
-        }
+        for (const std::uint32_t vertex : model.corners(i)) { CHECK(model.vertices_m[vertex].z == 0.0); }
     }
     octant::RandomGenerator dice(60);
     for (int sample = 0; sample < 5000; ++sample) {
         const glm::dvec3 above = point_inside(dice, 1.0, 1.0);
         int covered = 0;
-        for (std::size_t i = 24; i < 60; ++i) {
-            covered += front_hit(model, i, above, {0, 0, 1}) ? 1 : 0;
-        }
+        for (std::size_t i = 24; i < 60; ++i) { covered += front_hit(model, i, above, {0, 0, 1}) ? 1 : 0; }
         CHECK(covered == 1);
     }
 }
@@ -110,8 +100,7 @@ TEST_CASE("the areas of the ground add up to the 24-gon") {
         for (std::size_t j = 1; j + 1 < corners.size(); ++j) {
             const glm::dvec3& a = model.vertices_m[corners[0]];
             area_m2 +=
-                0.5 * glm::length(glm::cross(
-                          model.vertices_m[corners[j]] - a, model.vertices_m[corners[j + 1]] - a));
+                0.5 * glm::length(glm::cross(model.vertices_m[corners[j]] - a, model.vertices_m[corners[j + 1]] - a));
         }
     }
     const double expected_m2 = 12.0 * 14'000.0 * 14'000.0 * std::sin(2.0 * std::acos(-1.0) / 24.0);
@@ -126,15 +115,11 @@ TEST_CASE("along no line of sight inside the ring do two polygons face the eye")
         const glm::dvec3 eye = point_inside(dice, 0.5, 6000.0);
         const glm::dvec3 ray(dice.between(-1, 1), dice.between(-1, 1), dice.between(-0.2, 0.5));
         int faced = 0;
-        for (std::size_t i = 0; i < 60; ++i) {
-            faced += front_hit(model, i, eye, ray) ? 1 : 0;
-        }
+        for (std::size_t i = 0; i < 60; ++i) { faced += front_hit(model, i, eye, ray) ? 1 : 0; }
         CHECK(faced <= 1);
         hits += faced;
         const glm::dvec3 ground = eye - ray * (eye.z / ray.z);
-        if (ray.z > 0.0 && std::hypot(ground.x, ground.y) < inner_radius_m) {
-            CHECK(faced == 1);
-        }
+        if (ray.z > 0.0 && std::hypot(ground.x, ground.y) < inner_radius_m) { CHECK(faced == 1); }
     }
     CHECK(hits > 2000);
 }
@@ -147,8 +132,8 @@ TEST_CASE("neighbours share all corners on their common sides") {
             const glm::dvec3& from = model.vertices_m[corners[j]];
             const glm::dvec3& to = model.vertices_m[corners[(j + 1) % corners.size()]];
             for (const glm::dvec3& vertex : model.vertices_m) {
-                const double detour_m = glm::distance(from, vertex) + glm::distance(vertex, to) -
-                                        glm::distance(from, to);
+                const double detour_m =
+                    glm::distance(from, vertex) + glm::distance(vertex, to) - glm::distance(from, to);
                 const bool is_end = vertex == from || vertex == to;
                 CHECK((is_end || detour_m > 1e-6));
             }

@@ -36,15 +36,11 @@ std::size_t checked_pieces(const Corners& corners) {
     double pieces_m2 = 0.0;
     for (const auto& places : cut.pieces) {
         Corners piece;
-        for (const std::size_t place : places) {
-            piece.push_back(corners[place]);
-        }
+        for (const std::size_t place : places) { piece.push_back(corners[place]); }
         CHECK_FALSE(corners_fault(piece, tolerance_m).has_value());
         pieces_m2 += area_m2(piece);
     }
-    if (is_planar(corners, tolerance_m)) {
-        CHECK(pieces_m2 == Approx(area_m2(corners)));
-    }
+    if (is_planar(corners, tolerance_m)) { CHECK(pieces_m2 == Approx(area_m2(corners))); }
     return cut.pieces.size();
 }
 
@@ -80,12 +76,9 @@ TEST_CASE("a polygon is cut alike wherever it lies and whichever way it is turne
         const auto pieces = convex_pieces(corners, 1e-4).pieces;
         CHECK(pieces.size() > 1);
         for (int degrees = 7; degrees < 180; degrees += 10) {
-            const glm::dquat turn =
-                glm::angleAxis(glm::radians(double(degrees)), glm::normalize(glm::dvec3(1, -2, 3)));
+            const glm::dquat turn = glm::angleAxis(glm::radians(double(degrees)), glm::normalize(glm::dvec3(1, -2, 3)));
             Corners moved;
-            for (const glm::dvec3& corner : corners) {
-                moved.push_back(turn * corner + glm::dvec3(1e4, -1e4, 0.0));
-            }
+            for (const glm::dvec3& corner : corners) { moved.push_back(turn * corner + glm::dvec3(1e4, -1e4, 0.0)); }
             INFO(teeth << " teeth turned by " << degrees << " degrees");
             CHECK(convex_pieces(moved, 1e-4).pieces == pieces);
         }
@@ -93,35 +86,28 @@ TEST_CASE("a polygon is cut alike wherever it lies and whichever way it is turne
 }
 
 TEST_CASE("an arrowhead is cut into two triangles through its dent") {
-    const PolygonModel model =
-        model_of("v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 1 2 3 4\nf 1 2 3\nf 4 3 2 1\n");
+    const PolygonModel model = model_of("v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 1 2 3 4\nf 1 2 3\nf 4 3 2 1\n");
     REQUIRE(model.polygons.size() == 5);
     CHECK(corners(model, 0) == std::vector<std::uint32_t>{0, 1, 2});
     CHECK(corners(model, 1) == std::vector<std::uint32_t>{0, 2, 3});
     CHECK(corners(model, 2) == std::vector<std::uint32_t>{0, 1, 2});
     CHECK(model.parents == std::vector<std::uint32_t>{0, 0, 1, 2, 2});
-    CHECK(
-        notes_of(model) == std::vector<std::string>{
-                               "m.obj:5: polygon of 4 corners is dented: cut into 2",
-                               "m.obj:7: polygon of 4 corners is dented: cut into 2"});
+    CHECK(notes_of(model) == std::vector<std::string>{"m.obj:5: polygon of 4 corners is dented: cut into 2",
+                                 "m.obj:7: polygon of 4 corners is dented: cut into 2"});
 }
 
 TEST_CASE("a saddle is cut into two triangles, a fold into its two planes") {
     const PolygonModel model = model_of(saddle + "f 1 2 3 4\n");
     CHECK(model.polygons.size() == 2);
-    CHECK(
-        notes_of(model) ==
-        std::vector<std::string>{"m.obj:5: polygon of 4 corners is bent: cut into 2"});
+    CHECK(notes_of(model) == std::vector<std::string>{"m.obj:5: polygon of 4 corners is bent: cut into 2"});
     for (const double height : {-2.0, -0.1, 0.1, 2.0}) {
-        const Corners fold{
-            {0, 0, 0}, {2, 0, 0}, {5, 0, height}, {5, 3, height}, {2, 3, 0}, {0, 3, 0}};
+        const Corners fold{{0, 0, 0}, {2, 0, 0}, {5, 0, height}, {5, 3, height}, {2, 3, 0}, {0, 3, 0}};
         CHECK(checked_pieces(fold) == 2);
     }
 }
 
 TEST_CASE("pieces keep part and material, and good models have no parents") {
-    const PolygonModel model =
-        model_of(saddle + "g a\nusemtl x\nf 1 2 3\ng b\nusemtl y\nf 1 2 3 4\n");
+    const PolygonModel model = model_of(saddle + "g a\nusemtl x\nf 1 2 3\ng b\nusemtl y\nf 1 2 3 4\n");
     REQUIRE(model.polygons.size() == 3);
     for (const std::size_t piece : {1U, 2U}) {
         CHECK(model.polygons[piece].part == 1);
@@ -133,27 +119,14 @@ TEST_CASE("pieces keep part and material, and good models have no parents") {
 }
 
 TEST_CASE("dented outlines are cut into few convex pieces") {
-    const Corners arrow{
-        {0, -1, 0}, {4, -1, 0}, {4, -2, 0}, {6, 0, 0}, {4, 2, 0}, {4, 1, 0}, {0, 1, 0}};
+    const Corners arrow{{0, -1, 0}, {4, -1, 0}, {4, -2, 0}, {6, 0, 0}, {4, 2, 0}, {4, 1, 0}, {0, 1, 0}};
     CHECK(checked_pieces(arrow) == 2);
     const Corners letter_l{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
     CHECK(checked_pieces(letter_l) == 2);
-    const Corners letter_u{
-        {0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+    const Corners letter_u{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
     CHECK(checked_pieces(letter_u) == 3);
-    const Corners cross{
-        {1, 0, 0},
-        {2, 0, 0},
-        {2, 1, 0},
-        {3, 1, 0},
-        {3, 2, 0},
-        {2, 2, 0},
-        {2, 3, 0},
-        {1, 3, 0},
-        {1, 2, 0},
-        {0, 2, 0},
-        {0, 1, 0},
-        {1, 1, 0}};
+    const Corners cross{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {3, 1, 0}, {3, 2, 0}, {2, 2, 0}, {2, 3, 0}, {1, 3, 0},
+        {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, {1, 1, 0}};
     CHECK(checked_pieces(cross) <= 4);
     CHECK(checked_pieces(saw(6)) <= 8);
 }
@@ -161,12 +134,10 @@ TEST_CASE("dented outlines are cut into few convex pieces") {
 TEST_CASE("outlines that wind and stars without crossings are cut without loss") {
     Corners spiral;
     for (int i = 0; i <= 24; ++i) {
-        spiral.emplace_back(
-            (2.0 + 0.2 * i) * std::cos(0.4 * i), (2 + 0.2 * i) * std::sin(0.4 * i), 1);
+        spiral.emplace_back((2.0 + 0.2 * i) * std::cos(0.4 * i), (2 + 0.2 * i) * std::sin(0.4 * i), 1);
     }
     for (int i = 24; i >= 0; --i) {
-        spiral.emplace_back(
-            (1.5 + 0.2 * i) * std::cos(0.4 * i), (1.5 + 0.2 * i) * std::sin(0.4 * i), 1);
+        spiral.emplace_back((1.5 + 0.2 * i) * std::cos(0.4 * i), (1.5 + 0.2 * i) * std::sin(0.4 * i), 1);
     }
     CHECK(checked_pieces(spiral) < 30);
     Corners star;
@@ -180,44 +151,25 @@ TEST_CASE("outlines that wind and stars without crossings are cut without loss")
 }
 
 TEST_CASE("corners in the middle of straight sides make no needles") {
-    const Corners corners{
-        {0, 0, 0},
-        {1, 1e-7, 0},
-        {2, 0, 0},
-        {4, 0, 0},
-        {4, 2, 0},
-        {4, 4, 0},
-        {2, 3, 0},
-        {1, 3.5, 0},
-        {0, 4, 0},
-        {0, 2, 0}};
+    const Corners corners{{0, 0, 0}, {1, 1e-7, 0}, {2, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 4, 0}, {2, 3, 0}, {1, 3.5, 0},
+        {0, 4, 0}, {0, 2, 0}};
     CHECK(checked_pieces(corners) <= 2);
 }
 
 TEST_CASE("sides that cross or touch are refused, seen along the mean normal") {
     const auto fault = [](const Corners& corners) { return convex_pieces(corners, 1e-4).fault; };
-    const std::string meet =
-        "expected a polygon whose sides do not meet, got the sides from corner ";
-    CHECK(
-        fault({{0, 0, 0}, {4, 0, 0}, {1, 2, 0}, {3, 3, 0}}) == meet + "2 to 3 and 4 to 1 meeting");
-    CHECK(
-        fault({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) ==
-        "expected corners in different places, got corners 2 and 5 in one");
-    CHECK(
-        fault({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) ==
-        meet + "1 to 2 and 3 to 4 meeting");
-    CHECK(
-        fault({{0, 0, 0}, {4, 0, 0}, {2, 0, 0}, {2, 3, 0}}) == meet + "1 to 2 and 2 to 3 meeting");
-    CHECK(
-        fault({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}) ==
-        "expected a polygon with an area, got corners on one line");
+    const std::string meet = "expected a polygon whose sides do not meet, got the sides from corner ";
+    CHECK(fault({{0, 0, 0}, {4, 0, 0}, {1, 2, 0}, {3, 3, 0}}) == meet + "2 to 3 and 4 to 1 meeting");
+    CHECK(fault({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) ==
+          "expected corners in different places, got corners 2 and 5 in one");
+    CHECK(fault({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) == meet + "1 to 2 and 3 to 4 meeting");
+    CHECK(fault({{0, 0, 0}, {4, 0, 0}, {2, 0, 0}, {2, 3, 0}}) == meet + "1 to 2 and 2 to 3 meeting");
+    CHECK(fault({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}) == "expected a polygon with an area, got corners on one line");
 }
 
 TEST_CASE("of many cut polygons ten are named and the others counted") {
     std::string text = saddle;
-    for (int i = 0; i < 13; ++i) {
-        text += "f 1 2 3 4\n";
-    }
+    for (int i = 0; i < 13; ++i) { text += "f 1 2 3 4\n"; }
     const std::vector<std::string> notes = notes_of(model_of(text));
     REQUIRE(notes.size() == 11);
     CHECK(notes[9] == "m.obj:14: polygon of 4 corners is bent: cut into 2");

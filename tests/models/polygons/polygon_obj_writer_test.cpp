@@ -1,6 +1,6 @@
-#include "models/procedural/background60.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
+#include "models/procedural/background60.h"
 #include "sim/base/output_file.h"
 
 #include <catch2/catch.hpp>
@@ -43,10 +43,10 @@ void check_same(const PolygonModel& a, const PolygonModel& b) {
 
 TEST_CASE("a model survives the way to a file and back bit for bit, in any axes") {
     octant::write_file(scratch("odd.mtl"), "newmtl a\nKd 0.1 0.33333 1e-3\nnewmtl b\nKd 0 1 0.7\n");
-    const PolygonModel model = model_of(
-        "mtllib odd.mtl\n# pivot fan 0.1 0.2 0.3 axis 1 2 3 rpm 3017.9\n"
-        "v 0.1 0.2 0.3\nv 1.1000000000000001 -2.2 0.3\nv 3.3333333333333335 1e-17 0.3\nv 9 9 9\n"
-        "usemtl b\nf 1 2 3\ng fan\nusemtl a\nf 3 2 1\nusemtl b\nf 2 3 1\n");
+    const PolygonModel model =
+        model_of("mtllib odd.mtl\n# pivot fan 0.1 0.2 0.3 axis 1 2 3 rpm 3017.9\n"
+                 "v 0.1 0.2 0.3\nv 1.1000000000000001 -2.2 0.3\nv 3.3333333333333335 1e-17 0.3\nv 9 9 9\n"
+                 "usemtl b\nf 1 2 3\ng fan\nusemtl a\nf 3 2 1\nusemtl b\nf 2 3 1\n");
     for (const char* text : {"right,up,back", "forward,left,up", "forward,right,down"}) {
         const FileAxes axes = FileAxes::from_text(text);
         write_obj(scratch("copy.obj"), model, axes);
@@ -59,8 +59,7 @@ TEST_CASE("a model survives the way to a file and back bit for bit, in any axes"
 TEST_CASE("the written text is plain OBJ") {
     const PolygonModel model = model_of(square + "usemtl paint\nf 1 2 3 4\n");
     const ObjText text = obj_text(model, {}, "m.mtl");
-    CHECK(
-        text.obj == "# 4 vertices, 1 polygons; metres, x y z = right,up,back\nmtllib m.mtl\n"
-                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng default\nusemtl paint\nf 1 2 3 4\n");
+    CHECK(text.obj == "# 4 vertices, 1 polygons; metres, x y z = right,up,back\nmtllib m.mtl\n"
+                      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng default\nusemtl paint\nf 1 2 3 4\n");
     CHECK(text.mtl == "newmtl paint\nKd 0.7 0.7 0.7\n");
 }

@@ -27,14 +27,12 @@ std::pair<double, double> areas(const std::vector<glm::dvec3>& corners, const Pl
 } // namespace
 
 TEST_CASE("a convex polygon becomes a fan around its first corner") {
-    const std::vector<glm::dvec3> square{
-        {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+    const std::vector<glm::dvec3> square{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
     CHECK(triangulate_polygon(square) == Places{{0, 1, 2}, {0, 2, 3}});
 }
 
 TEST_CASE("a dented polygon is cut inside its outline") {
-    const std::vector<glm::dvec3> arrow{
-        {0.0, 0.0, 0.0}, {2.0, -1.0, 0.0}, {0.5, 0.0, 0.0}, {2.0, 1.0, 0.0}};
+    const std::vector<glm::dvec3> arrow{{0.0, 0.0, 0.0}, {2.0, -1.0, 0.0}, {0.5, 0.0, 0.0}, {2.0, 1.0, 0.0}};
     // The dent at corner 2 sees corner 0 only.
     const Places pieces = triangulate_polygon(arrow);
     REQUIRE(pieces.size() == 2);
@@ -44,15 +42,8 @@ TEST_CASE("a dented polygon is cut inside its outline") {
 }
 
 TEST_CASE("corners on a straight side make no triangle without an area") {
-    const std::vector<glm::dvec3> corners{
-        {0.0, 0.0, 0.0},
-        {1.0, 0.0, 0.0},
-        {2.0, 0.0, 0.0},
-        {2.0, 1.0, 0.0},
-        {2.0, 2.0, 0.0},
-        {1.0, 2.0, 0.0},
-        {0.0, 2.0, 0.0},
-        {0.0, 1.0, 0.0}};
+    const std::vector<glm::dvec3> corners{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {2.0, 1.0, 0.0},
+        {2.0, 2.0, 0.0}, {1.0, 2.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 1.0, 0.0}};
     const auto [sum, least] = areas(corners, triangulate_polygon(corners));
     CHECK(sum == Approx(4.0));
     CHECK(least > 0.1);
@@ -60,9 +51,7 @@ TEST_CASE("corners on a straight side make no triangle without an area") {
 
 TEST_CASE("a comb is cut without overlaps, also when it is seen from behind") {
     std::vector<glm::dvec3> comb{{8.0, -1.0, 0.0}};
-    for (int tooth = 8; tooth >= 0; --tooth) {
-        comb.emplace_back(tooth, tooth % 2 == 0 ? 3.0 : 0.0, 0.0);
-    }
+    for (int tooth = 8; tooth >= 0; --tooth) { comb.emplace_back(tooth, tooth % 2 == 0 ? 3.0 : 0.0, 0.0); }
     comb.emplace_back(0.0, -1.0, 0.0);
     const auto [sum, least] = areas(comb, triangulate_polygon(comb));
     CHECK(sum == Approx(8.0 + 12.0));
@@ -74,8 +63,7 @@ TEST_CASE("a comb is cut without overlaps, also when it is seen from behind") {
 }
 
 TEST_CASE("what crosses itself or has no area still gives two triangles fewer than corners") {
-    const std::vector<glm::dvec3> bow{
-        {0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    const std::vector<glm::dvec3> bow{{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
     CHECK(triangulate_polygon(bow).size() == 2);
     CHECK(triangulate_polygon(std::vector<glm::dvec3>(7, glm::dvec3(3.0))).size() == 5);
 }

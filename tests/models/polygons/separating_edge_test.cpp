@@ -14,9 +14,7 @@ const glm::dvec3 up(0, 0, 1);
 const Corners wide_square{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
 
 Corners moved(Corners corners, double east) {
-    for (glm::dvec3& corner : corners) {
-        corner.x += east;
-    }
+    for (glm::dvec3& corner : corners) { corner.x += east; }
     return corners;
 }
 

@@ -19,8 +19,8 @@ PolygonModel shipped(const std::string& name) {
 }
 
 const Pivot& pivot_named(const PolygonModel& model, const std::string& part) {
-    const auto found = std::ranges::find_if(
-        model.pivots, [&](const Pivot& pivot) { return model.parts[pivot.part] == part; });
+    const auto found =
+        std::ranges::find_if(model.pivots, [&](const Pivot& pivot) { return model.parts[pivot.part] == part; });
     REQUIRE(found != model.pivots.end());
     return *found;
 }
@@ -41,8 +41,7 @@ Sweep sweep_of(const PolygonModel& model, const Pivot& pivot) {
                 const double along_m = glm::dot(offset_m, pivot.axis);
                 sweep.min_m = std::min(sweep.min_m, along_m);
                 sweep.max_m = std::max(sweep.max_m, along_m);
-                sweep.radius_m =
-                    std::max(sweep.radius_m, glm::length(offset_m - pivot.axis * along_m));
+                sweep.radius_m = std::max(sweep.radius_m, glm::length(offset_m - pivot.axis * along_m));
             }
         }
     }
@@ -50,8 +49,7 @@ Sweep sweep_of(const PolygonModel& model, const Pivot& pivot) {
 }
 
 /// How many of the points all over a polygon lie in what a sweep holds.
-int points_near(
-    const PolygonModel& model, std::size_t polygon, const Pivot& pivot, const Sweep& sweep) {
+int points_near(const PolygonModel& model, std::size_t polygon, const Pivot& pivot, const Sweep& sweep) {
     constexpr int steps = 60;
     const auto corners = model.corners(polygon);
     const glm::dvec3& origin_m = model.vertices_m[corners[0]];
@@ -62,8 +60,7 @@ int points_near(
         for (int point = 0; point < steps * steps; ++point) {
             const double first = (point % steps) / (steps - 1.0);
             const double second = (1.0 - first) * (point / steps) / (steps - 1.0);
-            const glm::dvec3 offset_m =
-                origin_m + to_first_m * first + to_second_m * second - pivot.point_m;
+            const glm::dvec3 offset_m = origin_m + to_first_m * first + to_second_m * second - pivot.point_m;
             const double along_m = glm::dot(offset_m, pivot.axis);
             const bool near = along_m > sweep.min_m && along_m < sweep.max_m &&
                               glm::length(offset_m - pivot.axis * along_m) < sweep.radius_m;
@@ -77,9 +74,7 @@ int points_near(
 bool is_flat_plate(const PolygonModel& model, std::uint32_t part) {
     std::vector<octant::Plane> planes;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        if (model.polygons[i].part == part) {
-            planes.push_back(plane_of(model, i));
-        }
+        if (model.polygons[i].part == part) { planes.push_back(plane_of(model, i)); }
     }
     int fronts = 0;
     for (const octant::Plane& plane : planes) {
@@ -97,13 +92,7 @@ bool is_flat_plate(const PolygonModel& model, std::uint32_t part) {
 
 TEST_CASE("the shipped models are read without notes and without cuts") {
     for (const char* name :
-         {"f15",
-          "500md",
-          "concave",
-          "f15-cockpit",
-          "500md-cockpit",
-          "f15-detailed",
-          "500md-detailed"}) {
+        {"f15", "500md", "concave", "f15-cockpit", "500md-cockpit", "f15-detailed", "500md-detailed"}) {
         const PolygonModel model = shipped(name);
         CHECK(model.notes.empty());
         CHECK(model.parents.empty());
@@ -118,9 +107,7 @@ TEST_CASE("the rotors of the 500MD turn at their published rates") {
 
 TEST_CASE("no blade of a 500MD rotor ever hides another: all lie in one plane") {
     const PolygonModel model = shipped("500md");
-    for (const char* rotor : {"rotor", "tail_rotor"}) {
-        CHECK(is_flat_plate(model, pivot_named(model, rotor).part));
-    }
+    for (const char* rotor : {"rotor", "tail_rotor"}) { CHECK(is_flat_plate(model, pivot_named(model, rotor).part)); }
 }
 
 TEST_CASE("the main rotor turns in one plane above all the rest") {
@@ -144,8 +131,6 @@ TEST_CASE("what the tail rotor sweeps keeps clear of everything else") {
     CHECK(sweep.max_m == Approx(-sweep.min_m));
     CHECK(sweep.max_m < 0.03);
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        if (!pivot_of(model, i)) {
-            CHECK(points_near(model, i, hub, {-0.13, 0.13, 0.8}) == 0);
-        }
+        if (!pivot_of(model, i)) { CHECK(points_near(model, i, hub, {-0.13, 0.13, 0.8}) == 0); }
     }
 }

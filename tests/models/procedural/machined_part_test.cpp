@@ -14,9 +14,7 @@ TEST_CASE("the machined part is closed, of one piece without handles, and seen f
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
     double six_volumes_m3 = 0.0;
     for (const Triangle& corners : part.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            ++sides[{corners[i], corners[(i + 1) % 3]}];
-        }
+        for (std::size_t i = 0; i < 3; ++i) { ++sides[{corners[i], corners[(i + 1) % 3]}]; }
         const auto& at = part.vertices_m;
         six_volumes_m3 += glm::dot(at[corners[0]], glm::cross(at[corners[1]], at[corners[2]]));
     }
@@ -34,14 +32,11 @@ TEST_CASE("the machined part has flats, curved sides and sharp edges between the
     CHECK(diagonal_m(part) == Approx(0.15).epsilon(0.1));
     const auto normal_of = [&](const Triangle& corners) {
         const auto& at = part.vertices_m;
-        return glm::normalize(
-            glm::cross(at[corners[1]] - at[corners[0]], at[corners[2]] - at[corners[0]]));
+        return glm::normalize(glm::cross(at[corners[1]] - at[corners[0]], at[corners[2]] - at[corners[0]]));
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> normals;
     for (const Triangle& corners : part.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            normals[{corners[i], corners[(i + 1) % 3]}] = normal_of(corners);
-        }
+        for (std::size_t i = 0; i < 3; ++i) { normals[{corners[i], corners[(i + 1) % 3]}] = normal_of(corners); }
     }
     std::size_t flat = 0;
     std::size_t sharp = 0;

@@ -3,8 +3,8 @@
 #include "models/procedural/procedural_terrain.h"
 #include "models/procedural/terrain_grid.h"
 #include "models/procedural/terrain_noise.h"
-#include "sim/base/random_generator.h"
 #include "sim/base/hash.h"
+#include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>
 
@@ -53,8 +53,8 @@ double share_of(const std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-std::vector<double>
-noise_at(const FractalNoise& noise, const std::vector<double>& x_m, const std::vector<double>& y_m) {
+std::vector<double> noise_at(
+    const FractalNoise& noise, const std::vector<double>& x_m, const std::vector<double>& y_m) {
     std::vector<double> values(x_m.size());
     noise.at(x_m, y_m, values);
     return values;
@@ -161,10 +161,8 @@ TEST_CASE("a pit is filled to its lowest rim and water then leaves it") {
     CHECK(ground.at(2, 2) == Approx(4.0).margin(0.001));
     CHECK(ground.at(2, 2) > 4.0);
     const Drainage water = compute_drainage(ground, outlet, 1);
-    CHECK(
-        water.area_m2[ground.index(4, 2)] + water.area_m2[ground.index(4, 1)] +
-            water.area_m2[ground.index(4, 3)] ==
-        Approx(12 * 100.0));
+    CHECK(water.area_m2[ground.index(4, 2)] + water.area_m2[ground.index(4, 1)] + water.area_m2[ground.index(4, 3)] ==
+          Approx(12 * 100.0));
     REQUIRE(water.upstream.size() == 25);
     std::vector<char> seen(25, 0);
     for (const int cell : water.upstream) {
@@ -203,14 +201,10 @@ TEST_CASE("a stream in balance has the slope of its steepness over the root of i
     std::vector<char> outlet(144, 0);
     for (int row = 0; row < 12; ++row) {
         outlet[ground.index(0, row)] = 1;
-        for (int column = 0; column < 12; ++column) {
-            ground.values[ground.index(column, row)] = column;
-        }
+        for (int column = 0; column < 12; ++column) { ground.values[ground.index(column, row)] = column; }
     }
     const std::vector<double> uplift(144, 1.0);
-    for (int step = 0; step < 400; ++step) {
-        erode(ground, compute_drainage(ground, outlet, 1), uplift, {5.0, 80.0});
-    }
+    for (int step = 0; step < 400; ++step) { erode(ground, compute_drainage(ground, outlet, 1), uplift, {5.0, 80.0}); }
     const Drainage water = compute_drainage(ground, outlet, 1);
     for (int column = 1; column < 12; ++column) {
         const std::size_t i = ground.index(column, 6);
@@ -230,9 +224,7 @@ TEST_CASE("noise is zero at lattice points, bounded, smooth and without a mean")
         y[i] = 0.071 * static_cast<double>(i) - 300.0;
     }
     const std::vector<double> values = noise_at(noise, x, y);
-    for (double& place : x) {
-        place += 1e-4;
-    }
+    for (double& place : x) { place += 1e-4; }
     const std::vector<double> beside = noise_at(noise, x, y);
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -254,9 +246,7 @@ TEST_CASE("noise is the same one by one and many at once") {
         y.push_back(19.0 * i);
     }
     const std::vector<double> values = noise_at(noise, x, y);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        CHECK(noise_at(noise, {x[i]}, {y[i]})[0] == values[i]);
-    }
+    for (std::size_t i = 0; i < x.size(); ++i) { CHECK(noise_at(noise, {x[i]}, {y[i]})[0] == values[i]); }
 }
 
 TEST_CASE("all instruction sets make the same ground") {
@@ -284,9 +274,7 @@ TEST_CASE("water is let out of pits where the plainest way of filling them lets 
     // Every cell looks at its neighbours until nothing changes.
     RandomGenerator dice(3);
     TerrainGrid ground(23, 50.0);
-    for (double& height_m : ground.values) {
-        height_m = std::floor(dice.between(0.0, 40.0));
-    }
+    for (double& height_m : ground.values) { height_m = std::floor(dice.between(0.0, 40.0)); }
     std::vector<char> outlet(ground.values.size(), 0);
     outlet[ground.index(0, 7)] = 1;
     outlet[ground.index(22, 22)] = 1;
@@ -298,8 +286,7 @@ TEST_CASE("water is let out of pits where the plainest way of filling them lets 
                 double lowest_m = outlet[i] != 0 ? ground.values[i] : 1e9;
                 for (int y = std::max(row - 1, 0); y <= std::min(row + 1, 22); ++y) {
                     for (int x = std::max(column - 1, 0); x <= std::min(column + 1, 22); ++x) {
-                        lowest_m = std::min(
-                            lowest_m, std::max(ground.values[i], plain[ground.index(x, y)] + 5e-4));
+                        lowest_m = std::min(lowest_m, std::max(ground.values[i], plain[ground.index(x, y)] + 5e-4));
                     }
                 }
                 changes = changes || lowest_m < plain[i];

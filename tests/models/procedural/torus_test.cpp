@@ -1,5 +1,5 @@
-#include "models/procedural/background60.h"
 #include "models/polygons/polygon_check.h"
+#include "models/procedural/background60.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -26,9 +26,7 @@ TEST_CASE("every quad of the torus faces away from the middle of its tube") {
     REQUIRE(model.polygons.size() == 84);
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         glm::dvec3 middle_m(0.0);
-        for (const std::uint32_t vertex : model.corners(i)) {
-            middle_m += model.vertices_m[vertex] / 4.0;
-        }
+        for (const std::uint32_t vertex : model.corners(i)) { middle_m += model.vertices_m[vertex] / 4.0; }
         const glm::dvec3 ring_m = glm::normalize(glm::dvec3(middle_m.x, middle_m.y, 0.0));
         CHECK(glm::dot(normal_of(model, i), middle_m - ring_m) > 0.3);
     }
@@ -43,8 +41,7 @@ TEST_CASE("the torus is closed: each side belongs to two quads that run along it
             int twins = 0;
             for (std::size_t j = 0; j < model.polygons.size(); ++j) {
                 for (std::size_t k = 0; k < 4; ++k) {
-                    const bool twin =
-                        model.corners(j)[k] == to && model.corners(j)[(k + 1) % 4] == from;
+                    const bool twin = model.corners(j)[k] == to && model.corners(j)[(k + 1) % 4] == from;
                     twins += twin ? 1 : 0;
                 }
             }

@@ -35,9 +35,7 @@ TriangleMesh named_by_place(TriangleMesh mesh) {
             const glm::dvec3 at_m = mesh.vertices_m[vertex];
             const auto next = static_cast<std::uint32_t>(places.size());
             const auto [place, is_new] = places.try_emplace({at_m.x, at_m.y, at_m.z}, next);
-            if (is_new) {
-                vertices_m.push_back(at_m);
-            }
+            if (is_new) { vertices_m.push_back(at_m); }
             vertex = place->second;
         }
     }
@@ -52,9 +50,7 @@ void take_out_walls(TriangleMesh& mesh) {
         std::ranges::sort(triangle);
         return triangle;
     };
-    for (const Triangle& triangle : mesh.triangles) {
-        ++times[sorted(triangle)];
-    }
+    for (const Triangle& triangle : mesh.triangles) { ++times[sorted(triangle)]; }
     std::erase_if(mesh.triangles, [&](const Triangle& one) { return times[sorted(one)] > 1; });
 }
 
@@ -64,12 +60,8 @@ TriangleMesh boxes(const std::vector<glm::dvec3>& corners_m) {
     for (const glm::dvec3& corner_m : corners_m) {
         const TriangleMesh one = cube();
         const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-        for (const glm::dvec3& vertex_m : one.vertices_m) {
-            mesh.vertices_m.push_back(vertex_m + corner_m);
-        }
-        for (const auto& [a, b, c] : one.triangles) {
-            mesh.triangles.push_back({a + first, b + first, c + first});
-        }
+        for (const glm::dvec3& vertex_m : one.vertices_m) { mesh.vertices_m.push_back(vertex_m + corner_m); }
+        for (const auto& [a, b, c] : one.triangles) { mesh.triangles.push_back({a + first, b + first, c + first}); }
     }
     return named_by_place(mesh);
 }
@@ -118,9 +110,7 @@ TEST_CASE("vertices of no triangle are taken out and the others keep their order
 TEST_CASE("triangles that share no vertices are welded where places agree") {
     TriangleMesh soup;
     for (const Triangle& triangle : tetrahedron().triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            soup.vertices_m.push_back(tetrahedron().vertices_m[vertex]);
-        }
+        for (const std::uint32_t vertex : triangle) { soup.vertices_m.push_back(tetrahedron().vertices_m[vertex]); }
         const auto last = static_cast<std::uint32_t>(soup.vertices_m.size());
         soup.triangles.push_back({last - 3, last - 2, last - 1});
     }
@@ -134,8 +124,7 @@ TEST_CASE("triangles that share no vertices are welded where places agree") {
         soup.colours[v] = glm::vec3(0.5F); // the first triangle stays apart
     }
     const RepairedMesh coloured = checked(soup, Seams::Apart);
-    CHECK(
-        coloured.counts == RepairCounts{.duplicate_vertices = 5, .boundary_loops = 2, .shells = 2});
+    CHECK(coloured.counts == RepairCounts{.duplicate_vertices = 5, .boundary_loops = 2, .shells = 2});
     const RepairedMesh mixed = checked(soup);
     CHECK(mixed.counts == RepairCounts{.duplicate_vertices = 8, .shells = 1});
     CHECK(mixed.mesh.colours[0].x == Approx(2.5 / 3.0)); // one of the three corners there is grey
@@ -156,9 +145,7 @@ TEST_CASE("colours that break along a welded seam stay with their corners") {
     const RepairedMesh after = checked(apart);
     CHECK(after.mesh.vertices_m.size() == 8);
     REQUIRE(after.corner_colours.size() == 12);
-    for (std::size_t t = 0; t < 12; ++t) {
-        CHECK(after.corner_colours[t][1] == glm::vec3(t < 6 ? 0.2F : 0.8F));
-    }
+    for (std::size_t t = 0; t < 12; ++t) { CHECK(after.corner_colours[t][1] == glm::vec3(t < 6 ? 0.2F : 0.8F)); }
     CHECK(repaired(apart, Seams::Apart).corner_colours.empty());
     apart.colours.assign(apart.colours.size(), glm::vec3(0.5F));
     CHECK(repaired(apart).corner_colours.empty());
@@ -167,15 +154,8 @@ TEST_CASE("colours that break along a welded seam stay with their corners") {
 TEST_CASE("rims a rounding apart are welded, rims farther apart are not") {
     const auto quads = [](double gap) {
         TriangleMesh mesh;
-        mesh.vertices_m = {
-            {0.0, 0.0, 0.0},
-            {1.0, 0.0, 0.0},
-            {1.0, 1.0, 0.0},
-            {0.0, 1.0, 0.0},
-            {1.0 + gap, 0.0, 0.0},
-            {2.0, 0.0, 0.0},
-            {2.0, 1.0, 0.0},
-            {1.0 + gap, 1.0, 0.0}};
+        mesh.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}, {1.0 + gap, 0.0, 0.0},
+            {2.0, 0.0, 0.0}, {2.0, 1.0, 0.0}, {1.0 + gap, 1.0, 0.0}};
         mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
         return mesh;
     };
@@ -191,9 +171,7 @@ TEST_CASE("closed shells that touch along an edge stay closed") {
     for (const glm::dvec3& vertex_m : one.vertices_m) { // the same one mirrored: it shares an edge
         mesh.vertices_m.push_back(glm::dvec3(vertex_m.x, -vertex_m.y, -vertex_m.z));
     }
-    for (const auto& [a, b, c] : one.triangles) {
-        mesh.triangles.push_back({a + 4, b + 4, c + 4});
-    }
+    for (const auto& [a, b, c] : one.triangles) { mesh.triangles.push_back({a + 4, b + 4, c + 4}); }
     const RepairedMesh after = checked(mesh);
     CHECK(after.counts.boundary_loops == 0);
     CHECK(after.counts.shells == 2);
@@ -207,39 +185,16 @@ TEST_CASE("triangles without an area go, and what only they had goes with them")
     mesh.triangles.push_back({0, 1, 4});
     mesh.triangles.push_back({0, 5, 1});
     const RepairedMesh after = checked(mesh);
-    CHECK(
-        after.counts ==
-        RepairCounts{.unreferenced_vertices = 2, .degenerate_triangles = 3, .shells = 1});
+    CHECK(after.counts == RepairCounts{.unreferenced_vertices = 2, .degenerate_triangles = 3, .shells = 1});
     CHECK(after.mesh.triangles == tetrahedron().triangles);
 }
 
 TEST_CASE("a triangle without an area that closes a T-junction opens nothing when it goes") {
     TriangleMesh box; // its edge from corner 0 to 1 has a vertex in the middle, on one side
     box.vertices_m = {
-        {0, 0, 0},
-        {1, 0, 0},
-        {1, 1, 0},
-        {0, 1, 0},
-        {0, 0, 1},
-        {1, 0, 1},
-        {1, 1, 1},
-        {0, 1, 1},
-        {0.5, 0, 0}};
-    box.triangles = {
-        {0, 3, 2},
-        {0, 2, 1},
-        {0, 8, 4},
-        {8, 1, 5},
-        {8, 5, 4},
-        {0, 1, 8},
-        {1, 2, 6},
-        {1, 6, 5},
-        {2, 3, 7},
-        {2, 7, 6},
-        {3, 0, 4},
-        {3, 4, 7},
-        {4, 5, 6},
-        {4, 6, 7}};
+        {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0, 0}};
+    box.triangles = {{0, 3, 2}, {0, 2, 1}, {0, 8, 4}, {8, 1, 5}, {8, 5, 4}, {0, 1, 8}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
+        {2, 7, 6}, {3, 0, 4}, {3, 4, 7}, {4, 5, 6}, {4, 6, 7}};
     const RepairedMesh closed = checked(box);
     CHECK(closed.mesh.triangles.size() == 14);
     CHECK(closed.counts.degenerate_triangles == 1);
@@ -280,14 +235,8 @@ TEST_CASE("a closed mesh stays closed where bodies touch, whatever came twice") 
         CHECK(two.counts.boundary_loops == 0);
         CHECK(two.counts.shells == 2);
         // A ring of boxes without the walls between them that touches itself along an edge.
-        TriangleMesh ring = boxes(
-            {{0.0, 0.0, 0.0},
-             {0.0, 0.0, 1.0},
-             {0.0, 1.0, 1.0},
-             {0.0, 2.0, 1.0},
-             {0.0, 2.0, 0.0},
-             {1.0, 2.0, 0.0},
-             {1.0, 1.0, 0.0}});
+        TriangleMesh ring = boxes({{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 2.0, 1.0}, {0.0, 2.0, 0.0},
+            {1.0, 2.0, 0.0}, {1.0, 1.0, 0.0}});
         take_out_walls(ring);
         const RepairedMesh one = checked(ring);
         CHECK(one.counts.boundary_loops == 0);
@@ -309,8 +258,7 @@ TEST_CASE("a closed mesh stays closed where bodies touch, whatever came twice") 
         const RepairedMesh after = checked(mesh);
         CHECK(after.counts.boundary_loops == 0);
         CHECK(after.counts.duplicate_triangles == 12);
-        // Both ends of the sheet's diagonal are on its rim, so one side gets a vertex in its
-        // middle.
+        // Both ends of the sheet's diagonal are on its rim, so one side gets a vertex in its middle.
         CHECK(after.mesh.triangles.size() == 12 + 4 + 2);
         CHECK(after.counts.shells == 2);
         CHECK(volume_m3(after.mesh) == Approx(1.0));
@@ -322,14 +270,10 @@ TEST_CASE("boxes at random in a grid stay closed, with and without the walls bet
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<glm::dvec3> corners_m;
         for (int cell = 0; cell < 27; ++cell) {
-            if (random() % 2 == 0) {
-                corners_m.emplace_back(cell % 3, cell / 3 % 3, cell / 9);
-            }
+            if (random() % 2 == 0) { corners_m.emplace_back(cell % 3, cell / 3 % 3, cell / 9); }
         }
         TriangleMesh mesh = boxes(corners_m);
-        if (trial % 2 == 1) {
-            take_out_walls(mesh);
-        }
+        if (trial % 2 == 1) { take_out_walls(mesh); }
         const RepairedMesh after = repaired(mesh);
         CHECK(manifold_fault(after.mesh).empty());
         CHECK(after.counts.boundary_loops == 0);
@@ -349,8 +293,7 @@ TEST_CASE("a triangle that is divided at a junction keeps its attributes") {
     for (std::size_t t = 0; t < 2; ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3& at_m = after.mesh.vertices_m[after.mesh.triangles[t][k]];
-            const glm::vec2& uv =
-                after.mesh.texture_coordinates[after.mesh.corner_texture_coordinates[t][k]];
+            const glm::vec2& uv = after.mesh.texture_coordinates[after.mesh.corner_texture_coordinates[t][k]];
             CHECK(uv.x == Approx(at_m.x / 4.0));
             CHECK(uv.y == Approx(at_m.y / 3.0));
         }
@@ -373,9 +316,7 @@ TEST_CASE("of two directions the one that fewer triangles have is turned, with i
 
 TEST_CASE("a shell that is inside out throughout stays so: it may be a hollow") {
     TriangleMesh mesh = tetrahedron();
-    for (Triangle& triangle : mesh.triangles) {
-        std::swap(triangle[1], triangle[2]);
-    }
+    for (Triangle& triangle : mesh.triangles) { std::swap(triangle[1], triangle[2]); }
     const RepairedMesh after = checked(mesh);
     CHECK(after.counts == RepairCounts{.shells = 1});
     CHECK(volume_m3(after.mesh) < 0.0);
@@ -391,8 +332,7 @@ TEST_CASE("a door that touches its sheet along few edges keeps its own side, a f
                     const double x_m = i; // the door's corners beyond the hinge lie off the sheet
                     const bool is_off = along_m.z != 0.0 && j == 0 && i > hinge_edges;
                     mesh.vertices_m.push_back(
-                        glm::dvec3(x_m, is_off ? 0.5 : 0.0, 0.0) +
-                        along_m * static_cast<double>(j));
+                        glm::dvec3(x_m, is_off ? 0.5 : 0.0, 0.0) + along_m * static_cast<double>(j));
                 }
             }
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -426,9 +366,7 @@ TEST_CASE("two tetrahedra that touch in a vertex get one each") {
     }
     for (const Triangle& triangle : tetrahedron().triangles) {
         Triangle other = triangle;
-        for (std::uint32_t& vertex : other) {
-            vertex += vertex == 0 ? 0 : 3;
-        }
+        for (std::uint32_t& vertex : other) { vertex += vertex == 0 ? 0 : 3; }
         mesh.triangles.push_back(other);
     }
     const RepairedMesh after = checked(mesh);
@@ -440,21 +378,16 @@ TEST_CASE("two tetrahedra that touch in a vertex get one each") {
 
 TEST_CASE("an edge of three triangles is cut: each has it as a boundary") {
     TriangleMesh mesh;
-    mesh.vertices_m = {
-        {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}};
+    mesh.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}};
     mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
     const RepairedMesh after = checked(mesh);
-    CHECK(
-        after.counts ==
-        RepairCounts{.split_edges = 1, .split_vertices = 2, .boundary_loops = 3, .shells = 3});
+    CHECK(after.counts == RepairCounts{.split_edges = 1, .split_vertices = 2, .boundary_loops = 3, .shells = 3});
     CHECK(after.mesh.vertices_m.size() == 9);
 }
 
 TEST_CASE("a Moebius band of five triangles is cut once") {
     TriangleMesh band;
-    for (int v = 0; v < 5; ++v) {
-        band.vertices_m.emplace_back(std::cos(v), std::sin(2.0 * v), 0.3 * v * v);
-    }
+    for (int v = 0; v < 5; ++v) { band.vertices_m.emplace_back(std::cos(v), std::sin(2.0 * v), 0.3 * v * v); }
     band.triangles = {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 0}, {4, 0, 1}};
     const RepairedMesh after = checked(band);
     CHECK(after.counts.split_edges == 1);
@@ -470,8 +403,5 @@ TEST_CASE("nothing comes of nothing") {
     dots.triangles = {{0, 1, 2}};
     const RepairedMesh after = checked(dots);
     CHECK(after.mesh.triangles.empty());
-    CHECK(
-        after.counts ==
-        RepairCounts{
-            .unreferenced_vertices = 1, .duplicate_vertices = 2, .degenerate_triangles = 1});
+    CHECK(after.counts == RepairCounts{.unreferenced_vertices = 1, .duplicate_vertices = 2, .degenerate_triangles = 1});
 }

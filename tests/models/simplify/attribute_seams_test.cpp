@@ -30,9 +30,7 @@ struct TwoHalves {
         std::vector<float> counts(mesh.vertices_m.size(), 0.0F);
         for (const Triangle& triangle : mesh.triangles) {
             double height_m = 0.0;
-            for (const std::uint32_t vertex : triangle) {
-                height_m += mesh.vertices_m[vertex].z;
-            }
+            for (const std::uint32_t vertex : triangle) { height_m += mesh.vertices_m[vertex].z; }
             const glm::vec3 colour = height_m > 0.0 ? light : dark;
             corner_colours.push_back({colour, colour, colour});
             for (const std::uint32_t vertex : triangle) {
@@ -40,9 +38,7 @@ struct TwoHalves {
                 counts[vertex] += 1.0F;
             }
         }
-        for (std::size_t v = 0; v < counts.size(); ++v) {
-            mesh.colours[v] /= counts[v];
-        }
+        for (std::size_t v = 0; v < counts.size(); ++v) { mesh.colours[v] /= counts[v]; }
     }
 };
 
@@ -50,9 +46,7 @@ struct TwoHalves {
 std::vector<glm::dvec3> corner_places_m(const TriangleMesh& mesh) {
     std::vector<glm::dvec3> places_m;
     for (const Triangle& triangle : mesh.triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            places_m.push_back(mesh.vertices_m[vertex]);
-        }
+        for (const std::uint32_t vertex : triangle) { places_m.push_back(mesh.vertices_m[vertex]); }
     }
     return places_m;
 }
@@ -108,14 +102,11 @@ TEST_CASE("simplified, no triangle mixes the colours of a seam's sides, and no c
                 height_m += made.vertices_m[triangle.at(k)].z / 3.0;
             }
             const auto is = [&](const glm::vec3& colour) {
-                return std::ranges::all_of(colours, [&](const glm::vec3& other) {
-                    return glm::dot(colour - other, colour - other) < 1e-3F;
-                });
+                return std::ranges::all_of(
+                    colours, [&](const glm::vec3& other) { return glm::dot(colour - other, colour - other) < 1e-3F; });
             };
             CHECK((is(dark) || is(light)));
-            wrong_m2 += is(height_m > 0.0 ? light : dark)
-                            ? 0.0
-                            : 0.5 * glm::length(area_vector(made, triangle));
+            wrong_m2 += is(height_m > 0.0 ? light : dark) ? 0.0 : 0.5 * glm::length(area_vector(made, triangle));
         }
         CHECK(wrong_m2 < 0.02 * area_m2(made));
     }
@@ -125,8 +116,8 @@ namespace {
 
 constexpr double full_turn = 6.283185307179586;
 
-/// The mantle of a cylinder around z, of radius and height 1, whose texture coordinates go once
-/// around it: u breaks where the turn begins, v is the height.
+/// The mantle of a cylinder around z, of radius and height 1, whose texture coordinates go once around it: u breaks
+/// where the turn begins, v is the height.
 TriangleMesh mantle(std::uint32_t columns, std::uint32_t rows) {
     TriangleMesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {
@@ -135,8 +126,7 @@ TriangleMesh mantle(std::uint32_t columns, std::uint32_t rows) {
             const double height = static_cast<double>(row) / rows;
             mesh.texture_coordinates.emplace_back(turn, height);
             if (column < columns) {
-                mesh.vertices_m.emplace_back(
-                    std::cos(full_turn * turn), std::sin(full_turn * turn), height);
+                mesh.vertices_m.emplace_back(std::cos(full_turn * turn), std::sin(full_turn * turn), height);
             }
         }
     }
@@ -200,8 +190,7 @@ TEST_CASE("texture coordinates of a seam that meets itself stay right on both of
         float max_u = -1.0F;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3& at_m = made.vertices_m[made.triangles[t][k]];
-            const glm::vec2& place =
-                made.texture_coordinates[made.corner_texture_coordinates[t][k]];
+            const glm::vec2& place = made.texture_coordinates[made.corner_texture_coordinates[t][k]];
             const double turn = std::atan2(at_m.y, at_m.x) / full_turn;
             const double off = static_cast<double>(place.x) - turn;
             CHECK(std::abs(off - std::round(off)) < 0.02);
@@ -226,14 +215,10 @@ TEST_CASE("unsimplified, each corner has the texture coordinates of the file, da
     const std::uint32_t high = 10;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         double middle_x = 0.0;
-        for (const std::uint32_t vertex : mesh.triangles[t]) {
-            middle_x += mesh.vertices_m[vertex].x / 3.0;
-        }
+        for (const std::uint32_t vertex : mesh.triangles[t]) { middle_x += mesh.vertices_m[vertex].x / 3.0; }
         for (std::uint32_t& corner : mesh.corner_texture_coordinates[t]) {
             const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-            corner = middle_x > 0.5 && corner == low    ? first
-                     : middle_x > 0.5 && corner == high ? first + 1
-                                                        : corner;
+            corner = middle_x > 0.5 && corner == low ? first : middle_x > 0.5 && corner == high ? first + 1 : corner;
         }
     }
     const AttributeSeams seams(mesh, {});
@@ -269,9 +254,7 @@ TEST_CASE("triangles are divided in their plane until texture coordinates keep t
         double u = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
             middle_m += made.vertices_m[made.triangles[t][k]] / 3.0;
-            u += static_cast<double>(
-                     made.texture_coordinates[made.corner_texture_coordinates[t][k]].x) /
-                 3.0;
+            u += static_cast<double>(made.texture_coordinates[made.corner_texture_coordinates[t][k]].x) / 3.0;
         }
         CHECK(std::abs(u - middle_m.x * middle_m.x) < bound + 1e-3);
     }
@@ -320,9 +303,7 @@ TEST_CASE("a locked border keeps all its vertices to the bit") {
     const auto border_of = [](const TriangleMesh& of) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
         for (const Triangle& triangle : of.triangles) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                sides.emplace(triangle[k], triangle[(k + 1) % 3]);
-            }
+            for (std::size_t k = 0; k < 3; ++k) { sides.emplace(triangle[k], triangle[(k + 1) % 3]); }
         }
         std::set<std::array<double, 3>> places;
         for (const auto& [from, to] : sides) {

@@ -32,8 +32,7 @@ TEST_CASE("a sequence leads to the mesh before the optimization") {
 TEST_CASE("each collapse of a sequence takes out what it says") {
     for (const TriangleMesh& fine : {ball(16), ring(16, 12), strip(8, 12), machined_part(6)}) {
         const SimplifyOptions options = fast_to_40_faces();
-        for (const CollapseSequence& sequence :
-             {fast_sequence(fine, options), simplified(fine, options).sequence}) {
+        for (const CollapseSequence& sequence : {fast_sequence(fine, options), simplified(fine, options).sequence}) {
             std::size_t faces = fine.triangles.size();
             double error_m = 0.0;
             for (std::size_t i = 0; i < sequence.collapses.size(); ++i) {
@@ -68,8 +67,7 @@ TEST_CASE("left of a collapse lies left of the edge from first to second") {
     bool runs_back = false;
     for (std::size_t i = 0; i < 3; ++i) {
         runs = runs || (left[i] == collapse.first && left[(i + 1) % 3] == collapse.second);
-        runs_back =
-            runs_back || (right[i] == collapse.second && right[(i + 1) % 3] == collapse.first);
+        runs_back = runs_back || (right[i] == collapse.second && right[(i + 1) % 3] == collapse.first);
     }
     CHECK(runs);
     CHECK(runs_back);

@@ -12,16 +12,12 @@ using namespace octant::tests;
 
 namespace {
 
-CollapsibleMesh collapsible(const TriangleMesh& mesh) {
-    return {mesh.vertices_m.size(), mesh.triangles};
-}
+CollapsibleMesh collapsible(const TriangleMesh& mesh) { return {mesh.vertices_m.size(), mesh.triangles}; }
 
 HalfEdge edge_between(const CollapsibleMesh& mesh, std::uint32_t from, std::uint32_t to) {
     HalfEdge found = none;
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
-        if (mesh.has_face(face_of(h)) && mesh.origin(h) == from && mesh.target(h) == to) {
-            found = h;
-        }
+        if (mesh.has_face(face_of(h)) && mesh.origin(h) == from && mesh.target(h) == to) { found = h; }
     }
     return found;
 }
@@ -31,18 +27,15 @@ TriangleMesh what_is_there(const CollapsibleMesh& mesh, const TriangleMesh& plac
     made.vertices_m = places.vertices_m;
     made.vertices_m.resize(mesh.vertex_slots());
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (mesh.has_face(face)) {
-            made.triangles.push_back(mesh.corners(face));
-        }
+        if (mesh.has_face(face)) { made.triangles.push_back(mesh.corners(face)); }
     }
     return made;
 }
 
 std::set<std::uint32_t> neighbours(const CollapsibleMesh& mesh, std::uint32_t vertex) {
     std::set<std::uint32_t> found;
-    mesh.edges_around(vertex, [&](HalfEdge h) {
-        found.insert(mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h));
-    });
+    mesh.edges_around(
+        vertex, [&](HalfEdge h) { found.insert(mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h)); });
     return found;
 }
 
@@ -50,9 +43,7 @@ std::set<std::uint32_t> neighbours(const CollapsibleMesh& mesh, std::uint32_t ve
 
 TEST_CASE("a tetrahedron may not collapse any edge: two equal triangles would be left") {
     const CollapsibleMesh mesh = collapsible(tetrahedron());
-    for (HalfEdge h = 0; h < 12; ++h) {
-        CHECK_FALSE(mesh.may_collapse(h));
-    }
+    for (HalfEdge h = 0; h < 12; ++h) { CHECK_FALSE(mesh.may_collapse(h)); }
 }
 
 TEST_CASE("an octahedron collapses to a closed manifold of 6 triangles and 5 vertices") {
@@ -119,9 +110,7 @@ TEST_CASE("a compacted mesh is the same with fewer slots") {
     const TriangleMesh original = ball(12);
     CollapsibleMesh mesh = collapsible(original);
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; h += 7) {
-        if (mesh.has_face(face_of(h)) && mesh.may_collapse(h)) {
-            mesh.collapse(h);
-        }
+        if (mesh.has_face(face_of(h)) && mesh.may_collapse(h)) { mesh.collapse(h); }
     }
     const CollapsibleMesh before = mesh;
     const SlotMap kept = mesh.compact();
@@ -144,9 +133,7 @@ TEST_CASE("a compacted mesh is the same with fewer slots") {
 TEST_CASE("a vertex of very many triangles costs no more to join than others") {
     constexpr std::uint32_t count = 150'000;
     std::vector<Triangle> fan;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        fan.push_back({0, 1 + i, 1 + (i + 1) % count});
-    }
+    for (std::uint32_t i = 0; i < count; ++i) { fan.push_back({0, 1 + i, 1 + (i + 1) % count}); }
     const CollapsibleMesh mesh(count + 1, fan);
     std::size_t around = 0;
     mesh.around(0, [&](HalfEdge) { ++around; });

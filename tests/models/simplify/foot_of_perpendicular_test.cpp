@@ -6,9 +6,7 @@ using namespace octant::models::simplify;
 
 namespace {
 
-Point6 at(double x, double y, double z) {
-    return {x, y, z};
-}
+Point6 at(double x, double y, double z) { return {x, y, z}; }
 
 /// Right angle at (2, 1), legs 4 and 3, in the plane z = 5.
 const Corners triangle{at(2, 1, 5), at(6, 1, 5), at(2, 4, 5)};
@@ -43,8 +41,7 @@ TEST_CASE("beyond a corner the opposite edge does not count, though it lies betw
 }
 
 TEST_CASE("corners and points of an edge count as outside, at distance 0") {
-    for (const Point6& point :
-         {at(2, 1, 5), at(6, 1, 5), at(2, 4, 5), at(4, 1, 5), at(4, 2.5, 5)}) {
+    for (const Point6& point : {at(2, 1, 5), at(6, 1, 5), at(2, 4, 5), at(4, 1, 5), at(4, 2.5, 5)}) {
         const Foot foot = foot_on(triangle, point);
         CHECK_FALSE(foot.inside);
         CHECK(foot.distance2 == 0.0);
@@ -71,9 +68,7 @@ TEST_CASE("a collapsed triangle has no inside and is as far as what is left of i
 
 TEST_CASE("colour counts like another direction") {
     Corners red = triangle;
-    for (Point6& corner : red) {
-        corner[3] = 1.0;
-    }
+    for (Point6& corner : red) { corner[3] = 1.0; }
     const Foot foot = foot_on(red, at(3, 2, 7));
     CHECK(foot.inside);
     CHECK(foot.distance2 == Approx(4.0 + 1.0));

@@ -22,8 +22,7 @@ using namespace octant::tests;
 namespace {
 
 double rms_m(const TriangleMesh& a, const TriangleMesh& b) {
-    return measure::distance(a, b, {.tightness = 1.05, .negligible_m = 1e-4, .samples = 20'000})
-        .rms_m();
+    return measure::distance(a, b, {.tightness = 1.05, .negligible_m = 1e-4, .samples = 20'000}).rms_m();
 }
 
 /// Two materials left and right of x = 1.
@@ -98,9 +97,7 @@ TEST_CASE("the present error of coloured triangles is what measuring them again 
     const OriginalSurface original(fine, red, units);
     SurfaceSamples samples(fine, 500);
     std::vector<std::uint32_t> faces;
-    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
-        faces.push_back(samples[sample].face);
-    }
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) { faces.push_back(samples[sample].face); }
     samples.assign_all(faces, std::vector<float>(samples.size(), 0.0F), surface.mesh);
     LocalError local(surface, samples, original);
     local.measure_all_back();
@@ -133,9 +130,8 @@ TEST_CASE("vertices move along a border and across the surface, its ends across 
     const TriangleMesh sheet = two_grounds(strip(4, 8));
     const WorkingSurface surface(sheet, WorkingUnits::of(sheet, 0.1));
     const auto moved = [&](const glm::dvec3& place_m) {
-        const auto found = std::ranges::find_if(sheet.vertices_m, [&](const glm::dvec3& v) {
-            return glm::distance(v, place_m) < 1e-9;
-        });
+        const auto found = std::ranges::find_if(
+            sheet.vertices_m, [&](const glm::dvec3& v) { return glm::distance(v, place_m) < 1e-9; });
         REQUIRE(found != sheet.vertices_m.end());
         const auto vertex = static_cast<std::uint32_t>(found - sheet.vertices_m.begin());
         return surface.along_borders(vertex, {1.0, 2.0, 3.0});
@@ -156,9 +152,7 @@ TEST_CASE("a split edge leaves a closed manifold with two triangles and one vert
     mesh.collapse(0);
     REQUIRE(mesh.face_count() == 6);
     std::uint32_t vertex = 0;
-    while (mesh.has_vertex(vertex)) {
-        ++vertex;
-    }
+    while (mesh.has_vertex(vertex)) { ++vertex; }
     std::array<std::uint32_t, 2> free{};
     std::size_t found = 0;
     HalfEdge edge = none;
@@ -176,9 +170,7 @@ TEST_CASE("a split edge leaves a closed manifold with two triangles and one vert
     TriangleMesh split = made;
     split.triangles.clear();
     std::size_t corners = 0;
-    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        split.triangles.push_back(mesh.corners(face));
-    }
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) { split.triangles.push_back(mesh.corners(face)); }
     for (std::uint32_t v = 0; v < 6; ++v) {
         mesh.around(v, [&](HalfEdge h) { corners += mesh.origin(h) == v ? 1U : 0U; });
     }
@@ -189,8 +181,8 @@ TEST_CASE("a split edge leaves a closed manifold with two triangles and one vert
 
 TEST_CASE("the way back keeps to the side of a thin part from which it starts") {
     TriangleMesh sheet; // two squares, the lower one seen from below
-    sheet.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0},
-                        {0.0, 0.0, 0.1}, {1.0, 0.0, 0.1}, {1.0, 1.0, 0.1}, {0.0, 1.0, 0.1}};
+    sheet.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.1},
+        {1.0, 0.0, 0.1}, {1.0, 1.0, 0.1}, {0.0, 1.0, 0.1}};
     sheet.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
     const WorkingSurface surface(sheet, WorkingUnits{});
     const OriginalSurface original(surface, sheet, WorkingUnits{});
@@ -205,9 +197,7 @@ TEST_CASE("the way back keeps to the side of a thin part from which it starts") 
 
 TEST_CASE("nearest points on triangles without area are numbers") {
     std::mt19937 random(5);
-    const auto coordinate = [&random](double scale) {
-        return scale * (static_cast<double>(random() % 5) - 2.0);
-    };
+    const auto coordinate = [&random](double scale) { return scale * (static_cast<double>(random() % 5) - 2.0); };
     for (int i = 0; i < 20'000; ++i) {
         const double scale = std::pow(10.0, -static_cast<double>(random() % 150));
         TriangleMesh thin;
@@ -216,8 +206,7 @@ TEST_CASE("nearest points on triangles without area are numbers") {
                 coordinate(scale), coordinate(i % 2 == 0 ? 0.0 : scale), coordinate(1e-9 * scale));
         }
         thin.triangles = {{0, 1, 2}};
-        const OriginalSurface original(
-            WorkingSurface(thin, WorkingUnits{}), thin, WorkingUnits{});
+        const OriginalSurface original(WorkingSurface(thin, WorkingUnits{}), thin, WorkingUnits{});
         const glm::dvec3 point(coordinate(scale), coordinate(0.5 * scale), coordinate(scale));
         double distance2 = -1.0;
         original.nearest_from(0, point, distance2);

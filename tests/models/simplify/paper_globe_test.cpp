@@ -46,18 +46,11 @@ TEST_CASE("land lies where it does on the earth") {
     const TriangleMesh mesh = globe();
     const glm::vec3 sea = colour_at(mesh, 0.0, -30.0);
     for (const auto& [north_deg, east_deg] :
-         {std::pair(0.0, 160.0), {-40.0, 80.0}, {45.0, -40.0}, {85.0, 0.0}, {35.0, 18.0}}) {
+        {std::pair(0.0, 160.0), {-40.0, 80.0}, {45.0, -40.0}, {85.0, 0.0}, {35.0, 18.0}}) {
         CHECK(colour_at(mesh, north_deg, east_deg) == sea);
     }
-    for (const auto& [north_deg, east_deg] :
-         {std::pair(0.0, 25.0),
-          {-25.0, 135.0},
-          {50.0, 30.0},
-          {40.0, -100.0},
-          {-10.0, -55.0},
-          {-80.0, 60.0},
-          {72.0, -40.0},
-          {20.0, 78.0}}) {
+    for (const auto& [north_deg, east_deg] : {std::pair(0.0, 25.0), {-25.0, 135.0}, {50.0, 30.0}, {40.0, -100.0},
+             {-10.0, -55.0}, {-80.0, 60.0}, {72.0, -40.0}, {20.0, 78.0}}) {
         CHECK(colour_at(mesh, north_deg, east_deg) != sea);
     }
 }

@@ -10,8 +10,8 @@ using namespace octant::tests;
 
 namespace {
 
-/// Four triangles in the plane z = 0. Its shortest edge is from vertex 0 to vertex 1; two triangles
-/// are at that edge, two more at vertex 1 only.
+/// Four triangles in the plane z = 0. Its shortest edge is from vertex 0 to vertex 1; two triangles are at that edge,
+/// two more at vertex 1 only.
 TriangleMesh arrow() {
     TriangleMesh mesh;
     mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0.5, 2, 0}, {0.5, -2, 0}, {3, 0, 0}};

@@ -6,9 +6,7 @@ using namespace octant::models::simplify;
 
 namespace {
 
-Corners level_triangle(double z) {
-    return {Point6{0, 0, z}, Point6{3, 0, z}, Point6{0, 2, z}};
-}
+Corners level_triangle(double z) { return {Point6{0, 0, z}, Point6{3, 0, z}, Point6{0, 2, z}}; }
 
 } // namespace
 

@@ -25,16 +25,12 @@ void add_part(TriangleMesh& mesh, const TriangleMesh& part, double x_m) {
     for (const glm::dvec3& vertex_m : part.vertices_m) {
         mesh.vertices_m.push_back(vertex_m + glm::dvec3(x_m, 0.0, 0.0));
     }
-    for (const auto& [a, b, c] : part.triangles) {
-        mesh.triangles.push_back({a + first, b + first, c + first});
-    }
+    for (const auto& [a, b, c] : part.triangles) { mesh.triangles.push_back({a + first, b + first, c + first}); }
 }
 
 void add_ball(TriangleMesh& mesh, double scale, double x_m) {
     TriangleMesh one = ball(8);
-    for (glm::dvec3& vertex_m : one.vertices_m) {
-        vertex_m *= scale;
-    }
+    for (glm::dvec3& vertex_m : one.vertices_m) { vertex_m *= scale; }
     add_part(mesh, one, x_m);
 }
 
@@ -42,9 +38,7 @@ void add_ball(TriangleMesh& mesh, double scale, double x_m) {
 TriangleMesh balls(int count) {
     TriangleMesh mesh;
     double scale = 1.0;
-    for (int i = 0; i < count; ++i, scale *= 0.5) {
-        add_ball(mesh, scale, 4.0 * i);
-    }
+    for (int i = 0; i < count; ++i, scale *= 0.5) { add_ball(mesh, scale, 4.0 * i); }
     return mesh;
 }
 
@@ -61,27 +55,22 @@ Triangle take_triangle(TriangleMesh& mesh, std::mt19937& random, std::set<std::u
     }
 }
 
-/// Parts with tubes between triangles, which are handles where they join a part with itself, and
-/// so many holes of three edges.
-TriangleMesh
-riddled(std::mt19937& random, std::size_t parts, std::size_t tubes, std::size_t holes) {
+/// Parts with tubes between triangles, which are handles where they join a part with itself, and so many holes of three
+/// edges.
+TriangleMesh riddled(std::mt19937& random, std::size_t parts, std::size_t tubes, std::size_t holes) {
     TriangleMesh mesh;
     for (std::size_t part = 0; part < parts; ++part) {
-        add_part(
-            mesh, random() % 2 == 0 ? ball(12) : ring(14, 10), 1.5 * static_cast<double>(part));
+        add_part(mesh, random() % 2 == 0 ? ball(12) : ring(14, 10), 1.5 * static_cast<double>(part));
     }
     std::set<std::uint32_t> used;
     for (std::size_t i = 0; i < tubes; ++i) {
         const auto [a, b, c] = take_triangle(mesh, random, used);
         const auto [d, e, f] = take_triangle(mesh, random, used);
-        for (const Triangle side :
-             {Triangle{a, b, f}, {a, f, d}, {b, c, e}, {b, e, f}, {c, a, d}, {c, d, e}}) {
+        for (const Triangle side : {Triangle{a, b, f}, {a, f, d}, {b, c, e}, {b, e, f}, {c, a, d}, {c, d, e}}) {
             mesh.triangles.push_back(side);
         }
     }
-    for (std::size_t i = 0; i < holes; ++i) {
-        take_triangle(mesh, random, used);
-    }
+    for (std::size_t i = 0; i < holes; ++i) { take_triangle(mesh, random, used); }
     return mesh;
 }
 
@@ -120,8 +109,7 @@ TEST_CASE("of shells that must go those go that lie by others, small ones far of
     options.goal.faces = 10;
     const Simplified fewer = simplified(mesh, options);
     CHECK(fewer.shells_removed == 1);
-    CHECK(std::ranges::any_of(
-        fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 8.0; }));
+    CHECK(std::ranges::any_of(fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 8.0; }));
 }
 
 TEST_CASE("parts above a dense mesh do not vanish where another step costs less") {
@@ -154,8 +142,7 @@ TEST_CASE("of very many shells that cannot collapse the goal's number stays, spr
         const double size_m = 1.0 - 0.002 * i;
         const glm::dvec3 at_m(4.0 * i, 0.0, 0.0);
         const std::uint32_t first = 4 * i;
-        for (const glm::dvec3 corner :
-             {glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
+        for (const glm::dvec3 corner : {glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
             mesh.vertices_m.push_back(at_m + size_m * corner);
         }
         for (const auto& [a, b, c] : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
@@ -168,12 +155,10 @@ TEST_CASE("of very many shells that cannot collapse the goal's number stays, spr
     CHECK(fewer.mesh.triangles.size() <= 80);
     CHECK(fewer.shells_removed >= 180);
     // The largest ones all stand on one side.
-    CHECK(std::ranges::any_of(
-        fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 700.0; }));
+    CHECK(std::ranges::any_of(fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 700.0; }));
 }
 
-TEST_CASE(
-    "pinholes close, and thin handles go, where a goal needs it; neither where they are kept") {
+TEST_CASE("pinholes close, and thin handles go, where a goal needs it; neither where they are kept") {
     std::mt19937 random(7);
     const TriangleMesh fine = riddled(random, 1, 2, 12);
     REQUIRE(measure::defects(fine).boundary_loops == 12);
@@ -222,9 +207,7 @@ TEST_CASE("meshes with random holes, handles and parts stay manifolds, and close
         CHECK(found.duplicate_faces == 0);
         CHECK(found.boundary_loops <= holes);
         std::set<std::array<double, 3>> places;
-        for (const glm::dvec3& vertex_m : made.vertices_m) {
-            places.insert({vertex_m.x, vertex_m.y, vertex_m.z});
-        }
+        for (const glm::dvec3& vertex_m : made.vertices_m) { places.insert({vertex_m.x, vertex_m.y, vertex_m.z}); }
         CHECK(places.size() == made.vertices_m.size()); // no sides touch where a handle was cut
         options.threads = 3;
         CHECK(same_bytes(simplified(fine, options).mesh, made));

@@ -26,11 +26,8 @@ public:
     std::uint32_t vertex(const glm::dvec3& place_m) {
         const auto key = [](double value) { return std::lround(value * 1e6); };
         const auto [at, added] = numbers_.try_emplace(
-            {key(place_m.x), key(place_m.y), key(place_m.z)},
-            static_cast<std::uint32_t>(mesh.vertices_m.size()));
-        if (added) {
-            mesh.vertices_m.push_back(place_m);
-        }
+            {key(place_m.x), key(place_m.y), key(place_m.z)}, static_cast<std::uint32_t>(mesh.vertices_m.size()));
+        if (added) { mesh.vertices_m.push_back(place_m); }
         return at->second;
     }
 
@@ -49,16 +46,12 @@ public:
                    (1 - u) * v * corners[3];
         };
         for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < m; ++j) {
-                quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-            }
+            for (int j = 0; j < m; ++j) { quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)); }
         }
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        if (a != b && b != c && c != a) {
-            mesh.triangles.push_back({a, b, c});
-        }
+        if (a != b && b != c && c != a) { mesh.triangles.push_back({a, b, c}); }
     }
 
     TriangleMesh mesh;
@@ -70,9 +63,7 @@ private:
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_edges(const TriangleMesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const Triangle& t : mesh.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            ++edges[{t[i], t[(i + 1) % 3]}];
-        }
+        for (std::size_t i = 0; i < 3; ++i) { ++edges[{t[i], t[(i + 1) % 3]}]; }
     }
     return edges;
 }
@@ -89,8 +80,7 @@ TriangleMesh tetrahedron() {
 TriangleMesh octahedron() {
     TriangleMesh mesh;
     mesh.vertices_m = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    mesh.triangles = {
-        {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     return mesh;
 }
 
@@ -115,9 +105,7 @@ TriangleMesh ring(int n, int m) {
         return glm::dvec3(radius * std::cos(a), radius * std::sin(a), 0.4 * std::sin(b));
     };
     for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < m; ++j) {
-            w.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-        }
+        for (int j = 0; j < m; ++j) { w.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)); }
     }
     return std::move(w.mesh);
 }
@@ -130,9 +118,7 @@ TriangleMesh ball(int n) {
         return glm::dvec3(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), -std::cos(b));
     };
     for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-            w.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-        }
+        for (int j = 0; j < n; ++j) { w.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)); }
     }
     return std::move(w.mesh);
 }
@@ -163,9 +149,7 @@ TriangleMesh machined_part(int n) {
         w.patch({middle, a, b, middle}, n, cuts);
         w.patch({middle + deep, b + deep, a + deep, middle + deep}, n, cuts);
     }
-    for (Triangle& t : w.mesh.triangles) {
-        std::swap(t[1], t[2]);
-    }
+    for (Triangle& t : w.mesh.triangles) { std::swap(t[1], t[2]); }
     return std::move(w.mesh);
 }
 
@@ -178,21 +162,15 @@ TriangleMesh hills_with_boxes(int boxes, double edge_m) {
     for (int i = 0; i < boxes; ++i) {
         const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
         const glm::dvec3 corner_m(0.05 + 0.17 * (i % 6), 0.05 + 0.17 * (i / 6), 0.3);
-        for (const glm::dvec3& vertex : box.vertices_m) {
-            mesh.vertices_m.push_back(corner_m + edge_m * vertex);
-        }
-        for (const auto& [a, b, c] : box.triangles) {
-            mesh.triangles.push_back({a + first, b + first, c + first});
-        }
+        for (const glm::dvec3& vertex : box.vertices_m) { mesh.vertices_m.push_back(corner_m + edge_m * vertex); }
+        for (const auto& [a, b, c] : box.triangles) { mesh.triangles.push_back({a + first, b + first, c + first}); }
     }
     return mesh;
 }
 
 bool is_manifold(const TriangleMesh& mesh) {
     for (const auto& [edge, count] : directed_edges(mesh)) {
-        if (count > 1 || edge.first == edge.second) {
-            return false;
-        }
+        if (count > 1 || edge.first == edge.second) { return false; }
     }
     std::set<Triangle> sets;
     return std::ranges::all_of(mesh.triangles, [&](Triangle t) {

@@ -29,8 +29,8 @@ models::TriangleMesh machined_part(int n);
 /// Hills of 100 x 100 fields over a unit square, and above them boxes of 12 triangles and this edge.
 models::TriangleMesh hills_with_boxes(int boxes, double edge_m);
 
-/// Whether no edge lies in two triangles the same way round, no three vertices form two triangles,
-/// and no triangle has a vertex twice.
+/// Whether no edge lies in two triangles the same way round, no three vertices form two triangles, and no triangle has
+/// a vertex twice.
 bool is_manifold(const models::TriangleMesh& mesh);
 
 std::size_t boundary_edges(const models::TriangleMesh& mesh);

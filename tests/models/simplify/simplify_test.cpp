@@ -39,8 +39,7 @@ const int both[] = {surface_effort, fast_effort};
 
 TriangleMesh two_coloured(TriangleMesh mesh) {
     for (const glm::dvec3& v : mesh.vertices_m) {
-        mesh.colours.push_back(
-            v.x < 0.5001 ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 0.0F, 1.0F));
+        mesh.colours.push_back(v.x < 0.5001 ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 0.0F, 1.0F));
     }
     return mesh;
 }
@@ -63,11 +62,9 @@ TEST_CASE("with a share of their length counted, edges of flat sides stay alike"
     const auto longest_m = [](const TriangleMesh& mesh) {
         double max_m = 0.0;
         for (const auto& [a, b, c] : mesh.triangles) {
-            max_m = std::max(
-                {max_m,
-                 glm::distance(mesh.vertices_m[a], mesh.vertices_m[b]),
-                 glm::distance(mesh.vertices_m[b], mesh.vertices_m[c]),
-                 glm::distance(mesh.vertices_m[c], mesh.vertices_m[a])});
+            max_m = std::max({max_m, glm::distance(mesh.vertices_m[a], mesh.vertices_m[b]),
+                glm::distance(mesh.vertices_m[b], mesh.vertices_m[c]),
+                glm::distance(mesh.vertices_m[c], mesh.vertices_m[a])});
         }
         return max_m;
     };
@@ -122,9 +119,7 @@ TEST_CASE("a ring keeps its hole") {
         CHECK(boundary_edges(made) == 0);
         CHECK(euler_number(made) == 0);
     };
-    for (const std::size_t faces : {400U, 60U, 1U}) {
-        keeps_it(ring(24, 16), faces, fast_effort);
-    }
+    for (const std::size_t faces : {400U, 60U, 1U}) { keeps_it(ring(24, 16), faces, fast_effort); }
     INFO("also where collapses run out");
     keeps_it(ring(12, 8), 1, surface_effort);
 }
@@ -160,8 +155,7 @@ TEST_CASE("an error goal is kept by the certified distance, and not by staying f
         options.effort = effort;
         options.goal.error_m = 0.02;
         const Simplified result = simplified(fine, options);
-        const measure::MeshDistance distance =
-            measure::distance(fine, result.mesh, {.samples = 20'000});
+        const measure::MeshDistance distance = measure::distance(fine, result.mesh, {.samples = 20'000});
         CHECK(distance.max_hausdorff_m() <= 0.02);
         CHECK(result.mesh.triangles.size() < fine.triangles.size() / 4);
         options.goal.error_m = 0.0;
@@ -191,8 +185,7 @@ TEST_CASE("a border of materials stays where it was") {
     TriangleMesh fine = strip(8, 16);
     fine.materials = {{"grass", glm::vec3(0.2F)}, {"sand", glm::vec3(0.8F)}};
     for (const Triangle& t : fine.triangles) {
-        const double x =
-            (fine.vertices_m[t[0]].x + fine.vertices_m[t[1]].x + fine.vertices_m[t[2]].x) / 3;
+        const double x = (fine.vertices_m[t[0]].x + fine.vertices_m[t[1]].x + fine.vertices_m[t[2]].x) / 3;
         fine.triangle_materials.push_back(x < 1.0 ? 0 : 1);
     }
     for (const int effort : both) {
@@ -201,9 +194,7 @@ TEST_CASE("a border of materials stays where it was") {
         TriangleMesh grass = result.mesh;
         grass.triangles.clear();
         for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
-            if (result.mesh.triangle_materials[t] == 0) {
-                grass.triangles.push_back(result.mesh.triangles[t]);
-            }
+            if (result.mesh.triangle_materials[t] == 0) { grass.triangles.push_back(result.mesh.triangles[t]); }
         }
         CHECK(area_m2(grass) == Approx(1.0).epsilon(1e-4));
     }
@@ -321,9 +312,7 @@ TEST_CASE("where no edge can collapse any more the result is not folded") {
     const auto vertex = [&](const std::array<int, 3>& at) {
         const auto next = static_cast<std::uint32_t>(plate.vertices_m.size());
         const auto [place, is_new] = numbers.try_emplace(at, next);
-        if (is_new) {
-            plate.vertices_m.emplace_back(at[0], at[1], at[2]);
-        }
+        if (is_new) { plate.vertices_m.emplace_back(at[0], at[1], at[2]); }
         return place->second;
     };
     const auto add = [&](const std::array<std::array<int, 3>, 4>& corners) {
@@ -333,23 +322,13 @@ TEST_CASE("where no edge can collapse any more the result is not folded") {
     };
     for (int i = 0; i < cells; ++i) {
         for (int j = 0; j < cells; ++j) {
-            if (!is_there(i, j)) {
-                continue;
-            }
+            if (!is_there(i, j)) { continue; }
             add({{{i, j, 1}, {i + 1, j, 1}, {i + 1, j + 1, 1}, {i, j + 1, 1}}});
             add({{{i, j, 0}, {i, j + 1, 0}, {i + 1, j + 1, 0}, {i + 1, j, 0}}});
-            if (!is_there(i - 1, j)) {
-                add({{{i, j, 0}, {i, j, 1}, {i, j + 1, 1}, {i, j + 1, 0}}});
-            }
-            if (!is_there(i + 1, j)) {
-                add({{{i + 1, j, 0}, {i + 1, j + 1, 0}, {i + 1, j + 1, 1}, {i + 1, j, 1}}});
-            }
-            if (!is_there(i, j - 1)) {
-                add({{{i, j, 0}, {i + 1, j, 0}, {i + 1, j, 1}, {i, j, 1}}});
-            }
-            if (!is_there(i, j + 1)) {
-                add({{{i, j + 1, 0}, {i, j + 1, 1}, {i + 1, j + 1, 1}, {i + 1, j + 1, 0}}});
-            }
+            if (!is_there(i - 1, j)) { add({{{i, j, 0}, {i, j, 1}, {i, j + 1, 1}, {i, j + 1, 0}}}); }
+            if (!is_there(i + 1, j)) { add({{{i + 1, j, 0}, {i + 1, j + 1, 0}, {i + 1, j + 1, 1}, {i + 1, j, 1}}}); }
+            if (!is_there(i, j - 1)) { add({{{i, j, 0}, {i + 1, j, 0}, {i + 1, j, 1}, {i, j, 1}}}); }
+            if (!is_there(i, j + 1)) { add({{{i, j + 1, 0}, {i, j + 1, 1}, {i + 1, j + 1, 1}, {i + 1, j + 1, 0}}}); }
         }
     }
     SimplifyOptions options = to_faces(1);
@@ -363,9 +342,7 @@ TEST_CASE("where no edge can collapse any more the result is not folded") {
 
 TEST_CASE("next to nothing of a thin sheet's surface is turned over") {
     TriangleMesh fine = ring(24, 8);
-    for (glm::dvec3& v : fine.vertices_m) {
-        v.z = 0.2 * v.z + 0.3 * std::sin(2.0 * std::atan2(v.y, v.x));
-    }
+    for (glm::dvec3& v : fine.vertices_m) { v.z = 0.2 * v.z + 0.3 * std::sin(2.0 * std::atan2(v.y, v.x)); }
     const TriangleMesh made = simplified(fine, to_faces(100)).mesh;
     CHECK(is_manifold(made));
     CHECK(boundary_edges(made) == 0);

@@ -14,9 +14,7 @@ using octant::sim::links::test::HostMessage;
 namespace {
 
 /// How far a part is turned about z, in degrees.
-double yaw_of(const CigiPartPose& part) {
-    return deg_from_rad(2.0 * std::atan2(part.turn.z, part.turn.w));
-}
+double yaw_of(const CigiPartPose& part) { return deg_from_rad(2.0 * std::atan2(part.turn.z, part.turn.w)); }
 
 /// A message of a host that turns part 3 of entity 0, which is there.
 HostMessage turning(std::uint8_t flags, float yaw_deg) {

@@ -45,9 +45,7 @@ TEST_CASE("periodic questions are answered until they are asked once") {
         const auto message = generator.message_for(frame, 0.0);
         const auto parts = parts_of(message);
         answers += static_cast<int>(parts.size()) - 1;
-        if (parts.size() > 1) {
-            CHECK(parts[1].reader.at<std::uint8_t>(4) >> 4U == ((2 + frame) & 0xfU));
-        }
+        if (parts.size() > 1) { CHECK(parts[1].reader.at<std::uint8_t>(4) >> 4U == ((2 + frame) & 0xfU)); }
     }
     CHECK(answers == 5);
     generator.take(HostMessage(ByteOrder::Big, 20).height(7, 1, 0, 1.0).bytes(), moved);
@@ -84,9 +82,7 @@ TEST_CASE("answers that do not fit into a message wait for the next one") {
     const FlatGround ground;
     CigiImageGenerator generator(&ground);
     HostMessage message(ByteOrder::Big, 1);
-    for (std::uint16_t id = 0; id < 100; ++id) {
-        message.height(id, 2, 0, 1.0);
-    }
+    for (std::uint16_t id = 0; id < 100; ++id) { message.height(id, 2, 0, 1.0); }
     std::vector<Fix> moved;
     generator.take(message.bytes(), moved);
     std::size_t answers = 0;
@@ -108,12 +104,7 @@ TEST_CASE("twenty heights and five lines of sight a frame are all answered withi
     for (std::uint32_t frame = 1; frame <= 60; ++frame) {
         HostMessage message(ByteOrder::Big, frame);
         for (std::uint16_t i = 0; i < 20; ++i) {
-            message.begin(24, 32)
-                .set(2, i)
-                .set(4, std::uint8_t{2})
-                .set(8, 1.0)
-                .set(16, 1.0)
-                .set(24, 500.0);
+            message.begin(24, 32).set(2, i).set(4, std::uint8_t{2}).set(8, 1.0).set(16, 1.0).set(24, 500.0);
         }
         for (std::uint16_t i = 0; i < 5; ++i) {
             message.begin(25, 64)

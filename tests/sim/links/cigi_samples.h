@@ -22,9 +22,7 @@ inline constexpr double m_per_degree = 1e5;
 class FlatGround final : public CigiGround {
 public:
     std::optional<CigiSurfacePoint> below(const glm::dvec3& place) const override {
-        if (std::abs(place.x) > 3.0 || std::abs(place.y) > 3.0) {
-            return std::nullopt;
-        }
+        if (std::abs(place.x) > 3.0 || std::abs(place.y) > 3.0) { return std::nullopt; }
         return CigiSurfacePoint{{place.x, place.y, place.y < 2.0 ? 100.0 : 300.0}, 0.0, 0.5 * pi};
     }
 
@@ -33,9 +31,7 @@ public:
         for (int i = 0; i <= steps; ++i) {
             const glm::dvec3 at = from + (static_cast<double>(i) / steps) * (to - from);
             const auto surface = below(at);
-            if (surface && at.z < surface->place.z) {
-                return TerrainHit{distance_m(from, at), *surface};
-            }
+            if (surface && at.z < surface->place.z) { return TerrainHit{distance_m(from, at), *surface}; }
         }
         return std::nullopt;
     }
@@ -53,8 +49,7 @@ public:
 /// A host's message in either byte order.
 class HostMessage {
 public:
-    HostMessage(ByteOrder order, std::uint32_t host_frame)
-        : writer_(order) {
+    HostMessage(ByteOrder order, std::uint32_t host_frame) : writer_(order) {
         begin(1, 24);
         set(2, std::uint8_t{3});
         set(4, std::uint8_t{0x31}); // operate, minor version 3
@@ -108,8 +103,7 @@ inline std::vector<Packet> parts_of(const std::vector<std::byte>& message) {
     for (Bytes rest = message; rest.size() >= 2;) {
         const auto size = std::to_integer<std::size_t>(rest[1]);
         REQUIRE(size <= rest.size());
-        parts.push_back(
-            {std::to_integer<int>(rest[0]), WireReader(rest.first(size), ByteOrder::Big)});
+        parts.push_back({std::to_integer<int>(rest[0]), WireReader(rest.first(size), ByteOrder::Big)});
         rest = rest.subspan(size);
     }
     return parts;

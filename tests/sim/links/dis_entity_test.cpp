@@ -68,11 +68,7 @@ TEST_CASE("a DIS entity state gives back what was written") {
 
 TEST_CASE("the five ways of dead reckoning take what belongs to them") {
     for (const auto reckoning :
-         {DeadReckoning::Static,
-          DeadReckoning::Fpw,
-          DeadReckoning::Rpw,
-          DeadReckoning::Rvw,
-          DeadReckoning::Fvw}) {
+        {DeadReckoning::Static, DeadReckoning::Fpw, DeadReckoning::Rpw, DeadReckoning::Rvw, DeadReckoning::Fvw}) {
         DisEntity entity = some_entity();
         entity.reckoning = reckoning;
         DisEntity read;
@@ -98,11 +94,7 @@ TEST_CASE("what is no entity state is said") {
     }
     // The centre of the earth has no latitude that means anything, but is far below any aircraft.
     WireWriter writer(ByteOrder::Big);
-    for (const std::byte byte : whole) {
-        writer.add(std::to_integer<std::uint8_t>(byte));
-    }
-    for (const std::size_t at : {std::size_t{48}, std::size_t{56}, std::size_t{64}}) {
-        writer.set(at, 0.0);
-    }
+    for (const std::byte byte : whole) { writer.add(std::to_integer<std::uint8_t>(byte)); }
+    for (const std::size_t at : {std::size_t{48}, std::size_t{56}, std::size_t{64}}) { writer.set(at, 0.0); }
     CHECK(decode_dis(writer.bytes(), read).fault == PacketError::OutOfRange);
 }

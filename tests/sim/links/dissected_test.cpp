@@ -3,8 +3,8 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "sim/links/cigi_responses.h"
 #include "sim/links/cigi_host.h"
+#include "sim/links/cigi_responses.h"
 #include "sim/links/dis_entity.h"
 #include "tests/scratch.h"
 #include "tests/sim/links/cigi_samples.h"
@@ -64,35 +64,23 @@ std::string capture_of(Bytes datagram, std::uint16_t port) {
 
 /// What the dissector gives for these fields, in their order.
 std::vector<std::string> dissected(
-    Bytes datagram,
-    std::uint16_t port,
-    const std::string& protocol,
-    const std::vector<std::string>& fields) {
+    Bytes datagram, std::uint16_t port, const std::string& protocol, const std::vector<std::string>& fields) {
     const fs::path file = tests::scratch_folder() / fmt::format("dissected-{}.pcap", protocol);
     write_file(file, capture_of(datagram, port));
-    const std::string command = fmt::format(
-        "tshark -r '{}' -d udp.port=={},{} -T fields -E separator=';' -E occurrence=a -e {} "
-        "2>/dev/null",
-        file.string(),
-        port,
-        protocol,
-        fmt::join(fields, " -e "));
+    const std::string command =
+        fmt::format("tshark -r '{}' -d udp.port=={},{} -T fields -E separator=';' -E occurrence=a -e {} "
+                    "2>/dev/null",
+            file.string(), port, protocol, fmt::join(fields, " -e "));
     std::string out;
     FILE* const pipe = popen(command.c_str(), "r"); // NOLINT
     REQUIRE(pipe != nullptr);
     std::array<char, 4096> piece{};
-    while (std::fgets(piece.data(), static_cast<int>(piece.size()), pipe) != nullptr) {
-        out += piece.data();
-    }
+    while (std::fgets(piece.data(), static_cast<int>(piece.size()), pipe) != nullptr) { out += piece.data(); }
     REQUIRE(pclose(pipe) == 0);
     fs::remove(file);
-    if (!out.empty() && out.back() == '\n') {
-        out.pop_back();
-    }
+    if (!out.empty() && out.back() == '\n') { out.pop_back(); }
     std::vector<std::string> values;
-    for (const std::string_view field : split_fields(out, ';')) {
-        values.emplace_back(field);
-    }
+    for (const std::string_view field : split_fields(out, ';')) { values.emplace_back(field); }
     REQUIRE(values.size() == fields.size());
     return values;
 }
@@ -121,32 +109,20 @@ TEST_CASE("Wireshark reads CIGI answers as they are meant") {
     add_los_response(message, {14, true, 9}, true, {false, 2500.5, surface});
     add_position(message, 42, {47.5, 8.25, 700.0}, {rad_from_deg(90.0), 0.0, rad_from_deg(-10.0)});
 
-    const auto sof = dissected(
-        message.bytes(),
-        8005,
-        "cigi",
-        {"cigi.sof.ig_frame_number",
-         "cigi.sof.last_host_frame_number",
-         "cigi.sof.db_number",
-         "cigi.sof.minor_version",
-         "cigi.sof.ig_mode"});
+    const auto sof = dissected(message.bytes(), 8005, "cigi",
+        {"cigi.sof.ig_frame_number", "cigi.sof.last_host_frame_number", "cigi.sof.db_number", "cigi.sof.minor_version",
+            "cigi.sof.ig_mode"});
     CHECK(number(sof[0]) == 77);
     CHECK(number(sof[1]) == 1234);
     CHECK(number(sof[2]) == 5);
     CHECK(number(sof[3]) == 3);
     CHECK(number(sof[4]) == 1);
 
-    const auto heights = dissected(
-        message.bytes(),
-        8005,
-        "cigi",
-        {"cigi.hat_hot_response.hat_hot_id",
-         "cigi.hat_hot_response.height",
-         "cigi.hat_hot_response.host_frame_number_lsn",
-         "cigi.hat_hot_ext_response.hat",
-         "cigi.hat_hot_ext_response.hot",
-         "cigi.hat_hot_ext_response.normal_vector_azimuth",
-         "cigi.hat_hot_ext_response.normal_vector_elevation"});
+    const auto heights = dissected(message.bytes(), 8005, "cigi",
+        {"cigi.hat_hot_response.hat_hot_id", "cigi.hat_hot_response.height",
+            "cigi.hat_hot_response.host_frame_number_lsn", "cigi.hat_hot_ext_response.hat",
+            "cigi.hat_hot_ext_response.hot", "cigi.hat_hot_ext_response.normal_vector_azimuth",
+            "cigi.hat_hot_ext_response.normal_vector_elevation"});
     CHECK(number(heights[0]) == 11);
     CHECK(number(heights[1]) == 600.25);
     CHECK(number(heights[2]) == 9);
@@ -155,21 +131,12 @@ TEST_CASE("Wireshark reads CIGI answers as they are meant") {
     CHECK(number(heights[5]) == Approx(123.0));
     CHECK(number(heights[6]) == Approx(80.0));
 
-    const auto sights = dissected(
-        message.bytes(),
-        8005,
-        "cigi",
-        {"cigi.los_response.los_id",
-         "cigi.los_response.range",
-         "cigi.3_2_los_ext_response.los_id",
-         "cigi.3_2_los_ext_response.range",
-         "cigi.3_2_los_ext_response.lat_xoff",
-         "cigi.3_2_los_ext_response.alt_zoff",
-         "cigi.3_2_los_ext_response.host_frame_number_lsn",
-         "cigi.pos_response.object_id",
-         "cigi.pos_response.alt_zoff",
-         "cigi.pos_response.roll",
-         "cigi.pos_response.yaw"});
+    const auto sights = dissected(message.bytes(), 8005, "cigi",
+        {"cigi.los_response.los_id", "cigi.los_response.range", "cigi.3_2_los_ext_response.los_id",
+            "cigi.3_2_los_ext_response.range", "cigi.3_2_los_ext_response.lat_xoff",
+            "cigi.3_2_los_ext_response.alt_zoff", "cigi.3_2_los_ext_response.host_frame_number_lsn",
+            "cigi.pos_response.object_id", "cigi.pos_response.alt_zoff", "cigi.pos_response.roll",
+            "cigi.pos_response.yaw"});
     CHECK(number(sights[0]) == 13);
     CHECK(number(sights[1]) == 1500.5);
     CHECK(number(sights[2]) == 14);
@@ -191,33 +158,16 @@ TEST_CASE("Wireshark reads what a CIGI host sends as it is meant, in both byte o
     for (const ByteOrder order : {ByteOrder::Big, ByteOrder::Little}) {
         WireWriter message(order);
         test::HostScene().add_to(message, {2, CigiMode::Operate, true, 4321, 250000, 99});
-        const auto values = dissected(
-            message.bytes(),
-            8004,
-            "cigi",
-            {"cigi.ig_control.host_frame_number",
-             "cigi.ig_control.last_ig_frame_number",
-             "cigi.ig_control.minor_version",
-             "cigi.entity_control.entity_id",
-             "cigi.entity_control.entity_type",
-             "cigi.entity_control.roll",
-             "cigi.entity_control.pitch",
-             "cigi.entity_control.yaw",
-             "cigi.entity_control.lat_xoff",
-             "cigi.entity_control.lon_yoff",
-             "cigi.entity_control.alt_zoff",
-             "cigi.view_def.left",
-             "cigi.view_def.right",
-             "cigi.view_def.top",
-             "cigi.view_def.bottom",
-             "cigi.view_control.entity_id",
-             "cigi.view_control.xoff",
-             "cigi.view_control.zoff",
-             "cigi.view_control.yaw",
-             "cigi.view_control.pitch"});
-        const std::vector<double> meant{4321,  99,    3,     3,      12,    -30.0, 5.0,
-                                        275.0, 47.25, -8.5,  1234.5, -31.0, 32.0,  20.0,
-                                        -21.0, 3,     -40.5, -8.0,   10.0,  -12.0};
+        const auto values = dissected(message.bytes(), 8004, "cigi",
+            {"cigi.ig_control.host_frame_number", "cigi.ig_control.last_ig_frame_number",
+                "cigi.ig_control.minor_version", "cigi.entity_control.entity_id", "cigi.entity_control.entity_type",
+                "cigi.entity_control.roll", "cigi.entity_control.pitch", "cigi.entity_control.yaw",
+                "cigi.entity_control.lat_xoff", "cigi.entity_control.lon_yoff", "cigi.entity_control.alt_zoff",
+                "cigi.view_def.left", "cigi.view_def.right", "cigi.view_def.top", "cigi.view_def.bottom",
+                "cigi.view_control.entity_id", "cigi.view_control.xoff", "cigi.view_control.zoff",
+                "cigi.view_control.yaw", "cigi.view_control.pitch"});
+        const std::vector<double> meant{4321, 99, 3, 3, 12, -30.0, 5.0, 275.0, 47.25, -8.5, 1234.5, -31.0, 32.0, 20.0,
+            -21.0, 3, -40.5, -8.0, 10.0, -12.0};
         for (std::size_t i = 0; i < meant.size(); ++i) {
             CAPTURE(i);
             CHECK(number(values[i]) == Approx(meant[i]));
@@ -237,16 +187,9 @@ TEST_CASE("Wireshark reads DIS entity states as they are meant") {
     entity.reckoning = DeadReckoning::Fpw;
     entity.fix.latitude_deg = 45.0;
     entity.fix.velocity_ned_mps = glm::dvec3(0.0, 100.0, 0.0);
-    const auto values = dissected(
-        encode_dis(entity, 1800.0),
-        3000,
-        "dis",
-        {"dis.entity_id_site",
-         "dis.entity_id_application",
-         "dis.entity_id_entity",
-         "dis.entity_location.x",
-         "dis.entity_location.z",
-         "dis.entity_linear_velocity.y"});
+    const auto values = dissected(encode_dis(entity, 1800.0), 3000, "dis",
+        {"dis.entity_id_site", "dis.entity_id_application", "dis.entity_id_entity", "dis.entity_location.x",
+            "dis.entity_location.z", "dis.entity_linear_velocity.y"});
     CHECK(number(values[0]) == 1);
     CHECK(number(values[1]) == 2);
     CHECK(number(values[2]) == 3);

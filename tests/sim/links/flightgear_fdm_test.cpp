@@ -77,9 +77,7 @@ TEST_CASE("what is wrong with an FDM packet is said with numbers") {
 
     auto swapped = packet();
     std::swap(swapped[0], swapped[3]);
-    CHECK(
-        fdm_text(decode_fdm(swapped, fix)) ==
-        "expected FDM version 24 or 25, got 402653184 in 408 bytes");
+    CHECK(fdm_text(decode_fdm(swapped, fix)) == "expected FDM version 24 or 25, got 402653184 in 408 bytes");
 
     auto old = packet();
     old[3] = std::byte{23};
@@ -115,8 +113,7 @@ TEST_CASE("a height above ground that the sender does not know is none") {
 TEST_CASE("no packet of any length makes the FDM decoder read beyond it") {
     const auto whole = packet_25();
     for (std::size_t length = 0; length < whole.size(); ++length) {
-        const std::vector<std::byte> part(
-            whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+        const std::vector<std::byte> part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
         Fix fix;
         CHECK(decode_fdm(part, fix).fault != PacketError::None);
     }

@@ -1,5 +1,5 @@
-// What the short tests of hostile packets show, at full length: a million on each port, 50,000 a
-// second, beside a good sender.
+// What the short tests of hostile packets show, at full length: a million on each port, 50,000 a second, beside a good
+// sender.
 
 #include "sim/links/flightgear_fdm.h"
 #include "tests/sim/links/receiver.h"
@@ -28,9 +28,7 @@ constexpr int million = 1'000'000;
 constexpr double per_s = 50'000.0;
 constexpr double mebibyte = 1024.0 * 1024.0;
 
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// A good sender of the FDM, number `i` of its packets.
 void send_good(UdpPort& socket, std::uint16_t port, int i) {
@@ -44,14 +42,13 @@ void send_good(UdpPort& socket, std::uint16_t port, int i) {
 } // namespace
 
 TEST_CASE("a million hostile packets on each port cost bounded memory") {
-    for (const Protocol protocol :
-         {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi}) {
+    for (const Protocol protocol : {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi}) {
         Receiver receiver(protocol);
         const Clock::time_point begin = Clock::now();
         const double growth = growth_under_attack(receiver, protocol, million, per_s);
-        std::cout << "protocol " << static_cast<int>(protocol) << ": "
-                  << million / seconds_since(begin) << " packets/s, " << receiver.counts().wrong
-                  << " refused, memory grew by " << growth / mebibyte << " MiB\n";
+        std::cout << "protocol " << static_cast<int>(protocol) << ": " << million / seconds_since(begin)
+                  << " packets/s, " << receiver.counts().wrong << " refused, memory grew by " << growth / mebibyte
+                  << " MiB\n";
         CHECK(receiver.counts().accepted == 0);
         CHECK(receiver.counts().wrong > 1000);
         CHECK(growth < (protocol == Protocol::Cigi ? 32.0 : 16.0) * mebibyte);
@@ -91,8 +88,8 @@ TEST_CASE("a good sender is heard again within half a second of a flood") {
 
 TEST_CASE("twenty thousand valid packets a second are all taken in time") {
     const octant::tests::ValidFlood flood = octant::tests::flood_validly(100'000);
-    std::cout << flood.counts.accepted << " of 100000 taken, " << flood.counts.late
-              << " late, the longest look took " << 1000.0 * flood.longest_look_s << " ms\n";
+    std::cout << flood.counts.accepted << " of 100000 taken, " << flood.counts.late << " late, the longest look took "
+              << 1000.0 * flood.longest_look_s << " ms\n";
     CHECK(flood.counts.wrong == 0);
     CHECK(flood.counts.accepted + flood.counts.late == 100'000);
     CHECK(flood.longest_look_s < 1.0 / 60.0);

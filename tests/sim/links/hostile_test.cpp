@@ -19,8 +19,7 @@ constexpr int hostile_packets = 20000;
 } // namespace
 
 TEST_CASE("floods of hostile packets on any port cost bounded memory and move nothing") {
-    for (const Protocol protocol :
-         {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi}) {
+    for (const Protocol protocol : {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi}) {
         Receiver receiver(protocol);
         const double growth = growth_under_attack(receiver, protocol, hostile_packets, 0.0);
         CAPTURE(static_cast<int>(protocol));
@@ -42,9 +41,7 @@ TEST_CASE("a good sender is heard again as soon as a flood ends") {
         good.send({loopback, receiver.port()}, encode_fdm(fix));
         receiver.work();
     }
-    for (int i = 0; i < 500 && receiver.counts().accepted < before + 9; ++i) {
-        receiver.work();
-    }
+    for (int i = 0; i < 500 && receiver.counts().accepted < before + 9; ++i) { receiver.work(); }
     CHECK(receiver.counts().accepted >= before + 9);
 }
 

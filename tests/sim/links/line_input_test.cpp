@@ -27,12 +27,9 @@ bool hears(LineServer& server, std::string_view beginning, const std::function<v
         std::vector<Datagram> lines;
         server.drain(0.0, lines);
         for (const Datagram& line : lines) {
-            const std::string text(
-                reinterpret_cast<const char*>(line.bytes.data()), line.bytes.size()); // NOLINT
+            const std::string text(reinterpret_cast<const char*>(line.bytes.data()), line.bytes.size()); // NOLINT
             CHECK(text.size() <= 4096);
-            if (text.starts_with(beginning)) {
-                return true;
-            }
+            if (text.starts_with(beginning)) { return true; }
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
@@ -49,9 +46,7 @@ TEST_CASE("an endless line, binary bytes and a slow writer keep no other line wa
     const TcpClient good(server.port());
     const std::string block(20000, 'x');
     std::string bytes;
-    for (int i = 0; i < 5000; ++i) {
-        bytes += static_cast<char>(i * 37 % 256);
-    }
+    for (int i = 0; i < 5000; ++i) { bytes += static_cast<char>(i * 37 % 256); }
     const std::string word = "slow,line\n";
     std::size_t said = 0;
     const auto hostile = [&] {

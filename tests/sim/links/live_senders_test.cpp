@@ -1,6 +1,5 @@
-// Senders of many kinds, their networks and a receiver, all on a clock that is a number: an hour of
-// flight takes a second. What is shown is judged against the truth of the flight, not against what
-// the receiver says of itself.
+// Senders of many kinds, their networks and a receiver, all on a clock that is a number: an hour of flight takes a
+// second. What is shown is judged against the truth of the flight, not against what the receiver says of itself.
 
 #include "sim/base/random_generator.h"
 #include "sim/base/units.h"
@@ -32,8 +31,7 @@ namespace {
 
 constexpr double earth_m = 6.4e6; ///< of the earth, as flat as the world of these tests
 
-/// A level flight from the origin to the east, straight or turning to the right; its speed may
-/// swing.
+/// A level flight from the origin to the east, straight or turning to the right; its speed may swing.
 struct Flight {
     double speed_mps = 100.0;
     double turn_degps = 0.0;
@@ -47,8 +45,7 @@ struct Flight {
         }
         const double turn_radps = rad_from_deg(turn_degps);
         const double turn_rad = turn_radps * t;
-        return speed_mps / turn_radps *
-                   glm::dvec3(std::sin(turn_rad), std::cos(turn_rad) - 1.0, 0.0) +
+        return speed_mps / turn_radps * glm::dvec3(std::sin(turn_rad), std::cos(turn_rad) - 1.0, 0.0) +
                glm::dvec3(0.0, 0.0, 1500.0);
     }
 
@@ -124,9 +121,7 @@ Sent sent(const Sender& sender, const Network& network, double length_s, RandomG
         }
         const bool is_lost = dice.next() < network.loss;
         all.lost += is_lost ? 1 : 0;
-        if (!is_lost) {
-            all.packets.push_back(packet);
-        }
+        if (!is_lost) { all.packets.push_back(packet); }
         if (!is_lost && dice.next() < network.doubled) {
             packet.arrival_s += 0.03 * dice.next();
             all.packets.push_back(packet);
@@ -153,15 +148,12 @@ std::vector<std::byte> hil_state(const Fix& fix, const Packet& packet) {
     payload.add(static_cast<std::int16_t>(100.0 * fix.velocity_ned_mps->y));
     payload.add_zeros(12);
     return octant::tests::encode_mavlink(
-        {MavLinkKind::HilStateQuaternion, 1, payload.take()},
-        static_cast<std::uint8_t>(packet.number));
+        {MavLinkKind::HilStateQuaternion, 1, payload.take()}, static_cast<std::uint8_t>(packet.number));
 }
 
 std::vector<std::byte> bytes_of(const Sender& sender, const Fix& fix, const Packet& packet) {
     const double clock_s = packet.clock_s;
-    if (sender.form == Form::MavLink) {
-        return hil_state(fix, packet);
-    }
+    if (sender.form == Form::MavLink) { return hil_state(fix, packet); }
     if (sender.form == Form::Dis) {
         DisEntity entity;
         entity.reckoning = DeadReckoning::Fpw;
@@ -173,12 +165,9 @@ std::vector<std::byte> bytes_of(const Sender& sender, const Fix& fix, const Pack
         const auto bytes = encode_fdm(fix);
         return {bytes.begin(), bytes.end()};
     }
-    const std::string line = fmt::format(
-        "{}{:.9f},{:.9f},{:.3f}",
-        sender.time_column ? fmt::format("{:.3f},", clock_s) : std::string(),
-        fix.latitude_deg,
-        fix.longitude_deg,
-        fix.altitude_m);
+    const std::string line =
+        fmt::format("{}{:.9f},{:.9f},{:.3f}", sender.time_column ? fmt::format("{:.3f},", clock_s) : std::string(),
+            fix.latitude_deg, fix.longitude_deg, fix.altitude_m);
     const auto bytes = std::as_bytes(std::span(line));
     return {bytes.begin(), bytes.end()};
 }
@@ -192,13 +181,10 @@ Datagram datagram_of(const Sender& sender, const Packet& packet, RandomGenerator
     fix.longitude_deg = deg_from_rad(at_m.x / earth_m);
     fix.altitude_m = at_m.z;
     fix.attitude.heading_rad = std::atan2(mps.x, mps.y);
-    if (sender.velocity) {
-        fix.velocity_ned_mps = glm::dvec3(mps.y, mps.x, -mps.z) / sender.clock_rate;
-    }
+    if (sender.velocity) { fix.velocity_ned_mps = glm::dvec3(mps.y, mps.x, -mps.z) / sender.clock_rate; }
     if (sender.tick_s) {
         // So that it wraps around after five minutes.
-        const double ticks =
-            packet.clock_s / *sender.tick_s + 4294967296.0 - 300.0 / *sender.tick_s;
+        const double ticks = packet.clock_s / *sender.tick_s + 4294967296.0 - 300.0 / *sender.tick_s;
         fix.ticks = static_cast<std::uint32_t>(static_cast<std::uint64_t>(ticks));
     }
     const Protocol protocol = sender.form == Form::Fdm       ? Protocol::Fdm
@@ -225,10 +211,7 @@ struct Shown {
 
 WorldPosition on_flat_earth(const VehicleKey&, const Fix& fix) {
     return {
-        .at_m = {
-            rad_from_deg(fix.longitude_deg) * earth_m,
-            rad_from_deg(fix.latitude_deg) * earth_m,
-            fix.altitude_m}};
+        .at_m = {rad_from_deg(fix.longitude_deg) * earth_m, rad_from_deg(fix.latitude_deg) * earth_m, fix.altitude_m}};
 }
 
 /// Sixty pictures a second.
@@ -239,8 +222,7 @@ Shown shown(const Sender& sender, const Network& network, double length_s) {
     const Sent all = sent(sender, network, length_s, dice);
     LiveTraffic traffic(on_flat_earth);
     if (sender.form == Form::Lines) {
-        const std::string names =
-            std::string(sender.time_column ? "t_s," : "") + "lat_deg,lon_deg,alt_m";
+        const std::string names = std::string(sender.time_column ? "t_s," : "") + "lat_deg,lon_deg,alt_m";
         const auto bytes = std::as_bytes(std::span(names));
         traffic.take({Protocol::Lines, {1, 1}, 0.0, {bytes.begin(), bytes.end()}});
     }
@@ -256,9 +238,7 @@ Shown shown(const Sender& sender, const Network& network, double length_s) {
         for (; packet != all.packets.end() && packet->arrival_s <= now_s; ++packet) {
             traffic.take(datagram_of(sender, *packet, dice));
         }
-        if (traffic.show(now_s, 0.0, states) == 0) {
-            continue;
-        }
+        if (traffic.show(now_s, 0.0, states) == 0) { continue; }
         const glm::dvec3 step_m = states[0].position_m - before_m;
         if (now_s > from_s) {
             const double true_mps = glm::length(sender.flight.velocity_mps(now_s));
@@ -280,9 +260,7 @@ Shown shown(const Sender& sender, const Network& network, double length_s) {
 
 std::vector<double> every_two_minutes(double length_s) {
     std::vector<double> times_s;
-    for (double t = 100.0; t < length_s; t += 120.0) {
-        times_s.push_back(t);
-    }
+    for (double t = 100.0; t < length_s; t += 120.0) { times_s.push_back(t); }
     return times_s;
 }
 
@@ -300,10 +278,8 @@ TEST_CASE("places at an uneven rate without velocities or a clock are shown at t
     for (const double rate_hz : {5.0, 8.0, 10.0, 20.0, 30.0, 60.0}) {
         for (const double turn_degps : {0.0, 6.0}) {
             CAPTURE(rate_hz, turn_degps);
-            const Shown found = shown(
-                {.flight = {.turn_degps = turn_degps}, .rate_hz = rate_hz, .uneven = 0.6},
-                {},
-                60.0);
+            const Shown found =
+                shown({.flight = {.turn_degps = turn_degps}, .rate_hz = rate_hz, .uneven = 0.6}, {}, 60.0);
             check_smooth(found, 0.03);
             CHECK(found.rms_m < 0.5);
         }
@@ -333,12 +309,8 @@ TEST_CASE("numbers of packets count what is missing, not what comes late, twice 
     const auto lost = [](const std::vector<std::uint32_t>& numbers, int bits) {
         SequenceCount count;
         double arrival_s = 0.0;
-        for (std::uint32_t i = 230; i < 250; ++i) {
-            count.add(i, bits, arrival_s);
-        }
-        for (const std::uint32_t number : numbers) {
-            count.add(number, bits, arrival_s += 0.1);
-        }
+        for (std::uint32_t i = 230; i < 250; ++i) { count.add(i, bits, arrival_s); }
+        for (const std::uint32_t number : numbers) { count.add(number, bits, arrival_s += 0.1); }
         REQUIRE(count.is_numbered());
         return count.lost();
     };
@@ -351,9 +323,7 @@ TEST_CASE("numbers of packets count what is missing, not what comes late, twice 
     SequenceCount silent;
     silent.add(1, 8, 0.0);
     silent.add(5, 8, 2.5);
-    for (std::uint32_t i = 6; i < 20; ++i) {
-        silent.add(i, 8, 2.5);
-    }
+    for (std::uint32_t i = 6; i < 20; ++i) { silent.add(i, 8, 2.5); }
     CHECK(silent.is_numbered());
     CHECK(silent.lost() == 0);
 }
@@ -364,9 +334,7 @@ TEST_CASE("a counter that stands or that several streams share tells no losses")
     RandomGenerator dice(3);
     for (std::uint32_t i = 0; i < 1000; ++i) {
         stands.add(7, 32, 0.01 * i);
-        if (dice.next() < 0.5) {
-            shared.add(i, 8, 0.01 * i);
-        }
+        if (dice.next() < 0.5) { shared.add(i, 8, 0.01 * i); }
     }
     CHECK_FALSE(stands.is_numbered());
     CHECK_FALSE(shared.is_numbered());
@@ -378,8 +346,7 @@ TEST_CASE("an hour of jitter, losses and stalls is shown as well as its first mi
     for (const bool velocity : {false, true}) {
         CAPTURE(velocity);
         const double length_s = velocity ? 3600.0 : 1200.0;
-        const Shown found = shown(
-            {.velocity = velocity, .stalls_s = every_two_minutes(length_s)}, network, length_s);
+        const Shown found = shown({.velocity = velocity, .stalls_s = every_two_minutes(length_s)}, network, length_s);
         check_smooth(found, velocity ? 0.03 : 0.2);
         CHECK(found.rms_m < 2.0); // of which 1.2 m are the 0.3 s that it stands in each stall
         CHECK(found.max_m < 50.0);
@@ -408,8 +375,7 @@ TEST_CASE("sender's clocks may drift, wrap around and count in any power of ten"
     for (const double tick_s : {1e-6, 1e-3}) {
         for (const double drift : {-1e-4, 1e-4}) {
             CAPTURE(tick_s, drift);
-            const Shown found =
-                shown({.velocity = true, .tick_s = tick_s, .clock_drift = drift}, network, 900.0);
+            const Shown found = shown({.velocity = true, .tick_s = tick_s, .clock_drift = drift}, network, 900.0);
             check_smooth(found, 0.03);
             CHECK(found.rms_m < 0.5);
             CHECK(found.max_m < 5.0);
@@ -433,8 +399,7 @@ TEST_CASE("a clock that counts whole seconds, stands or has another unit is pass
 TEST_CASE("a simulation at half or double speed is shown as fast as it goes") {
     for (const double clock_rate : {0.5, 2.0}) {
         CAPTURE(clock_rate);
-        const Shown found =
-            shown({.velocity = true, .tick_s = 1e-6, .clock_rate = clock_rate}, {}, 60.0);
+        const Shown found = shown({.velocity = true, .tick_s = 1e-6, .clock_rate = clock_rate}, {}, 60.0);
         check_smooth(found, 0.1);
     }
 }
@@ -443,8 +408,7 @@ TEST_CASE("places that are sent several times each do not stop the flight") {
     for (const bool velocity : {false, true}) {
         for (const int sent_each : {2, 6}) {
             CAPTURE(velocity, sent_each);
-            const Shown found =
-                shown({.rate_hz = 60.0, .velocity = velocity, .sent_each = sent_each}, {}, 60.0);
+            const Shown found = shown({.rate_hz = 60.0, .velocity = velocity, .sent_each = sent_each}, {}, 60.0);
             check_smooth(found, 0.03);
         }
     }
@@ -457,9 +421,7 @@ TEST_CASE("bursts, stalls of the network and doubled packets leave no frame back
         const Shown stalled = shown({.velocity = velocity}, {.stall_at_s = 20.0}, 60.0);
         check_smooth(stalled, 0.05);
         const Network bad{.jitter_s = 0.04, .loss = 0.05, .doubled = 0.05};
-        CHECK(
-            shown({.rate_hz = 20.0, .uneven = 0.6, .velocity = velocity}, bad, 60.0).backwards ==
-            0);
+        CHECK(shown({.rate_hz = 20.0, .uneven = 0.6, .velocity = velocity}, bad, 60.0).backwards == 0);
     }
 }
 
@@ -474,9 +436,7 @@ TEST_CASE("speed that changes, slow vehicles and noisy places are followed witho
     check_smooth(shown(swings, {}, 60.0), 0.03);
     for (const double speed_mps : {0.5, 2.0, 5.0}) {
         CAPTURE(speed_mps);
-        check_smooth(
-            shown({.flight = {.speed_mps = speed_mps}, .rate_hz = 20.0, .uneven = 0.6}, {}, 60.0),
-            0.03);
+        check_smooth(shown({.flight = {.speed_mps = speed_mps}, .rate_hz = 20.0, .uneven = 0.6}, {}, 60.0), 0.03);
     }
     const Sender gps{.flight = {.speed_mps = 30.0}, .rate_hz = 5.0, .noise_m = 0.5};
     const Shown found = shown(gps, {}, 60.0);

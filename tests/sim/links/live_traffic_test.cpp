@@ -24,9 +24,7 @@ namespace {
 using PacketOutcome = LiveTraffic::PacketOutcome;
 
 WorldPosition flat(const VehicleKey&, const Fix& fix) {
-    if (fix.local_m) {
-        return {.at_m = glm::dvec3(*fix.local_m, fix.altitude_m)};
-    }
+    if (fix.local_m) { return {.at_m = glm::dvec3(*fix.local_m, fix.altitude_m)}; }
     return {.at_m = {fix.longitude_deg * 1e5, fix.latitude_deg * 1e5, fix.altitude_m}};
 }
 
@@ -91,9 +89,7 @@ TEST_CASE("a stream is cut into lines, whatever pieces it comes in") {
         std::vector<std::string> lines;
         const auto take = [&](const std::vector<std::byte>& bytes) {
             std::string text;
-            for (const std::byte byte : bytes) {
-                text += std::to_integer<char>(byte);
-            }
+            for (const std::byte byte : bytes) { text += std::to_integer<char>(byte); }
             lines.push_back(text);
         };
         for (std::size_t at = 0; at < stream.size(); at += piece) {
@@ -114,9 +110,7 @@ TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded")
         packet.source = {static_cast<std::uint32_t>(i), 1};
         packet.arrival_s = i * 1e-4;
         packet.bytes.resize(static_cast<std::size_t>(dice.between(0.0, 600.0)));
-        for (std::byte& byte : packet.bytes) {
-            byte = static_cast<std::byte>(dice.between(0.0, 256.0));
-        }
+        for (std::byte& byte : packet.bytes) { byte = static_cast<std::byte>(dice.between(0.0, 256.0)); }
         traffic.take(packet);
     }
     CHECK(traffic.vehicles().empty());
@@ -155,14 +149,10 @@ TEST_CASE("garbage of many kinds does not hide what another sender is, and all o
     garbage({1, 1});
     CHECK(traffic.packet_reports().size() < 40);
     CHECK(told_of_cigi_4({2, 1}));
-    for (std::uint16_t port = 2; port < 150; ++port) {
-        garbage({1, port});
-    }
+    for (std::uint16_t port = 2; port < 150; ++port) { garbage({1, port}); }
     CHECK(told_of_cigi_4({3, 1}));
     long counted = traffic.counts().untold;
-    for (const PacketReport& report : traffic.packet_reports()) {
-        counted += report.packets;
-    }
+    for (const PacketReport& report : traffic.packet_reports()) { counted += report.packets; }
     CHECK(counted == 149 * 600 + 2);
 }
 
@@ -179,8 +169,7 @@ TEST_CASE("DIS over another planet is told once to count from the centre of the 
     CHECK(news[1].find("entity state of 144 bytes: fine") != std::string::npos);
 }
 
-TEST_CASE(
-    "DIS entities are named site:application:entity with their marking, all of ten thousand") {
+TEST_CASE("DIS entities are named site:application:entity with their marking, all of ten thousand") {
     LiveTraffic traffic(flat);
     constexpr int count = 10000;
     for (int round = 0; round < 2; ++round) {
@@ -207,9 +196,8 @@ TEST_CASE(
     CHECK(reports[9999].latitude_deg == Approx(47.0));
     CHECK(traffic.vehicles().size() == LiveTraffic::max_vehicles);
     const std::vector<std::string> lines = traffic.lines();
-    CHECK(std::ranges::any_of(lines, [](const std::string& told) {
-        return told.find("1:20:0 UNIT0") != std::string::npos;
-    }));
+    CHECK(std::ranges::any_of(
+        lines, [](const std::string& told) { return told.find("1:20:0 UNIT0") != std::string::npos; }));
     CHECK(lines.back().starts_with("10000 vehicles in all, 256 are followed"));
 }
 
@@ -236,13 +224,10 @@ TEST_CASE("MAVLink systems beyond the cap wait until one has been silent for ten
     payload.set(12, std::int32_t{100000});
     const auto packet = [&](std::uint16_t port, double arrival_s) {
         const auto bytes = octant::tests::encode_mavlink(
-            {MavLinkKind::GlobalPositionInt, 1, {payload.bytes().begin(), payload.bytes().end()}},
-            0);
+            {MavLinkKind::GlobalPositionInt, 1, {payload.bytes().begin(), payload.bytes().end()}}, 0);
         return Datagram{Protocol::MavLink, {1, port}, arrival_s, bytes};
     };
-    for (std::uint16_t port = 0; port < 200; ++port) {
-        traffic.take(packet(port, 0.0));
-    }
+    for (std::uint16_t port = 0; port < 200; ++port) { traffic.take(packet(port, 0.0)); }
     CHECK(traffic.vehicles().size() == 64);
     traffic.take(packet(300, 9.0));
     CHECK(traffic.vehicles().size() == 64);
@@ -261,9 +246,7 @@ TEST_CASE("a sender of twenty thousand packets a second is remembered in bounded
         fix.velocity_ned_mps = glm::dvec3(100.0, 0.0, 0.0);
         fix.ticks = static_cast<std::uint32_t>(50 * i);
         const auto bytes = encode_fdm(fix);
-        REQUIRE(
-            traffic.take({Protocol::Fdm, {1, 1}, time_s, {bytes.begin(), bytes.end()}}) ==
-            PacketOutcome::Moved);
+        REQUIRE(traffic.take({Protocol::Fdm, {1, 1}, time_s, {bytes.begin(), bytes.end()}}) == PacketOutcome::Moved);
     }
     constexpr double mebibyte = 1048576.0;
     CHECK(octant::tests::used_bytes() - before < 4.0 * mebibyte);

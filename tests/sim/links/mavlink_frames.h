@@ -34,10 +34,9 @@ inline std::uint16_t crc_mcrf4xx(std::uint16_t sum, std::byte byte) {
     return sum;
 }
 
-/// A frame of MAVLink 2 without a signature, as an autopilot sends it. The payload is taken as it
-/// is, also where zeros were cut off its end.
-inline std::vector<std::byte>
-encode_mavlink(const sim::links::MavLinkFrame& frame, std::uint8_t sequence) {
+/// A frame of MAVLink 2 without a signature, as an autopilot sends it. The payload is taken as it is, also where zeros
+/// were cut off its end.
+inline std::vector<std::byte> encode_mavlink(const sim::links::MavLinkFrame& frame, std::uint8_t sequence) {
     const auto number = static_cast<std::uint32_t>(frame.kind);
     sim::links::WireWriter writer(sim::links::ByteOrder::Little);
     writer.add(std::uint8_t{0xFD});
@@ -48,13 +47,9 @@ encode_mavlink(const sim::links::MavLinkFrame& frame, std::uint8_t sequence) {
     writer.add(std::uint8_t{1}); // component: autopilot
     writer.add(static_cast<std::uint16_t>(number & 0xffffU));
     writer.add(static_cast<std::uint8_t>(number >> 16U));
-    for (const std::byte byte : frame.payload) {
-        writer.add(std::to_integer<std::uint8_t>(byte));
-    }
+    for (const std::byte byte : frame.payload) { writer.add(std::to_integer<std::uint8_t>(byte)); }
     std::uint16_t sum = 0xffff;
-    for (const std::byte byte : writer.bytes().subspan(1)) {
-        sum = crc_mcrf4xx(sum, byte);
-    }
+    for (const std::byte byte : writer.bytes().subspan(1)) { sum = crc_mcrf4xx(sum, byte); }
     writer.add(crc_mcrf4xx(sum, std::byte{mavlink_extra(frame.kind)}));
     return writer.take();
 }

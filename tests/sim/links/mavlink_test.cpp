@@ -16,18 +16,14 @@ namespace {
 
 std::vector<std::byte> bytes_of(const std::vector<int>& numbers) {
     std::vector<std::byte> bytes;
-    for (const int number : numbers) {
-        bytes.push_back(static_cast<std::byte>(number));
-    }
+    for (const int number : numbers) { bytes.push_back(static_cast<std::byte>(number)); }
     return bytes;
 }
 
 MavLinkFrame attitude(std::uint32_t ms, float roll, float pitch, float yaw) {
     WireWriter writer(ByteOrder::Little);
     writer.add(ms);
-    for (const float value : {roll, pitch, yaw, 0.1F, 0.2F, 0.3F}) {
-        writer.add(value);
-    }
+    for (const float value : {roll, pitch, yaw, 0.1F, 0.2F, 0.3F}) { writer.add(value); }
     return {MavLinkKind::Attitude, 7, writer.take()};
 }
 
@@ -54,9 +50,7 @@ MavLinkFrame hil_state() {
     writer.add(std::int32_t{470000000});
     writer.add(std::int32_t{80000000});
     writer.add(std::int32_t{123000});
-    for (int i = 0; i < 8; ++i) {
-        writer.add(std::int16_t{0});
-    }
+    for (int i = 0; i < 8; ++i) { writer.add(std::int16_t{0}); }
     return {MavLinkKind::HilStateQuaternion, 1, writer.take()};
 }
 
@@ -85,9 +79,7 @@ TEST_CASE("a MAVLink frame with a wrong bit anywhere is refused") {
 
 TEST_CASE("zeros that MAVLink 2 cuts off the end of a message stand there again") {
     MavLinkFrame frame = attitude(5, 0.5F, 0.0F, 0.0F);
-    for (std::size_t i = 16; i < 28; ++i) {
-        frame.payload[i] = std::byte{0};
-    }
+    for (std::size_t i = 16; i < 28; ++i) { frame.payload[i] = std::byte{0}; }
     MavLinkFrame cut = frame;
     cut.payload.resize(8);
     const MavLinkParse parse = parse_mavlink(encode_mavlink(cut, 0));
@@ -113,8 +105,8 @@ TEST_CASE("attitudes carry a position on over the ellipsoid of the ground") {
     // 20 m/s north for half a second over the Moon, a sphere of 1,737.4 km: 30,323.3 m a degree.
     MavLinkPose pose;
     pose.take(position(1000, 47.0, 8.0, 0.0));
-    const auto fix = pose.take(
-        attitude(1500, 0.0F, 0.0F, 0.0F), Ellipsoid{.semi_major_m = 1737400.0, .flattening = 0.0});
+    const auto fix =
+        pose.take(attitude(1500, 0.0F, 0.0F, 0.0F), Ellipsoid{.semi_major_m = 1737400.0, .flattening = 0.0});
     REQUIRE(fix.has_value());
     CHECK((fix->latitude_deg - 47.0) * 30323.3 == Approx(10.0).epsilon(1e-4));
 }

@@ -1,8 +1,8 @@
 #include "sim/links/cigi_host.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
-#include "sim/links/packet_kind.h"
 #include "sim/links/live_traffic.h"
+#include "sim/links/packet_kind.h"
 #include "sim/links/xplane.h"
 #include "tests/sim/links/mavlink_frames.h"
 
@@ -25,9 +25,7 @@ Packet copied(const Bytes& bytes) {
     return {bytes.begin(), bytes.end()};
 }
 
-Packet text(std::string_view words) {
-    return copied(std::as_bytes(std::span(words.data(), words.size())));
-}
+Packet text(std::string_view words) { return copied(std::as_bytes(std::span(words.data(), words.size()))); }
 
 /// IG Control of CIGI 4.0 (16-bit size, packet id 0) and an Entity Position, in either byte order.
 Packet cigi_4(ByteOrder order, std::size_t more = 48) {
@@ -73,19 +71,14 @@ std::map<Protocol, Packet> right_packets() {
     entity.fix = some_fix();
     MavLinkFrame frame{MavLinkKind::GlobalPositionInt, 1, {}};
     frame.payload.resize(28, std::byte{1});
-    return {
-        {Protocol::Fdm, copied(encode_fdm(some_fix()))},
-        {Protocol::MavLink, octant::tests::encode_mavlink(frame, 0)},
-        {Protocol::Dis, copied(encode_dis(entity, 0.0))},
-        {Protocol::Cigi, cigi_3()},
-        {Protocol::XPlane, encode_xplane(some_fix(), {0.82, 0.0, 900.0}, 0.0)}};
+    return {{Protocol::Fdm, copied(encode_fdm(some_fix()))},
+        {Protocol::MavLink, octant::tests::encode_mavlink(frame, 0)}, {Protocol::Dis, copied(encode_dis(entity, 0.0))},
+        {Protocol::Cigi, cigi_3()}, {Protocol::XPlane, encode_xplane(some_fix(), {0.82, 0.0, 900.0}, 0.0)}};
 }
 
 LiveTraffic traffic_of(Protocol port, const Packet& packet, int count) {
     LiveTraffic traffic([](const VehicleKey&, const Fix&) { return WorldPosition(); });
-    for (int i = 0; i < count; ++i) {
-        traffic.take({port, {0x7f000001, 4000}, 0.01 * i, packet});
-    }
+    for (int i = 0; i < count; ++i) { traffic.take({port, {0x7f000001, 4000}, 0.01 * i, packet}); }
     return traffic;
 }
 
@@ -93,19 +86,17 @@ LiveTraffic traffic_of(Protocol port, const Packet& packet, int count) {
 
 TEST_CASE("what is not supported is told once, in a line of what it is, and counted") {
     const std::vector<std::pair<Packet, std::string>> unsupported{
-        {cigi_4(ByteOrder::Little),
-         "this is a CIGI 4 host, which is not supported: set it to "
-         "CIGI 3.3"},
+        {cigi_4(ByteOrder::Little), "this is a CIGI 4 host, which is not supported: set it to "
+                                    "CIGI 3.3"},
         {cigi_4(ByteOrder::Big), "this is a CIGI 4 host"},
-        {swapped_fdm(),
-         "this is FlightGear FDM in little-endian byte order, which is not supported"},
+        {swapped_fdm(), "this is FlightGear FDM in little-endian byte order, which is not supported"},
         {text("BECN\x01\x02"), "this is an X-Plane message other than DATA and RREF"},
         {text("XGPSX-Plane,8.5,47.2,1500,90,50"), "this is position output for tablets"},
         {text("$GPGGA,120000,4715.0,N"), "this is NMEA 0183"},
         {text("FileType=text/acmi/tacview\n"), "this is Tacview text"}};
     for (const auto& [packet, line] : unsupported) {
         for (const Protocol port :
-             {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi, Protocol::XPlane}) {
+            {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi, Protocol::XPlane}) {
             LiveTraffic traffic = traffic_of(port, packet, 200);
             INFO(line << " at the port of " << name_of(port));
             const auto news = traffic.take_new_messages();
@@ -131,8 +122,7 @@ TEST_CASE("messages of CIGI 4 that differ in length are one line") {
 }
 
 TEST_CASE("a packet at another port than its own is told where it is read") {
-    const std::map<Protocol, std::string> options{
-        {Protocol::Fdm, "this is FlightGear FDM; --fdm-port [5550]"},
+    const std::map<Protocol, std::string> options{{Protocol::Fdm, "this is FlightGear FDM; --fdm-port [5550]"},
         {Protocol::MavLink, "this is MAVLink; --mavlink-port [14550]"},
         {Protocol::Dis, "this is DIS; --dis-port [3000]"},
         {Protocol::Cigi, "this is a CIGI 3 host; --cigi-port [8004]"},
@@ -157,9 +147,8 @@ TEST_CASE("a packet at another port than its own is told where it is read") {
 TEST_CASE("a packet of its own port that is wrong keeps what is wrong with it") {
     Packet cut = right_packets().at(Protocol::Fdm);
     cut.resize(400);
-    CHECK(
-        traffic_of(Protocol::Fdm, cut, 1).take_new_messages() ==
-        std::vector<std::string>{"127.0.0.1:4000: FDM version 24: expected 408 bytes, got 400"});
+    CHECK(traffic_of(Protocol::Fdm, cut, 1).take_new_messages() ==
+          std::vector<std::string>{"127.0.0.1:4000: FDM version 24: expected 408 bytes, got 400"});
     CHECK_FALSE(packet_kind(text("")));
     CHECK_FALSE(packet_kind(text("hello")));
 }

@@ -24,8 +24,7 @@ constexpr std::uint32_t loopback = 0x7f000001;
 
 void wait_until(Clock::time_point begin, double after_s) {
     std::this_thread::sleep_until(
-        begin +
-        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s)));
+        begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s)));
 }
 
 } // namespace
@@ -49,9 +48,7 @@ void attack(Protocol protocol, std::uint16_t port, int packets, double per_s) {
     UdpPort socket(loopback, 0);
     const Clock::time_point begin = Clock::now();
     for (int i = 0; i < packets; ++i) {
-        if (per_s > 0.0 && i % together == 0) {
-            wait_until(begin, i / per_s);
-        }
+        if (per_s > 0.0 && i % together == 0) { wait_until(begin, i / per_s); }
         std::vector<std::byte> bytes(right.begin(), right.end());
         bytes[dice.next() < 0.5 ? 3 : 0] = static_cast<std::byte>(dice.between(26.0, 256.0));
         bytes.resize(static_cast<std::size_t>(dice.between(0.0, 408.0)));
@@ -64,9 +61,7 @@ void Receiver::look() {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begin_;
     socket_.drain(protocol_, now.count(), packets_);
     for (const Datagram& packet : packets_) {
-        if (limit_.admits(packet.source, packet.arrival_s)) {
-            traffic_.take(packet);
-        }
+        if (limit_.admits(packet.source, packet.arrival_s)) { traffic_.take(packet); }
     }
 }
 
@@ -99,21 +94,16 @@ ValidFlood flood_validly(int packets) {
     std::atomic<bool> done = false;
     std::thread sender([&] {
         std::vector<UdpPort> sockets;
-        for (int i = 0; i < senders; ++i) {
-            sockets.emplace_back(loopback, std::uint16_t{0});
-        }
+        for (int i = 0; i < senders; ++i) { sockets.emplace_back(loopback, std::uint16_t{0}); }
         const Clock::time_point begin = Clock::now();
         constexpr double rate_hz = 20'000.0;
         for (int i = 0; i < packets; ++i) {
-            if (i % senders == 0) {
-                wait_until(begin, i / rate_hz);
-            }
+            if (i % senders == 0) { wait_until(begin, i / rate_hz); }
             Fix fix;
             fix.latitude_deg = 1e-7 * (i / senders);
             fix.velocity_ned_mps = glm::dvec3(10.0, 0.0, 0.0);
             fix.ticks = static_cast<std::uint32_t>(i / senders * 1000);
-            sockets[static_cast<std::size_t>(i % senders)].send(
-                {loopback, receiver.port()}, encode_fdm(fix));
+            sockets[static_cast<std::size_t>(i % senders)].send({loopback, receiver.port()}, encode_fdm(fix));
         }
         done = true;
     });
@@ -121,8 +111,8 @@ ValidFlood flood_validly(int packets) {
     while (!done) {
         const Clock::time_point begin = Clock::now();
         receiver.look();
-        flood.longest_look_s = std::max(
-            flood.longest_look_s, std::chrono::duration<double>(Clock::now() - begin).count());
+        flood.longest_look_s =
+            std::max(flood.longest_look_s, std::chrono::duration<double>(Clock::now() - begin).count());
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     sender.join();

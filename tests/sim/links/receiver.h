@@ -13,15 +13,14 @@ namespace octant::tests {
 /// Memory of this process that is in use, bytes: resident, or allocated under a sanitizer.
 double used_bytes();
 
-/// Sends packets to a port of this machine that are nearly right, and some that are anything:
-/// `per_s` a second, or as fast as it can where that is 0.
+/// Sends packets to a port of this machine that are nearly right, and some that are anything: `per_s` a second, or as
+/// fast as it can where that is 0.
 void attack(sim::links::Protocol protocol, std::uint16_t port, int packets, double per_s);
 
 /// A receiver as a program has it, looked after a thousand times a second.
 class Receiver {
 public:
-    explicit Receiver(sim::links::Protocol protocol)
-        : protocol_(protocol) {}
+    explicit Receiver(sim::links::Protocol protocol) : protocol_(protocol) {}
 
     std::uint16_t port() const { return socket_.port(); }
 
@@ -45,8 +44,7 @@ private:
 };
 
 /// Attacks a receiver, which works meanwhile. Returns by how many bytes this process grew at most.
-double
-growth_under_attack(Receiver& receiver, sim::links::Protocol protocol, int packets, double per_s);
+double growth_under_attack(Receiver& receiver, sim::links::Protocol protocol, int packets, double per_s);
 
 /// How a flood of packets that are all right was received.
 struct ValidFlood {

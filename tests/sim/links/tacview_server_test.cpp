@@ -105,9 +105,7 @@ TEST_CASE("stuck readers and a thousand half-open connections delay a live reade
     std::vector<std::unique_ptr<TcpClient>> half_open;
     const std::string state(2000, 'x');
     for (int frame = 0; frame < 100; ++frame) {
-        for (int i = 0; i < 10; ++i) {
-            half_open.push_back(std::make_unique<TcpClient>(server.port()));
-        }
+        for (int i = 0; i < 10; ++i) { half_open.push_back(std::make_unique<TcpClient>(server.port())); }
         const std::string mark = "#" + std::to_string(frame) + "\n";
         server.send(state + mark);
         std::string text;

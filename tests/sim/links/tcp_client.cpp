@@ -26,17 +26,14 @@ sockaddr socket_address(std::uint32_t address, std::uint16_t port) {
 
 } // namespace
 
-TcpClient::TcpClient(std::uint16_t port, std::uint32_t own_address)
-    : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+TcpClient::TcpClient(std::uint16_t port, std::uint32_t own_address) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     const sockaddr own = socket_address(own_address, 0);
     const sockaddr to = socket_address(loopback, port);
     REQUIRE(::bind(socket_, &own, sizeof(own)) == 0);
     REQUIRE(::connect(socket_, &to, sizeof(to)) == 0);
 }
 
-TcpClient::~TcpClient() {
-    ::close(socket_);
-}
+TcpClient::~TcpClient() { ::close(socket_); }
 
 long TcpClient::say(std::string_view text) const {
     return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);

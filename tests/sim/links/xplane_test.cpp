@@ -23,14 +23,10 @@ using Row = std::pair<std::int32_t, std::vector<float>>;
 
 std::vector<std::byte> packet(std::string_view head, const std::vector<Row>& rows) {
     WireWriter writer(ByteOrder::Little);
-    for (const char letter : head) {
-        writer.add(letter);
-    }
+    for (const char letter : head) { writer.add(letter); }
     for (const auto& [number, values] : rows) {
         writer.add(number);
-        for (const float value : values) {
-            writer.add(value);
-        }
+        for (const float value : values) { writer.add(value); }
     }
     return writer.take();
 }
@@ -91,13 +87,8 @@ TEST_CASE("groups that come in packets of their own are put together") {
 TEST_CASE("without group 21 speed and path say the velocity") {
     XPlanePose pose;
     // 194.384 kt over the ground are 100 m/s; path 30 degrees from north, 10 up.
-    const auto fix = fix_of(
-        pose,
-        packet(
-            "DATA*",
-            {group(3, {180.0F, 180.0F, 200.0F, 194.384F}),
-             group(18, {3.0F, 0.5F, 30.0F, 10.0F}),
-             place}));
+    const auto fix = fix_of(pose,
+        packet("DATA*", {group(3, {180.0F, 180.0F, 200.0F, 194.384F}), group(18, {3.0F, 0.5F, 30.0F, 10.0F}), place}));
     REQUIRE(fix);
     CHECK(fix->velocity_ned_mps->x == Approx(86.603).margin(1e-2));
     CHECK(fix->velocity_ned_mps->y == Approx(50.0).margin(1e-2));
@@ -107,8 +98,7 @@ TEST_CASE("without group 21 speed and path say the velocity") {
 TEST_CASE("the clock of group 1 counts while it runs") {
     XPlanePose pose;
     const auto at = [&](float time_s) {
-        const auto fix =
-            fix_of(pose, packet("DATA*", {group(1, {9.0F, 9.0F, time_s, 9.0F}), place}));
+        const auto fix = fix_of(pose, packet("DATA*", {group(1, {9.0F, 9.0F, time_s, 9.0F}), place}));
         REQUIRE(fix);
         return fix->sent_s;
     };
@@ -135,34 +125,17 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
         CHECK(reader.at<char>(4) == '\0');
         CHECK(reader.at<std::int32_t>(5) == 60);
         std::string name;
-        for (std::size_t at = 13; reader.at<char>(at) != '\0'; ++at) {
-            name += reader.at<char>(at);
-        }
+        for (std::size_t at = 13; reader.at<char>(at) != '\0'; ++at) { name += reader.at<char>(at); }
         asked.emplace_back(reader.at<std::int32_t>(9), name);
     }
-    const std::vector<std::pair<std::string, float>> world{
-        {"latitude", 47.25F},
-        {"longitude", 8.5F},
-        {"elevation", 1500.0F},
-        {"y_agl", 600.0F},
-        {"true_theta", 5.0F},
-        {"true_phi", -20.0F},
-        {"true_psi", 90.0F},
-        {"local_x", 10.0F},
-        {"local_y", 20.0F},
-        {"local_z", 30.0F},
-        {"local_vx", 100.0F},
-        {"local_vy", 3.0F},
-        {"local_vz", 4.0F},
-        {"P", 10.0F},
-        {"Q", 20.0F},
-        {"R", 30.0F}};
+    const std::vector<std::pair<std::string, float>> world{{"latitude", 47.25F}, {"longitude", 8.5F},
+        {"elevation", 1500.0F}, {"y_agl", 600.0F}, {"true_theta", 5.0F}, {"true_phi", -20.0F}, {"true_psi", 90.0F},
+        {"local_x", 10.0F}, {"local_y", 20.0F}, {"local_z", 30.0F}, {"local_vx", 100.0F}, {"local_vy", 3.0F},
+        {"local_vz", 4.0F}, {"P", 10.0F}, {"Q", 20.0F}, {"R", 30.0F}};
     std::vector<Row> answers;
     for (const auto& [number, name] : asked) {
         for (const auto& [end, value] : world) {
-            if (name == "sim/flightmodel/position/" + end) {
-                answers.push_back({number, {value}});
-            }
+            if (name == "sim/flightmodel/position/" + end) { answers.push_back({number, {value}}); }
         }
     }
     REQUIRE(answers.size() == world.size());
@@ -182,10 +155,9 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
     std::optional<Fix> fix;
     const DecodeResult verdict = pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix);
     CHECK(verdict.fault == PacketError::Unused);
-    CHECK(
-        xplane_text(verdict) ==
-        "X-Plane RREF lacks latitude, longitude and elevation under our request numbers; start "
-        "listen with --xplane HOST");
+    CHECK(xplane_text(verdict) ==
+          "X-Plane RREF lacks latitude, longitude and elevation under our request numbers; start "
+          "listen with --xplane HOST");
 }
 
 TEST_CASE("answers that bring a place in parts give no place before all parts are there") {
@@ -193,11 +165,8 @@ TEST_CASE("answers that bring a place in parts give no place before all parts ar
     std::optional<Fix> fix;
     const DecodeResult part = pose.take(packet("RREF,", {{7001, {47.25F}}}), fix);
     CHECK(part.fault == PacketError::Unused);
-    CHECK(
-        xplane_text(part) ==
-        "X-Plane RREF: a part of the answers; waits for latitude, longitude and elevation");
-    CHECK(
-        pose.take(packet("RREF,", {{7002, {8.5F}}, {7011, {100.0F}}}), fix).fault == PacketError::Unused);
+    CHECK(xplane_text(part) == "X-Plane RREF: a part of the answers; waits for latitude, longitude and elevation");
+    CHECK(pose.take(packet("RREF,", {{7002, {8.5F}}, {7011, {100.0F}}}), fix).fault == PacketError::Unused);
     CHECK_FALSE(fix);
     CHECK(pose.take(packet("RREF,", {{7003, {1500.0F}}}), fix).fault == PacketError::None);
     REQUIRE(fix);
@@ -216,14 +185,10 @@ TEST_CASE("local metres smooth places of single precision") {
         double worst_m = 0.0;
         for (int i = 0; i < 500; ++i) {
             const double north_m = 1.2 * i;
-            const Row here = group(
-                20, {static_cast<float>(47.25 + north_m / m_per_degree), 8.5F, 4921.26F, 2000.0F});
-            const Row metres =
-                group(21, {500.0F, 200.0F, static_cast<float>(-north_m), 0.0F, 0.0F, -60.0F});
+            const Row here = group(20, {static_cast<float>(47.25 + north_m / m_per_degree), 8.5F, 4921.26F, 2000.0F});
+            const Row metres = group(21, {500.0F, 200.0F, static_cast<float>(-north_m), 0.0F, 0.0F, -60.0F});
             std::vector<Row> rows{here};
-            if (with_local) {
-                rows.push_back(metres);
-            }
+            if (with_local) { rows.push_back(metres); }
             const auto fix = fix_of(pose, packet("DATA*", rows));
             REQUIRE(fix);
             CHECK(std::abs(fix->latitude_deg - 47.25 - north_m / m_per_degree) < 5e-6);
@@ -259,19 +224,13 @@ TEST_CASE("what is wrong with a packet of X-Plane is said") {
     auto cut = packet("DATA*", {place});
     cut.pop_back();
     CHECK(said(cut) == "X-Plane DATA: expected 5 bytes and 36 for each group, got 40");
-    CHECK(
-        said(packet("DATA*", {})) == "X-Plane DATA: expected 5 bytes and 36 for each group, got 5");
-    CHECK(
-        said(packet("RREF,", {{1, {}}})) ==
-        "X-Plane RREF: expected 5 bytes and 8 for each answer, got 9");
-    CHECK(
-        said(packet("DATA*", {group(20, {std::nanf(""), 8.0F, 0.0F, 0.0F})})) ==
-        "X-Plane DATA: expected numbers, got one that is none");
-    CHECK(
-        said(packet("DATA*", {group(20, {100.0F, 8.0F, 0.0F, 0.0F})})) ==
-        "X-Plane DATA: expected an aircraft near the earth, got none");
-    CHECK(
-        said(packet("BECN", {})) == "expected X-Plane DATA or RREF, got 4 bytes of something else");
+    CHECK(said(packet("DATA*", {})) == "X-Plane DATA: expected 5 bytes and 36 for each group, got 5");
+    CHECK(said(packet("RREF,", {{1, {}}})) == "X-Plane RREF: expected 5 bytes and 8 for each answer, got 9");
+    CHECK(said(packet("DATA*", {group(20, {std::nanf(""), 8.0F, 0.0F, 0.0F})})) ==
+          "X-Plane DATA: expected numbers, got one that is none");
+    CHECK(said(packet("DATA*", {group(20, {100.0F, 8.0F, 0.0F, 0.0F})})) ==
+          "X-Plane DATA: expected an aircraft near the earth, got none");
+    CHECK(said(packet("BECN", {})) == "expected X-Plane DATA or RREF, got 4 bytes of something else");
     CHECK_FALSE(fix);
     CHECK(said(packet("DATA*", {place})) == "X-Plane DATA: fine");
 }
@@ -302,8 +261,7 @@ TEST_CASE("a packet that is sent is X-Plane's, and comes back as it was") {
     CHECK(value(3, 3) == Approx(2.8624).margin(1e-3));  // and up
     CHECK(value(4, 2) == Approx(5000.0));               // ft above the sea
     CHECK(value(4, 3) == Approx(1000.0));
-    CHECK(
-        value(5, 2) == Approx(-1111.8).margin(1.0)); // 0.01 degrees north of the origin: z is south
+    CHECK(value(5, 2) == Approx(-1111.8).margin(1.0)); // 0.01 degrees north of the origin: z is south
     CHECK(value(5, 3) == Approx(80.0));
     CHECK(value(5, 5) == Approx(-60.0));
     XPlanePose pose;

@@ -17,13 +17,10 @@ TEST_CASE("built-in names lead to files, files stay what they are, other names a
     CHECK(ui::base::aircraft_file("./mine.obj") == "./mine.obj");
     CHECK(ui::base::path_file("turn", "500md").filename() == "500md-turn.toml");
     CHECK(ui::base::path_file("turn", "mine.obj").filename() == "f15-turn.toml");
-    CHECK_THROWS_WITH(
-        ui::base::aircraft_file("f16"),
+    CHECK_THROWS_WITH(ui::base::aircraft_file("f16"),
         "aircraft: expected f15, 500md, f15-detailed, 500md-detailed, concave or an OBJ file, got "
         "'f16'");
-    CHECK_THROWS_WITH(
-        ui::base::path_file("loop", "f15"),
-        Catch::Contains("expected straight, jinking, pop-up, turn"));
+    CHECK_THROWS_WITH(ui::base::path_file("loop", "f15"), Catch::Contains("expected straight, jinking, pop-up, turn"));
 }
 
 TEST_CASE("every known aircraft has its model, its cockpit and its four paths") {
@@ -32,8 +29,7 @@ TEST_CASE("every known aircraft has its model, its cockpit and its four paths") 
         CHECK(std::filesystem::is_regular_file(models / kind.model_file));
         CHECK(std::filesystem::is_regular_file(models / kind.cockpit_file));
         for (const std::string_view path : ui::base::built_in_paths) {
-            CHECK(std::filesystem::is_regular_file(
-                ui::base::path_file(std::string(path), std::string(kind.name))));
+            CHECK(std::filesystem::is_regular_file(ui::base::path_file(std::string(path), std::string(kind.name))));
         }
     }
 }
@@ -63,9 +59,8 @@ TEST_CASE("the shipped aircraft have the paper's counts and the aircraft's sizes
     };
 
     for (const Expected& expected :
-         {Expected{"f15", 63, 43}, Expected{"500md", 111, 64}, Expected{"concave", 14, 10}}) {
-        const models::polygons::PolygonModel model =
-            models::polygons::read_obj(ui::base::aircraft_file(expected.name));
+        {Expected{"f15", 63, 43}, Expected{"500md", 111, 64}, Expected{"concave", 14, 10}}) {
+        const models::polygons::PolygonModel model = models::polygons::read_obj(ui::base::aircraft_file(expected.name));
         CHECK(model.vertices_m.size() == expected.vertices);
         CHECK(model.polygons.size() == expected.polygons);
         CHECK(model.name == expected.name);
@@ -73,17 +68,14 @@ TEST_CASE("the shipped aircraft have the paper's counts and the aircraft's sizes
 }
 
 TEST_CASE("the F-15 is 19.43 m long, 13.05 m wide and 4.34 m high, and mirror-symmetric") {
-    const models::polygons::PolygonModel model =
-        models::polygons::read_obj(ui::base::aircraft_file("f15"));
+    const models::polygons::PolygonModel model = models::polygons::read_obj(ui::base::aircraft_file("f15"));
     glm::dvec3 least(1e9);
     glm::dvec3 most(-1e9);
     for (const glm::dvec3& v : model.vertices_m) {
         least = glm::min(least, v);
         most = glm::max(most, v);
-        const bool has_twin =
-            std::any_of(model.vertices_m.begin(), model.vertices_m.end(), [&](const glm::dvec3& w) {
-                return glm::length(w - glm::dvec3(v.x, -v.y, v.z)) < 1e-6;
-            });
+        const bool has_twin = std::any_of(model.vertices_m.begin(), model.vertices_m.end(),
+            [&](const glm::dvec3& w) { return glm::length(w - glm::dvec3(v.x, -v.y, v.z)) < 1e-6; });
         CHECK(has_twin);
     }
     CHECK((most - least).x == Approx(19.43).epsilon(0.02));
@@ -92,17 +84,14 @@ TEST_CASE("the F-15 is 19.43 m long, 13.05 m wide and 4.34 m high, and mirror-sy
 }
 
 TEST_CASE("the 500MD's body is 7.1 m long, its hub 2.7 m over the skids, its rotor 8.05 m across") {
-    const models::polygons::PolygonModel model =
-        models::polygons::read_obj(ui::base::aircraft_file("500md"));
+    const models::polygons::PolygonModel model = models::polygons::read_obj(ui::base::aircraft_file("500md"));
     double nose = -1e9;
     double tail = 1e9;
     double skids = -1e9;
     double rotor = 0.0;
     REQUIRE(model.pivots.size() == 2);
-    const auto found = std::find_if(
-        model.pivots.begin(), model.pivots.end(), [&](const models::polygons::Pivot& pivot) {
-            return model.parts[pivot.part] == "rotor";
-        });
+    const auto found = std::find_if(model.pivots.begin(), model.pivots.end(),
+        [&](const models::polygons::Pivot& pivot) { return model.parts[pivot.part] == "rotor"; });
     REQUIRE(found != model.pivots.end());
     const models::polygons::Pivot& hub = *found;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {

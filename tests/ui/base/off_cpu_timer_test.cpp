@@ -14,8 +14,7 @@ TEST_CASE("time without a processor is that of sleeping, not that of work") {
     const base::Stopwatch wall;
     const base::OffCpuTimer idle;
     const std::clock_t begun = std::clock();
-    while (static_cast<double>(std::clock() - begun) * 1e3 / CLOCKS_PER_SEC < at_work_ms) {
-    }
+    while (static_cast<double>(std::clock() - begun) * 1e3 / CLOCKS_PER_SEC < at_work_ms) {}
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(asleep_ms));
     const double idle_ms = idle.ms();
     CHECK(idle_ms >= asleep_ms - 1.0);

@@ -23,8 +23,7 @@ namespace {
 
 /// Over ground that is gentle enough for a runway.
 std::vector<std::string> flight() {
-    return {
-        "straight", "--aircraft", "concave", "--terrain", tests::small_map(), "--no-near-detail"};
+    return {"straight", "--aircraft", "concave", "--terrain", tests::small_map(), "--no-near-detail"};
 }
 
 ui::settings::RunSettings settings_of_flight() {
@@ -68,28 +67,18 @@ Seen seen(std::vector<std::string> options) {
     std::vector<std::string> arguments = flight();
     arguments.insert(arguments.begin(), "fly");
     arguments.insert(arguments.end(), options.begin(), options.end());
-    arguments.insert(arguments.end(), {"--view",       "free",
-                                       "--eye",        above(-150.0, 60.0),
-                                       "--look",       above(250.0, 0.0),
-                                       "--size",       "320x240",
-                                       "--samples",    "1",
-                                       "--visibility", "0",
-                                       "--frames",     "1",
-                                       "--pictures",   "1",
-                                       "--no-roads",   "--quiet",
-                                       "--record",     folder.string()});
+    arguments.insert(arguments.end(), {"--view", "free", "--eye", above(-150.0, 60.0), "--look", above(250.0, 0.0),
+                                          "--size", "320x240", "--samples", "1", "--visibility", "0", "--frames", "1",
+                                          "--pictures", "1", "--no-roads", "--quiet", "--record", folder.string()});
     const tests::ProgramRun run = tests::run_octant(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const ui::report::Picture picture = ui::report::read_png(folder / "picture-00000.png");
     Seen counted;
-    constexpr std::size_t above_runway =
-        std::size_t{3} * 320 * 85; // rows that show bright sky, too
+    constexpr std::size_t above_runway = std::size_t{3} * 320 * 85; // rows that show bright sky, too
     for (std::size_t pixel = above_runway; pixel < picture.bytes.size(); pixel += 3) {
-        const auto [least, most] = std::minmax(
-            {std::to_integer<int>(picture.bytes[pixel]),
-             std::to_integer<int>(picture.bytes[pixel + 1]),
-             std::to_integer<int>(picture.bytes[pixel + 2])});
+        const auto [least, most] = std::minmax({std::to_integer<int>(picture.bytes[pixel]),
+            std::to_integer<int>(picture.bytes[pixel + 1]), std::to_integer<int>(picture.bytes[pixel + 2])});
         counted.asphalt += most - least < 20 && most > 40 && most < 120 ? 1 : 0;
         counted.paint += most - least < 30 && least > 150 ? 1 : 0;
     }
@@ -100,8 +89,8 @@ Seen seen(std::vector<std::string> options) {
 
 TEST_CASE("a runway with markings is seen by each renderer, on textured ground too, and only if "
           "asked for") {
-    // Its corners lie 157 and 1,937 m before the eye and 68 below and 34 pixels above the middle of
-    // the picture, where 290 pixels are a radian: a trapezoid 83 and 7 pixels wide and 103 high.
+    // Its corners lie 157 and 1,937 m before the eye and 68 below and 34 pixels above the middle of the picture, where
+    // 290 pixels are a radian: a trapezoid 83 and 7 pixels wide and 103 high.
     constexpr double runway_px = 4600.0;
     const Seen none = seen({});
     CHECK(none.asphalt + none.paint < runway_px / 50.0);
@@ -110,13 +99,7 @@ TEST_CASE("a runway with markings is seen by each renderer, on textured ground t
             for (const char* const surface : {"octant", "depth-buffer"}) {
                 INFO(renderer << ' ' << shading << ' ' << surface);
                 const Seen there = seen(
-                    {"--airfield",
-                     "--renderer",
-                     renderer,
-                     "--ground-shading",
-                     shading,
-                     "--hidden-surface",
-                     surface});
+                    {"--airfield", "--renderer", renderer, "--ground-shading", shading, "--hidden-surface", surface});
                 CHECK(there.asphalt + there.paint == Approx(runway_px).epsilon(0.03));
                 CHECK(there.paint > runway_px / 8.0);
                 CHECK(there.paint < runway_px / 4.0);
@@ -128,8 +111,7 @@ TEST_CASE("a runway with markings is seen by each renderer, on textured ground t
 TEST_CASE("pictures with a runway are the same for any number of threads") {
     std::vector<std::string> arguments = flight();
     arguments.insert(
-        arguments.end(),
-        {"--airfield", "--size", "160x90", "--frames", "6", "--rate", "1", "--renderer", "raster"});
+        arguments.end(), {"--airfield", "--size", "160x90", "--frames", "6", "--rate", "1", "--renderer", "raster"});
     std::string first;
     for (const char* const threads : {"1", "2", "5"}) {
         std::vector<std::string> own = arguments;
@@ -147,8 +129,7 @@ TEST_CASE("ground with a runway is painted in order as the depth buffer shows it
     settings.view.kind = visuals::scene::View::Chase;
     const ui::flight::ComparisonWorlds worlds = ui::flight::load_comparison_worlds(settings);
     for (const auto& [renderer, every] :
-         {std::pair(ui::settings::RendererKind::Raster, 10),
-          std::pair(ui::settings::RendererKind::Gl, 60)}) {
+        {std::pair(ui::settings::RendererKind::Raster, 10), std::pair(ui::settings::RendererKind::Gl, 60)}) {
         settings.drawing.renderer = renderer;
         const ui::flight::IdComparison result =
             ui::flight::compare_with_depth_buffer(settings, worlds, every, [](int, int) {});
@@ -161,12 +142,8 @@ TEST_CASE("ground with a runway is painted in order as the depth buffer shows it
 }
 
 TEST_CASE("an airfield that cannot lie anywhere near is refused in one line") {
-    tests::check_refused(
-        "fly",
-        {"straight", "--terrain", "none", "--airfield"},
+    tests::check_refused("fly", {"straight", "--terrain", "none", "--airfield"},
         "--airfield: expected ground that can be levelled, got 'none'");
-    tests::check_refused(
-        "fly",
-        {"straight", "--terrain", tests::small_map(), "--water-level", "9000", "--airfield"},
+    tests::check_refused("fly", {"straight", "--terrain", tests::small_map(), "--water-level", "9000", "--airfield"},
         "--airfield: expected ground within 6 km of the path");
 }

@@ -12,9 +12,7 @@ namespace {
 
 const BenchScene& scene_named(const std::vector<BenchScene>& scenes, const std::string& name) {
     for (const BenchScene& scene : scenes) {
-        if (scene.name == name) {
-            return scene;
-        }
+        if (scene.name == name) { return scene; }
     }
     FAIL("no scene is named " << name);
     return scenes.front();
@@ -65,9 +63,7 @@ TEST_CASE("a table of costs has an airfield where there is room for one") {
     settings::RunSettings without = airfield.settings;
     without.ground.airfield = false;
     CHECK(without == scenes.front().settings);
-    for (const BenchScene& scene : scenes) {
-        CHECK(scene.settings.ground.airfield == (&scene == &airfield));
-    }
+    for (const BenchScene& scene : scenes) { CHECK(scene.settings.ground.airfield == (&scene == &airfield)); }
 }
 
 TEST_CASE("costs of features are timed over fewer frames than single scenes, unless it is said") {

@@ -38,16 +38,12 @@ constexpr int frames = 24;
 constexpr std::uint32_t loopback = 0x7f000001;
 
 /// A UDP port that nobody has just now.
-std::uint16_t free_port() {
-    return links::UdpPort(loopback, 0).port();
-}
+std::uint16_t free_port() { return links::UdpPort(loopback, 0).port(); }
 
 /// Runs the program, which prints to nowhere; several may run at a time.
 int run_silently(const std::vector<std::string>& arguments) {
     std::string command = fmt::format("'{}'", OCTANT_PROGRAM);
-    for (const std::string& word : arguments) {
-        command += fmt::format(" '{}'", word);
-    }
+    for (const std::string& word : arguments) { command += fmt::format(" '{}'", word); }
     return std::system((command + " >/dev/null 2>&1").c_str()); // NOLINT
 }
 
@@ -55,17 +51,14 @@ std::vector<FrameRecord> rows_of(const fs::path& folder) {
     return ui::report::read_frame_csv(folder / "frames.csv").records;
 }
 
-/// An image generator that draws nothing. It answers each message by a Start of Frame, from a port
-/// of its own, but what `loses` says of the host's frame and how often it came before is lost on
-/// the way.
+/// An image generator that draws nothing. It answers each message by a Start of Frame, from a port of its own, but what
+/// `loses` says of the host's frame and how often it came before is lost on the way.
 class Generator {
 public:
     using Loses = std::function<bool(std::uint32_t host_frame, int times)>;
 
     Generator(std::uint16_t host_port, Loses loses)
-        : host_port_(host_port)
-        , loses_(std::move(loses))
-        , thread_([this] { work(); }) {}
+        : host_port_(host_port), loses_(std::move(loses)), thread_([this] { work(); }) {}
 
     ~Generator() {
         done_ = true;
@@ -96,17 +89,12 @@ private:
             packets.clear();
             in_.drain(links::Protocol::Cigi, 0.0, packets);
             for (const links::Datagram& packet : packets) {
-                const auto host_frame =
-                    links::WireReader(packet.bytes, links::ByteOrder::Big).at<std::uint32_t>(8);
+                const auto host_frame = links::WireReader(packet.bytes, links::ByteOrder::Big).at<std::uint32_t>(8);
                 times = host_frame == last ? times + 1 : 0;
                 last = host_frame;
-                if (!loses_(host_frame, times)) {
-                    answer(host_frame);
-                }
+                if (!loses_(host_frame, times)) { answer(host_frame); }
             }
-            if (last == 0) {
-                answer(0);
-            }
+            if (last == 0) { answer(0); }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     }
@@ -131,23 +119,9 @@ LossyRun lossy_run(const std::string& name, Generator::Loses loses) {
     const std::uint16_t own = free_port();
     const Generator first(own, std::move(loses));
     const Generator second(own, [](std::uint32_t, int) { return false; });
-    const tests::ProgramRun run = tests::run_octant(
-        {"fly",
-         "turn",
-         "--frames",
-         "12",
-         "--size",
-         "32x18",
-         "--terrain",
-         "none",
-         "--pictures",
-         "0",
-         "--send",
-         fmt::format("cigi:127.0.0.1:{}:{}", second.port(), own),
-         "--send",
-         fmt::format("cigi:127.0.0.1:{}:{}", first.port(), own),
-         "--record",
-         folder.string()});
+    const tests::ProgramRun run = tests::run_octant({"fly", "turn", "--frames", "12", "--size", "32x18", "--terrain",
+        "none", "--pictures", "0", "--send", fmt::format("cigi:127.0.0.1:{}:{}", second.port(), own), "--send",
+        fmt::format("cigi:127.0.0.1:{}:{}", first.port(), own), "--record", folder.string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     return {rows_of(folder), read_text_file(folder / "report.html"), run.err};
@@ -156,8 +130,7 @@ LossyRun lossy_run(const std::string& name, Generator::Loses loses) {
 } // namespace
 
 TEST_CASE("a frame that a channel did not show counts as skew in its own row") {
-    const LossyRun run = lossy_run(
-        "channels-skew", [](std::uint32_t frame, int) { return frame == 5 || frame == 6; });
+    const LossyRun run = lossy_run("channels-skew", [](std::uint32_t frame, int) { return frame == 5 || frame == 6; });
     REQUIRE(run.rows.size() == 12);
     for (std::size_t k = 0; k < run.rows.size(); ++k) {
         CAPTURE(k);
@@ -168,12 +141,10 @@ TEST_CASE("a frame that a channel did not show counts as skew in its own row") {
 }
 
 TEST_CASE("a message to a channel that is lost is sent again, and no frame is missed") {
-    const LossyRun run = lossy_run("channels-again", [](std::uint32_t frame, int times) {
-        return frame % 3 == 0 && times == 0;
-    });
+    const LossyRun run =
+        lossy_run("channels-again", [](std::uint32_t frame, int times) { return frame % 3 == 0 && times == 0; });
     REQUIRE(run.rows.size() == 12);
-    CHECK(
-        std::ranges::all_of(run.rows, [](const FrameRecord& row) { return row.skew_frames == 0; }));
+    CHECK(std::ranges::all_of(run.rows, [](const FrameRecord& row) { return row.skew_frames == 0; }));
     CHECK_THAT(run.err, Contains("0 of 12 frames not shown in time; 4 messages sent again"));
 }
 
@@ -181,40 +152,19 @@ TEST_CASE("three octants show one world in step from one host") {
     const fs::path folder = tests::empty_folder("channels");
     const std::array<std::string, 3> names{"left", "front", "right"};
     const std::uint16_t own = free_port();
-    const std::vector<std::string> world{
-        "--size",
-        "96x54",
-        "--pictures",
-        "0",
-        "--aircraft",
-        "f15",
-        "--aircraft",
-        "500md",
-        "--terrain",
-        tests::small_ground()};
+    const std::vector<std::string> world{"--size", "96x54", "--pictures", "0", "--aircraft", "f15", "--aircraft",
+        "500md", "--terrain", tests::small_ground()};
     std::vector<std::string> host{
         "fly", "turn", "--frames", std::to_string(frames), "--record", (folder / "host").string()};
     std::vector<std::thread> channels;
     std::array<int, 3> exit_codes{-1, -1, -1};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::uint16_t port = free_port();
-        std::vector<std::string> arguments{
-            "listen",
-            "--headless",
-            "--step",
-            "--cigi-port",
-            std::to_string(port),
-            "--cigi-host",
-            fmt::format("127.0.0.1:{}", own),
-            "--channel",
-            names[i],
-            "--frames",
-            std::to_string(frames),
-            "--record",
-            (folder / names[i]).string()};
+        std::vector<std::string> arguments{"listen", "--headless", "--step", "--cigi-port", std::to_string(port),
+            "--cigi-host", fmt::format("127.0.0.1:{}", own), "--channel", names[i], "--frames", std::to_string(frames),
+            "--record", (folder / names[i]).string()};
         arguments.insert(arguments.end(), world.begin(), world.end());
-        channels.emplace_back(
-            [&exit_codes, i, arguments] { exit_codes[i] = run_silently(arguments); });
+        channels.emplace_back([&exit_codes, i, arguments] { exit_codes[i] = run_silently(arguments); });
         host.insert(host.end(), {"--send", fmt::format("cigi:127.0.0.1:{}:{}", port, own)});
     }
     host.insert(host.end(), world.begin(), world.end());
@@ -226,8 +176,7 @@ TEST_CASE("three octants show one world in step from one host") {
 
     const std::vector<FrameRecord> of_host = rows_of(folder / "host");
     REQUIRE(of_host.size() == frames);
-    CHECK(
-        std::ranges::all_of(of_host, [](const FrameRecord& row) { return row.skew_frames == 0; }));
+    CHECK(std::ranges::all_of(of_host, [](const FrameRecord& row) { return row.skew_frames == 0; }));
     CHECK_THAT(read_text_file(folder / "host" / "report.html"), Contains("0 frames, 0 of 24"));
 
     std::array<std::vector<FrameRecord>, 3> rows;

@@ -8,18 +8,14 @@ namespace octant::tests {
 
 namespace links = sim::links;
 
-void CigiBench::send(const links::WireWriter& message) {
-    socket_.send({loopback, generator_}, message.bytes());
-}
+void CigiBench::send(const links::WireWriter& message) { socket_.send({loopback, generator_}, message.bytes()); }
 
 bool CigiBench::await(const std::function<bool(const StartOfFrame&)>& says) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end = Clock::now() + std::chrono::seconds(30);
     while (Clock::now() < end) {
         listen();
-        if (std::ranges::any_of(heard_, says)) {
-            return true;
-        }
+        if (std::ranges::any_of(heard_, says)) { return true; }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return false;
@@ -31,30 +27,14 @@ void CigiBench::listen() {
     for (const links::Datagram& packet : packets) {
         const links::WireReader reader(packet.bytes, links::ByteOrder::Big);
         if (reader.at<std::uint8_t>(0) == 101) {
-            heard_.push_back(
-                {reader.at<std::uint32_t>(8),
-                 reader.at<std::uint32_t>(12),
-                 reader.at<std::uint32_t>(16)});
+            heard_.push_back({reader.at<std::uint32_t>(8), reader.at<std::uint32_t>(12), reader.at<std::uint32_t>(16)});
         }
     }
 }
 
-ProgramRun generate_for(
-    CigiBench& host, std::vector<std::string> arguments, const std::function<void()>& host_works) {
-    const std::vector<std::string> first{
-        "listen",
-        "--headless",
-        "--fdm-port",
-        "-1",
-        "--mavlink-port",
-        "-1",
-        "--dis-port",
-        "-1",
-        "--xplane-port",
-        "-1",
-        "--cigi-port",
-        std::to_string(host.generator()),
-        "--cigi-host",
+ProgramRun generate_for(CigiBench& host, std::vector<std::string> arguments, const std::function<void()>& host_works) {
+    const std::vector<std::string> first{"listen", "--headless", "--fdm-port", "-1", "--mavlink-port", "-1",
+        "--dis-port", "-1", "--xplane-port", "-1", "--cigi-port", std::to_string(host.generator()), "--cigi-host",
         "127.0.0.1:" + std::to_string(host.port())};
     arguments.insert(arguments.begin(), first.begin(), first.end());
     ProgramRun run;

@@ -45,7 +45,6 @@ private:
 };
 
 /// Runs the program as the host's image generator beside what the host does.
-ProgramRun generate_for(
-    CigiBench& host, std::vector<std::string> arguments, const std::function<void()>& host_works);
+ProgramRun generate_for(CigiBench& host, std::vector<std::string> arguments, const std::function<void()>& host_works);
 
 } // namespace octant::tests

@@ -2,8 +2,8 @@
 
 #include "sim/base/output_file.h"
 #include "sim/base/units.h"
-#include "sim/links/cigi_packet_header.h"
 #include "sim/links/cigi_host.h"
+#include "sim/links/cigi_packet_header.h"
 #include "sim/links/udp_port.h"
 #include "tests/scratch.h"
 #include "tests/ui/commands/cigi_bench.h"
@@ -47,10 +47,9 @@ struct Sides {
     double right_deg = 30.0;
 };
 
-/// What a host of the other byte order says in a frame: entity 0 of that type stands so high over
-/// the middle of the map and is seen from behind.
-links::WireWriter frame_of(
-    std::uint32_t number, std::uint16_t type, const Sides& sides = {}, double height_m = 700.0) {
+/// What a host of the other byte order says in a frame: entity 0 of that type stands so high over the middle of the map
+/// and is seen from behind.
+links::WireWriter frame_of(std::uint32_t number, std::uint16_t type, const Sides& sides = {}, double height_m = 700.0) {
     links::WireWriter message(links::ByteOrder::Little);
     links::CigiIgControl control;
     control.mode = links::CigiMode::Operate;
@@ -106,9 +105,7 @@ void look_back(links::WireWriter& message) {
 TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     const fs::path folder = tests::empty_folder("cigi-host");
     const fs::path table = folder / "entities.toml";
-    write_file(
-        table,
-        "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 9\naircraft = \"500md\"\n");
+    write_file(table, "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 9\naircraft = \"500md\"\n");
     std::vector<links::WireWriter> script;
     const auto next = [&](std::uint16_t type, float rotor_deg) -> links::WireWriter& {
         script.push_back(frame_of(static_cast<std::uint32_t>(script.size() + 1), type));
@@ -124,39 +121,26 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     next(jet, 30.0F);
     look_back(next(jet, 30.0F));
     CigiBench host;
-    const tests::ProgramRun run = generate_for(
-        host,
-        {"--step",
-         "--entities",
-         table.string(),
-         "--size",
-         "240x160",
-         "--pictures",
-         "1",
-         "--frames",
-         std::to_string(script.size()),
-         "--record",
-         (folder / "seen").string()},
+    const tests::ProgramRun run = generate_for(host,
+        {"--step", "--entities", table.string(), "--size", "240x160", "--pictures", "1", "--frames",
+            std::to_string(script.size()), "--record", (folder / "seen").string()},
         [&] {
             CHECK(host.await([](const StartOfFrame&) { return true; }));
             for (std::size_t i = 0; i < script.size(); ++i) {
                 host.send(script[i]);
-                CHECK(host.await(
-                    [i](const StartOfFrame& heard) { return heard.host_frame == i + 1; }));
+                CHECK(host.await([i](const StartOfFrame& heard) { return heard.host_frame == i + 1; }));
             }
         });
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const std::vector<FrameRecord> rows =
-        ui::report::read_frame_csv(folder / "seen" / "frames.csv").records;
+    const std::vector<FrameRecord> rows = ui::report::read_frame_csv(folder / "seen" / "frames.csv").records;
     REQUIRE(rows.size() == script.size());
     CHECK(rows[0].picture_hash == rows[1].picture_hash);
     for (std::size_t i = 2; i < rows.size(); ++i) {
         CAPTURE(i);
         CHECK(rows[i].picture_hash != rows[i - 1].picture_hash);
     }
-    const tests::ProgramRun replay =
-        tests::run_octant({"fly", "--replay", (folder / "seen").string()});
+    const tests::ProgramRun replay = tests::run_octant({"fly", "--replay", (folder / "seen").string()});
     CHECK_THAT(replay.out, Contains("same states, same pictures"));
 
     const fs::path packets = folder / "seen" / "packets.bin";
@@ -165,13 +149,10 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     REQUIRE(shapes < bytes.find('\n'));
     bytes.replace(shapes, 7, "1=0,9=2");
     write_file(packets, bytes);
-    const tests::ProgramRun wrong =
-        tests::run_octant({"fly", "--replay", (folder / "seen").string()});
+    const tests::ProgramRun wrong = tests::run_octant({"fly", "--replay", (folder / "seen").string()});
     CHECK(wrong.exit_code == 2);
     CHECK_THAT(
-        wrong.err,
-        Contains(
-            "packets.bin:1: expected entity type 9 to be one of 2 aircraft from 0, got number 2"));
+        wrong.err, Contains("packets.bin:1: expected entity type 9 to be one of 2 aircraft from 0, got number 2"));
 }
 
 TEST_CASE("a frustum beside straight ahead shows that part of the whole picture") {
@@ -180,21 +161,9 @@ TEST_CASE("a frustum beside straight ahead shows that part of the whole picture"
     const auto picture_of = [&](const Sides& sides, const std::string& size) {
         const fs::path record = folder / size;
         CigiBench host;
-        const tests::ProgramRun run = generate_for(
-            host,
-            {"--step",
-             "--terrain",
-             "hills",
-             "--error-px",
-             "1",
-             "--size",
-             size,
-             "--pictures",
-             "1",
-             "--frames",
-             "1",
-             "--record",
-             record.string()},
+        const tests::ProgramRun run = generate_for(host,
+            {"--step", "--terrain", "hills", "--error-px", "1", "--size", size, "--pictures", "1", "--frames", "1",
+                "--record", record.string()},
             [&] {
                 CHECK(host.await([](const StartOfFrame&) { return true; }));
                 host.send(frame_of(1, jet, sides, low_m));
@@ -204,8 +173,7 @@ TEST_CASE("a frustum beside straight ahead shows that part of the whole picture"
         REQUIRE(run.exit_code == 0);
         return ui::report::read_png(record / "picture-00000.png");
     };
-    // 20 degrees up and 30 to a side: 960 pixels are as wide as 605.5 high ones; 240 of them are
-    // the left quarter.
+    // 20 degrees up and 30 to a side: 960 pixels are as wide as 605.5 high ones; 240 of them are the left quarter.
     const double middle_deg = deg_from_rad(std::atan(0.5 * std::tan(rad_from_deg(30.0))));
     const auto whole = picture_of({-30.0, 30.0}, "960x606");
     const auto part = picture_of({-30.0, -middle_deg}, "240x606");
@@ -222,8 +190,7 @@ TEST_CASE("a frustum beside straight ahead shows that part of the whole picture"
             bool same = true;
             for (int c = 0; c < 3; ++c) {
                 constexpr int most = 6;
-                same = same &&
-                       std::abs(level(small, x, y, c) - level(whole, first_x + x, y, c)) <= most;
+                same = same && std::abs(level(small, x, y, c) - level(whole, first_x + x, y, c)) <= most;
             }
             count += same ? 0 : 1;
         }
@@ -237,8 +204,8 @@ TEST_CASE("a frustum beside straight ahead shows that part of the whole picture"
 TEST_CASE("an entity table says how many aircraft there are: --vehicles is refused beside it") {
     const fs::path table = tests::empty_folder("cigi-table") / "entities.toml";
     write_file(table, "[[entity]]\ntype = 1\naircraft = \"f15\"\n");
-    const tests::ProgramRun run = tests::run_octant(
-        {"listen", "--headless", "--frames", "1", "--entities", table.string(), "--vehicles", "3"});
+    const tests::ProgramRun run =
+        tests::run_octant({"listen", "--headless", "--frames", "1", "--entities", table.string(), "--vehicles", "3"});
     CHECK(run.exit_code == 2);
     CHECK_THAT(run.err, Contains("--vehicles: expected no --entities beside it"));
 }
@@ -246,8 +213,8 @@ TEST_CASE("an entity table says how many aircraft there are: --vehicles is refus
 TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silent") {
     constexpr double rate_hz = 60.0;
     CigiBench host;
-    const tests::ProgramRun run = generate_for(
-        host, {"--size", "64x36", "--pictures", "0", "--rate", "60", "--seconds", "8"}, [&] {
+    const tests::ProgramRun run =
+        generate_for(host, {"--size", "64x36", "--pictures", "0", "--rate", "60", "--seconds", "8"}, [&] {
             CHECK(host.await([](const StartOfFrame&) { return true; }));
             for (std::uint32_t frame = 1; frame <= 30; ++frame) {
                 host.send(frame_of(frame, jet));
@@ -270,8 +237,7 @@ TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silen
         missing += static_cast<int>(heard[i].ig_frame - heard[i - 1].ig_frame) - 1;
     }
     CHECK(missing == 0);
-    // By the generator's own clock, over those two seconds in which the machine was left to it
-    // most.
+    // By the generator's own clock, over those two seconds in which the machine was left to it most.
     constexpr std::size_t some = 120;
     REQUIRE(heard.size() > some);
     double min_wrong = 1.0;

@@ -22,8 +22,7 @@ void check_refusal(const ProgramRun& run, const std::string& expected) {
     CHECK(run.out.empty());
 }
 
-void check_refused(
-    const std::string& command, std::vector<std::string> arguments, const std::string& expected) {
+void check_refused(const std::string& command, std::vector<std::string> arguments, const std::string& expected) {
     arguments.insert(arguments.begin(), command);
     arguments.emplace_back("--quiet");
     check_refusal(run_octant(arguments), expected);

@@ -15,7 +15,6 @@ PrintedJson results_of_run(const std::string& command, std::vector<std::string> 
 void check_refusal(const ProgramRun& run, const std::string& expected);
 
 /// Checks that `octant COMMAND ARGUMENTS --quiet` is refused (check_refusal).
-void check_refused(
-    const std::string& command, std::vector<std::string> arguments, const std::string& expected);
+void check_refused(const std::string& command, std::vector<std::string> arguments, const std::string& expected);
 
 } // namespace octant::tests

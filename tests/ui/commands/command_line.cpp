@@ -19,39 +19,30 @@ namespace octant::tests {
 
 namespace {
 
-pid_t start(
-    const std::vector<std::string>& arguments, const std::string& out, const std::string& err) {
+pid_t start(const std::vector<std::string>& arguments, const std::string& out, const std::string& err) {
     std::vector<std::string> words = {OCTANT_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
-    std::ranges::transform(
-        words, std::back_inserter(pointers), [](std::string& word) { return word.data(); });
+    std::ranges::transform(words, std::back_inserter(pointers), [](std::string& word) { return word.data(); });
     pointers.push_back(nullptr);
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(
-        &files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    posix_spawn_file_actions_addopen(
-        &files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     // Shells let programs in the background ignore SIGINT.
     sigset_t usual{};
     sigemptyset(&usual);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-        sigaddset(&usual, number);
-    }
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) { sigaddset(&usual, number); }
     posix_spawnattr_t attributes{};
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setsigdefault(&attributes, &usual);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
-    const int fault =
-        posix_spawn(&child, OCTANT_PROGRAM, &files, &attributes, pointers.data(), environ);
+    const int fault = posix_spawn(&child, OCTANT_PROGRAM, &files, &attributes, pointers.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
-    if (fault != 0) {
-        throw std::runtime_error("the program cannot be started");
-    }
+    if (fault != 0) { throw std::runtime_error("the program cannot be started"); }
     return child;
 }
 
@@ -95,8 +86,6 @@ ProgramRun run_octant_and_signal(
     });
 }
 
-int lines_in(const std::string& text) {
-    return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-}
+int lines_in(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
 } // namespace octant::tests

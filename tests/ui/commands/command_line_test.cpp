@@ -15,42 +15,27 @@ Program small_program() {
     const Option out{.name = "--out", .form = "FILE", .read = read, .required = true};
     const Option frames{.name = "--frames", .form = "N", .read = read};
     const Option region{
-        .name = "--region",
-        .form = "X Y RADIUS",
-        .arity = Arity::OneOrMore,
-        .read = read,
-        .words_per_use = 3};
-    const Option quiet{
-        .name = "--quiet", .arity = Arity::None, .read = read, .shown_default = {}};
+        .name = "--region", .form = "X Y RADIUS", .arity = Arity::OneOrMore, .read = read, .words_per_use = 3};
+    const Option quiet{.name = "--quiet", .arity = Arity::None, .read = read, .shown_default = {}};
     const Option vsync{.name = "--vsync,!--no-vsync", .arity = Arity::None, .read = read};
     const Option input{.name = "in", .form = "FILE", .read = read, .required = true};
     const auto run = [] {};
-    return {
-        .about = "small",
+    return {.about = "small",
         .version = "1",
         .footer = {},
-        .commands = {
-            {.name = "fly",
-             .summary = "flies",
-             .options = {frames, quiet, vsync, region},
-             .run = run},
+        .commands = {{.name = "fly", .summary = "flies", .options = {frames, quiet, vsync, region}, .run = run},
             {.name = "terrain",
-             .summary = "ground",
-             .commands = {
-                 {.name = "make", .summary = "makes", .options = {input, out}, .run = run}}}}};
+                .summary = "ground",
+                .commands = {{.name = "make", .summary = "makes", .options = {input, out}, .run = run}}}}};
 }
 
 std::string refusal_of(std::vector<std::string> words) {
     words.insert(words.begin(), "octant");
     std::vector<const char*> arguments;
-    for (const std::string& word : words) {
-        arguments.push_back(word.c_str());
-    }
+    for (const std::string& word : words) { arguments.push_back(word.c_str()); }
     try {
         parse_command_line(small_program(), static_cast<int>(arguments.size()), arguments.data());
-    } catch (const std::exception& fault) {
-        return fault.what();
-    }
+    } catch (const std::exception& fault) { return fault.what(); }
     return "accepted";
 }
 
@@ -59,39 +44,27 @@ std::string refusal_of(std::vector<std::string> words) {
 TEST_CASE("what is wrong with a command line is said as what was expected and what came") {
     CHECK(refusal_of({"fly", "--frames", "3", "--quiet"}) == "accepted");
     CHECK(refusal_of({}) == "expected a command (fly, terrain), got none");
-    CHECK(
-        refusal_of({"terain"}) ==
-        "expected a command (fly, terrain), got terain; perhaps terrain is meant");
+    CHECK(refusal_of({"terain"}) == "expected a command (fly, terrain), got terain; perhaps terrain is meant");
     CHECK(refusal_of({"terrain"}) == "terrain: expected a command (make), got none");
-    CHECK(
-        refusal_of({"terrain", "maek"}) ==
-        "terrain: expected a command (make), got maek; perhaps make is meant");
-    CHECK(
-        refusal_of({"fly", "--frams", "3"}) ==
-        "fly: expected one of its options, got --frams; perhaps --frames is meant");
-    CHECK(
-        refusal_of({"fly", "--frams=3"}) ==
-        "fly: expected one of its options, got --frams=3; perhaps --frames is meant");
+    CHECK(refusal_of({"terrain", "maek"}) == "terrain: expected a command (make), got maek; perhaps make is meant");
+    CHECK(refusal_of({"fly", "--frams", "3"}) ==
+          "fly: expected one of its options, got --frams; perhaps --frames is meant");
+    CHECK(refusal_of({"fly", "--frams=3"}) ==
+          "fly: expected one of its options, got --frams=3; perhaps --frames is meant");
     CHECK(refusal_of({"fly", "-x"}) == "fly: expected one of its options, got -x");
     CHECK(refusal_of({"fly", "there"}) == "fly: expected no further argument, got 'there'");
     CHECK(refusal_of({"fly", "--frames"}) == "--frames: expected N, got none");
-    CHECK(
-        refusal_of({"fly", "--frames", "3", "--frames", "4"}) ==
-        "--frames: expected N once, got 3 4");
+    CHECK(refusal_of({"fly", "--frames", "3", "--frames", "4"}) == "--frames: expected N once, got 3 4");
     CHECK(refusal_of({"fly", "--frames", ""}) == "--frames: expected N, got none");
     CHECK(refusal_of({"terrain", "make", "", "--out", "a"}) == "IN: expected FILE, got none");
     CHECK(refusal_of({"fly", "--region", "1", "2"}) == "--region: expected X Y RADIUS, got 1 2");
-    CHECK(
-        refusal_of({"fly", "--quiet=perhaps"}) ==
-        "--quiet: expected nothing, =true or =false after it, got perhaps");
+    CHECK(refusal_of({"fly", "--quiet=perhaps"}) == "--quiet: expected nothing, =true or =false after it, got perhaps");
     for (const char* const value : {"3", "0", "1", "on", "False", "-1"}) {
-        CHECK(
-            refusal_of({"fly", std::string("--quiet=") + value}) ==
-            std::string("--quiet: expected nothing, =true or =false after it, got ") + value);
+        CHECK(refusal_of({"fly", std::string("--quiet=") + value}) ==
+              std::string("--quiet: expected nothing, =true or =false after it, got ") + value);
     }
-    CHECK(
-        refusal_of({"fly", "--no-vsync=false"}) ==
-        "--no-vsync: expected nothing after it, got false; --vsync=true or --vsync=false is taken");
+    CHECK(refusal_of({"fly", "--no-vsync=false"}) ==
+          "--no-vsync: expected nothing after it, got false; --vsync=true or --vsync=false is taken");
     CHECK(refusal_of({"terrain", "make"}) == "IN: expected FILE, got none");
     CHECK(refusal_of({"terrain", "make", "a.tif"}) == "--out: expected FILE, got none");
 }
@@ -100,15 +73,13 @@ TEST_CASE("a flag is set and unset by its value as by its names") {
     const auto value_after = [](bool before, const char* word) {
         bool value = before;
         const auto run = [] {};
-        const Program program{
-            .about = "small",
+        const Program program{.about = "small",
             .version = "1",
             .footer = {},
-            .commands = {
-                {.name = "fly",
-                 .summary = "flies",
-                 .options = {flag("--sky,!--no-sky", "sky", value), flag("--json", "", value)},
-                 .run = run}}};
+            .commands = {{.name = "fly",
+                .summary = "flies",
+                .options = {flag("--sky,!--no-sky", "sky", value), flag("--json", "", value)},
+                .run = run}}};
         const std::vector<const char*> arguments{"octant", "fly", word};
         parse_command_line(program, static_cast<int>(arguments.size()), arguments.data());
         return value;

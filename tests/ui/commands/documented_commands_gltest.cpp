@@ -29,8 +29,7 @@ namespace commands = octant::ui::commands;
 /// A scratch folder that is the working folder as long as this lives.
 class WorkingFolder {
 public:
-    explicit WorkingFolder(const std::string& name)
-        : before_(fs::current_path()) {
+    explicit WorkingFolder(const std::string& name) : before_(fs::current_path()) {
         fs::current_path(tests::empty_folder(name));
     }
 
@@ -48,24 +47,19 @@ private:
 /// What is wrong with a command line; empty when it can be read, with the files that it names.
 std::string fault_of(const CommandLine& line) {
     std::vector<const char*> words = {"octant"};
-    for (const std::string& word : line) {
-        words.push_back(word.c_str());
-    }
+    for (const std::string& word : line) { words.push_back(word.c_str()); }
     const commands::Program program =
         commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     try {
         commands::parse_command_line(program, static_cast<int>(words.size()), words.data());
-    } catch (const Error& fault) {
-        return fault.what();
-    }
+    } catch (const Error& fault) { return fault.what(); }
     return "";
 }
 
-/// Reads every line, with the files it names made where they are missing, and runs those that take
-/// no window and no minutes.
+/// Reads every line, with the files it names made where they are missing, and runs those that take no window and no
+/// minutes.
 void check_lines(const std::vector<CommandLine>& lines) {
-    constexpr std::array quick = {
-        "fly", "report", "terrain", "draw-order", "mesh-error", "refine", "simplify"};
+    constexpr std::array quick = {"fly", "report", "terrain", "draw-order", "mesh-error", "refine", "simplify"};
     for (const CommandLine& line : lines) {
         INFO(fmt::format("octant {}", fmt::join(line, " ")));
         tests::make_inputs(line);
@@ -84,9 +78,7 @@ void check_examples(const commands::Command& command) {
     INFO(command.name);
     CHECK_FALSE(lines.empty());
     check_lines(lines);
-    for (const commands::Command& below : command.commands) {
-        check_examples(below);
-    }
+    for (const commands::Command& below : command.commands) { check_examples(below); }
 }
 
 commands::Command command_named(std::string_view name) {
@@ -98,11 +90,10 @@ commands::Command command_named(std::string_view name) {
 } // namespace
 
 TEST_CASE("command lines are found in a text, without comments, parted by semicolons and &&") {
-    const auto lines =
-        tests::command_lines("Examples of octant:\n"
-                             "  octant fly turn --size 64x36   # a comment; octant no\n"
-                             "octant report a; octant report b && octant view\n"
-                             "cmake octant\n");
+    const auto lines = tests::command_lines("Examples of octant:\n"
+                                            "  octant fly turn --size 64x36   # a comment; octant no\n"
+                                            "octant report a; octant report b && octant view\n"
+                                            "cmake octant\n");
     REQUIRE(lines.size() == 4);
     CHECK(lines[0] == CommandLine{"fly", "turn", "--size", "64x36"});
     CHECK(lines[1] == CommandLine{"report", "a"});
@@ -140,8 +131,6 @@ TEST_CASE("the examples of every other command's --help can be read and, where q
     const commands::Program program =
         commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     for (const commands::Command& command : program.commands) {
-        if (command.name != "fly" && command.name != "terrain") {
-            check_examples(command);
-        }
+        if (command.name != "fly" && command.name != "terrain") { check_examples(command); }
     }
 }

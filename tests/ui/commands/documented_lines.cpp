@@ -29,16 +29,10 @@ void add_commands(std::string_view line, std::vector<CommandLine>& lines) {
         command.clear();
     };
     for (std::string_view word : split_words(line)) {
-        if (word.starts_with('#')) {
-            break;
-        }
+        if (word.starts_with('#')) { break; }
         const bool ends = word.ends_with(';') || word == "&&";
-        if (word != "&&") {
-            command.emplace_back(word.substr(0, word.size() - (word.ends_with(';') ? 1 : 0)));
-        }
-        if (ends) {
-            end_command();
-        }
+        if (word != "&&") { command.emplace_back(word.substr(0, word.size() - (word.ends_with(';') ? 1 : 0))); }
+        if (ends) { end_command(); }
     }
     end_command();
 }
@@ -53,15 +47,11 @@ void set_option(CommandLine& line, const std::string& name, const std::string& w
     }
 }
 
-bool has(const CommandLine& line, std::string_view word) {
-    return std::ranges::find(line, word) != line.end();
-}
+bool has(const CommandLine& line, std::string_view word) { return std::ranges::find(line, word) != line.end(); }
 
 void run_or_throw(const CommandLine& line) {
     const ProgramRun run = run_octant(line);
-    if (run.exit_code != 0) {
-        throw std::runtime_error("an input cannot be made: " + run.err);
-    }
+    if (run.exit_code != 0) { throw std::runtime_error("an input cannot be made: " + run.err); }
 }
 
 /// A small input for each kind of file and a recording, made once.
@@ -76,26 +66,20 @@ const fs::path& seed_folder() {
         run_or_throw({"draw-order", "concave", "--export-model", file("seed.obj")});
         run_or_throw(shortened({"fly", "straight", "--record", file("recording")}));
         fs::copy_file(made / "recording" / "track.csv", made / "seed.csv");
-        fs::copy_file(
-            fs::path(OCTANT_SOURCE_DIR) / "flightpaths/f15-turn.toml", made / "seed.toml");
+        fs::copy_file(fs::path(OCTANT_SOURCE_DIR) / "flightpaths/f15-turn.toml", made / "seed.toml");
         return made;
     }();
     return folder;
 }
 
 void make_recording(const fs::path& folder) {
-    if (!fs::exists(folder)) {
-        fs::copy(seed_folder() / "recording", folder, fs::copy_options::recursive);
-    }
+    if (!fs::exists(folder)) { fs::copy(seed_folder() / "recording", folder, fs::copy_options::recursive); }
 }
 
 /// Makes what a word names, which stands behind `option`.
 void make_input(const std::string& option, const fs::path& file) {
-    constexpr std::array outputs = {
-        "--out", "--out-partition", "--export", "--export-model", "--save", "--nodes"};
-    if (std::ranges::find(outputs, option) != outputs.end()) {
-        return;
-    }
+    constexpr std::array outputs = {"--out", "--out-partition", "--export", "--export-model", "--save", "--nodes"};
+    if (std::ranges::find(outputs, option) != outputs.end()) { return; }
     if (option == "--replay") {
         make_recording(file);
     } else if (file.filename() == "run.json") {
@@ -119,9 +103,7 @@ void make_input(const std::string& option, const fs::path& file) {
 
 std::vector<CommandLine> command_lines(std::string_view text) {
     std::vector<CommandLine> lines;
-    for (const std::string_view line : split_lines(text)) {
-        add_commands(line, lines);
-    }
+    for (const std::string_view line : split_lines(text)) { add_commands(line, lines); }
     return lines;
 }
 
@@ -144,9 +126,7 @@ std::vector<fs::path> readme_files() {
     std::vector<fs::path> files;
     for (const char* top : {"sim", "flightpaths", "models", "visuals", "ui", "tests"}) {
         for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
-            if (entry.path().filename() == "README.md") {
-                files.push_back(entry.path());
-            }
+            if (entry.path().filename() == "README.md") { files.push_back(entry.path()); }
         }
     }
     std::ranges::sort(files);
@@ -155,32 +135,24 @@ std::vector<fs::path> readme_files() {
 }
 
 CommandLine shortened(CommandLine line) {
-    const std::string command =
-        line.front() == "terrain" && line.size() > 1 ? "terrain " + line[1] : line.front();
+    const std::string command = line.front() == "terrain" && line.size() > 1 ? "terrain " + line[1] : line.front();
     // Large enough for the paths that fly over them.
     static const std::map<std::string, std::vector<std::pair<std::string, std::string>>> quick = {
-        {"fly", {{"--frames", "12"}, {"--size", "64x36"}}},
-        {"terrain make", {{"--size", "129"}, {"--spacing", "160"}}},
-        {"terrain error", {{"--size", "64x36"}}},
-        {"terrain check", {{"--views", "2"}}},
+        {"fly", {{"--frames", "12"}, {"--size", "64x36"}}}, {"terrain make", {{"--size", "129"}, {"--spacing", "160"}}},
+        {"terrain error", {{"--size", "64x36"}}}, {"terrain check", {{"--views", "2"}}},
         {"mesh-error", {{"--samples", "1000"}}}};
     const auto found = quick.find(command);
     if (found != quick.end() && !has(line, "--replay")) {
-        for (const auto& [name, word] : found->second) {
-            set_option(line, name, word);
-        }
+        for (const auto& [name, word] : found->second) { set_option(line, name, word); }
     }
-    if (command == "fly" && !has(line, "--terrain") && !has(line, "--settings") &&
-        !has(line, "--replay")) {
+    if (command == "fly" && !has(line, "--terrain") && !has(line, "--settings") && !has(line, "--replay")) {
         line.insert(line.end(), {"--terrain", small_ground()});
     }
     // Of one aircraft many lines fly: its order is found once.
     if (command == "fly" && !has(line, "--order-cache") && !has(line, "--replay")) {
         line.insert(line.end(), {"--order-cache", (scratch_folder() / "orders").string()});
     }
-    if (has(line, "--check")) {
-        set_option(line, "--rays", "1000");
-    }
+    if (has(line, "--check")) { set_option(line, "--rays", "1000"); }
     return line;
 }
 

@@ -19,9 +19,7 @@ std::filesystem::path order_cache_folder() {
     return made;
 }
 
-std::string order_file(const std::string& name) {
-    return (order_cache_folder() / name).string();
-}
+std::string order_file(const std::string& name) { return (order_cache_folder() / name).string(); }
 
 tests::ProgramRun draw_order(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "draw-order");
@@ -89,41 +87,22 @@ TEST_CASE("exported orders and the exported model pass the check, split polygons
     write_file(order_file("plates.obj"), crossing_plates);
     for (const char* axes : {"right,up,back", "forward,left,up"}) {
         for (const char* method : {"cells", "tree"}) {
-            const auto out = draw_order(
-                {order_file("plates.obj"),
-                 "--axes",
-                 axes,
-                 "--method",
-                 method,
-                 "--export",
-                 order_file("orders.txt"),
-                 "--export-model",
-                 order_file("split.obj"),
-                 "--json"});
+            const auto out = draw_order({order_file("plates.obj"), "--axes", axes, "--method", method, "--export",
+                order_file("orders.txt"), "--export-model", order_file("split.obj"), "--json"});
             CHECK(out.exit_code == 0);
             CHECK(order_figures(out)["splits"] > 0);
-            CHECK(
-                read_file(order_file("orders.txt")).find("\nparents 0 1 2 3 ") !=
-                std::string::npos);
-            const auto check = draw_order(
-                {order_file("split.obj"),
-                 "--axes",
-                 axes,
-                 "--check",
-                 order_file("orders.txt"),
-                 "--json"});
+            CHECK(read_file(order_file("orders.txt")).find("\nparents 0 1 2 3 ") != std::string::npos);
+            const auto check =
+                draw_order({order_file("split.obj"), "--axes", axes, "--check", order_file("orders.txt"), "--json"});
             CHECK(check.exit_code == 0);
             CHECK(order_figures(check)["right"] == true);
-            CHECK(
-                draw_order({order_file("plates.obj"), "--check", order_file("orders.txt")})
-                    .exit_code == 2);
+            CHECK(draw_order({order_file("plates.obj"), "--check", order_file("orders.txt")}).exit_code == 2);
         }
     }
 }
 
 TEST_CASE("an order of another model's, or with two polygons exchanged, does not pass") {
-    const auto out =
-        draw_order({"concave", "--method", "paper", "--export", order_file("table.txt")});
+    const auto out = draw_order({"concave", "--method", "paper", "--export", order_file("table.txt")});
     CHECK(out.exit_code == 0);
     CHECK(draw_order({"concave", "--check", order_file("table.txt")}).exit_code == 0);
     std::string text = read_file(order_file("table.txt"));
@@ -147,39 +126,32 @@ TEST_CASE("rays alone find the file order of a missing cell") {
 
 TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_order_refused({}, "model");
-    check_order_refused(
-        {"f16"},
-        "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ "
-        "file, got 'f16'");
+    check_order_refused({"f16"}, "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ "
+                                 "file, got 'f16'");
     check_order_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
     write_file(order_file("empty.obj"), "");
     check_order_refused({order_file("empty.obj")}, "empty.obj");
-    check_order_refused(
-        {"f15", "--method", "magic"}, "--method: expected one of paper, cells, tree");
+    check_order_refused({"f15", "--method", "magic"}, "--method: expected one of paper, cells, tree");
     check_order_refused({"f15", "--min-distance", "nan"}, "--min-distance");
     check_order_refused({"f15", "--rays", "-1"}, "--rays");
     check_order_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");
     check_order_refused({"f15", "--export-model", order_file("x.txt")}, "ends in .obj");
-    check_order_refused(
-        {"f15", "--export", order_file("x.obj"), "--export-model", order_file("x.obj")},
+    check_order_refused({"f15", "--export", order_file("x.obj"), "--export-model", order_file("x.obj")},
         "expected another file than --export-model");
     CHECK_FALSE(std::filesystem::exists(order_cache_folder() / "x.obj"));
     check_order_refused({"f15", "--check", "/nowhere/x.txt"}, "/nowhere/x.txt: expected a file");
     write_file(order_file("wrong.txt"), "draworder 1\nfaces 43\ncell ++- order 0 43\n");
-    check_order_refused(
-        {"f15", "--check", order_file("wrong.txt")},
+    check_order_refused({"f15", "--check", order_file("wrong.txt")},
         "wrong.txt:3: expected a polygon of the model (0 to 42), got '43'");
     write_file(order_file("plates.obj"), crossing_plates);
     check_order_refused({order_file("plates.obj"), "--axes", "up,up,up"}, "axes: expected");
     check_order_refused(
-        {order_file("plates.obj"), "--export-model", order_file("plates.obj")},
-        "expected another file than the model");
+        {order_file("plates.obj"), "--export-model", order_file("plates.obj")}, "expected another file than the model");
     CHECK_FALSE(std::filesystem::exists(order_cache_folder() / "x.txt"));
 }
 
 TEST_CASE("the study of draw orders writes its tables") {
-    const auto run =
-        run_octant({"study", "draw-order", "--out", order_file("study"), "--json", "--quiet"});
+    const auto run = run_octant({"study", "draw-order", "--out", order_file("study"), "--json", "--quiet"});
     CHECK(run.exit_code == 0);
     const auto tables = tests::PrintedJson(run.out);
     REQUIRE(tables.size() == 5);
@@ -197,8 +169,7 @@ TEST_CASE("the study of draw orders writes its tables") {
         CHECK((row["eyes"] != "2 to 20 R" || row["cells"] == 0));
         CHECK(row["back faces removed only"] > 0.1);
     }
-    for (const char* name :
-         {"table-1.csv", "table-4.csv", "methods.csv", "wrong-pixels.csv", "bsp.csv"}) {
+    for (const char* name : {"table-1.csv", "table-4.csv", "methods.csv", "wrong-pixels.csv", "bsp.csv"}) {
         CHECK(std::filesystem::exists(order_cache_folder() / "study" / name));
     }
     CHECK(run_octant({"study", "draw-order", "--out", "/proc/x"}).exit_code == 2);

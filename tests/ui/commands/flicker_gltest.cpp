@@ -20,41 +20,18 @@ std::filesystem::path flicker_folder() {
 
 std::string made_field(const std::string& kind) {
     const std::string file = (flicker_folder() / (kind + ".tif")).string();
-    const tests::ProgramRun run = run_octant(
-        {"terrain",
-         "make",
-         "--kind",
-         kind,
-         "--size",
-         "257",
-         "--spacing",
-         "40",
-         "--out",
-         file,
-         "--quiet"});
+    const tests::ProgramRun run =
+        run_octant({"terrain", "make", "--kind", kind, "--size", "257", "--spacing", "40", "--out", file, "--quiet"});
     REQUIRE(run.exit_code == 0);
     return file;
 }
 
 tests::ProgramRun flicker_study(const std::string& out) {
-    return run_octant(
-        {"study",
-         "flicker",
-         "--out",
-         (flicker_folder() / out).string(),
-         "--gentle",
-         made_field("hills"),
-         "--rugged",
-         made_field("canyon"),
-         "--frames",
-         "100",
-         "--json",
-         "--quiet"});
+    return run_octant({"study", "flicker", "--out", (flicker_folder() / out).string(), "--gentle", made_field("hills"),
+        "--rugged", made_field("canyon"), "--frames", "100", "--json", "--quiet"});
 }
 
-bool is_number_to_15(const tests::PrintedJson& cell) {
-    return cell.is_number() && cell.number() <= 15;
-}
+bool is_number_to_15(const tests::PrintedJson& cell) { return cell.is_number() && cell.number() <= 15; }
 
 } // namespace
 
@@ -91,33 +68,19 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
     }
     CHECK(met == 3);
     CHECK(flicker_study("b").out == run.out);
-    for (const char* file :
-         {"fixed-rugged.csv",
-          "fixed-gentle.csv",
-          "path.csv",
-          "damping.csv",
-          "stability.csv",
-          "relief.csv",
-          "path-gentle.csv",
-          "path-rugged.csv",
-          "flicker.md"}) {
+    for (const char* file : {"fixed-rugged.csv", "fixed-gentle.csv", "path.csv", "damping.csv", "stability.csv",
+             "relief.csv", "path-gentle.csv", "path-rugged.csv", "flicker.md"}) {
         INFO(file);
         const std::string text = read_file(flicker_folder() / "a" / file);
         CHECK_FALSE(text.empty());
         CHECK(read_file(flicker_folder() / "b" / file) == text);
     }
     CHECK(tests::lines_in(read_file(flicker_folder() / "a" / "path-rugged.csv")) == 100);
-    if (read_file(flicker_folder() / "a" / "flicker.md").find("figure-3.png") ==
-        std::string::npos) {
+    if (read_file(flicker_folder() / "a" / "flicker.md").find("figure-3.png") == std::string::npos) {
         return; // gnuplot is not installed
     }
     for (const char* file :
-         {"figure-3.png",
-          "figure-5.png",
-          "figure-6.png",
-          "figure-8.png",
-          "figure-9.png",
-          "damping.png"}) {
+        {"figure-3.png", "figure-5.png", "figure-6.png", "figure-8.png", "figure-9.png", "damping.png"}) {
         const std::string png = read_file(flicker_folder() / "a" / file);
         CHECK(png.substr(1, 3) == "PNG");
         CHECK(read_file(flicker_folder() / "b" / file) == png);
@@ -125,8 +88,8 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
 }
 
 TEST_CASE("the flicker study refuses ground that is not there") {
-    const tests::ProgramRun run = run_octant(
-        {"study", "flicker", "--out", (flicker_folder() / "none").string(), "--rugged", "hols"});
+    const tests::ProgramRun run =
+        run_octant({"study", "flicker", "--out", (flicker_folder() / "none").string(), "--rugged", "hols"});
     CHECK(run.exit_code == 2);
     CHECK(tests::lines_in(run.err) == 1);
     CHECK(run.err.find("expected hills, canyon or a file, got 'hols'") != std::string::npos);

@@ -32,8 +32,7 @@ Hashes fly(std::vector<std::string> arguments) {
     }
     arguments.insert(arguments.begin(), "fly");
     arguments.insert(
-        arguments.end(),
-        {"--size", "160x90", "--frames", "12", "--triangles", "3000", "--json", "--quiet"});
+        arguments.end(), {"--size", "160x90", "--frames", "12", "--triangles", "3000", "--json", "--quiet"});
     const tests::ProgramRun run = run_octant(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
@@ -44,8 +43,7 @@ Hashes fly(std::vector<std::string> arguments) {
 } // namespace
 
 TEST_CASE("the same settings give the same hashes for any number of drawing threads") {
-    const std::vector<std::string> settings = {
-        "jinking", "--aircraft", "500md", "--terrain", "canyon"};
+    const std::vector<std::string> settings = {"jinking", "--aircraft", "500md", "--terrain", "canyon"};
     const Hashes first = fly(settings);
     CHECK(fly(settings) == first);
     for (const char* threads : {"1", "3"}) {
@@ -58,21 +56,14 @@ TEST_CASE("the same settings give the same hashes for any number of drawing thre
 
 TEST_CASE("a run is repeated from its run.json") {
     const auto folder = tests::empty_folder("repeat") / "first";
-    const Hashes first =
-        fly({"turn", "--view", "orbit", "--heading", "40", "--record", folder.string()});
+    const Hashes first = fly({"turn", "--view", "orbit", "--heading", "40", "--record", folder.string()});
     const tests::ProgramRun repeat_option =
         run_octant({"fly", "--settings", (folder / "run.json").string(), "--json", "--quiet"});
     REQUIRE(repeat_option.exit_code == 0);
     CHECK(tests::PrintedJson(repeat_option.out)["picture_hash"] == first.picture);
     CHECK(tests::PrintedJson(repeat_option.out)["state_hash"] == first.state);
     for (const char* name :
-         {"frames.csv",
-          "mangohud.csv",
-          "trace.json",
-          "track.csv",
-          "track.acmi",
-          "report.html",
-          "picture-00000.png"}) {
+        {"frames.csv", "mangohud.csv", "trace.json", "track.csv", "track.acmi", "report.html", "picture-00000.png"}) {
         CHECK(std::filesystem::exists(folder / name));
     }
 }
@@ -90,11 +81,9 @@ TEST_CASE("only the columns of time may differ between two runs") {
             const auto fields = split_fields(row, ',');
             REQUIRE(fields.size() == header.size());
             for (std::size_t i = 0; i < fields.size(); ++i) {
-                const bool timing = header[i] == "wall_s" || header[i].ends_with("_ms") ||
-                                    header[i] == "stress" || header[i] == "overrun";
-                if (!timing) {
-                    kept.emplace_back(fields[i]);
-                }
+                const bool timing = header[i] == "wall_s" || header[i].ends_with("_ms") || header[i] == "stress" ||
+                                    header[i] == "overrun";
+                if (!timing) { kept.emplace_back(fields[i]); }
             }
             lines.push_back(kept);
         }
@@ -105,24 +94,9 @@ TEST_CASE("only the columns of time may differ between two runs") {
 
 TEST_CASE("a recorded track can be flown and gives the flight it came from") {
     const auto folder = tests::empty_folder("track");
-    fly(
-        {"pop-up",
-         "--heading",
-         "0",
-         "--frame-per-sample",
-         "--record",
-         (folder / "first").string()});
-    fly(
-        {(folder / "first" / "track.csv").string(),
-         "--heading",
-         "0",
-         "--place",
-         "0,0",
-         "--height-mode",
-         "datum",
-         "--frame-per-sample",
-         "--record",
-         (folder / "again").string()});
+    fly({"pop-up", "--heading", "0", "--frame-per-sample", "--record", (folder / "first").string()});
+    fly({(folder / "first" / "track.csv").string(), "--heading", "0", "--place", "0,0", "--height-mode", "datum",
+        "--frame-per-sample", "--record", (folder / "again").string()});
     const auto first = ui::report::read_frame_csv(folder / "first/frames.csv").records;
     const auto repeat_option = ui::report::read_frame_csv(folder / "again/frames.csv").records;
     REQUIRE(first.size() == 12);
@@ -134,9 +108,8 @@ TEST_CASE("a recorded track can be flown and gives the flight it came from") {
 }
 
 TEST_CASE("several aircraft fly together") {
-    CHECK(
-        fly({"straight", "--aircraft", "f15", "--aircraft", "f15", "--aircraft", "500md"})
-            .picture != fly({"straight", "--aircraft", "f15"}).picture);
+    CHECK(fly({"straight", "--aircraft", "f15", "--aircraft", "f15", "--aircraft", "500md"}).picture !=
+          fly({"straight", "--aircraft", "f15"}).picture);
 }
 
 TEST_CASE("who asks for detail near the eye is told where the ground cannot show it") {
@@ -145,14 +118,11 @@ TEST_CASE("who asks for detail near the eye is told where the ground cannot show
         words.insert(words.end(), {"--frames", "1", "--size", "64x48"});
         return run_octant(words).err;
     };
-    CHECK_THAT(
-        told({"--terrain", "background60", "--scenery"}),
+    CHECK_THAT(told({"--terrain", "background60", "--scenery"}),
         Contains("note: --scenery shows nothing: background60 has no samples"));
-    CHECK_THAT(
-        told({"--terrain", tests::small_map(), "--mesh", "midpoint", "--near-detail"}),
+    CHECK_THAT(told({"--terrain", tests::small_map(), "--mesh", "midpoint", "--near-detail"}),
         Contains("note: --near-detail shows nothing: only ground that is refined by screen-error"));
-    CHECK_THAT(
-        told({"--terrain", tests::small_map(), "--ground-shading", "texture", "--scenery"}),
+    CHECK_THAT(told({"--terrain", tests::small_map(), "--ground-shading", "texture", "--scenery"}),
         Contains("note: --scenery shows nothing: where a texture colours the ground"));
     CHECK_THAT(told({"--terrain", "background60"}), !Contains("shows nothing"));
     CHECK_THAT(told({"--terrain", tests::small_map(), "--scenery"}), !Contains("shows nothing"));
@@ -160,18 +130,8 @@ TEST_CASE("who asks for detail near the eye is told where the ground cannot show
 
 TEST_CASE("a finished flight is skipped when asked, unless something has changed") {
     const auto folder = tests::empty_folder("skip") / "out";
-    const std::vector<std::string> flight = {
-        "fly",
-        "straight",
-        "--size",
-        "160x90",
-        "--frames",
-        "5",
-        "--terrain",
-        tests::small_ground(),
-        "--record",
-        folder.string(),
-        "--if-new"};
+    const std::vector<std::string> flight = {"fly", "straight", "--size", "160x90", "--frames", "5", "--terrain",
+        tests::small_ground(), "--record", folder.string(), "--if-new"};
     CHECK(run_octant(flight).out.find("picture hash") != std::string::npos);
     const tests::ProgramRun second = run_octant(flight);
     CHECK(second.exit_code == 0);
@@ -189,15 +149,8 @@ TEST_CASE("help names every command and each setting with its unit and default")
         CHECK(help.out.find(command) != std::string::npos);
     }
     const std::string fly_help = run_octant({"fly", "--help"}).out;
-    for (const char* option :
-         {"--place",
-          "--height-mode",
-          "--hidden-surface",
-          "--detail",
-          "--triangles",
-          "--record",
-          "METRES",
-          "Examples:"}) {
+    for (const char* option : {"--place", "--height-mode", "--hidden-surface", "--detail", "--triangles", "--record",
+             "METRES", "Examples:"}) {
         INFO(option);
         CHECK(fly_help.find(option) != std::string::npos);
     }

@@ -1,5 +1,5 @@
-#include "models/procedural/background60.h"
 #include "models/polygons/obj_writer.h"
+#include "models/procedural/background60.h"
 #include "tests/scratch.h"
 #include "tests/ui/flight/kept_world.h"
 #include "ui/flight/id_comparison.h"
@@ -26,8 +26,7 @@ visuals::scene::Picture picture_of(int width, int height, const std::vector<std:
     return picture;
 }
 
-ui::settings::RunSettings
-canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
+ui::settings::RunSettings canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
     ui::settings::RunSettings settings = ui::settings::measurement_settings();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
@@ -44,14 +43,11 @@ ui::flight::ComparisonWorlds worlds_of(const ui::settings::RunSettings& settings
 }
 
 ui::flight::IdComparison compare(const ui::settings::RunSettings& settings, int every) {
-    return ui::flight::compare_with_depth_buffer(
-        settings, worlds_of(settings), every, [](int, int) {});
+    return ui::flight::compare_with_depth_buffer(settings, worlds_of(settings), every, [](int, int) {});
 }
 
-ui::studies::draw_order::RayComparison
-with_rays(const ui::settings::RunSettings& settings, int every) {
-    return ui::studies::draw_order::compare_with_rays(
-        settings, worlds_of(settings), every, [](int, int) {});
+ui::studies::draw_order::RayComparison with_rays(const ui::settings::RunSettings& settings, int every) {
+    return ui::studies::draw_order::compare_with_rays(settings, worlds_of(settings), every, [](int, int) {});
 }
 
 /// Compares more frames than `fewest`, each of which must show what the depth buffer shows.
@@ -90,7 +86,7 @@ TEST_CASE("detail between samples, trees and houses are painted as the depth buf
     for (const char* const terrain : {"hills", "canyon"}) {
         for (const View view : {View::Chase, View::Tower}) {
             for (const auto& [detail, scenery] :
-                 {std::pair{true, true}, std::pair{true, false}, std::pair{false, true}}) {
+                {std::pair{true, true}, std::pair{true, false}, std::pair{false, true}}) {
                 if (view == View::Tower && !(detail && scenery)) {
                     continue; // The tower looks at the same ground through the same steps.
                 }
@@ -109,8 +105,7 @@ TEST_CASE("cockpits, with detail beyond them, are painted as the depth buffer sh
     for (const auto& [aircraft, terrain] : {std::pair{"f15", "canyon"}, {"500md", "hills"}}) {
         for (const double azimuth_deg : {0.0, -70.0, 70.0}) {
             INFO(aircraft << " turned by " << azimuth_deg);
-            ui::settings::RunSettings settings =
-                canyon_flight("pop-up", aircraft, visuals::scene::View::Cockpit);
+            ui::settings::RunSettings settings = canyon_flight("pop-up", aircraft, visuals::scene::View::Cockpit);
             settings.path.terrain = terrain;
             settings.view.azimuth_deg = azimuth_deg;
             settings.ground.near_detail = true;
@@ -147,30 +142,25 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
 }
 
 TEST_CASE("models of hundreds of polygons are painted as rays see them") {
-    // A torus and two that pass through it, the second of which repeats the first polygon by
-    // polygon: rings, cuts and polygons in one plane. Where polygons cross, a depth buffer rounds.
+    // A torus and two that pass through it, the second of which repeats the first polygon by polygon: rings, cuts and
+    // polygons in one plane. Where polygons cross, a depth buffer rounds.
     auto model = models::procedural::torus();
     const std::string file = (tests::scratch_folder() / "rings.obj").string();
     const models::polygons::PolygonModel once = model;
     const glm::dvec3 aside{0.7 * models::polygons::radius_m(once), 0.0, 0.0};
     for (const glm::dvec3& move : {aside, aside}) {
         const auto first = static_cast<std::uint32_t>(model.vertices_m.size());
-        for (const glm::dvec3& vertex_m : once.vertices_m) {
-            model.vertices_m.push_back(vertex_m + move);
-        }
+        for (const glm::dvec3& vertex_m : once.vertices_m) { model.vertices_m.push_back(vertex_m + move); }
         for (models::polygons::Polygon polygon : once.polygons) {
             polygon.first_corner += static_cast<std::uint32_t>(model.corner_vertices.size());
             model.polygons.push_back(polygon);
         }
-        for (const std::uint32_t vertex : once.corner_vertices) {
-            model.corner_vertices.push_back(first + vertex);
-        }
+        for (const std::uint32_t vertex : once.corner_vertices) { model.corner_vertices.push_back(first + vertex); }
     }
     REQUIRE(model.polygons.size() > 1000);
     models::polygons::write_obj(file, model);
     for (const auto& [path, view] :
-         {std::pair{"pop-up", visuals::scene::View::Chase},
-          std::pair{"jinking", visuals::scene::View::Tower}}) {
+        {std::pair{"pop-up", visuals::scene::View::Chase}, std::pair{"jinking", visuals::scene::View::Tower}}) {
         ui::settings::RunSettings settings = canyon_flight(path, file.c_str(), view);
         settings.ground.near_detail = true;
         settings.ground.scenery = true;
@@ -188,8 +178,7 @@ TEST_CASE("models of hundreds of polygons are painted as rays see them") {
 }
 
 TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer shows it") {
-    ui::settings::RunSettings settings =
-        canyon_flight("jinking", "500md", visuals::scene::View::Tower);
+    ui::settings::RunSettings settings = canyon_flight("jinking", "500md", visuals::scene::View::Tower);
     settings.view.eye_m = ui::studies::draw_order::ridge_tower(tests::kept_world(settings));
     constexpr int every = 30;
     const ui::flight::IdComparison result = compare(settings, every);
@@ -204,9 +193,7 @@ TEST_CASE("both renderers show the polygons that rays find, but for rounding") {
         const auto result = with_rays(canyon_flight("pop-up", "f15", view), 200);
         REQUIRE(result.frames > 5);
         CHECK(result.wrong() == 0);
-        for (const auto& renderer : result.renderers) {
-            CHECK(renderer.differing < result.pixels / 500);
-        }
+        for (const auto& renderer : result.renderers) { CHECK(renderer.differing < result.pixels / 500); }
     }
 }
 

@@ -69,9 +69,7 @@ std::vector<std::uint8_t> drawn(RunSettings settings, const std::filesystem::pat
 void check_alike(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     REQUIRE(a.size() == b.size());
     std::size_t off = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        off += std::abs(a[i] - b[i]) > 2 ? 1U : 0U;
-    }
+    for (std::size_t i = 0; i < a.size(); ++i) { off += std::abs(a[i] - b[i]) > 2 ? 1U : 0U; }
     CHECK(off == 0);
 }
 

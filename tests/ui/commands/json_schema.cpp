@@ -21,26 +21,21 @@ bool is_of(const std::string& type, const Json& value) {
 
 class Checker {
 public:
-    explicit Checker(const Json& root)
-        : root_(root) {}
+    explicit Checker(const Json& root) : root_(root) {}
 
     void check(const Json& schema, const Json& value, const std::string& at) {
         if (schema.is_boolean()) {
             expect(schema.get<bool>(), at, "nothing");
             return;
         }
-        for (const auto& [word, wanted] : schema.items()) {
-            check_word(schema, word, wanted, value, at);
-        }
+        for (const auto& [word, wanted] : schema.items()) { check_word(schema, word, wanted, value, at); }
     }
 
     std::vector<std::string> faults;
 
 private:
     void expect(bool holds, const std::string& at, const std::string& what) {
-        if (!holds) {
-            faults.push_back(at + ": expected " + what);
-        }
+        if (!holds) { faults.push_back(at + ": expected " + what); }
     }
 
     bool fits(const Json& schema, const Json& value) {
@@ -50,48 +45,29 @@ private:
     }
 
     void check_word(
-        const Json& schema,
-        const std::string& word,
-        const Json& wanted,
-        const Json& value,
-        const std::string& at) {
+        const Json& schema, const std::string& word, const Json& wanted, const Json& value, const std::string& at) {
         if (word == "$ref") {
             check(root_.at(Json::json_pointer(wanted.get<std::string>().substr(1))), value, at);
         } else if (word == "type") {
             const bool fits_one =
-                wanted.is_array()
-                    ? std::ranges::any_of(
-                          wanted, [&](const Json& type) { return is_of(type, value); })
-                    : is_of(wanted, value);
+                wanted.is_array() ? std::ranges::any_of(wanted, [&](const Json& type) { return is_of(type, value); })
+                                  : is_of(wanted, value);
             expect(fits_one, at, wanted.dump() + ", got " + value.dump().substr(0, 60));
         } else if (word == "enum") {
             expect(std::ranges::find(wanted, value) != wanted.end(), at, "one of " + wanted.dump());
         } else if (word == "pattern") {
-            expect(
-                !value.is_string() ||
-                    std::regex_search(
-                        value.get<std::string>(), std::regex(wanted.get<std::string>())),
-                at,
-                wanted.dump() + ", got " + value.dump());
+            expect(!value.is_string() ||
+                       std::regex_search(value.get<std::string>(), std::regex(wanted.get<std::string>())),
+                at, wanted.dump() + ", got " + value.dump());
         } else if (word == "minimum") {
-            expect(
-                !value.is_number() || value.get<double>() >= wanted.get<double>(),
-                at,
-                ">= " + wanted.dump());
+            expect(!value.is_number() || value.get<double>() >= wanted.get<double>(), at, ">= " + wanted.dump());
         } else if (word == "maximum") {
-            expect(
-                !value.is_number() || value.get<double>() <= wanted.get<double>(),
-                at,
-                "<= " + wanted.dump());
+            expect(!value.is_number() || value.get<double>() <= wanted.get<double>(), at, "<= " + wanted.dump());
         } else if (word == "required") {
-            for (const Json& name : wanted) {
-                expect(!value.is_object() || value.contains(name), at, name.dump());
-            }
+            for (const Json& name : wanted) { expect(!value.is_object() || value.contains(name), at, name.dump()); }
         } else if (word == "properties") {
             for (const auto& [name, inner] : wanted.items()) {
-                if (value.is_object() && value.contains(name)) {
-                    check(inner, value[name], at + "/" + name);
-                }
+                if (value.is_object() && value.contains(name)) { check(inner, value[name], at + "/" + name); }
             }
         } else if (word == "additionalProperties") {
             check_others(schema, wanted, value, at);
@@ -101,27 +77,20 @@ private:
             }
         } else if (word == "minItems" || word == "maxItems") {
             const auto count = wanted.get<std::size_t>();
-            expect(
-                !value.is_array() ||
-                    (word == "minItems" ? value.size() >= count : value.size() <= count),
-                at,
+            expect(!value.is_array() || (word == "minItems" ? value.size() >= count : value.size() <= count), at,
                 word + " " + wanted.dump());
         } else if (word == "anyOf") {
-            const bool any =
-                std::ranges::any_of(wanted, [&](const Json& each) { return fits(each, value); });
+            const bool any = std::ranges::any_of(wanted, [&](const Json& each) { return fits(each, value); });
             expect(any, at, "one of several, got " + value.dump().substr(0, 200));
         } else {
-            const bool remark = word == "$schema" || word == "$id" || word == "$defs" ||
-                                word == "title" || word == "description";
+            const bool remark =
+                word == "$schema" || word == "$id" || word == "$defs" || word == "title" || word == "description";
             expect(remark, at, "no word '" + word + "' in a schema");
         }
     }
 
-    void
-    check_others(const Json& schema, const Json& wanted, const Json& value, const std::string& at) {
-        if (!value.is_object()) {
-            return;
-        }
+    void check_others(const Json& schema, const Json& wanted, const Json& value, const std::string& at) {
+        if (!value.is_object()) { return; }
         for (const auto& [name, inner] : value.items()) {
             if (!schema.contains("properties") || !schema["properties"].contains(name)) {
                 check(wanted, inner, at + "/" + name);
@@ -134,13 +103,10 @@ private:
 
 } // namespace
 
-std::vector<std::string>
-schema_faults(const std::string& json_text, const std::filesystem::path& schema_file) {
+std::vector<std::string> schema_faults(const std::string& json_text, const std::filesystem::path& schema_file) {
     const Json schema = Json::parse(read_file(schema_file));
     const Json value = Json::parse(json_text, nullptr, false);
-    if (value.is_discarded()) {
-        return {"expected JSON, got " + json_text.substr(0, 200)};
-    }
+    if (value.is_discarded()) { return {"expected JSON, got " + json_text.substr(0, 200)}; }
     Checker checker(schema);
     checker.check(schema, value, "");
     return checker.faults;

@@ -23,9 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path schema(const std::string& name) {
-    return fs::path(OCTANT_SOURCE_DIR) / "ui/schemas" / (name + ".json");
-}
+fs::path schema(const std::string& name) { return fs::path(OCTANT_SOURCE_DIR) / "ui/schemas" / (name + ".json"); }
 
 /// Runs a command with --json and holds what it prints against a schema.
 void check(const std::string& name, std::vector<std::string> line) {
@@ -37,28 +35,18 @@ void check(const std::string& name, std::vector<std::string> line) {
 }
 
 bool prints_json(const ui::commands::Command& command) {
-    return std::ranges::any_of(
-        command.options, [](const auto& option) { return option.name == "--json"; });
+    return std::ranges::any_of(command.options, [](const auto& option) { return option.name == "--json"; });
 }
 
 /// Names of all commands that do something, with --json or without, as "terrain info".
 std::set<std::string> commands_with_json(bool with) {
     std::set<std::string> names;
-    const auto visit = [&](const auto& self,
-                           const ui::commands::Command& command,
-                           const std::string& before) -> void {
-        if (command.commands.empty() && prints_json(command) == with) {
-            names.insert(before + command.name);
-        }
-        for (const auto& inner : command.commands) {
-            self(self, inner, before + command.name + " ");
-        }
+    const auto visit = [&](const auto& self, const ui::commands::Command& command, const std::string& before) -> void {
+        if (command.commands.empty() && prints_json(command) == with) { names.insert(before + command.name); }
+        for (const auto& inner : command.commands) { self(self, inner, before + command.name + " "); }
     };
-    const auto program =
-        ui::commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
-    for (const auto& command : program.commands) {
-        visit(visit, command, "");
-    }
+    const auto program = ui::commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
+    for (const auto& command : program.commands) { visit(visit, command, ""); }
     return names;
 }
 
@@ -67,36 +55,16 @@ std::set<std::string> commands_with_json(bool with) {
 TEST_CASE("what recordings and their commands print is as their schemas say") {
     const auto made = tests::empty_folder("schemas-recording");
     const std::string rec = (made / "rec").string();
-    const std::vector<std::string> flight = {
-        "fly",
-        "straight",
-        "--terrain",
-        tests::small_ground(),
-        "--size",
-        "32x24",
-        "--frames",
-        "12",
-        "--record",
-        rec,
-        "--quiet"};
+    const std::vector<std::string> flight = {"fly", "straight", "--terrain", tests::small_ground(), "--size", "32x24",
+        "--frames", "12", "--record", rec, "--quiet"};
     check("fly", flight);
     CHECK(tests::schema_faults(read_file(made / "rec/run.json"), schema("run")).empty());
     check("fly", {"fly", "--replay", rec, "--quiet"});
     check("report", {"report", rec, "--out", (made / "page.html").string(), "--quiet"});
-    check(
-        "report",
-        {"report",
-         rec,
-         rec,
-         "--gate",
-         "p50=0%",
-         "--out",
-         (made / "page.html").string(),
-         "--quiet"});
+    check("report", {"report", rec, rec, "--gate", "p50=0%", "--out", (made / "page.html").string(), "--quiet"});
     check("pack", {"pack", rec, "--quiet"});
     write_file(
-        made / "s.toml",
-        "[settings]\nterrain = \"none\"\nsize = \"16x16\"\nframes = 2\n[vary]\nfov = [40, 50]\n");
+        made / "s.toml", "[settings]\nterrain = \"none\"\nsize = \"16x16\"\nframes = 2\n[vary]\nfov = [40, 50]\n");
     const std::string sweep = (made / "s.toml").string();
     const std::string out = (made / "out").string();
     check("sweep-list", {"sweep", sweep, "--list"});
@@ -112,105 +80,29 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
     check("draw-order", {"draw-order", "concave", "--export", file("x.order")});
     check("draw-order-check", {"draw-order", "concave", "--check", file("x.order")});
     check("model-info", {"model", "info", "f15", "--picture", file("p.png")});
+    check("simplify", {"simplify", "torus", file("s.ply"), "--faces", "300", "--method", "fast", "--quiet"});
     check(
-        "simplify",
-        {"simplify", "torus", file("s.ply"), "--faces", "300", "--method", "fast", "--quiet"});
-    check(
-        "simplify",
-        {"simplify",
-         "torus",
-         file("s.chain"),
-         "--faces",
-         "300",
-         "--method",
-         "fast",
-         "--chain",
-         "--quiet"});
-    check(
-        "simplify",
-        {"simplify",
-         file("s.ply"),
-         file("t.ply"),
-         "--faces",
-         "200",
-         "--method",
-         "triangle",
-         "--quiet"});
-    check(
-        "simplify",
-        {"simplify",
-         file("s.ply"),
-         file("t.ply"),
-         "--shared-border",
-         "--out-dir",
-         file("together"),
-         "--faces",
-         "300",
-         "--method",
-         "fast",
-         "--quiet"});
+        "simplify", {"simplify", "torus", file("s.chain"), "--faces", "300", "--method", "fast", "--chain", "--quiet"});
+    check("simplify", {"simplify", file("s.ply"), file("t.ply"), "--faces", "200", "--method", "triangle", "--quiet"});
+    check("simplify", {"simplify", file("s.ply"), file("t.ply"), "--shared-border", "--out-dir", file("together"),
+                          "--faces", "300", "--method", "fast", "--quiet"});
     check("mesh-error", {"mesh-error", file("s.ply"), file("t.ply"), "--quiet"});
     check("refine", {"refine", "torus", "--region", "sphere", "0", "0", "0", "1"});
     check("terrain-make", {"terrain", "make", "--size", "65", "--out", file("m.tif"), "--quiet"});
     check("terrain-info", {"terrain", "info", file("m.tif")});
     check("terrain-import", {"terrain", "import", file("m.tif"), "--out", file("m.ground")});
     check("terrain-info", {"terrain", "info", file("m.ground"), "--verify"});
-    check(
-        "terrain-mesh",
-        {"terrain",
-         "mesh",
-         file("m.ground"),
-         "--eye",
-         "0,0,900",
-         "--look",
-         "1000,1000,0",
-         "--triangles",
-         "500",
-         "--out",
-         file("g.ply")});
+    check("terrain-mesh", {"terrain", "mesh", file("m.ground"), "--eye", "0,0,900", "--look", "1000,1000,0",
+                              "--triangles", "500", "--out", file("g.ply")});
     check("terrain-query", {"terrain", "query", file("m.ground"), "--at", "0,0", "9e6,0,1"});
-    check(
-        "terrain-query",
-        {"terrain", "query", file("m.ground"), "--from", "0,0,900", "--to", "500,300,250"});
-    check(
-        "terrain-check",
-        {"terrain", "check", file("m.ground"), "--views", "4", "--draw-every", "0", "--quiet"});
-    check(
-        "tables",
-        {"terrain",
-         "error",
-         file("m.ground"),
-         "--eye",
-         "0,0,900",
-         "--look",
-         "1000,1000,0",
-         "--triangles",
-         "2000"});
-    check(
-        "tables",
-        {"study",
-         "refinement",
-         "--out",
-         file("st"),
-         "--mesh",
-         file("s.ply"),
-         "--frames",
-         "20",
-         "--quiet"});
+    check("terrain-query", {"terrain", "query", file("m.ground"), "--from", "0,0,900", "--to", "500,300,250"});
+    check("terrain-check", {"terrain", "check", file("m.ground"), "--views", "4", "--draw-every", "0", "--quiet"});
+    check("tables",
+        {"terrain", "error", file("m.ground"), "--eye", "0,0,900", "--look", "1000,1000,0", "--triangles", "2000"});
+    check("tables", {"study", "refinement", "--out", file("st"), "--mesh", file("s.ply"), "--frames", "20", "--quiet"});
     check("bench", {"bench", "--terrain", "none", "--size", "32x32", "--frames", "3", "--quiet"});
-    check(
-        "bench",
-        {"bench",
-         "--features",
-         "--terrain",
-         "none",
-         "--renderer",
-         "raster",
-         "--size",
-         "32x32",
-         "--frames",
-         "3",
-         "--quiet"});
+    check("bench", {"bench", "--features", "--terrain", "none", "--renderer", "raster", "--size", "32x32", "--frames",
+                       "3", "--quiet"});
 }
 
 TEST_CASE("every command has --json but manual, which prints a page and completions") {
@@ -218,38 +110,21 @@ TEST_CASE("every command has --json but manual, which prints a page and completi
 }
 
 TEST_CASE("every command that prints JSON has a schema, and all tables have one form") {
-    const std::map<std::string, std::string> schemas = {
-        {"fly", "fly"},
-        {"listen", "fly"},
-        {"report", "report"},
-        {"pack", "pack"},
-        {"sweep", "sweep"},
-        {"draw-order", "draw-order"},
-        {"simplify", "simplify"},
-        {"mesh-error", "mesh-error"},
-        {"refine", "refine"},
-        {"model info", "model-info"},
-        {"terrain info", "terrain-info"},
-        {"terrain make", "terrain-make"},
-        {"terrain import", "terrain-import"},
-        {"terrain mesh", "terrain-mesh"},
-        {"terrain query", "terrain-query"},
-        {"terrain check", "terrain-check"},
-        {"terrain error", "tables"},
-        {"bench", "bench"},
-        {"view", "view-bench"}};
+    const std::map<std::string, std::string> schemas = {{"fly", "fly"}, {"listen", "fly"}, {"report", "report"},
+        {"pack", "pack"}, {"sweep", "sweep"}, {"draw-order", "draw-order"}, {"simplify", "simplify"},
+        {"mesh-error", "mesh-error"}, {"refine", "refine"}, {"model info", "model-info"},
+        {"terrain info", "terrain-info"}, {"terrain make", "terrain-make"}, {"terrain import", "terrain-import"},
+        {"terrain mesh", "terrain-mesh"}, {"terrain query", "terrain-query"}, {"terrain check", "terrain-check"},
+        {"terrain error", "tables"}, {"bench", "bench"}, {"view", "view-bench"}};
     for (const std::string& command : commands_with_json(true)) {
         INFO(command);
         const auto found = schemas.find(command);
         const bool is_known = found != schemas.end() || command.starts_with("study ");
         CHECK(is_known);
-        if (found != schemas.end()) {
-            CHECK(fs::is_regular_file(schema(found->second)));
-        }
+        if (found != schemas.end()) { CHECK(fs::is_regular_file(schema(found->second))); }
     }
     CHECK(commands_with_json(true).size() >= schemas.size() + 8);
-    const std::vector<ui::report::HtmlTable> tables{
-        {"T", {"a", "b"}, {{"x", "1.5"}, {"y"}}, "note"}, {}};
+    const std::vector<ui::report::HtmlTable> tables{{"T", {"a", "b"}, {{"x", "1.5"}, {"y"}}, "note"}, {}};
     CHECK(tests::schema_faults(ui::report::json_of(tables), schema("tables")).empty());
     CHECK_FALSE(tests::schema_faults("[{\"title\": 3}]", schema("tables")).empty());
     CHECK_FALSE(tests::schema_faults("[", schema("tables")).empty());

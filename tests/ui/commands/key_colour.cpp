@@ -40,10 +40,7 @@ std::string speck_file() {
 } // namespace
 
 ui::settings::RunSettings key_colour_settings(
-    const std::string& path,
-    const std::string& aircraft,
-    const std::string& terrain,
-    double rate_hz) {
+    const std::string& path, const std::string& aircraft, const std::string& terrain, double rate_hz) {
     ui::settings::RunSettings settings;
     settings.path.name = ui::base::path_file(path, aircraft).string();
     settings.path.aircraft = {speck_file()};
@@ -67,11 +64,7 @@ long cracks_in_flight(const ui::settings::RunSettings& settings) {
     return cracks;
 }
 
-long cracks_along(
-    const std::string& path,
-    const std::string& aircraft,
-    const std::string& terrain,
-    double rate_hz) {
+long cracks_along(const std::string& path, const std::string& aircraft, const std::string& terrain, double rate_hz) {
     return cracks_in_flight(key_colour_settings(path, aircraft, terrain, rate_hz));
 }
 

@@ -22,22 +22,8 @@ namespace fs = std::filesystem;
 
 /// A flight in real time, 30 pictures a second, all of them kept.
 std::vector<std::string> slow_flight(const fs::path& folder) {
-    return {
-        "fly",
-        "straight",
-        "--terrain",
-        tests::small_ground(),
-        "--realtime",
-        "--rate",
-        "30",
-        "--size",
-        "160x90",
-        "--triangles",
-        "2000",
-        "--pictures",
-        "1",
-        "--record",
-        folder.string()};
+    return {"fly", "straight", "--terrain", tests::small_ground(), "--realtime", "--rate", "30", "--size", "160x90",
+        "--triangles", "2000", "--pictures", "1", "--record", folder.string()};
 }
 
 std::map<std::string, std::string> files_in(const fs::path& folder) {
@@ -61,13 +47,11 @@ double last_time_in_track(const fs::path& folder) {
 
 TEST_CASE("a flight that was killed is reported, losing at most its last second") {
     const auto folder = tests::empty_folder("killed") / "out";
-    CHECK(
-        tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00100.png", SIGKILL)
-            .exit_code == 128 + SIGKILL);
+    CHECK(tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00100.png", SIGKILL).exit_code ==
+          128 + SIGKILL);
     const auto left = files_in(folder);
     const auto page = folder.parent_path() / "elsewhere.html";
-    const tests::ProgramRun run =
-        tests::run_octant({"report", folder.string(), "--out", page.string()});
+    const tests::ProgramRun run = tests::run_octant({"report", folder.string(), "--out", page.string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.find("ended early") != std::string::npos);
@@ -87,20 +71,8 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
 TEST_CASE("a flight that ended and whose rows were cut off is reported with exit code 1") {
     const auto made = tests::empty_folder("cut-rows");
     const auto folder = made / "out";
-    const tests::ProgramRun flown = tests::run_octant(
-        {"fly",
-         "straight",
-         "--size",
-         "64x48",
-         "--terrain",
-         tests::small_ground(),
-         "--frames",
-         "6",
-         "--warm-up",
-         "2",
-         "--record",
-         folder.string(),
-         "--quiet"});
+    const tests::ProgramRun flown = tests::run_octant({"fly", "straight", "--size", "64x48", "--terrain",
+        tests::small_ground(), "--frames", "6", "--warm-up", "2", "--record", folder.string(), "--quiet"});
     REQUIRE(flown.exit_code == 0);
     const std::string rows = read_file(folder / "frames.csv");
     const auto report = [&](const std::string& left) {
@@ -115,9 +87,7 @@ TEST_CASE("a flight that ended and whose rows were cut off is reported with exit
         INFO(left << cut.err);
         CHECK(cut.exit_code == 1);
         CHECK(cut.out.find("frames: 4 in run.json, 3 by the rows") != std::string::npos);
-        CHECK(
-            read_file(folder / "report.html").find("rows and summary disagree") !=
-            std::string::npos);
+        CHECK(read_file(folder / "report.html").find("rows and summary disagree") != std::string::npos);
     }
     const tests::ProgramRun quiet = tests::run_octant({"report", folder.string(), "--quiet"});
     CHECK(quiet.exit_code == 1);
@@ -163,19 +133,10 @@ TEST_CASE("a signal ends a live flight as any other: summary, report, no lock, i
         INFO(name);
         const auto folder = made / name;
         const tests::ProgramRun run = tests::run_octant_and_signal(
-            {"listen",         "--headless",
-             "--size",         "64x48",
-             "--fdm-port",     "0",
-             "--dis-port",     "-1",
-             "--mavlink-port", "-1",
-             "--xplane-port",  "-1",
-             "--cigi-port",    "-1",
-             "--terrain",      tests::small_ground(),
-             "--seconds",      "60",
-             "--pictures",     "1",
-             "--record",       folder.string()},
-            folder / "picture-00020.png",
-            number);
+            {"listen", "--headless", "--size", "64x48", "--fdm-port", "0", "--dis-port", "-1", "--mavlink-port", "-1",
+                "--xplane-port", "-1", "--cigi-port", "-1", "--terrain", tests::small_ground(), "--seconds", "60",
+                "--pictures", "1", "--record", folder.string()},
+            folder / "picture-00020.png", number);
         INFO(run.err);
         CHECK(run.exit_code == 128 + number);
         CHECK(run.out.find("state hash") != std::string::npos);
@@ -188,17 +149,15 @@ TEST_CASE("a signal ends a live flight as any other: summary, report, no lock, i
 
 TEST_CASE("a signal ends a sweep in order, with what is flown so far") {
     const auto made = tests::empty_folder("sweep-stopped");
-    write_file(
-        made / "long.toml",
+    write_file(made / "long.toml",
         "name = \"long\"\n[settings]\npath = \"straight\"\nterrain = \"none\"\nsize = \"48x32\"\n"
         "realtime = true\nseconds = 60\n[vary]\nfov = [40, 50, 60]\n");
     for (const auto& [number, name] : stop_signals) {
         INFO(name);
         const auto folder = made / name;
-        const tests::ProgramRun run = tests::run_octant_and_signal(
-            {"sweep", (made / "long.toml").string(), "--out", folder.string(), "--quiet"},
-            folder / "runs/40/picture-00000.png",
-            number);
+        const tests::ProgramRun run =
+            tests::run_octant_and_signal({"sweep", (made / "long.toml").string(), "--out", folder.string(), "--quiet"},
+                folder / "runs/40/picture-00000.png", number);
         INFO(run.out << run.err);
         CHECK(run.exit_code == 128 + number);
         CHECK(fs::exists(folder / "report.html"));
@@ -213,10 +172,9 @@ TEST_CASE("a signal ends a study of flights with its recording in order") {
     for (const auto& [number, name] : stop_signals) {
         INFO(name);
         const auto folder = made / name;
-        const tests::ProgramRun run = tests::run_octant_and_signal(
-            {"study", "flights", "--size", "64x48", "--out", folder.string(), "--quiet"},
-            folder / "f15-alone/picture-00000.png",
-            number);
+        const tests::ProgramRun run =
+            tests::run_octant_and_signal({"study", "flights", "--size", "64x48", "--out", folder.string(), "--quiet"},
+                folder / "f15-alone/picture-00000.png", number);
         INFO(run.err);
         CHECK(run.exit_code == 128 + number);
         CHECK(fs::exists(folder / "f15-alone/report.html"));
@@ -240,18 +198,8 @@ TEST_CASE("a signal ends a command that records no flight at once, and leaves no
 TEST_CASE("a flight does not record into a folder that another program records into") {
     const auto folder = tests::empty_folder("two-at-once");
     const ui::report::FolderLock lock(folder);
-    const tests::ProgramRun run = tests::run_octant(
-        {"fly",
-         "straight",
-         "--size",
-         "160x90",
-         "--frames",
-         "2",
-         "--terrain",
-         tests::small_ground(),
-         "--record",
-         folder.string(),
-         "--quiet"});
+    const tests::ProgramRun run = tests::run_octant({"fly", "straight", "--size", "160x90", "--frames", "2",
+        "--terrain", tests::small_ground(), "--record", folder.string(), "--quiet"});
     CHECK(run.exit_code == 2);
     CHECK(tests::lines_in(run.err) == 1);
     CHECK(run.err.find("expected a folder that nobody records into") != std::string::npos);
@@ -263,29 +211,14 @@ TEST_CASE("a recording of files whose names are not UTF-8 is flown again") {
     const auto path = made / "caf\xe9.toml";
     fs::copy_file(fs::path(OCTANT_SOURCE_DIR) / "flightpaths/f15-straight.toml", path);
     const std::string first = (made / "caf\xe9").string();
-    const tests::ProgramRun run = tests::run_octant(
-        {"fly",
-         path.string(),
-         "--size",
-         "64x48",
-         "--terrain",
-         tests::small_ground(),
-         "--frames",
-         "3",
-         "--warm-up",
-         "0",
-         "--record",
-         first,
-         "--quiet",
-         "--json"});
+    const tests::ProgramRun run = tests::run_octant({"fly", path.string(), "--size", "64x48", "--terrain",
+        tests::small_ground(), "--frames", "3", "--warm-up", "0", "--record", first, "--quiet", "--json"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const tests::ProgramRun repeat_option =
         tests::run_octant({"fly", "--settings", first + "/run.json", "--quiet", "--json"});
     INFO(repeat_option.err);
     REQUIRE(repeat_option.exit_code == 0);
-    const auto hashes = [](const std::string& text) {
-        return text.substr(text.find("state_hash"));
-    };
+    const auto hashes = [](const std::string& text) { return text.substr(text.find("state_hash")); };
     CHECK(hashes(run.out) == hashes(repeat_option.out));
 }

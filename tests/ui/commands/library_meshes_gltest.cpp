@@ -32,20 +32,15 @@ tests::ProgramRun information(const std::string& name, std::string_view text) {
 
 bool has_libraries() {
     const bool has = run_octant({"--version"}).out.find("by Assimp") != std::string::npos;
-    if (!has) {
-        std::cout << "SKIPPED: built without Assimp and OpenSceneGraph\n";
-    }
+    if (!has) { std::cout << "SKIPPED: built without Assimp and OpenSceneGraph\n"; }
     return has;
 }
 
 } // namespace
 
 TEST_CASE("meshes that libraries read come through, switches that are all off shown whole") {
-    if (!has_libraries()) {
-        return;
-    }
-    const auto by_assimp =
-        information("square.x", square);
+    if (!has_libraries()) { return; }
+    const auto by_assimp = information("square.x", square);
     CHECK(by_assimp.exit_code == 0);
     CHECK_THAT(by_assimp.out, Catch::Contains("faces           2"));
     const auto by_osg = information("triangle.osg", triangle);
@@ -54,33 +49,26 @@ TEST_CASE("meshes that libraries read come through, switches that are all off sh
     CHECK_THAT(by_assimp.out, Catch::Contains("nose towards -z, up +y: taken for granted"));
     CHECK_THAT(by_osg.out, Catch::Contains("nose towards +y, up +z: taken for granted"));
     const auto switched = information(
-        "switched.osg",
-        "Switch {\n ValueList {\n  0\n }\n num_children 1\n " + std::string(triangle) + "}\n");
+        "switched.osg", "Switch {\n ValueList {\n  0\n }\n num_children 1\n " + std::string(triangle) + "}\n");
     CHECK(switched.exit_code == 0);
     CHECK_THAT(switched.out, Catch::Contains("faces           1"));
 }
 
 TEST_CASE("texture coordinates of files that libraries read go through simplification") {
-    if (!has_libraries()) {
-        return;
-    }
+    if (!has_libraries()) { return; }
     const auto folder = tests::empty_folder("library-textures");
     write_file(folder / "square.x", square);
     const std::string out = (folder / "out.obj").string();
-    const auto run =
-        run_octant({"simplify", (folder / "square.x").string(), out, "--faces", "2"});
+    const auto run = run_octant({"simplify", (folder / "square.x").string(), out, "--faces", "2"});
     CHECK(run.exit_code == 0);
     CHECK_THAT(read_text_file(out), Catch::Contains("\nvt 1 1\n"));
 }
 
 TEST_CASE("what a library cannot read is told in its words, once") {
-    if (!has_libraries()) {
-        return;
-    }
+    if (!has_libraries()) { return; }
     const auto refused = information("none.lwo", "this is no mesh");
     tests::check_refusal(refused, "none.lwo: expected a mesh that Assimp can read, got '");
     CHECK(refused.err.find("expected") == refused.err.rfind("expected"));
     tests::check_refusal(
-        information("none.osg", "nothing"),
-        "none.osg: expected a scene that OpenSceneGraph can read, got none");
+        information("none.osg", "nothing"), "none.osg: expected a scene that OpenSceneGraph can read, got none");
 }

@@ -34,9 +34,7 @@ namespace links = sim::links;
 constexpr std::uint32_t loopback = 0x7f000001;
 
 /// A UDP port that nobody has just now.
-std::uint16_t free_port() {
-    return links::UdpPort(loopback, 0).port();
-}
+std::uint16_t free_port() { return links::UdpPort(loopback, 0).port(); }
 
 /// North at 100 m/s from 47 N, 8 E, 1,000 m up and 600 m above its own ground.
 links::Fix fix_at(double time_s) {
@@ -50,12 +48,9 @@ links::Fix fix_at(double time_s) {
     return fix;
 }
 
-/// Runs the program with one port open, for packets of a protocol, and calls `send(i, seconds)`
-/// about 60 times a second meanwhile.
-tests::ProgramRun run_beside(
-    std::vector<std::string> arguments,
-    const std::string& open,
-    std::uint16_t port,
+/// Runs the program with one port open, for packets of a protocol, and calls `send(i, seconds)` about 60 times a second
+/// meanwhile.
+tests::ProgramRun run_beside(std::vector<std::string> arguments, const std::string& open, std::uint16_t port,
     const std::function<void(int, double)>& send) {
     for (const std::string each : {"fdm", "mavlink", "dis", "xplane", "cigi"}) {
         arguments.push_back("--" + each + "-port");
@@ -114,26 +109,13 @@ Sums sums_of(const std::vector<ui::report::FrameRecord>& rows) {
 
 TEST_CASE("octant listen shows what comes by UDP, says what is wrong, and is replayed") {
     const fs::path folder = tests::empty_folder("listen");
-    const tests::ProgramRun run = run_with_packets(
-        {"listen",
-         "--headless",
-         "--size",
-         "160x90",
-         "--rate",
-         "30",
-         "--seconds",
-         "4",
-         "--record",
-         (folder / "flight").string(),
-         "--pictures",
-         "30"});
+    const tests::ProgramRun run = run_with_packets({"listen", "--headless", "--size", "160x90", "--rate", "30",
+        "--seconds", "4", "--record", (folder / "flight").string(), "--pictures", "30"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK_THAT(run.err, Contains("waits on UDP 127.0.0.1:"));
     CHECK_THAT(run.err, Contains("FDM version 24 of 408 bytes: fine"));
-    CHECK_THAT(
-        run.err,
-        Contains("this is FlightGear FDM in little-endian byte order, which is not supported"));
+    CHECK_THAT(run.err, Contains("this is FlightGear FDM in little-endian byte order, which is not supported"));
     CHECK_THAT(run.err, Contains("made ground, placed at the first position 47.0"));
 
     const auto rows = ui::report::read_frame_csv(folder / "flight" / "frames.csv").records;
@@ -147,13 +129,11 @@ TEST_CASE("octant listen shows what comes by UDP, says what is wrong, and is rep
     CHECK(flown_m == Approx(100.0 * (last.sim_time_s - middle.sim_time_s)).margin(3.0));
     CHECK(std::abs(last.aircraft_m.x) < 1.0);
     CHECK(fs::exists(folder / "flight" / "report.html"));
-    CHECK_THAT(
-        read_text_file(folder / "flight" / "report.html"),
-        Contains("packets taken, lost, late, wrong"));
+    CHECK_THAT(read_text_file(folder / "flight" / "report.html"), Contains("packets taken, lost, late, wrong"));
     CHECK_THAT(read_text_file(folder / "flight" / "track.acmi"), Contains("ReferenceLatitude"));
 
-    const tests::ProgramRun replay = run_octant(
-        {"fly", "--replay", (folder / "flight").string(), "--record", (folder / "again").string()});
+    const tests::ProgramRun replay =
+        run_octant({"fly", "--replay", (folder / "flight").string(), "--record", (folder / "again").string()});
     INFO(replay.err);
     REQUIRE(replay.exit_code == 0);
     CHECK_THAT(replay.out, Contains("same states, same pictures"));
@@ -161,18 +141,10 @@ TEST_CASE("octant listen shows what comes by UDP, says what is wrong, and is rep
 
 TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {
     links::UdpPort receiver(loopback, 0);
-    const std::vector<std::string> arguments{
-        "listen",
-        "--headless",
-        "--size",
-        "64x36",
-        "--seconds",
-        "1",
-        "--send",
+    const std::vector<std::string> arguments{"listen", "--headless", "--size", "64x36", "--seconds", "1", "--send",
         "fdm:127.0.0.1:" + std::to_string(receiver.port())};
     std::vector<std::string> alone = arguments;
-    for (const std::string port :
-         {"--fdm-port", "--mavlink-port", "--dis-port", "--xplane-port", "--cigi-port"}) {
+    for (const std::string port : {"--fdm-port", "--mavlink-port", "--dis-port", "--xplane-port", "--cigi-port"}) {
         alone.insert(alone.end(), {port, port == "--fdm-port" ? "0" : "-1"});
     }
     REQUIRE(run_octant(alone).exit_code == 0);
@@ -195,11 +167,8 @@ TEST_CASE("octant listen reads X-Plane's DATA, and octant's own is read as that"
     const std::uint16_t port = free_port();
     links::UdpPort socket(loopback, 0);
     const sim::links::Geodetic origin{rad_from_deg(47.0), rad_from_deg(8.0), 0.0};
-    const tests::ProgramRun run = run_beside(
-        {"listen", "--headless", "--size", "64x36", "--seconds", "2", "--json"},
-        "xplane",
-        port,
-        [&](int, double passed_s) {
+    const tests::ProgramRun run = run_beside({"listen", "--headless", "--size", "64x36", "--seconds", "2", "--json"},
+        "xplane", port, [&](int, double passed_s) {
             socket.send({loopback, port}, links::encode_xplane(fix_at(passed_s), origin, passed_s));
         });
     INFO(run.err << run.out);
@@ -209,8 +178,7 @@ TEST_CASE("octant listen reads X-Plane's DATA, and octant's own is read as that"
     CHECK(json_value(run.out, "protocol") == "\"protocol\": \"X-Plane\",");
     CHECK_THAT(json_value(run.out, "latitude_deg"), Contains("47.0"));
     CHECK(json_value(run.out, "shown") == "\"shown\": true");
-    const auto faults =
-        tests::schema_faults(run.out, fs::path(OCTANT_SOURCE_DIR) / "ui/schemas/fly.json");
+    const auto faults = tests::schema_faults(run.out, fs::path(OCTANT_SOURCE_DIR) / "ui/schemas/fly.json");
     CHECK(faults.empty());
 }
 
@@ -233,36 +201,20 @@ TEST_CASE("octant listen asks an X-Plane for its motion, again when it is silent
             }
             std::string& name = asked[number];
             name.clear();
-            for (std::size_t at = 13; reader.at<char>(at) != '\0'; ++at) {
-                name += reader.at<char>(at);
-            }
+            for (std::size_t at = 13; reader.at<char>(at) != '\0'; ++at) { name += reader.at<char>(at); }
         }
     };
-    const std::map<std::string, float> world{
-        {"sim/flightmodel/position/latitude", 47.25F},
-        {"sim/flightmodel/position/longitude", 8.5F},
-        {"sim/flightmodel/position/elevation", 1500.0F}};
-    const tests::ProgramRun run = run_beside(
-        {"listen",
-         "--headless",
-         "--size",
-         "64x36",
-         "--seconds",
-         "5",
-         "--json",
-         "--xplane",
-         "127.0.0.1:" + std::to_string(xplane.port())},
-        "xplane",
-        port,
-        [&](int, double) {
+    const std::map<std::string, float> world{{"sim/flightmodel/position/latitude", 47.25F},
+        {"sim/flightmodel/position/longitude", 8.5F}, {"sim/flightmodel/position/elevation", 1500.0F}};
+    const tests::ProgramRun run = run_beside({"listen", "--headless", "--size", "64x36", "--seconds", "5", "--json",
+                                                 "--xplane", "127.0.0.1:" + std::to_string(xplane.port())},
+        "xplane", port, [&](int, double) {
             take();
             if (requests < 2 * 17) {
                 return; // An X-Plane that loads is silent, and is asked again.
             }
             links::WireWriter answer(links::ByteOrder::Little);
-            for (const char letter : std::string("RREF,")) {
-                answer.add(letter);
-            }
+            for (const char letter : std::string("RREF,")) { answer.add(letter); }
             for (const auto& [number, name] : asked) {
                 const auto value = world.find(name);
                 answer.add(number);
@@ -289,21 +241,16 @@ TEST_CASE("octant listen tells once and counts what it does not support") {
     cigi_4.add(std::uint16_t{0});
     cigi_4.add(std::uint8_t{4});
     cigi_4.add_zeros(19);
-    const std::vector<std::byte> xplane =
-        links::encode_xplane(fix_at(0.0), {rad_from_deg(47.0), 0.0, 0.0}, 0.0);
-    const tests::ProgramRun run = run_beside(
-        {"listen", "--headless", "--size", "64x36", "--seconds", "2"},
-        "cigi",
-        port,
-        [&](int, double) {
+    const std::vector<std::byte> xplane = links::encode_xplane(fix_at(0.0), {rad_from_deg(47.0), 0.0, 0.0}, 0.0);
+    const tests::ProgramRun run =
+        run_beside({"listen", "--headless", "--size", "64x36", "--seconds", "2"}, "cigi", port, [&](int, double) {
             socket.send({loopback, port}, cigi_4.bytes());
             socket.send({loopback, port}, xplane);
         });
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    for (const std::string told :
-         {"this is a CIGI 4 host, which is not supported: set it to CIGI 3.3",
-          "this is X-Plane DATA or RREF; --xplane-port [49003] says where it is read"}) {
+    for (const std::string told : {"this is a CIGI 4 host, which is not supported: set it to CIGI 3.3",
+             "this is X-Plane DATA or RREF; --xplane-port [49003] says where it is read"}) {
         const std::size_t first = run.err.find(told);
         REQUIRE(first != std::string::npos);
         const std::size_t counted = run.err.find(told, first + 1);
@@ -315,8 +262,7 @@ TEST_CASE("octant listen tells once and counts what it does not support") {
 }
 
 TEST_CASE("a live recording cannot be flown like a path") {
-    for (const std::vector<std::string>& line :
-         {std::vector<std::string>{"fly", "live"}, {"view", "live"}}) {
+    for (const std::vector<std::string>& line : {std::vector<std::string>{"fly", "live"}, {"view", "live"}}) {
         const tests::ProgramRun run = run_octant(line);
         CHECK(run.exit_code == 2);
         CHECK_THAT(run.err, Contains("'live', which others fly: octant listen"));
@@ -329,8 +275,7 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
         std::string expected;
     };
 
-    const std::vector<Case> cases{
-        {{"--bind", "nowhere"}, "expected an IPv4 address"},
+    const std::vector<Case> cases{{{"--bind", "nowhere"}, "expected an IPv4 address"},
         {{"--bind", "192.0.2.1"}, "192.0.2.1:"},
         {{"--height", "low"}, "--height: expected msl, agl or offset, got 'low'"},
         {{"--from", "here"}, "expected an IPv4 address"},
@@ -338,13 +283,11 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
         {{"--cigi-host", "there"}, "--cigi-host: expected HOST:PORT, got 'there'"},
         {{"--send", "fdm:there"}, "--send: expected HOST:PORT, got 'there'"},
         {{"--xplane", "127.0.0.1:x"}, "--xplane: expected HOST:PORT, got '127.0.0.1:x'"},
-        {{"--xplane", "127.0.0.1", "--xplane-port", "-1"},
-         "--xplane: expected an open --xplane-port, got -1"},
+        {{"--xplane", "127.0.0.1", "--xplane-port", "-1"}, "--xplane: expected an open --xplane-port, got -1"},
         {{"--delay", "-1"}, "--delay"}};
     const std::filesystem::path record = tests::scratch_folder() / "refused";
     for (const Case& wrong : cases) {
-        std::vector<std::string> line{
-            "listen", "--headless", "--seconds", "1", "--record", record.string()};
+        std::vector<std::string> line{"listen", "--headless", "--seconds", "1", "--record", record.string()};
         line.insert(line.end(), wrong.arguments.begin(), wrong.arguments.end());
         const tests::ProgramRun run = run_octant(line);
         CHECK(run.exit_code == 2);
@@ -356,8 +299,7 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
 
 TEST_CASE("a flight that is sent to nobody ends before anything is loaded or written") {
     const std::filesystem::path record = tests::scratch_folder() / "sent-nowhere";
-    const tests::ProgramRun run =
-        run_octant({"fly", "straight", "--send", "fdm:there", "--record", record.string()});
+    const tests::ProgramRun run = run_octant({"fly", "straight", "--send", "fdm:there", "--record", record.string()});
     CHECK(run.exit_code == 2);
     CHECK(run.err == "octant: --send: expected HOST:PORT, got 'there'\n");
     CHECK(!std::filesystem::exists(record));

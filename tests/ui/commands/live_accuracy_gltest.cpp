@@ -1,5 +1,5 @@
-// How near to the truth octant listen shows what comes by real UDP: what its recording says was in
-// each picture against where the sender's aircraft was then.
+// How near to the truth octant listen shows what comes by real UDP: what its recording says was in each picture against
+// where the sender's aircraft was then.
 
 #include "sim/base/random_generator.h"
 #include "sim/base/transverse_mercator.h"
@@ -57,11 +57,8 @@ std::vector<Sending> schedule_of(const Network& network) {
     std::vector<Sending> schedule;
     for (int i = 0; i < static_cast<int>(flown_s * rate_hz); ++i) {
         const double truth_s = i / rate_hz;
-        const double late_s = network.jitter_s * dice.next() +
-                              (dice.next() < network.reordered ? 1.3 / rate_hz : 0.0);
-        if (!(dice.next() < network.loss)) {
-            schedule.push_back({truth_s + late_s, truth_s});
-        }
+        const double late_s = network.jitter_s * dice.next() + (dice.next() < network.reordered ? 1.3 / rate_hz : 0.0);
+        if (!(dice.next() < network.loss)) { schedule.push_back({truth_s + late_s, truth_s}); }
     }
     std::ranges::stable_sort(schedule, {}, &Sending::at_s);
     return schedule;
@@ -105,8 +102,8 @@ Accuracy accuracy_of(const fs::path& record, double delay_s, double settled_s) {
     const ui::flight::PacketFile packets = ui::flight::read_packets(record);
     const double zero_s = begun_s(packets);
     links::Fix first;
-    const auto with_packets = std::ranges::find_if(
-        packets.frames, [](const auto& frame) { return !frame.packets.empty(); });
+    const auto with_packets =
+        std::ranges::find_if(packets.frames, [](const auto& frame) { return !frame.packets.empty(); });
     REQUIRE(with_packets != packets.frames.end());
     links::decode_fdm(with_packets->packets.front().bytes, first);
     const double first_m = speed_mps * first.ticks.value_or(0) * 1e-6; // lies at 0, 0 of the map
@@ -117,9 +114,7 @@ Accuracy accuracy_of(const fs::path& record, double delay_s, double settled_s) {
     double before_s = 0.0;
     for (const FrameRecord& row : ui::report::read_frame_csv(record / "frames.csv").records) {
         const double flight_s = row.sim_time_s - zero_s;
-        if (flight_s < settled_s || flight_s > flown_s - 0.1) {
-            continue;
-        }
+        if (flight_s < settled_s || flight_s > flown_s - 0.1) { continue; }
         const double shown_m = row.aircraft_m.y + first_m;
         const double error_m = shown_m - speed_mps * (flight_s - delay_s);
         sum_m += error_m;
@@ -152,24 +147,13 @@ Accuracy flown(const std::string& name, const Network& network, double delay_s) 
         for (const Sending& each : schedule) {
             std::this_thread::sleep_until(begin + std::chrono::duration<double>(each.at_s));
             socket.send({loopback, port}, packet_at(each.truth_s));
-            if (done) {
-                return;
-            }
+            if (done) { return; }
         }
     });
-    const tests::ProgramRun run = tests::run_octant({"listen",         "--headless",
-                                                     "--fdm-port",     std::to_string(port),
-                                                     "--mavlink-port", "-1",
-                                                     "--dis-port",     "-1",
-                                                     "--xplane-port",  "-1",
-                                                     "--cigi-port",    "-1",
-                                                     "--terrain",      "none",
-                                                     "--size",         "64x36",
-                                                     "--samples",      "1",
-                                                     "--pictures",     "0",
-                                                     "--delay",        std::to_string(delay_s),
-                                                     "--seconds",      "15",
-                                                     "--record",       record.string()});
+    const tests::ProgramRun run = tests::run_octant(
+        {"listen", "--headless", "--fdm-port", std::to_string(port), "--mavlink-port", "-1", "--dis-port", "-1",
+            "--xplane-port", "-1", "--cigi-port", "-1", "--terrain", "none", "--size", "64x36", "--samples", "1",
+            "--pictures", "0", "--delay", std::to_string(delay_s), "--seconds", "15", "--record", record.string()});
     done = true;
     sender.join();
     INFO(run.err);
@@ -178,13 +162,8 @@ Accuracy flown(const std::string& name, const Network& network, double delay_s) 
 }
 
 void print(const std::string& what, const Accuracy& found) {
-    std::printf(
-        "%s: %.2f m RMS, lag %.1f ms, jump %.2f m, %zu pictures\n",
-        what.c_str(),
-        found.rms_m,
-        1000.0 * found.lag_s,
-        found.jump_m,
-        found.pictures);
+    std::printf("%s: %.2f m RMS, lag %.1f ms, jump %.2f m, %zu pictures\n", what.c_str(), found.rms_m,
+        1000.0 * found.lag_s, found.jump_m, found.pictures);
 }
 
 } // namespace
@@ -197,8 +176,7 @@ TEST_CASE("pictures show a steady flight by UDP within a metre of the truth, wit
     CHECK(found.jump_m < 1.0);
 }
 
-TEST_CASE(
-    "pictures a tenth of a second behind stand jitter, losses and disorder within two metres") {
+TEST_CASE("pictures a tenth of a second behind stand jitter, losses and disorder within two metres") {
     const Network bad{0.02, 0.05, 0.02};
     const Accuracy found = flown("accuracy-bad", bad, 0.1);
     print("bad network, 0.1 s behind", found);

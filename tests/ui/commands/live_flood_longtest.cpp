@@ -84,20 +84,15 @@ Flown flown(bool flooded) {
         found.sent = flooded ? send_flood(port, stops) : 0;
     });
     const double before_s = children_cpu_s();
-    const tests::ProgramRun run =
-        tests::run_octant({"listen",         "--headless", "--fdm-port",    "-1",
-                           "--mavlink-port", "-1",         "--dis-port",    std::to_string(port),
-                           "--cigi-port",    "-1",         "--xplane-port", "-1",
-                           "--terrain",      "none",       "--size",        "160x90",
-                           "--rate",         "30",         "--pictures",    "0",
-                           "--seconds",      "10",         "--record",      record.string()});
+    const tests::ProgramRun run = tests::run_octant({"listen", "--headless", "--fdm-port", "-1", "--mavlink-port", "-1",
+        "--dis-port", std::to_string(port), "--cigi-port", "-1", "--xplane-port", "-1", "--terrain", "none", "--size",
+        "160x90", "--rate", "30", "--pictures", "0", "--seconds", "10", "--record", record.string()});
     stops = true;
     sender.join();
     found.cpu_s = children_cpu_s() - before_s;
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    for (const ui::report::FrameRecord& row :
-         ui::report::read_frame_csv(record / "frames.csv").records) {
+    for (const ui::report::FrameRecord& row : ui::report::read_frame_csv(record / "frames.csv").records) {
         found.taken += row.packets;
         found.late_packets += row.packets_late;
         found.wrong += row.packets_wrong;
@@ -113,14 +108,8 @@ TEST_CASE("twenty thousand packets a second leave pictures more than nine tenths
     const Flown quiet = flown(false);
     const Flown flooded = flown(true);
     const double cost_s = flooded.cpu_s - quiet.cpu_s;
-    std::printf(
-        "%ld packets in %.0f s cost %.2f s of CPU; late pictures: %d of %zu, without packets %d\n",
-        flooded.sent,
-        flood_s,
-        cost_s,
-        flooded.late_pictures,
-        flooded.pictures,
-        quiet.late_pictures);
+    std::printf("%ld packets in %.0f s cost %.2f s of CPU; late pictures: %d of %zu, without packets %d\n",
+        flooded.sent, flood_s, cost_s, flooded.late_pictures, flooded.pictures, quiet.late_pictures);
     CHECK(flooded.sent == static_cast<long>(1000.0 * flood_s) * packets_a_ms);
     CHECK(flooded.taken + flooded.late_packets == flooded.sent);
     CHECK(flooded.wrong == 0);

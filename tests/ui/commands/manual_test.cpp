@@ -8,10 +8,8 @@
 using namespace octant::ui;
 using Catch::Contains;
 
-TEST_CASE(
-    "the manual page has every command and option, and no line that man takes for a request") {
-    const commands::Program program =
-        commands::octant_program({window::view_command(), window::listen_command()});
+TEST_CASE("the manual page has every command and option, and no line that man takes for a request") {
+    const commands::Program program = commands::octant_program({window::view_command(), window::listen_command()});
     const std::string page = commands::man_page(program);
     CHECK_THAT(page, Catch::StartsWith(".TH OCTANT 1 "));
     for (const commands::Command& command : program.commands) {
@@ -25,8 +23,7 @@ TEST_CASE(
 }
 
 TEST_CASE("completions offer the options of the command that stands there") {
-    const commands::Program program =
-        commands::octant_program({window::view_command(), window::listen_command()});
+    const commands::Program program = commands::octant_program({window::view_command(), window::listen_command()});
     const std::string text = commands::bash_completion(program);
     const std::size_t report = text.find("    'report') words=\"");
     REQUIRE(report != std::string::npos);

@@ -49,8 +49,7 @@ void check_error_refused(const std::vector<std::string>& arguments, const std::s
 constexpr std::string_view floor_obj = "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nf 1 2 3\nf 1 3 4\n";
 
 /// The same half a unit higher, one triangle turned round.
-constexpr std::string_view raised_obj =
-    "v 0 0 0.5\nv 4 0 0.5\nv 4 3 0.5\nv 0 3 0.5\nv 9 9 9\nf 1 2 3\nf 4 3 1\n";
+constexpr std::string_view raised_obj = "v 0 0 0.5\nv 4 0 0.5\nv 4 3 0.5\nv 0 3 0.5\nv 9 9 9\nf 1 2 3\nf 4 3 1\n";
 
 } // namespace
 
@@ -92,10 +91,8 @@ TEST_CASE("the number of threads changes none of the figures") {
 }
 
 TEST_CASE("the difference in colour is given where both meshes have colours") {
-    const std::string a =
-        error_file_with("dark.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
-    const std::string b =
-        error_file_with("red.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
+    const std::string a = error_file_with("dark.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+    const std::string b = error_file_with("red.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
     CHECK(error_figures({a, b})["both"]["colour_rms"].number() == Approx(1.0));
     CHECK(mesh_error({a, b}).out.find("colour rms") != std::string::npos);
 }

@@ -24,20 +24,8 @@ namespace fs = std::filesystem;
 
 /// A flight of a few frames with an aircraft that turns parts and one that does not.
 std::vector<std::string> short_flight(std::vector<std::string> further) {
-    std::vector<std::string> words = {
-        "straight",
-        "--aircraft",
-        "500md",
-        "--aircraft",
-        "concave",
-        "--terrain",
-        "none",
-        "--size",
-        "160x120",
-        "--frames",
-        "4",
-        "--warm-up",
-        "1"};
+    std::vector<std::string> words = {"straight", "--aircraft", "500md", "--aircraft", "concave", "--terrain", "none",
+        "--size", "160x120", "--frames", "4", "--warm-up", "1"};
     words.insert(words.end(), further.begin(), further.end());
     return words;
 }
@@ -53,9 +41,7 @@ std::string hashes(const std::vector<std::string>& further) {
 
 std::vector<fs::path> cached_files_in(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        files.push_back(entry.path());
-    }
+    for (const auto& entry : fs::directory_iterator(folder)) { files.push_back(entry.path()); }
     std::ranges::sort(files);
     return files;
 }
@@ -96,8 +82,7 @@ TEST_CASE("draw-order says whether the order was kept, and else the same") {
     const std::string folder = (tests::empty_folder("order-cache-figures") / "orders").string();
     const auto cold = results_of_run("draw-order", {"f15", "--order-cache", folder});
     const auto warm = results_of_run("draw-order", {"f15", "--order-cache", folder, "--check"});
-    const auto other =
-        results_of_run("draw-order", {"f15", "--order-cache", folder, "--method", "bsp"});
+    const auto other = results_of_run("draw-order", {"f15", "--order-cache", folder, "--method", "bsp"});
     CHECK(cold["from_cache"] == false);
     CHECK(warm["from_cache"] == true);
     CHECK(warm["right"] == true);
@@ -118,8 +103,7 @@ TEST_CASE("two programs may order one model into one cache at once") {
         std::vector<std::jthread> team;
         for (tests::ProgramRun& run : runs) {
             team.emplace_back([&] {
-                run = run_octant(
-                    {"draw-order", "concave", "--order-cache", folder.string(), "--json"});
+                run = run_octant({"draw-order", "concave", "--order-cache", folder.string(), "--json"});
             });
         }
     }

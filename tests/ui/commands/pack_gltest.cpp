@@ -13,9 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string hashes_in(const std::string& text) {
-    return text.substr(text.find("state_hash"));
-}
+std::string hashes_in(const std::string& text) { return text.substr(text.find("state_hash")); }
 
 /// A small flight along a path, by an aircraft and over a ground that are all files.
 std::vector<std::string> flight_in(const fs::path& from, const fs::path& recording) {
@@ -24,19 +22,10 @@ std::vector<std::string> flight_in(const fs::path& from, const fs::path& recordi
     fs::copy_file(source / "models/500md.obj", from / "mine.obj");
     fs::copy_file(source / "models/500md.mtl", from / "500md.mtl");
     const std::string ground = (from / "ground.tif").string();
-    REQUIRE(
-        run_octant({"terrain", "make", "--kind", "hills", "--size", "129", "--out", ground})
-            .exit_code == 0);
-    return {"fly",           (from / "way.toml").string(),
-            "--aircraft",    (from / "mine.obj").string(),
-            "--terrain",     ground,
-            "--order-cache", (from / "orders").string(),
-            "--size",        "96x64",
-            "--frames",      "6",
-            "--warm-up",     "0",
-            "--pictures",    "5",
-            "--record",      recording.string(),
-            "--quiet",       "--json"};
+    REQUIRE(run_octant({"terrain", "make", "--kind", "hills", "--size", "129", "--out", ground}).exit_code == 0);
+    return {"fly", (from / "way.toml").string(), "--aircraft", (from / "mine.obj").string(), "--terrain", ground,
+        "--order-cache", (from / "orders").string(), "--size", "96x64", "--frames", "6", "--warm-up", "0", "--pictures",
+        "5", "--record", recording.string(), "--quiet", "--json"};
 }
 
 } // namespace
@@ -53,9 +42,8 @@ TEST_CASE("a packed recording is flown and reported when nothing else of it is l
     CHECK(fs::exists(made / "there/flight/inputs/500md.mtl"));
     const std::string zip = (made / "elsewhere/flight.zip").string();
     REQUIRE(
-        run_octant(
-            {"pack", (made / "there/flight").string(), "--out", zip, "--with-terrain", "--quiet"})
-            .exit_code == 0);
+        run_octant({"pack", (made / "there/flight").string(), "--out", zip, "--with-terrain", "--quiet"}).exit_code ==
+        0);
     fs::remove_all(made / "there");
 
     const tests::ProgramRun repeat_option = run_octant({"fly", "--settings", zip, "--quiet", "--json"});
@@ -75,16 +63,9 @@ TEST_CASE("a run is not flown again where its recording lies, and takes the plac
     const auto recording = made / "flight";
     REQUIRE(run_octant(flight_in(made, recording)).exit_code == 0);
     const std::string before = read_file(recording / "inputs/way.toml");
-    for (const char* name : {"way.toml", "mine.obj", "500md.mtl"}) {
-        fs::remove(made / name);
-    }
-    const tests::ProgramRun repeat_option = run_octant(
-        {"fly",
-         "--settings",
-         (recording / "run.json").string(),
-         "--record",
-         recording.string(),
-         "--quiet"});
+    for (const char* name : {"way.toml", "mine.obj", "500md.mtl"}) { fs::remove(made / name); }
+    const tests::ProgramRun repeat_option =
+        run_octant({"fly", "--settings", (recording / "run.json").string(), "--record", recording.string(), "--quiet"});
     INFO(repeat_option.err);
     CHECK(repeat_option.exit_code == 0);
     CHECK(read_file(recording / "inputs/way.toml") == before);
@@ -117,6 +98,5 @@ TEST_CASE("what cannot be packed is told in one line") {
     tests::check_refused("pack", {(made / "none").string()}, "expected the folder of a recording");
     tests::check_refused("pack", {made.string()}, "run.json: expected a file, found none");
     write_file(made / "a.zip", "no zip");
-    tests::check_refused(
-        "report", {(made / "a.zip").string(), "--out", "/dev/null"}, "expected a zip file");
+    tests::check_refused("report", {(made / "a.zip").string(), "--out", "/dev/null"}, "expected a zip file");
 }

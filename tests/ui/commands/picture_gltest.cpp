@@ -22,29 +22,23 @@ using ui::settings::RunSettings;
 
 namespace {
 
-// The rasterizer is the same everywhere but its code is made for the processor it runs on: a
-// rounding of a colour part or a pixel of an outline may differ, nothing else.
+// The rasterizer is the same everywhere but its code is made for the processor it runs on: a rounding of a colour part
+// or a pixel of an outline may differ, nothing else.
 constexpr int max_part_difference = 3;
 constexpr double max_outline_share = 0.002;
-// The other renderer rounds corners by itself: where triangles are seen nearly edge-on, as on
-// slopes beside the horizon, a pixel may show the next one.
+// The other renderer rounds corners by itself: where triangles are seen nearly edge-on, as on slopes beside the
+// horizon, a pixel may show the next one.
 constexpr double max_other_outline_share = 0.006;
 
 ui::report::Picture last_picture(ui::flight::Session& session) {
-    for (int frame = 0; frame < session.frames(); ++frame) {
-        session.draw(frame);
-    }
+    for (int frame = 0; frame < session.frames(); ++frame) { session.draw(frame); }
     const auto& picture = session.picture();
     const auto bytes = std::as_bytes(std::span(picture.rgba));
-    return ui::report::picture_from_png(
-        "drawn", ui::report::png_bytes({picture.width, picture.height, 4, bytes}));
+    return ui::report::picture_from_png("drawn", ui::report::png_bytes({picture.width, picture.height, 4, bytes}));
 }
 
 void check_same_pictures(
-    const ui::report::Picture& actual,
-    const ui::report::Picture& expected,
-    const std::string& name,
-    double max_share) {
+    const ui::report::Picture& actual, const ui::report::Picture& expected, const std::string& name, double max_share) {
     INFO(name);
     REQUIRE(expected.bytes.size() == actual.bytes.size());
     ui::report::Picture difference = actual;
@@ -52,16 +46,14 @@ void check_same_pictures(
     for (std::size_t pixel = 0; pixel < actual.bytes.size() / 3; ++pixel) {
         int worst = 0;
         for (std::size_t part = 3 * pixel; part < 3 * pixel + 3; ++part) {
-            const int off = std::abs(
-                std::to_integer<int>(actual.bytes[part]) -
-                std::to_integer<int>(expected.bytes[part]));
+            const int off =
+                std::abs(std::to_integer<int>(actual.bytes[part]) - std::to_integer<int>(expected.bytes[part]));
             difference.bytes[part] = static_cast<std::byte>(std::min(255, 16 * off));
             worst = std::max(worst, off);
         }
         wrong_pixels += worst > max_part_difference ? 1 : 0;
     }
-    const double share =
-        static_cast<double>(wrong_pixels) / (static_cast<double>(actual.bytes.size()) / 3.0);
+    const double share = static_cast<double>(wrong_pixels) / (static_cast<double>(actual.bytes.size()) / 3.0);
     CHECK(share <= max_share);
     if (share > max_share) {
         const std::filesystem::path folder = OCTANT_BUILD_DIR;
@@ -70,13 +62,11 @@ void check_same_pictures(
     }
 }
 
-/// Whether both renderers colour the ground by the same arithmetic: textures they light and filter
-/// each in its own way.
+/// Whether both renderers colour the ground by the same arithmetic: textures they light and filter each in its own way.
 enum class Golden { OfBoth, OfEach };
 
 /// Draws with one sample a pixel, by both renderers.
-void check_against_golden(
-    const std::string& name, RunSettings settings, Golden golden = Golden::OfBoth) {
+void check_against_golden(const std::string& name, RunSettings settings, Golden golden = Golden::OfBoth) {
     using ui::settings::RendererKind;
     settings.view.samples = 1;
     std::vector<std::unique_ptr<ui::flight::Session>> sessions; // on one ground
@@ -87,8 +77,7 @@ void check_against_golden(
         const ui::report::Picture actual = last_picture(*sessions.back());
         const std::string drawn_as = kind == RendererKind::Gl ? name : name + "-raster";
         const std::string approved_as = golden == Golden::OfEach ? drawn_as : name;
-        const auto file =
-            std::filesystem::path(OCTANT_SOURCE_DIR) / "tests/golden" / (approved_as + ".png");
+        const auto file = std::filesystem::path(OCTANT_SOURCE_DIR) / "tests/golden" / (approved_as + ".png");
         if (std::getenv("OCTANT_APPROVE") == nullptr) {
             const bool own = approved_as == drawn_as;
             const double max_share = own ? max_outline_share : max_other_outline_share;
@@ -99,8 +88,7 @@ void check_against_golden(
     }
 }
 
-RunSettings
-small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
+RunSettings small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
     RunSettings settings = ui::settings::measurement_settings();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
@@ -113,27 +101,20 @@ small(const std::string& path, const std::string& aircraft, const std::string& t
     return settings;
 }
 
-/// A checker of 8 x 8 fields with a red arrow that points north and a green corner in the
-/// north-east, as a file.
+/// A checker of 8 x 8 fields with a red arrow that points north and a green corner in the north-east, as a file.
 std::filesystem::path painted_drape() {
     constexpr int side = 256;
     const auto colour_at = [](int x, int y) -> std::array<int, 3> {
         const bool head = y >= 32 && y < 128 && std::abs(x - 128) <= (y - 32) / 2;
         const bool shaft = y >= 128 && y < 224 && std::abs(x - 128) <= 16;
-        if (head || shaft) {
-            return {210, 40, 30};
-        }
-        if (x >= 224 && y < 32) {
-            return {30, 180, 60};
-        }
+        if (head || shaft) { return {210, 40, 30}; }
+        if (x >= 224 && y < 32) { return {30, 180, 60}; }
         return (x / 32 + y / 32) % 2 == 0 ? std::array{225, 225, 215} : std::array{70, 80, 110};
     };
     std::vector<std::byte> bytes;
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
-            for (const int part : colour_at(x, y)) {
-                bytes.push_back(static_cast<std::byte>(part));
-            }
+            for (const int part : colour_at(x, y)) { bytes.push_back(static_cast<std::byte>(part)); }
         }
     }
     const auto file = tests::scratch_folder() / "drape.png";
@@ -145,19 +126,14 @@ std::filesystem::path painted_drape() {
 
 // OCTANT_APPROVE=1 writes new golden pictures: look at them before they are committed.
 TEST_CASE("pictures are those that were approved") {
-    check_against_golden(
-        "f15-jinking-canyon-chase", small("jinking", "f15", "canyon", View::Chase));
-    check_against_golden(
-        "f15-pop-up-hills-cockpit", small("pop-up", "f15", "hills", View::Cockpit));
+    check_against_golden("f15-jinking-canyon-chase", small("jinking", "f15", "canyon", View::Chase));
+    check_against_golden("f15-pop-up-hills-cockpit", small("pop-up", "f15", "hills", View::Cockpit));
     check_against_golden("500md-turn-canyon-orbit", small("turn", "500md", "canyon", View::Orbit));
-    check_against_golden(
-        "500md-straight-background60-chase",
-        small("straight", "500md", "background60", View::Chase));
+    check_against_golden("500md-straight-background60-chase", small("straight", "500md", "background60", View::Chase));
     RunSettings low = small("jinking", "500md", "hills", View::Cockpit);
     low.view.size_px = {480, 270}; // smaller pixels hold several triangles of the slope each
     check_against_golden("500md-jinking-hills-cockpit", low);
-    check_against_golden(
-        "f15-straight-canyon-tower", small("straight", "f15", "canyon", View::Tower));
+    check_against_golden("f15-straight-canyon-tower", small("straight", "f15", "canyon", View::Tower));
 }
 
 TEST_CASE("pictures of near ground with its detail and what stands there are those approved") {
@@ -166,8 +142,7 @@ TEST_CASE("pictures of near ground with its detail and what stands there are tho
         RunSettings low = small("straight", "500md", terrain, View::Chase);
         low.ground.near_detail = true;
         low.ground.scenery = true;
-        check_against_golden(
-            "500md-straight-" + std::string(terrain) + "-near-ground", low, Golden::OfEach);
+        check_against_golden("500md-straight-" + std::string(terrain) + "-near-ground", low, Golden::OfEach);
     }
 }
 

@@ -9,9 +9,9 @@ using namespace octant;
 
 namespace {
 
-/// Whether no pixel is wrong of every 14th frame, or so, of all paths and views by each renderer:
-/// octant study hidden-surface --only rays --every 14 --size 480x270. `aircraft`: one in place of
-/// the F-15 and the 500MD; empty: both.
+/// Whether no pixel is wrong of every 14th frame, or so, of all paths and views by each renderer: octant study
+/// hidden-surface --only rays --every 14 --size 480x270. `aircraft`: one in place of the F-15 and the 500MD; empty:
+/// both.
 bool shows_what_rays_find(const std::string& aircraft, int every) {
     ui::studies::draw_order::HiddenSurfaceStudyOptions study;
     study.out = tests::scratch_folder();

@@ -17,9 +17,9 @@ namespace octant::tests {
 template <class T>
 concept JsonNumber = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 
-/// JSON that the program printed, or a part of it, for looking at. Keeps the headers of the JSON
-/// library, which take seconds to compile, out of the tests. What is not there, or of another kind
-/// than asked for, is thrown as an exception, which fails the test.
+/// JSON that the program printed, or a part of it, for looking at. Keeps the headers of the JSON library, which take
+/// seconds to compile, out of the tests. What is not there, or of another kind than asked for, is thrown as an
+/// exception, which fails the test.
 class PrintedJson {
 public:
     explicit PrintedJson(const std::string& text);
@@ -44,17 +44,13 @@ public:
     /// The same object without the members of these names.
     PrintedJson without(std::initializer_list<std::string_view> names) const;
 
-    friend bool operator==(const PrintedJson& a, const PrintedJson& b) {
-        return a.printed() == b.printed();
-    }
+    friend bool operator==(const PrintedJson& a, const PrintedJson& b) { return a.printed() == b.printed(); }
 
     friend bool operator==(const PrintedJson& a, const JsonNumber auto& b) {
         return a.number() == static_cast<double>(b);
     }
 
-    friend bool operator==(const PrintedJson& a, const std::same_as<bool> auto& b) {
-        return a.truth() == b;
-    }
+    friend bool operator==(const PrintedJson& a, const std::same_as<bool> auto& b) { return a.truth() == b; }
 
     friend bool operator==(const PrintedJson& a, std::string_view b) { return a.text() == b; }
 

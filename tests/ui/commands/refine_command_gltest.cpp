@@ -30,9 +30,7 @@ std::filesystem::path refine_folder() {
     return made;
 }
 
-std::string refine_file(const std::string& name) {
-    return (refine_folder() / name).string();
-}
+std::string refine_file(const std::string& name) { return (refine_folder() / name).string(); }
 
 /// A wavy sheet of 30 x 30 vertices as an OBJ file, with its faces from 0.
 Faces write_sheet(const std::string& path) {
@@ -51,9 +49,7 @@ Faces write_sheet(const std::string& path) {
             faces.push_back({at, at + size + 1, at + size});
         }
     }
-    for (const auto& [a, b, c] : faces) {
-        text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
-    }
+    for (const auto& [a, b, c] : faces) { text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1); }
     write_file(path, text);
     return faces;
 }
@@ -76,9 +72,7 @@ Faces faces_of_obj(const std::string& path) {
         const auto words = split_words(line);
         if (!words.empty() && words[0] == "f") {
             std::array<int, 3> face{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                face[k] = std::stoi(std::string(words[k + 1])) - 1;
-            }
+            for (std::size_t k = 0; k < 3; ++k) { face[k] = std::stoi(std::string(words[k + 1])) - 1; }
             faces.push_back(face);
         }
     }
@@ -91,24 +85,16 @@ Faces expected_faces(const Faces& originals, const std::string& nodes_file) {
     const std::string text = read_file(nodes_file);
     int vertex = 0;
     for (const std::string_view line : split_lines(text)) {
-        if (line.empty() || line[0] == '#') {
-            continue;
-        }
+        if (line.empty() || line[0] == '#') { continue; }
         const auto words = split_words(line);
-        for (std::size_t k = 1; k < words.size(); ++k) {
-            vertex_of[std::stoul(std::string(words[k]))] = vertex;
-        }
+        for (std::size_t k = 1; k < words.size(); ++k) { vertex_of[std::stoul(std::string(words[k]))] = vertex; }
         ++vertex;
     }
     Faces faces;
     for (const auto& [a, b, c] : originals) {
-        const std::array<int, 3> face{
-            vertex_of[static_cast<std::size_t>(a)],
-            vertex_of[static_cast<std::size_t>(b)],
+        const std::array<int, 3> face{vertex_of[static_cast<std::size_t>(a)], vertex_of[static_cast<std::size_t>(b)],
             vertex_of[static_cast<std::size_t>(c)]};
-        if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) {
-            faces.push_back(face);
-        }
+        if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) { faces.push_back(face); }
     }
     return sorted(faces);
 }
@@ -125,21 +111,12 @@ void check_refine_refused(const std::vector<std::string>& arguments, const std::
 
 TEST_CASE("a saved progressive mesh refined everywhere is the original, face for face") {
     const Faces originals = write_sheet(refine_file("sheet.obj"));
-    const auto made =
-        refine({refine_file("sheet.obj"), "--base", "50", "--save", refine_file("sheet.pm")});
+    const auto made = refine({refine_file("sheet.obj"), "--base", "50", "--save", refine_file("sheet.pm")});
     CHECK(made["original_vertices"] == 900);
     CHECK(made["base_vertices"] == 50);
     CHECK(made["vertices"] == 50);
     const auto full = refine(
-        {refine_file("sheet.pm"),
-         "--region",
-         "sphere",
-         "15",
-         "15",
-         "0",
-         "100",
-         "--out",
-         refine_file("full.obj")});
+        {refine_file("sheet.pm"), "--region", "sphere", "15", "15", "0", "100", "--out", refine_file("full.obj")});
     CHECK(full["vertices"] == 900);
     CHECK(full["requested_splits"] == 850);
     CHECK(full["forced_by_rule"] == 0);
@@ -153,32 +130,11 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
     const Faces originals = write_sheet(refine_file("sheet.obj"));
     std::vector<double> vertices;
     for (const char* rule : {"selective", "hoppe", "xia"}) {
-        const auto results = refine(
-            {refine_file("sheet.obj"),
-             "--base",
-             "50",
-             "--rule",
-             rule,
-             "--region",
-             "sphere",
-             "5",
-             "5",
-             "0",
-             "4",
-             "--region",
-             "sphere",
-             "20",
-             "-1.5",
-             "0",
-             "6",
-             "--out",
-             refine_file("part.obj"),
-             "--nodes",
-             refine_file("part.txt")});
+        const auto results = refine({refine_file("sheet.obj"), "--base", "50", "--rule", rule, "--region", "sphere",
+            "5", "5", "0", "4", "--region", "sphere", "20", "-1.5", "0", "6", "--out", refine_file("part.obj"),
+            "--nodes", refine_file("part.txt")});
         CHECK(results["turned_faces"] == 0);
-        CHECK(
-            faces_of_obj(refine_file("part.obj")) ==
-            expected_faces(originals, refine_file("part.txt")));
+        CHECK(faces_of_obj(refine_file("part.obj")) == expected_faces(originals, refine_file("part.txt")));
         vertices.push_back(results["vertices"].number());
     }
     CHECK(vertices[0] < vertices[1]);
@@ -189,15 +145,7 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
 TEST_CASE("a view refines what it sees, and the same input gives the same bytes") {
     write_sheet(refine_file("sheet.obj"));
     const std::vector<std::string> arguments = {
-        refine_file("sheet.obj"),
-        "--base",
-        "50",
-        "--error-px",
-        "2",
-        "--eye",
-        "-5,-5,6",
-        "--look",
-        "10,10,0"};
+        refine_file("sheet.obj"), "--base", "50", "--error-px", "2", "--eye", "-5,-5,6", "--look", "10,10,0"};
     auto first = arguments;
     first.insert(first.end(), {"--out", refine_file("one.ply")});
     auto second = arguments;
@@ -211,16 +159,8 @@ TEST_CASE("a view refines what it sees, and the same input gives the same bytes"
 
 TEST_CASE("the partition is the original mesh with as many colours as there are active vertices") {
     const Faces originals = write_sheet(refine_file("sheet.obj"));
-    refine(
-        {refine_file("sheet.obj"),
-         "--base",
-         "20",
-         "--out-partition",
-         refine_file("partition.obj"),
-         "--colour-by",
-         "region",
-         "--out",
-         refine_file("base.obj")});
+    refine({refine_file("sheet.obj"), "--base", "20", "--out-partition", refine_file("partition.obj"), "--colour-by",
+        "region", "--out", refine_file("base.obj")});
     CHECK(faces_of_obj(refine_file("partition.obj")) == sorted(originals));
     const auto colours = [](const std::string& name) {
         const std::string text = read_file(name);
@@ -244,36 +184,20 @@ TEST_CASE("refine refuses wrong input in one line with exit code 2") {
     write_file(refine_file("bad.pm"), "nothing");
     check_refine_refused({refine_file("bad.pm")}, "bad.pm: expected a progressive mesh");
     check_refine_refused({refine_file("sheet.obj"), "--rule", "magic"}, "--rule");
-    check_refine_refused(
-        {refine_file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
-    check_refine_refused(
-        {refine_file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");
+    check_refine_refused({refine_file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
+    check_refine_refused({refine_file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");
     check_refine_refused({refine_file("sheet.obj"), "--error-px", "1"}, "--eye");
-    check_refine_refused(
-        {refine_file("sheet.obj"), "--error-px", "1", "--eye", "0,0", "--look", "0,0,0"},
+    check_refine_refused({refine_file("sheet.obj"), "--error-px", "1", "--eye", "0,0", "--look", "0,0,0"},
         "--eye: expected X,Y,Z, got '0,0'");
     check_refine_refused({refine_file("sheet.obj"), "--save", refine_file("x.obj")}, "ends in .pm");
-    check_refine_refused(
-        {refine_file("sheet.obj"), "--out", refine_file("x.txt")}, "--out: expected a mesh file");
-    check_refine_refused(
-        {refine_file("sheet.obj"), "--save", "/nowhere/x.pm", "--quiet"}, "/nowhere/x.pm");
+    check_refine_refused({refine_file("sheet.obj"), "--out", refine_file("x.txt")}, "--out: expected a mesh file");
+    check_refine_refused({refine_file("sheet.obj"), "--save", "/nowhere/x.pm", "--quiet"}, "/nowhere/x.pm");
 }
 
 TEST_CASE("the study of refinement writes its tables") {
     write_sheet(refine_file("sheet.obj"));
-    const auto run = run_octant(
-        {"study",
-         "refinement",
-         "--out",
-         refine_file("study"),
-         "--frames",
-         "40",
-         "--mesh",
-         refine_file("sheet.obj"),
-         "--base",
-         "200",
-         "--json",
-         "--quiet"});
+    const auto run = run_octant({"study", "refinement", "--out", refine_file("study"), "--frames", "40", "--mesh",
+        refine_file("sheet.obj"), "--base", "200", "--json", "--quiet"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const auto tables = tests::PrintedJson(run.out);
@@ -283,15 +207,8 @@ TEST_CASE("the study of refinement writes its tables") {
         CHECK(row["after repair (faces)"] == 0);
         CHECK(row["selective"] <= row["Hoppe 1997"]);
     }
-    for (const char* name :
-         {"forced-splits.csv",
-          "refinement-path.csv",
-          "refinement-speed.csv",
-          "refinement.md",
-          "refinement-original.png",
-          "refinement-base.png",
-          "refinement-partition.png",
-          "refinement-region.png"}) {
+    for (const char* name : {"forced-splits.csv", "refinement-path.csv", "refinement-speed.csv", "refinement.md",
+             "refinement-original.png", "refinement-base.png", "refinement-partition.png", "refinement-region.png"}) {
         CHECK(std::filesystem::exists(refine_folder() / "study" / name));
     }
 }

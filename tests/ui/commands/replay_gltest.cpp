@@ -33,33 +33,10 @@ const fs::path& recorded() {
     static const fs::path folder = [] {
         const auto made = tests::empty_folder("replay");
         const std::string ground = (made / "ground.tif").string();
-        REQUIRE(
-            run_octant({"terrain", "make", "--kind", "hills", "--size", "257", "--out", ground})
-                .exit_code == 0);
-        const tests::ProgramRun run = run_octant(
-            {"fly",
-             "turn",
-             "--terrain",
-             ground,
-             "--adapt",
-             "terrain",
-             "--triangles",
-             "20000",
-             "--rate",
-             "1000",
-             "--size",
-             "320x240",
-             "--frames",
-             "60",
-             "--warm-up",
-             "2",
-             "--pictures",
-             "0",
-             "--record",
-             (made / "flight").string(),
-             "--no-near-detail",
-             "--no-scenery",
-             "--quiet"});
+        REQUIRE(run_octant({"terrain", "make", "--kind", "hills", "--size", "257", "--out", ground}).exit_code == 0);
+        const tests::ProgramRun run = run_octant({"fly", "turn", "--terrain", ground, "--adapt", "terrain",
+            "--triangles", "20000", "--rate", "1000", "--size", "320x240", "--frames", "60", "--warm-up", "2",
+            "--pictures", "0", "--record", (made / "flight").string(), "--no-near-detail", "--no-scenery", "--quiet"});
         INFO(run.err);
         REQUIRE(run.exit_code == 0);
         return made / "flight";
@@ -67,22 +44,17 @@ const fs::path& recorded() {
     return folder;
 }
 
-Records rows_of(const fs::path& folder) {
-    return ui::report::read_frame_csv(folder / "frames.csv").records;
-}
+Records rows_of(const fs::path& folder) { return ui::report::read_frame_csv(folder / "frames.csv").records; }
 
 /// A copy of the flight's run.json with rows that have been changed.
 fs::path changed(const std::string& name, const std::function<void(Records&)>& change) {
     const fs::path folder = recorded().parent_path() / name;
     fs::create_directories(folder);
-    fs::copy_file(
-        recorded() / "run.json", folder / "run.json", fs::copy_options::overwrite_existing);
+    fs::copy_file(recorded() / "run.json", folder / "run.json", fs::copy_options::overwrite_existing);
     Records rows = rows_of(recorded());
     change(rows);
     std::string text = ui::report::frame_csv_header();
-    for (const auto& row : rows) {
-        text += ui::report::frame_csv_line(row);
-    }
+    for (const auto& row : rows) { text += ui::report::frame_csv_line(row); }
     write_file(folder / "frames.csv", text);
     return folder;
 }
@@ -103,8 +75,8 @@ TEST_CASE("a flight whose triangles followed the clock is replayed bit for bit")
     const Records rows = rows_of(recorded());
     REQUIRE(rows.size() == 60);
     for (std::size_t i = 1; i < rows.size(); ++i) {
-        const double ratio = static_cast<double>(rows[i].triangle_target) /
-                             static_cast<double>(rows[i - 1].triangle_target);
+        const double ratio =
+            static_cast<double>(rows[i].triangle_target) / static_cast<double>(rows[i - 1].triangle_target);
         CHECK(ratio > 0.979);
         CHECK(ratio < 1.006);
     }
@@ -113,15 +85,11 @@ TEST_CASE("a flight whose triangles followed the clock is replayed bit for bit")
     CHECK(std::isfinite(rows[2].stress));
 }
 
-TEST_CASE(
-    "a flight whose shading followed the clock is replayed bit for bit, whatever cells it saw") {
+TEST_CASE("a flight whose shading followed the clock is replayed bit for bit, whatever cells it saw") {
     const fs::path folder = tests::empty_folder("replayed-shading");
-    const tests::ProgramRun flown =
-        run_octant({"fly",      "jinking",       "--aircraft", "f15",        "--aircraft",
-                    "500md",    "--view",        "tower",      "--terrain",  tests::small_ground(),
-                    "--adapt",  "shading",       "--rate",     "20",         "--size",
-                    "160x90",   "--frames",      "150",        "--pictures", "0",
-                    "--record", folder.string(), "--quiet"});
+    const tests::ProgramRun flown = run_octant({"fly", "jinking", "--aircraft", "f15", "--aircraft", "500md", "--view",
+        "tower", "--terrain", tests::small_ground(), "--adapt", "shading", "--rate", "20", "--size", "160x90",
+        "--frames", "150", "--pictures", "0", "--record", folder.string(), "--quiet"});
     INFO(flown.err);
     REQUIRE(flown.exit_code == 0);
     const Records rows = rows_of(folder);
@@ -138,26 +106,15 @@ TEST_CASE("a mesh and a second view whose shading followed the clock are replaye
     const fs::path mesh = tests::empty_folder("shaded-mesh") / "ball.ply";
     models::meshfile::write_mesh(mesh, ui::studies::hybrid_shading::uneven_ball(24, 49));
     const fs::path folder = tests::empty_folder("replayed-mesh-shading");
-    const tests::ProgramRun flown = run_octant({"fly",        "turn",
-                                                "--aircraft", mesh.string(),
-                                                "--inset",    "orbit",
-                                                "--terrain",  "none",
-                                                "--adapt",    "shading",
-                                                "--rate",     "20",
-                                                "--size",     "320x180",
-                                                "--frames",   "60",
-                                                "--pictures", "0",
-                                                "--record",   folder.string(),
-                                                "--quiet",    "--aircraft-error-px",
-                                                "0.2"});
+    const tests::ProgramRun flown = run_octant({"fly", "turn", "--aircraft", mesh.string(), "--inset", "orbit",
+        "--terrain", "none", "--adapt", "shading", "--rate", "20", "--size", "320x180", "--frames", "60", "--pictures",
+        "0", "--record", folder.string(), "--quiet", "--aircraft-error-px", "0.2"});
     INFO(flown.err);
     REQUIRE(flown.exit_code == 0);
     const Records rows = rows_of(folder);
     CHECK(rows.front().smooth_polygons == 0); // the safe side
     CHECK(rows.front().aircraft_polygons > 300);
-    CHECK(
-        rows.back().smooth_polygons ==
-        std::min(rows.back().smooth_target, rows.back().aircraft_polygons));
+    CHECK(rows.back().smooth_polygons == std::min(rows.back().smooth_target, rows.back().aircraft_polygons));
     const tests::ProgramRun repeat_option = replay(folder);
     INFO(repeat_option.err);
     CHECK(repeat_option.exit_code == 0);
@@ -182,9 +139,7 @@ TEST_CASE("other targets in the rows give other pictures, and the check says so"
     CHECK(rows[10].terrain_triangles <= 1300);
     CHECK(rows[10].terrain_triangles > 1200);
     CHECK(replay(repeat_option).exit_code == 0); // a replay is a recording like any other
-    CHECK_THAT(
-        read_text_file(repeat_option / "run.json"),
-        Contains("\"replay of\": \"" + half.filename().string()));
+    CHECK_THAT(read_text_file(repeat_option / "run.json"), Contains("\"replay of\": \"" + half.filename().string()));
 }
 
 TEST_CASE("what is left of a killed flight is replayed, and nothing says that it is the same") {
@@ -227,15 +182,12 @@ TEST_CASE("rows that cannot be replayed are refused with their line") {
 
 TEST_CASE("beside a replay nothing may be asked for that changes pictures") {
     const std::string expected = "--replay: expected no option beside it that may change pictures";
-    tests::check_refusal(
-        replay(recorded(), {"--triangles", "5000"}), expected + ", got --triangles");
+    tests::check_refusal(replay(recorded(), {"--triangles", "5000"}), expected + ", got --triangles");
     tests::check_refusal(replay(recorded(), {"straight"}), expected + ", got path");
     tests::check_refusal(replay(recorded(), {"--no-shadows"}), expected + ", got --shadows");
     tests::check_refusal(
-        replay(recorded(), {"--settings", (recorded() / "run.json").string()}),
-        expected + ", got --settings");
-    tests::check_refusal(
-        replay(recorded(), {"--record", recorded().string()}), "--record: expected another folder");
+        replay(recorded(), {"--settings", (recorded() / "run.json").string()}), expected + ", got --settings");
+    tests::check_refusal(replay(recorded(), {"--record", recorded().string()}), "--record: expected another folder");
     CHECK(replay(recorded(), {"--warm-up", "0", "--pictures", "7"}).exit_code == 0);
 }
 
@@ -245,9 +197,7 @@ TEST_CASE("adaptation is refused where there is nothing to adapt") {
         return run_octant(words);
     };
     tests::check_refusal(fly({"--detail", "damped"}), "--adapt terrain: expected --detail exact");
-    tests::check_refusal(
-        fly({"--terrain", "background60"}), "expected ground with levels of detail");
-    tests::check_refusal(
-        run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
+    tests::check_refusal(fly({"--terrain", "background60"}), "expected ground with levels of detail");
+    tests::check_refusal(run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
         "--adapt: expected none or a list of terrain, shading, got 'terrain,sound'");
 }

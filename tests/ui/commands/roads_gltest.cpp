@@ -22,34 +22,16 @@ using namespace octant;
 namespace {
 
 /// Beside a road of the made hills.
-const std::vector<std::string> hills_road = {
-    "straight",
-    "--aircraft",
-    "concave",
-    "--terrain",
-    "hills",
-    "--view",
-    "free",
-    "--eye=-3900,-2900,245",
-    "--look=-4500,-1000,225"};
+const std::vector<std::string> hills_road = {"straight", "--aircraft", "concave", "--terrain", "hills", "--view",
+    "free", "--eye=-3900,-2900,245", "--look=-4500,-1000,225"};
 
 ui::report::Picture picture_with(const std::vector<std::string>& options) {
     const std::filesystem::path folder = tests::empty_folder("roads");
     std::vector<std::string> arguments = hills_road;
     arguments.insert(arguments.begin(), "fly");
     arguments.insert(arguments.end(), options.begin(), options.end());
-    arguments.insert(
-        arguments.end(),
-        {"--size",
-         "320x180",
-         "--frames",
-         "1",
-         "--pictures",
-         "1",
-         "--quiet",
-         "--no-scenery",
-         "--record",
-         folder.string()});
+    arguments.insert(arguments.end(), {"--size", "320x180", "--frames", "1", "--pictures", "1", "--quiet",
+                                          "--no-scenery", "--record", folder.string()});
     const tests::ProgramRun run = tests::run_octant(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
@@ -61,10 +43,7 @@ int differing_pixels(const ui::report::Picture& a, const ui::report::Picture& b)
     for (std::size_t i = 0; i < a.bytes.size(); i += 3) {
         int most = 0;
         for (std::size_t part = i; part < i + 3; ++part) {
-            most = std::max(
-                most,
-                std::abs(
-                    std::to_integer<int>(a.bytes[part]) - std::to_integer<int>(b.bytes[part])));
+            most = std::max(most, std::abs(std::to_integer<int>(a.bytes[part]) - std::to_integer<int>(b.bytes[part])));
         }
         count += most > 20 ? 1 : 0;
     }
@@ -100,8 +79,7 @@ TEST_CASE("ground with roads is painted in order as the depth buffer shows it") 
         REQUIRE(roads);
         settings.view.kind = visuals::scene::View::Free;
         for (std::size_t i = 0; i < 8; ++i) {
-            const visuals::roads::RoadSection& section =
-                roads->sections()[i * roads->sections().size() / 8];
+            const visuals::roads::RoadSection& section = roads->sections()[i * roads->sections().size() / 8];
             const glm::dvec2 from_m = section.levels[0].front().at_m + glm::dvec2(30.0, 10.0);
             const glm::dvec2 to_m = section.levels[0].back().at_m;
             const double ground_m = ground->height_at(from_m.x, from_m.y).value();
@@ -109,10 +87,7 @@ TEST_CASE("ground with roads is painted in order as the depth buffer shows it") 
             settings.view.look_m = {to_m.x, to_m.y, ground->height_at(to_m.x, to_m.y).value()};
             const auto [painted, by_depth] = ui::flight::comparison_settings(settings);
             const ui::flight::IdComparison result = ui::flight::compare_with_depth_buffer(
-                settings,
-                {tests::kept_world(painted), tests::kept_world(by_depth)},
-                400,
-                [](int, int) {});
+                settings, {tests::kept_world(painted), tests::kept_world(by_depth)}, 400, [](int, int) {});
             INFO(terrain << " piece " << i);
             CHECK(result.frames > 0);
             CHECK(result.unordered == 0);
@@ -123,9 +98,7 @@ TEST_CASE("ground with roads is painted in order as the depth buffer shows it") 
 
 TEST_CASE("pictures with roads are the same for any number of threads") {
     std::vector<std::string> arguments = hills_road;
-    arguments.insert(
-        arguments.end(),
-        {"--size", "160x90", "--frames", "4", "--rate", "1", "--renderer", "raster"});
+    arguments.insert(arguments.end(), {"--size", "160x90", "--frames", "4", "--rate", "1", "--renderer", "raster"});
     std::string first;
     for (const char* const threads : {"1", "2", "5"}) {
         std::vector<std::string> own = arguments;

@@ -19,8 +19,7 @@ std::filesystem::path folder() {
 }
 
 tests::ProgramRun study(std::vector<std::string> more) {
-    std::vector<std::string> words{
-        "study", "simplification", "--quiet", "--out", (folder() / "out").string()};
+    std::vector<std::string> words{"study", "simplification", "--quiet", "--out", (folder() / "out").string()};
     words.insert(words.end(), more.begin(), more.end());
     return run_octant(words);
 }

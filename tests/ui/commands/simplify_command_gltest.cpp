@@ -1,5 +1,5 @@
-#include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_append.h"
+#include "models/meshfile/mesh_file.h"
 #include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/output_file.h"
@@ -34,9 +34,7 @@ std::filesystem::path simplify_folder() {
     return made;
 }
 
-std::string file_named(const std::string& name) {
-    return (simplify_folder() / name).string();
-}
+std::string file_named(const std::string& name) { return (simplify_folder() / name).string(); }
 
 /// A square of `side` x `side` fields of two triangles each, with gentle waves, as an OBJ file.
 std::string waves(int side) {
@@ -66,26 +64,11 @@ std::string cubes(int count) {
         const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
         for (int corner = 0; corner < 8; ++corner) {
             mesh.vertices_m.push_back(
-                {2.0 * i + side * (corner & 1),
-                 side * ((corner >> 1) & 1),
-                 side * ((corner >> 2) & 1)});
+                {2.0 * i + side * (corner & 1), side * ((corner >> 1) & 1), side * ((corner >> 2) & 1)});
         }
-        const std::vector<models::Triangle> sides{
-            {0, 2, 3},
-            {0, 3, 1},
-            {4, 5, 7},
-            {4, 7, 6},
-            {0, 1, 5},
-            {0, 5, 4},
-            {2, 6, 7},
-            {2, 7, 3},
-            {0, 4, 6},
-            {0, 6, 2},
-            {1, 3, 7},
-            {1, 7, 5}};
-        for (const auto& [a, b, c] : sides) {
-            mesh.triangles.push_back({first + a, first + b, first + c});
-        }
+        const std::vector<models::Triangle> sides{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+            {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+        for (const auto& [a, b, c] : sides) { mesh.triangles.push_back({first + a, first + b, first + c}); }
     }
     const std::string file = file_named("cubes.obj");
     models::meshfile::write_mesh(file, mesh);
@@ -96,33 +79,16 @@ tests::PrintedJson simplify_figures(const std::vector<std::string>& arguments) {
     return tests::results_of_run("simplify", arguments);
 }
 
-void check_simplify_refused(
-    const std::vector<std::string>& arguments, const std::string& expected) {
+void check_simplify_refused(const std::vector<std::string>& arguments, const std::string& expected) {
     tests::check_refused("simplify", arguments, expected);
 }
 
 /// Rows of a short flight's frames.csv.
-std::vector<ui::report::FrameRecord>
-flown_frames(const std::string& aircraft, const std::string& size, const std::string& error_px) {
+std::vector<ui::report::FrameRecord> flown_frames(
+    const std::string& aircraft, const std::string& size, const std::string& error_px) {
     const std::string recording = file_named("flown");
-    const tests::ProgramRun run = run_octant(
-        {"fly",
-         "straight",
-         "--aircraft",
-         aircraft,
-         "--terrain",
-         "hills",
-         "--size",
-         size,
-         "--frames",
-         "4",
-         "--warm-up",
-         "0",
-         "--aircraft-error-px",
-         error_px,
-         "--record",
-         recording,
-         "--quiet"});
+    const tests::ProgramRun run = run_octant({"fly", "straight", "--aircraft", aircraft, "--terrain", "hills", "--size",
+        size, "--frames", "4", "--warm-up", "0", "--aircraft-error-px", error_px, "--record", recording, "--quiet"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     return ui::report::read_frame_csv(recording + "/frames.csv").records;
@@ -134,8 +100,7 @@ TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of
     const std::string in = waves(24);
     const std::string out = file_named("small.ply");
     for (const char* method : {"surface", "fast"}) {
-        const tests::PrintedJson found =
-            simplify_figures({in, out, "--faces", "200", "--method", method});
+        const tests::PrintedJson found = simplify_figures({in, out, "--faces", "200", "--method", method});
         CHECK(found["faces"] <= 200);
         CHECK(found["faces"] >= 190);
         const models::TriangleMesh written = models::meshfile::read_mesh(out);
@@ -184,8 +149,7 @@ TEST_CASE("a goal below what all shells need drops small ones; kept, it is misse
     CHECK(fewer["shells_gone"] == 2);
     CHECK(fewer["error"].number() < 5.5); // without the three smallest: from 2.5 to 8
     for (const std::string option : {"--keep-shells", "--keep-topology"}) {
-        const tests::ProgramRun kept =
-            run_octant({"simplify", in, out, "--faces", "12", option, "--json"});
+        const tests::ProgramRun kept = run_octant({"simplify", in, out, "--faces", "12", option, "--json"});
         CHECK(kept.exit_code == 1);
         CHECK_THAT(kept.err, Catch::Contains("no edge can collapse any more"));
         CHECK(tests::PrintedJson(kept.out)["faces"] == 20);
@@ -206,9 +170,7 @@ TEST_CASE("an error that is asked for is certified not to be exceeded") {
 
 TEST_CASE("the error of a mesh far from the origin is kept in the written file, or refused") {
     models::TriangleMesh far = models::meshfile::read_mesh(waves(24));
-    for (glm::dvec3& vertex_m : far.vertices_m) {
-        vertex_m += glm::dvec3(523'000.0, 5'200'000.0, 0.0);
-    }
+    for (glm::dvec3& vertex_m : far.vertices_m) { vertex_m += glm::dvec3(523'000.0, 5'200'000.0, 0.0); }
     const std::string in = file_named("far.obj");
     models::meshfile::write_mesh(in, far);
     for (const std::string ending : {".glb", ".gltf", ".ply", ".obj"}) {
@@ -221,8 +183,7 @@ TEST_CASE("the error of a mesh far from the origin is kept in the written file, 
         CHECK(measured["both"]["hausdorff_least_units"] <= 0.05);
     }
     check_simplify_refused(
-        {in, file_named("far-small.stl"), "--error", "0.05"},
-        "expected a format that keeps --error 0.05");
+        {in, file_named("far-small.stl"), "--error", "0.05"}, "expected a format that keeps --error 0.05");
 }
 
 TEST_CASE("files simplified together keep their common border to the byte") {
@@ -232,9 +193,7 @@ TEST_CASE("files simplified together keep their common border to the byte") {
         models::TriangleMesh tile = both;
         std::erase_if(tile.triangles, [&](const models::Triangle& triangle) {
             double sum_x = 0.0;
-            for (const std::uint32_t vertex : triangle) {
-                sum_x += both.vertices_m[vertex].x;
-            }
+            for (const std::uint32_t vertex : triangle) { sum_x += both.vertices_m[vertex].x; }
             return (sum_x > 3.0 * 12.0) != is_east;
         });
         tiles.push_back(file_named(is_east ? "east.obj" : "west.obj"));
@@ -242,15 +201,7 @@ TEST_CASE("files simplified together keep their common border to the byte") {
     }
     const std::string folder = file_named("tiles");
     const auto found = simplify_figures(
-        {tiles[0],
-         tiles[1],
-         "--shared-border",
-         "--out-dir",
-         folder,
-         "--faces",
-         "400",
-         "--method",
-         "fast"});
+        {tiles[0], tiles[1], "--shared-border", "--out-dir", folder, "--faces", "400", "--method", "fast"});
     CHECK(found["faces"] <= 400);
     REQUIRE(found["files"].size() == 2);
     std::vector<std::set<std::string>> borders(2);
@@ -261,24 +212,14 @@ TEST_CASE("files simplified together keep their common border to the byte") {
         const std::string text = read_file(file);
         for (const std::string_view line : split_lines(text)) {
             const auto words = split_words(line);
-            if (words.size() == 4 && words[0] == "v" && words[1] == "12") {
-                borders[i].insert(std::string(line));
-            }
+            if (words.size() == 4 && words[0] == "v" && words[1] == "12") { borders[i].insert(std::string(line)); }
         }
     }
     CHECK(borders[0].size() >= 2);
     CHECK(borders[0] == borders[1]);
     // Text has a line for each file.
-    const std::string lines = run_octant({"simplify",
-                                          tiles[0],
-                                          tiles[1],
-                                          "--shared-border",
-                                          "--out-dir",
-                                          folder,
-                                          "--faces",
-                                          "300",
-                                          "--method",
-                                          "fast"})
+    const std::string lines = run_octant(
+        {"simplify", tiles[0], tiles[1], "--shared-border", "--out-dir", folder, "--faces", "300", "--method", "fast"})
                                   .out;
     CHECK_THAT(lines, Catch::Contains("west.obj: ") && Catch::Contains(" faces, error "));
     CHECK(lines.find('{') == lines.npos);
@@ -286,12 +227,10 @@ TEST_CASE("files simplified together keep their common border to the byte") {
     const std::string blocked = file_named("blocked");
     std::filesystem::create_directories(blocked + "/east.obj");
     check_simplify_refused(
-        {tiles[0], tiles[1], "--shared-border", "--out-dir", blocked, "--faces", "300"},
-        "east.obj: cannot be written");
+        {tiles[0], tiles[1], "--shared-border", "--out-dir", blocked, "--faces", "300"}, "east.obj: cannot be written");
     CHECK(std::distance(std::filesystem::directory_iterator(blocked), {}) == 1);
     std::filesystem::remove(blocked + "/east.obj");
-    simplify_figures(
-        {tiles[0], tiles[1], "--shared-border", "--out-dir", blocked, "--faces", "300"});
+    simplify_figures({tiles[0], tiles[1], "--shared-border", "--out-dir", blocked, "--faces", "300"});
     CHECK(std::distance(std::filesystem::directory_iterator(blocked), {}) == 2);
     // Put together again the tiles have no edge inside that lies in one triangle only.
     models::TriangleMesh joined = models::meshfile::read_mesh(folder + "/west.obj");
@@ -304,23 +243,15 @@ TEST_CASE("no file of --shared-border is left without triangles") {
         const std::string file = file_named(name);
         std::string text;
         for (int i = 0; i < 8; ++i) {
-            text += fmt::format(
-                "v {} {} {}\n", x_m + side_m * (i / 4), side_m * (i / 2 % 2), side_m * (i % 2));
+            text += fmt::format("v {} {} {}\n", x_m + side_m * (i / 4), side_m * (i / 2 % 2), side_m * (i % 2));
         }
         text += "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
         write_file(file, text);
         return file;
     };
     const std::string folder = file_named("boxes");
-    const tests::ProgramRun run = run_octant(
-        {"simplify",
-         box("large-box.obj", 10.0, 0.0),
-         box("small-box.obj", 0.1, 10.2),
-         "--shared-border",
-         "--out-dir",
-         folder,
-         "--faces",
-         "12"});
+    const tests::ProgramRun run = run_octant({"simplify", box("large-box.obj", 10.0, 0.0),
+        box("small-box.obj", 0.1, 10.2), "--shared-border", "--out-dir", folder, "--faces", "12"});
     CHECK(run.exit_code == 0);
     CHECK_THAT(run.err, Catch::Contains("small-box.obj would be left, so --keep-shells is taken"));
     CHECK_FALSE(models::meshfile::read_mesh(folder + "/small-box.obj").triangles.empty());
@@ -335,8 +266,7 @@ TEST_CASE("texture coordinates keep their bound at an error as large as the mesh
             const double turn = 2.0 * std::acos(-1.0) * (i % around) / around;
             const double tube = 2.0 * std::acos(-1.0) * (j % along) / along;
             const double radius_m = 3.0 + std::cos(tube);
-            torus.vertices_m.push_back(
-                {radius_m * std::cos(turn), radius_m * std::sin(turn), std::sin(tube)});
+            torus.vertices_m.push_back({radius_m * std::cos(turn), radius_m * std::sin(turn), std::sin(tube)});
             torus.texture_coordinates.emplace_back(1.0 * i / around, 1.0 * j / along);
         }
     }
@@ -352,14 +282,7 @@ TEST_CASE("texture coordinates keep their bound at an error as large as the mesh
     models::meshfile::write_mesh(in, torus);
     // Dividing a mesh so far off ended at 576 triangles whose coordinates were off by 0.7.
     const auto made = simplify_figures(
-        {in,
-         file_named("torus-small.obj"),
-         "--error",
-         "10%",
-         "--method",
-         "fast",
-         "--uv-error",
-         "0.05"});
+        {in, file_named("torus-small.obj"), "--error", "10%", "--method", "fast", "--uv-error", "0.05"});
     CHECK(made["uv_error"] <= 0.05);
     CHECK(made["faces"] < 300);
 }
@@ -375,8 +298,7 @@ TEST_CASE("texture coordinates keep the bound that is asked for") {
     const std::string out = file_named("textured-small.glb");
     const auto loose = simplify_figures({in, out, "--error", "0.6", "--method", "fast"});
     CHECK(loose["uv_error"] > 0.01);
-    const auto tight =
-        simplify_figures({in, out, "--error", "0.6", "--method", "fast", "--uv-error", "0.005"});
+    const auto tight = simplify_figures({in, out, "--error", "0.6", "--method", "fast", "--uv-error", "0.005"});
     CHECK(tight["uv_error"] <= 0.005);
     CHECK(tight["error"] <= 0.6);
     CHECK(tight["faces"] > loose["faces"]);
@@ -387,20 +309,17 @@ TEST_CASE("texture coordinates keep the bound that is asked for") {
         glm::dvec2 place(0.0);
         for (std::size_t k = 0; k < 3; ++k) {
             middle_m += written.vertices_m[written.triangles[t][k]] / 3.0;
-            place +=
-                glm::dvec2(written.texture_coordinates[written.corner_texture_coordinates[t][k]]) /
-                3.0;
+            place += glm::dvec2(written.texture_coordinates[written.corner_texture_coordinates[t][k]]) / 3.0;
         }
         // The surface is off by up to 0.6 of 24.
         CHECK(std::abs(place.x - middle_m.x * middle_m.x / 576.0) < 0.005 + 0.05);
         CHECK(std::abs(place.y - middle_m.y / 24.0) < 0.03);
     }
-    const auto few =
-        simplify_figures({in, out, "--faces", "300", "--method", "fast", "--uv-error", "0.005"});
+    const auto few = simplify_figures({in, out, "--faces", "300", "--method", "fast", "--uv-error", "0.005"});
     CHECK(few["faces"] <= 300);
     CHECK(few["uv_error"] <= 0.005);
-    const tests::ProgramRun unreached = run_octant(
-        {"simplify", in, out, "--faces", "20", "--method", "fast", "--uv-error", "0.005"});
+    const tests::ProgramRun unreached =
+        run_octant({"simplify", in, out, "--faces", "20", "--method", "fast", "--uv-error", "0.005"});
     CHECK(unreached.exit_code == 1);
     CHECK_THAT(unreached.err, Catch::Contains("found that keep the bounds of attributes: "));
     const tests::ProgramRun run =
@@ -424,37 +343,20 @@ TEST_CASE("a chart of faces against error is one page without a script, with a n
     CHECK(html.find("<title id=\"chart-name\">Faces against error of ") != html.npos);
     // A row gives the command that makes its level, with the options that were used.
     const std::size_t faces = models::meshfile::read_mesh(in).triangles.size() / 2;
-    CHECK(
-        html.find(fmt::format("OUT --faces {} --method fast --lock-border</td>", faces)) !=
-        html.npos);
+    CHECK(html.find(fmt::format("OUT --faces {} --method fast --lock-border</td>", faces)) != html.npos);
     const auto alone = simplify_figures(
-        {in,
-         file_named("level.obj"),
-         "--faces",
-         std::to_string(faces),
-         "--method",
-         "fast",
-         "--lock-border"});
+        {in, file_named("level.obj"), "--faces", std::to_string(faces), "--method", "fast", "--lock-border"});
     CHECK(found["levels"][1]["faces"] == alone["faces"].number());
     CHECK(found["levels"][1]["error"].number() == Approx(alone["error"].number()).epsilon(0.3));
     write_file(simplify_folder() / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    check_simplify_refused(
-        {file_named("one.obj"), "--chart", page}, "expected a mesh that can be simplified");
+    check_simplify_refused({file_named("one.obj"), "--chart", page}, "expected a mesh that can be simplified");
 }
 
 TEST_CASE("a chart and a mesh come from one reading of the file") {
-    write_file(
-        simplify_folder() / "plate.obj",
-        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0\nv 7 7 7\n"
-        "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 1 2\n");
-    const tests::ProgramRun run = run_octant(
-        {"simplify",
-         file_named("plate.obj"),
-         file_named("plate-2.obj"),
-         "--faces",
-         "2",
-         "--chart",
-         file_named("plate.html")});
+    write_file(simplify_folder() / "plate.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0\nv 7 7 7\n"
+                                                "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 1 2\n");
+    const tests::ProgramRun run = run_octant({"simplify", file_named("plate.obj"), file_named("plate-2.obj"), "--faces",
+        "2", "--chart", file_named("plate.html")});
     INFO(run.err);
     CHECK(run.exit_code != 2);
     const std::string said = "repaired: 1 triangle without an area taken out";
@@ -467,9 +369,7 @@ TEST_CASE("the steps that are told for a limited time repeat its result, also of
     const std::string timed = file_named("timed.obj");
     const std::string repeated = file_named("repeated.obj");
     for (const std::vector<std::string>& goal :
-         {std::vector<std::string>{"--error", "1%"},
-          {"--error", "0.5%", "--effort", "5"},
-          {"--faces", "300"}}) {
+        {std::vector<std::string>{"--error", "1%"}, {"--error", "0.5%", "--effort", "5"}, {"--faces", "300"}}) {
         for (const std::string seconds : {"0.001", "0.04"}) {
             INFO(goal[1] << " in " << seconds);
             std::vector<std::string> arguments{in, timed, "--max-seconds", seconds};
@@ -488,40 +388,25 @@ TEST_CASE("the steps that are told for a limited time repeat its result, also of
 TEST_CASE("the steps of a wanted error are those of all its tries and repeat its result") {
     const std::string in = waves(24);
     const auto found = simplify_figures({in, file_named("tries.obj"), "--error", "0.3%"});
-    const auto fewer = simplify_figures(
-        {in,
-         file_named("tries-again.obj"),
-         "--error",
-         "0.3%",
-         "--steps",
-         fmt::format("{:.0f}", found["steps"].number())});
+    const auto fewer = simplify_figures({in, file_named("tries-again.obj"), "--error", "0.3%", "--steps",
+        fmt::format("{:.0f}", found["steps"].number())});
     CHECK(read_file(file_named("tries.obj")) == read_file(file_named("tries-again.obj")));
     CHECK(fewer["steps"] == found["steps"].number());
 }
 
 TEST_CASE("a note names the options that put a number of faces out of reach") {
     const tests::ProgramRun run = run_octant(
-        {"simplify",
-         waves(12),
-         file_named("locked.obj"),
-         "--faces",
-         "20",
-         "--lock-border",
-         "--method",
-         "fast"});
+        {"simplify", waves(12), file_named("locked.obj"), "--faces", "20", "--lock-border", "--method", "fast"});
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.err, Catch::Contains("or losing what is held by --lock-border"));
 }
 
 TEST_CASE("a mesh too small for squares of its distances is refused") {
     for (const std::string power : {"e-170", "e-310"}) {
-        write_file(
-            simplify_folder() / "minute.obj",
-            fmt::format(
-                "v 0 0 0\nv 1{0} 0 0\nv 0 1{0} 0\nv 1{0} 1{0} 0\nf 1 2 3\nf 2 4 3\n", power));
+        write_file(simplify_folder() / "minute.obj",
+            fmt::format("v 0 0 0\nv 1{0} 0 0\nv 0 1{0} 0\nv 1{0} 1{0} 0\nf 1 2 3\nf 2 4 3\n", power));
         for (const char* method : {"surface", "triangle"}) {
-            check_simplify_refused(
-                {file_named("minute.obj"), file_named("x.obj"), "--faces", "1", "--method", method},
+            check_simplify_refused({file_named("minute.obj"), file_named("x.obj"), "--faces", "1", "--method", method},
                 "expected a bounding box with a diagonal of");
         }
     }
@@ -533,8 +418,7 @@ TEST_CASE("options that would have no effect or overwrite an input are refused")
     const std::string out = file_named("unused.obj");
     const std::string page = file_named("unused.html");
     using Words = std::vector<std::string>;
-    const std::vector<std::pair<Words, std::string>> cases{
-        {{in, "--chart", in}, "ends in .html"},
+    const std::vector<std::pair<Words, std::string>> cases{{{in, "--chart", in}, "ends in .html"},
         {{in, out, "--faces", "9", "--chart", out}, "ends in .html"},
         {{in, "--chart", page, "--faces", "9"}, "expected no --faces with it"},
         {{in, "--chart", page, "--max-seconds", "1"}, "expected no --max-seconds with it"},
@@ -545,13 +429,12 @@ TEST_CASE("options that would have no effect or overwrite an input are refused")
         {{in, file_named("u.chain"), "--chain", "--max-seconds", "1"}, "no --max-seconds"},
         {{in, file_named("u.chain"), "--chain", "--normal-error", "5"}, "no --normal-error"},
         {{in, in, "--shared-border", "--out-dir", "d", "--chart", page, "--faces", "9"},
-         "--chart: expected no --shared-border"}};
+            "--chart: expected no --shared-border"}};
     for (const auto& [words, expected] : cases) {
         INFO(expected);
         check_simplify_refused(words, expected);
     }
-    for (const Words& unused :
-         {Words{"--effort", "9"}, {"--steps", "5"}, {"--keep-shells"}, {"--max-seconds", "3"}}) {
+    for (const Words& unused : {Words{"--effort", "9"}, {"--steps", "5"}, {"--keep-shells"}, {"--max-seconds", "3"}}) {
         Words words{in, out, "--faces", "9", "--method", "plane"};
         words.insert(words.end(), unused.begin(), unused.end());
         check_simplify_refused(words, "expected no " + unused.front() + " with it");
@@ -575,10 +458,8 @@ TEST_CASE("the same input gives the same file for any number of threads") {
 TEST_CASE("the paper's methods state how the paper was read and what it prints") {
     const std::string in = waves(20);
     const std::string out = file_named("printed.obj");
-    const tests::PrintedJson plane =
-        simplify_figures({in, out, "--vertices", "100", "--method", "plane"});
-    const tests::PrintedJson both =
-        simplify_figures({in, out, "--vertices", "100", "--method", "bidirectional"});
+    const tests::PrintedJson plane = simplify_figures({in, out, "--vertices", "100", "--method", "plane"});
+    const tests::PrintedJson both = simplify_figures({in, out, "--vertices", "100", "--method", "bidirectional"});
     CHECK(plane["counted_vertices"] == 100);
     CHECK(plane["feet"] == 0);
     CHECK(both["feet"] > 1000);
@@ -597,9 +478,7 @@ TEST_CASE("a chain of levels has rising certified errors and is flown") {
         CHECK(levels[i]["error"] > levels[i - 1]["error"]);
         CHECK(levels[i]["faces"] < levels[i - 1]["faces"]);
     }
-    const auto last_row = [&](const char* error_px) {
-        return flown_frames(chain, "160x90", error_px).back();
-    };
+    const auto last_row = [&](const char* error_px) { return flown_frames(chain, "160x90", error_px).back(); };
     const auto near = last_row("0.01");
     CHECK(near.aircraft_level == 0);
     CHECK(near.aircraft_polygons == levels[0]["faces"]);
@@ -611,29 +490,20 @@ TEST_CASE("a chain of levels has rising certified errors and is flown") {
 TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
     const std::string in = waves(4);
     check_simplify_refused({in, in, "--faces", "10"}, "another file than the input");
-    check_simplify_refused(
-        {in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
+    check_simplify_refused({in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
     check_simplify_refused({in, "--faces", "10"}, "expected IN and OUT, got 1 files");
     check_simplify_refused({in, "--shared-border", "--faces", "10"}, "two meshes or more");
-    check_simplify_refused(
-        {in, file_named("x.obj"), "--out-dir", "d", "--faces", "10"}, "--shared-border with it");
-    check_simplify_refused(
-        {in, file_named("x.obj"), "--uv-error", "0.1", "--method", "plane", "--faces", "10"},
+    check_simplify_refused({in, file_named("x.obj"), "--out-dir", "d", "--faces", "10"}, "--shared-border with it");
+    check_simplify_refused({in, file_named("x.obj"), "--uv-error", "0.1", "--method", "plane", "--faces", "10"},
         "--method plane: expected no --uv-error with it");
-    check_simplify_refused(
-        {in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
-    check_simplify_refused(
-        {in, file_named("x.obj"), "--error", "-1"}, "--error: expected a number above 0");
-    check_simplify_refused(
-        {in, file_named("none/x.obj"), "--faces", "10"}, "none/x.obj: cannot be written");
+    check_simplify_refused({in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
+    check_simplify_refused({in, file_named("x.obj"), "--error", "-1"}, "--error: expected a number above 0");
+    check_simplify_refused({in, file_named("none/x.obj"), "--faces", "10"}, "none/x.obj: cannot be written");
     check_simplify_refused({in, file_named("x.obj"), "--chain"}, "ends in .chain");
-    check_simplify_refused(
-        {in, file_named("x.chain"), "--chain", "--method", "plane"}, "--method plane: expected");
-    check_simplify_refused(
-        {file_named("absent.obj"), file_named("x.obj"), "--faces", "3"}, "absent.obj");
+    check_simplify_refused({in, file_named("x.chain"), "--chain", "--method", "plane"}, "--method plane: expected");
+    check_simplify_refused({file_named("absent.obj"), file_named("x.obj"), "--faces", "3"}, "absent.obj");
     write_file(simplify_folder() / "bad.obj", "v 0 0 0\nv 1 0 x\n");
-    check_simplify_refused(
-        {file_named("bad.obj"), file_named("x.obj"), "--faces", "3"}, "bad.obj:2:");
+    check_simplify_refused({file_named("bad.obj"), file_named("x.obj"), "--faces", "3"}, "bad.obj:2:");
     CHECK_FALSE(std::filesystem::exists(simplify_folder() / "x.obj"));
     CHECK_FALSE(std::filesystem::exists(simplify_folder() / "x.chain"));
 }

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-using octant::ui::commands::nearest_spelling;
 using octant::ui::commands::did_you_mean;
+using octant::ui::commands::nearest_spelling;
 
 TEST_CASE("a slip of the fingers finds the word that was meant, another word none") {
-    const std::vector<std::string> known{
-        "--frames", "--frame-per-sample", "--seconds", "--size", "--start", "--rate"};
+    const std::vector<std::string> known{"--frames", "--frame-per-sample", "--seconds", "--size", "--start", "--rate"};
     CHECK(nearest_spelling("--frams", known) == "--frames");
     CHECK(nearest_spelling("--frmaes", known) == "--frames");
     CHECK(nearest_spelling("-frames", known) == "--frames");

@@ -52,8 +52,7 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
     CHECK(run_octant(line).exit_code == 0);
     CHECK(fs::last_write_time(out / "runs/turn-f15-r1/run.json") == when);
     const std::string after = read_file(out / "runs/turn-concave-r2/run.json");
-    CHECK(
-        after.substr(after.find("state_hash"), 80) == before.substr(before.find("state_hash"), 80));
+    CHECK(after.substr(after.find("state_hash"), 80) == before.substr(before.find("state_hash"), 80));
 
     // Another machine's pictures differ from ours.
     std::string other = after;
@@ -68,44 +67,34 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
 TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
     const auto made = tests::empty_folder("sweep-faults");
     const std::string file = (made / "faults.toml").string();
-    write_file(
-        file,
-        "[settings]\nsize = \"64x48\"\nframes = 2\nterrain = \"none\"\n[vary]\n"
-        "path = [\"nowhere.toml\", \"straight\"]\n");
-    const tests::ProgramRun run =
-        run_octant({"sweep", file, "--out", (made / "out").string(), "--retries", "2"});
+    write_file(file, "[settings]\nsize = \"64x48\"\nframes = 2\nterrain = \"none\"\n[vary]\n"
+                     "path = [\"nowhere.toml\", \"straight\"]\n");
+    const tests::ProgramRun run = run_octant({"sweep", file, "--out", (made / "out").string(), "--retries", "2"});
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.out, Contains("1 of 2 flights done"));
     CHECK_THAT(run.out, Contains("failed: nowhere.toml: ") && Contains("nowhere.toml: expected"));
     CHECK_THAT(run.err, Contains("flights that failed and are tried again: 1"));
-    CHECK_THAT(
-        read_file(made / "out/report.html"),
+    CHECK_THAT(read_file(made / "out/report.html"),
         Contains("Flights that are not done") && Contains("<td>nowhere.toml</td>"));
     write_file(file, "[settings]\nsize = \"64x48\"\npath = \"nowhere.toml\"\n");
     CHECK(run_octant({"sweep", file, "--out", (made / "none").string()}).exit_code == 1);
     CHECK_THAT(read_file(made / "none/report.html"), Contains("<td>faults</td>"));
-    tests::check_refused(
-        "sweep", {file, "--out", made.string()}, "expected an empty folder or that of a sweep");
+    tests::check_refused("sweep", {file, "--out", made.string()}, "expected an empty folder or that of a sweep");
     // Others have files of that name too.
     const fs::path foreign = made / "foreign";
     fs::create_directories(foreign);
     write_file(foreign / "jobs.txt", "buy milk\n");
-    tests::check_refused(
-        "sweep", {file, "--out", foreign.string()}, "expected an empty folder or that of a sweep");
+    tests::check_refused("sweep", {file, "--out", foreign.string()}, "expected an empty folder or that of a sweep");
     CHECK(read_file(foreign / "jobs.txt") == "buy milk\n");
     CHECK_FALSE(fs::exists(foreign / "jobs"));
     const fs::path searches = made / "searches";
     fs::create_directories(searches / "jobs");
     write_file(searches / "jobs/letter.txt", "Dear all\n");
-    tests::check_refused(
-        "sweep", {file, "--out", searches.string()}, "expected an empty folder or that of a sweep");
+    tests::check_refused("sweep", {file, "--out", searches.string()}, "expected an empty folder or that of a sweep");
     CHECK_FALSE(fs::exists(searches / "runs"));
-    tests::check_refused(
-        "sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--share-cores");
-    tests::check_refused(
-        "sweep", {file, "--hosts", "machines.txt"}, "--hosts: expected --on parallel beside it");
-    tests::check_refused(
-        "sweep", {file, "--on", "parallel", "--tasks", "4"}, "--tasks: expected --on slurm");
+    tests::check_refused("sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--share-cores");
+    tests::check_refused("sweep", {file, "--hosts", "machines.txt"}, "--hosts: expected --on parallel beside it");
+    tests::check_refused("sweep", {file, "--on", "parallel", "--tasks", "4"}, "--tasks: expected --on slurm");
     tests::check_refused("sweep", {file, "--minutes", "4"}, "--on slurm or parallel beside it");
     tests::check_refused("sweep", {(made / "none.toml").string()}, "expected a file, found none");
 }

@@ -17,9 +17,7 @@ namespace {
 
 std::string made_terrain_file(const std::filesystem::path& folder) {
     const std::string file = (folder / "made.tif").string();
-    REQUIRE(
-        run_octant({"terrain", "make", "--kind", "canyon", "--size", "129", "--out", file})
-            .exit_code == 0);
+    REQUIRE(run_octant({"terrain", "make", "--kind", "canyon", "--size", "129", "--out", file}).exit_code == 0);
     return file;
 }
 
@@ -29,31 +27,15 @@ TEST_CASE("octant terrain mesh writes a PLY whose corners are the map's") {
     const auto folder = empty_folder("terrain-mesh");
     const std::string terrain = made_terrain_file(folder);
     const std::string ply = (folder / "mesh.ply").string();
-    const ProgramRun run = run_octant(
-        {"terrain",
-         "mesh",
-         terrain,
-         "--eye",
-         "0,0,4000",
-         "--look",
-         "0,1,0",
-         "--fov",
-         "120",
-         "--triangles",
-         "500",
-         "--ascii",
-         "--json",
-         "--out",
-         ply});
+    const ProgramRun run = run_octant({"terrain", "mesh", terrain, "--eye", "0,0,4000", "--look", "0,1,0", "--fov",
+        "120", "--triangles", "500", "--ascii", "--json", "--out", ply});
     REQUIRE(run.exit_code == 0);
     const auto results = tests::PrintedJson(run.out);
     CHECK(results["triangles"].number() <= 500);
     CHECK(results["triangles"].number() > 300);
     std::ifstream in(ply);
     std::string word;
-    while (word != "end_header") {
-        REQUIRE(in >> word);
-    }
+    while (word != "end_header") { REQUIRE(in >> word); }
     double west_m = 0.0;
     double x_m = 0.0;
     double y_m = 0.0;
@@ -72,20 +54,9 @@ TEST_CASE("octant terrain error solves for a percentile and refuses what it cann
     const auto folder = empty_folder("terrain-error");
     const std::string terrain = made_terrain_file(folder);
     const std::string points = (folder / "points.csv").string();
-    write_file(
-        points,
-        "map,x_m,y_m,agl_m,heading_deg,pitch_deg\nmade,0,-900,300,0,-8\nmade,900,0,300,270,-8\n");
+    write_file(points, "map,x_m,y_m,agl_m,heading_deg,pitch_deg\nmade,0,-900,300,0,-8\nmade,900,0,300,270,-8\n");
     const ProgramRun run = run_octant(
-        {"terrain",
-         "error",
-         terrain,
-         "--eye-points",
-         points,
-         "--solve",
-         "4",
-         "--compare",
-         "--json",
-         "--quiet"});
+        {"terrain", "error", terrain, "--eye-points", points, "--solve", "4", "--compare", "--json", "--quiet"});
     REQUIRE(run.exit_code == 0);
     const auto tables = tests::PrintedJson(run.out);
     const auto& rows = tables[0]["rows"];
@@ -98,9 +69,7 @@ TEST_CASE("octant terrain error solves for a percentile and refuses what it cann
     CHECK(tables[1]["rows"][1]["ratio"].number() < 1.0);
 
     CHECK(run_octant({"terrain", "error", terrain}).exit_code == 2);
-    CHECK(
-        run_octant({"terrain", "error", terrain, "--eye-points", points, "--map", "other"})
-            .exit_code == 2);
+    CHECK(run_octant({"terrain", "error", terrain, "--eye-points", points, "--map", "other"}).exit_code == 2);
     CHECK(run_octant({"terrain", "error", terrain, "--eye-points", points}).exit_code == 2);
 }
 
@@ -109,19 +78,8 @@ TEST_CASE("octant terrain query tells heights, heights above ground and what hid
     const std::string terrain = made_terrain_file(folder);
     const std::string points = (folder / "points.csv").string();
     write_file(points, "x,y,z\n0,0,3000\n5000,0\n");
-    const ProgramRun run = run_octant(
-        {"terrain",
-         "query",
-         terrain,
-         "--at",
-         "0,0",
-         "--points",
-         points,
-         "--from",
-         "-1000,0,3500",
-         "--to",
-         "1000,0,0",
-         "--json"});
+    const ProgramRun run = run_octant({"terrain", "query", terrain, "--at", "0,0", "--points", points, "--from",
+        "-1000,0,3500", "--to", "1000,0,0", "--json"});
     REQUIRE(run.exit_code == 0);
     const auto answers = tests::PrintedJson(run.out);
     const double ground_m = answers["points"][0]["ground_m"].number();
@@ -130,19 +88,8 @@ TEST_CASE("octant terrain query tells heights, heights above ground and what hid
     CHECK(answers["sight"]["visible"] == false);
     CHECK(answers["sight"]["hidden_at_m"].size() == 3);
 
-    const ProgramRun drawn = run_octant(
-        {"terrain",
-         "query",
-         terrain,
-         "--at",
-         "0,0",
-         "--as-drawn",
-         "--eye",
-         "0,-800,3000",
-         "--look",
-         "0,0,1500",
-         "--error-px",
-         "0.5"});
+    const ProgramRun drawn = run_octant({"terrain", "query", terrain, "--at", "0,0", "--as-drawn", "--eye",
+        "0,-800,3000", "--look", "0,0,1500", "--error-px", "0.5"});
     REQUIRE(drawn.exit_code == 0);
     CHECK(lines_in(drawn.out) == 2);
 
@@ -153,8 +100,8 @@ TEST_CASE("octant terrain query tells heights, heights above ground and what hid
 }
 
 TEST_CASE("octant terrain check says how many views it looked at") {
-    const ProgramRun run = run_octant(
-        {"terrain", "check", "hills", "--views", "40", "--every", "4", "--json", "--quiet"});
+    const ProgramRun run =
+        run_octant({"terrain", "check", "hills", "--views", "40", "--every", "4", "--json", "--quiet"});
     REQUIRE(run.exit_code == 0);
     const auto results = tests::PrintedJson(run.out);
     CHECK(results["views"] == 10);

@@ -3,8 +3,8 @@
 #include "tests/ui/commands/command_line.h"
 #include "ui/terrain/terrain_check.h"
 #include "visuals/scene/camera.h"
-#include "visuals/terrain/quadtree_mesher.h"
 #include "visuals/terrain/quadtree.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <catch2/catch.hpp>
 
@@ -63,8 +63,7 @@ TEST_CASE("the key colour is seen through missing triangles and through printed 
     const terrain::MeshView view = mesh_view(camera, seen);
     int cracks = 0;
     for (const double resolution : {3.0, 6.0, 12.0}) {
-        cracks += pictures.cracks(
-            mesher.mesh(view, {resolution, 5.0, terrain::FanKind::Partial}), camera);
+        cracks += pictures.cracks(mesher.mesh(view, {resolution, 5.0, terrain::FanKind::Partial}), camera);
     }
     CHECK(cracks > 0);
     terrain::GroundMesh holed = mesher.mesh(view, {12.0, 0.0, terrain::FanKind::Partial});

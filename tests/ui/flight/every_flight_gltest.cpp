@@ -17,8 +17,8 @@ using visuals::scene::View;
 namespace {
 
 /// A dozen frames from the whole path.
-ui::settings::RunSettings
-small_flight(const std::string& path, const std::string& aircraft, const std::string& ground) {
+ui::settings::RunSettings small_flight(
+    const std::string& path, const std::string& aircraft, const std::string& ground) {
     ui::settings::RunSettings settings;
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
@@ -40,9 +40,7 @@ visuals::scene::PictureBytes flown_in(Session& session, View view) {
     const std::uint64_t at_start = session.state_hash();
     for (int frame = 0; frame < session.frames(); ++frame) {
         const double next_s = (frame + 1) * frame_s;
-        session.draw_at(
-            frame * frame_s,
-            frame + 1 < session.frames() ? std::optional<double>(next_s) : std::nullopt);
+        session.draw_at(frame * frame_s, frame + 1 < session.frames() ? std::optional<double>(next_s) : std::nullopt);
         const auto& pixels = session.picture().rgba;
         CHECK(std::set<std::uint8_t>(pixels.begin(), pixels.end()).size() > 10);
     }
@@ -59,8 +57,7 @@ TEST_CASE("every path, aircraft, view and built-in ground flies") {
             const std::string aircraft = (ground.size() + path.size()) % 2 == 1 ? "f15" : "500md";
             INFO(ground << " " << path << " " << aircraft);
             const auto settings = small_flight(path, aircraft, ground);
-            Session session(
-                settings, ui::flight::PictureContent::World, nullptr, tests::kept_world(settings));
+            Session session(settings, ui::flight::PictureContent::World, nullptr, tests::kept_world(settings));
             REQUIRE(session.frames() > 5);
             std::set<visuals::scene::PictureBytes> pictures;
             for (const View view : views) {

@@ -11,13 +11,11 @@ namespace octant::tests {
 
 namespace scene = visuals::scene;
 
-FakeRenderer::FakeRenderer(std::shared_ptr<RendererLog> log, const glm::ivec2& size_px)
-    : log_(std::move(log)) {
+FakeRenderer::FakeRenderer(std::shared_ptr<RendererLog> log, const glm::ivec2& size_px) : log_(std::move(log)) {
     log_->size_px = size_px;
 }
 
-std::unique_ptr<scene::Renderer>
-FakeRenderer::sibling(const glm::ivec2& size_px, int /*samples*/) const {
+std::unique_ptr<scene::Renderer> FakeRenderer::sibling(const glm::ivec2& size_px, int /*samples*/) const {
     return std::make_unique<FakeRenderer>(std::make_shared<RendererLog>(), size_px);
 }
 

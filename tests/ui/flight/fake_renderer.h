@@ -39,8 +39,7 @@ public:
 
     void draw(const visuals::scene::FramePlan& plan) override { add_ground(plan); }
 
-    void draw_inset(
-        const visuals::scene::FramePlan& plan, const visuals::scene::PixelRect& /*rect*/) override {
+    void draw_inset(const visuals::scene::FramePlan& plan, const visuals::scene::PixelRect& /*rect*/) override {
         add_ground(plan);
     }
 

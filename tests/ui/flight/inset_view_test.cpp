@@ -29,8 +29,7 @@ models::heights::HeightField rough_field() {
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights_m.push_back(static_cast<float>(
-                std::lround(100.0 * std::sin(column / 5.0) * std::cos(row / 7.0))));
+            heights_m.push_back(static_cast<float>(std::lround(100.0 * std::sin(column / 5.0) * std::cos(row / 7.0))));
         }
     }
     return {side, side, 50.0, heights_m};
@@ -78,8 +77,7 @@ TEST_CASE("an inset needs no file of the ground and maps it no second time") {
     const std::filesystem::path file = imported("shared.ground");
     settings.path.terrain = file.string();
     ui::world::World world = small_world();
-    world.scene.ground =
-        ui::world::load_scene_ground(settings, ui::world::RenderDevice::Cpu).ground;
+    world.scene.ground = ui::world::load_scene_ground(settings, ui::world::RenderDevice::Cpu).ground;
     REQUIRE(mappings_of(file) == 1);
     std::filesystem::remove(file);
 

@@ -24,8 +24,7 @@ ui::world::World world_on_utm() {
     ui::world::World world = level_world();
     world.ground_place = GeoPosition{49.3, -123.1};
     world.ground_frame = models::heights::frame_of_ground(
-        models::heights::CoordinateSystem{"EPSG:32610", 492729.777625, 5460811.038490, 1.0},
-        world.ground_place);
+        models::heights::CoordinateSystem{"EPSG:32610", 492729.777625, 5460811.038490, 1.0}, world.ground_place);
     return world;
 }
 
@@ -39,9 +38,7 @@ sim::links::Fix fix_at(double latitude_deg, double longitude_deg, double altitud
 
 bool says(const LiveGeoreference& place, const std::string& text) {
     for (const std::string& line : place.lines()) {
-        if (line.find(text) != std::string::npos) {
-            return true;
-        }
+        if (line.find(text) != std::string::npos) { return true; }
     }
     return false;
 }
@@ -120,8 +117,7 @@ TEST_CASE("who asks for heights above ground is told where a sender has none") {
     CHECK_FALSE(says(place, "--height agl"));
 }
 
-TEST_CASE(
-    "a vehicle begins as high over made ground as it says when it moves, not while it loads") {
+TEST_CASE("a vehicle begins as high over made ground as it says when it moves, not while it loads") {
     const ui::world::World world = level_world();
     LiveGeoreference place(world, std::nullopt);
     sim::links::Fix fix = fix_at(64.1, -21.9, 914.4); // as FlightGear has it

@@ -8,17 +8,16 @@
 #include <vector>
 
 using namespace octant;
+using ui::flight::FrameMeasurement;
 using ui::flight::QualityController;
 using ui::flight::QualityTargets;
-using ui::flight::FrameMeasurement;
 using visuals::scene::Settings;
 
 namespace {
 
 constexpr double rate_hz = 50.0;
 
-/// A frame of a machine that takes a microsecond for each triangle of ground and ten for each
-/// smooth polygon.
+/// A frame of a machine that takes a microsecond for each triangle of ground and ten for each smooth polygon.
 FrameMeasurement frame_of(int triangles, int smooth, int polygons) {
     FrameMeasurement outcome;
     outcome.frame_ms = 1e-3 * triangles + 1e-2 * smooth;
@@ -146,9 +145,7 @@ TEST_CASE("decisions that followed the clock are the same when they are replayed
     repeat_option.begin(settings, rate_hz);
     repeat_option.replay(quality_targets);
     for (int frame = 0; frame < 100; ++frame) {
-        CHECK(
-            repeat_option.triangle_target(frame) ==
-            quality_targets[static_cast<std::size_t>(frame)].triangle_target);
+        CHECK(repeat_option.triangle_target(frame) == quality_targets[static_cast<std::size_t>(frame)].triangle_target);
         repeat_option.add_frame(frame_of(repeat_option.triangle_target(frame), 0, 0));
     }
 }
@@ -160,9 +157,7 @@ TEST_CASE("a new start forgets what frames took") {
     settings.adapt.shading = true;
     QualityController quality_controller;
     quality_controller.begin(settings, rate_hz);
-    for (int frame = 0; frame < 100; ++frame) {
-        quality_controller.add_frame(frame_of(100000, 10, 100));
-    }
+    for (int frame = 0; frame < 100; ++frame) { quality_controller.add_frame(frame_of(100000, 10, 100)); }
     CHECK(quality_controller.triangle_target(100) < 40000);
     quality_controller.begin(settings, rate_hz);
     CHECK(quality_controller.triangle_target(0) == 40000);

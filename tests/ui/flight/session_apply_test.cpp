@@ -28,15 +28,12 @@ namespace {
 /// A file of rough ground on which the straight path fits.
 std::filesystem::path ground_file() {
     const std::filesystem::path file = scratch_folder() / "rough.tif";
-    if (std::filesystem::exists(file)) {
-        return file;
-    }
+    if (std::filesystem::exists(file)) { return file; }
     constexpr int side = 129;
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights_m.push_back(static_cast<float>(
-                std::lround(150.0 * std::sin(column / 5.0) * std::cos(row / 7.0))));
+            heights_m.push_back(static_cast<float>(std::lround(150.0 * std::sin(column / 5.0) * std::cos(row / 7.0))));
         }
     }
     models::heights::write_height_field(file, {side, side, 100.0, heights_m});
@@ -59,9 +56,7 @@ constexpr double step_s = 0.05;
 class Flown {
 public:
     explicit Flown(const RunSettings& settings)
-        : session_(
-              settings,
-              ui::flight::PictureContent::World,
+        : session_(settings, ui::flight::PictureContent::World,
               std::make_unique<FakeRenderer>(log_, settings.view.size_px)) {
         log_->calls.clear();
     }
@@ -105,11 +100,8 @@ void check_same_pictures(Flown& a, Flown& b) {
 }
 
 /// After a refused change of settings a session draws what one draws that was never asked.
-void check_refused(
-    const RunSettings& begun,
-    const std::function<void(RunSettings&)>& change,
-    const std::string& refused_call,
-    const std::vector<std::string>& calls) {
+void check_refused(const RunSettings& begun, const std::function<void(RunSettings&)>& change,
+    const std::string& refused_call, const std::vector<std::string>& calls) {
     Flown asked(begun);
     Flown never_asked(begun);
     asked.picture();
@@ -144,13 +136,11 @@ TEST_CASE("what only a recording goes by changes nothing of a flight that goes o
 }
 
 TEST_CASE("settings that contradict each other or cannot be loaded leave a session as it was") {
-    check_refused(
-        small_settings(),
+    check_refused(small_settings(),
         [](RunSettings& settings) {
             settings.view.size_px = {32, 32};
         },
-        "resize",
-        {"resize 32x32"});
+        "resize", {"resize 32x32"});
     Flown asked(small_settings());
     Flown never_asked(small_settings());
     asked.picture();
@@ -171,17 +161,13 @@ TEST_CASE("a texture that the renderer has no memory for leaves a session as it 
         settings.air.ground_shading = scene::GroundShading::Texture;
         settings.view.size_px = {32, 32};
     };
-    check_refused(
-        small_settings(), texture_and_size, "texture", {"resize 32x32", "texture", "resize 64x48"});
+    check_refused(small_settings(), texture_and_size, "texture", {"resize 32x32", "texture", "resize 64x48"});
 }
 
 TEST_CASE("a texture in other colours that is refused leaves a session with the one it had") {
     RunSettings textured = small_settings();
     textured.air.ground_shading = scene::GroundShading::Texture;
-    check_refused(
-        textured,
-        [](RunSettings& settings) { settings.air.palette = scene::Palette::Arid; },
-        "texture",
+    check_refused(textured, [](RunSettings& settings) { settings.air.palette = scene::Palette::Arid; }, "texture",
         {"resize 64x48", "texture", "resize 64x48"});
 }
 
@@ -254,9 +240,7 @@ TEST_CASE("light that is made beside the pictures is that of a change in between
     beside.session().begin_set_sun(settings);
     CHECK(beside.session().is_setting_sun());
     const std::uint64_t before = beside.last_ground();
-    while (!beside.session().poll_set_sun()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    while (!beside.session().poll_set_sun()) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
     CHECK_FALSE(beside.session().is_setting_sun());
     at_once.apply(settings);
     beside.log().calls.clear();
@@ -290,14 +274,11 @@ TEST_CASE("ground in another light has the colours of ground that was loaded so"
 TEST_CASE("another light, palette or view reads no terrain again, whatever is drawn of it") {
     const std::filesystem::path map = scratch_folder() / "read_once.tif";
     const std::filesystem::path imported = scratch_folder() / "read_once.ground";
-    for (const auto& [terrain, mesh] :
-         {std::pair{map, scene::GroundMetric::ScreenError},
-          std::pair{map, scene::GroundMetric::Midpoint},
-          std::pair{imported, scene::GroundMetric::ScreenError}}) {
+    for (const auto& [terrain, mesh] : {std::pair{map, scene::GroundMetric::ScreenError},
+             std::pair{map, scene::GroundMetric::Midpoint}, std::pair{imported, scene::GroundMetric::ScreenError}}) {
         for (const auto shading : {scene::GroundShading::Vertex, scene::GroundShading::Texture}) {
             CAPTURE(terrain, static_cast<int>(mesh), static_cast<int>(shading));
-            std::filesystem::copy_file(
-                ground_file(), map, std::filesystem::copy_options::overwrite_existing);
+            std::filesystem::copy_file(ground_file(), map, std::filesystem::copy_options::overwrite_existing);
             if (terrain == imported) {
                 std::filesystem::remove(imported);
                 visuals::groundfile::import_ground(

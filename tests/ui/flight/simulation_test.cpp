@@ -19,9 +19,7 @@ TEST_CASE("a flight is the same however often it is asked where it is") {
     Simulation at_once(world);
     at_once.advance_to(4.0);
     Simulation often(world);
-    for (const double time_s : {0.001, 0.5, 0.5, 1.37, 3.9999, 4.0}) {
-        often.advance_to(time_s);
-    }
+    for (const double time_s : {0.001, 0.5, 0.5, 1.37, 3.9999, 4.0}) { often.advance_to(time_s); }
     CHECK(often.state_hash() == at_once.state_hash());
     CHECK(often.step() == at_once.step());
     CHECK(often.states()[2].position_m == at_once.states()[2].position_m);
@@ -36,9 +34,7 @@ TEST_CASE("along a path the leader is where the path has it, and the others besi
     const sim::AircraftState leader = world.flight.trajectory.state_at(2.345);
     REQUIRE(simulation.states().size() == 2);
     CHECK(simulation.states()[0].position_m == leader.position_m);
-    CHECK(
-        simulation.states()[1].position_m ==
-        simulation.formation().wingman_state(leader, 1).position_m);
+    CHECK(simulation.states()[1].position_m == simulation.formation().wingman_state(leader, 1).position_m);
 }
 
 TEST_CASE("a simulation that begins anew forgets what it has flown") {
@@ -106,8 +102,7 @@ TEST_CASE("levelling off flies there, step by step, and ends where the stick is 
     simulation.set_controls(roll);
     simulation.advance_to(1.5);
     const auto bank_deg = [&] {
-        return deg_from_rad(
-            euler_from_body_to_world(simulation.states().front().body_to_world).roll_rad);
+        return deg_from_rad(euler_from_body_to_world(simulation.states().front().body_to_world).roll_rad);
     };
     const double banked = bank_deg();
     REQUIRE(banked < -40.0);

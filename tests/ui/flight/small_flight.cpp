@@ -33,8 +33,7 @@ planning::AircraftModel tetrahedron() {
 
 } // namespace
 
-sim::Trajectory
-straight_flight(const glm::dvec3& from_m, const glm::dvec3& velocity_mps, double length_s) {
+sim::Trajectory straight_flight(const glm::dvec3& from_m, const glm::dvec3& velocity_mps, double length_s) {
     constexpr double rate_hz = 20.0;
     const double heading_rad = std::atan2(velocity_mps.x, velocity_mps.y);
     std::vector<sim::AircraftState> samples;
@@ -52,12 +51,10 @@ std::shared_ptr<const landscape::Ground> ground_with_plateau(double height_m) {
     constexpr int side = 41;
     constexpr double spacing_m = 100.0;
     std::vector<float> heights_m(side * side, 0.0F);
-    std::fill(
-        heights_m.begin() + 3 * side * side / 4, heights_m.end(), static_cast<float>(height_m));
+    std::fill(heights_m.begin() + 3 * side * side / 4, heights_m.end(), static_cast<float>(height_m));
     scene::GroundSettings by_quadtree;
     by_quadtree.mesh = scene::GroundMetric::Midpoint;
-    return landscape::make_quadtree_ground(
-        {side, side, spacing_m, std::move(heights_m)}, by_quadtree, {});
+    return landscape::make_quadtree_ground({side, side, spacing_m, std::move(heights_m)}, by_quadtree, {});
 }
 
 ui::world::World small_world(int aircraft) {

@@ -11,9 +11,8 @@
 
 namespace octant::tests {
 
-/// A map of gentle ground, 26 by 26 km, made once, and the ground imported from it. They are loaded
-/// in a tenth of the time that made hills take, for flights of which it does not matter what they
-/// are over.
+/// A map of gentle ground, 26 by 26 km, made once, and the ground imported from it. They are loaded in a tenth of the
+/// time that made hills take, for flights of which it does not matter what they are over.
 inline std::string small_map() {
     static const std::string file = [] {
         constexpr int side = 257;
@@ -36,9 +35,7 @@ inline std::string small_ground() {
     static const std::string file = [] {
         const std::filesystem::path ground = scratch_folder() / "small.ground";
         visuals::groundfile::import_ground(
-            {small_map()}, ground, {}, [](visuals::groundfile::ImportStage, double) {
-                return false;
-            });
+            {small_map()}, ground, {}, [](visuals::groundfile::ImportStage, double) { return false; });
         return ground.string();
     }();
     return file;

@@ -34,13 +34,11 @@ StressSettings settings_at(double rate_hz, int budget = 20000) {
 }
 
 /// The targets of so many frames, each checked against the limits of the settings.
-std::vector<int>
-fly(StressState& state, const StressSettings& settings, Machine& machine, int frames) {
+std::vector<int> fly(StressState& state, const StressSettings& settings, Machine& machine, int frames) {
     std::vector<int> targets;
     for (int frame = 0; frame < frames; ++frame) {
         targets.push_back(state.triangles());
-        const StressState next =
-            next_state(state, settings, {machine.frame_ms(state.triangles()), state.triangles()});
+        const StressState next = next_state(state, settings, {machine.frame_ms(state.triangles()), state.triangles()});
         REQUIRE(next.target >= settings.min_triangles);
         REQUIRE(next.target <= settings.max_triangles);
         REQUIRE(next.target >= state.target * (1.0 - settings.max_fall) * (1.0 - 1e-12));
@@ -51,10 +49,8 @@ fly(StressState& state, const StressSettings& settings, Machine& machine, int fr
 }
 
 bool all_same(const std::vector<int>& targets, std::size_t from) {
-    return std::all_of(
-        targets.begin() + static_cast<std::ptrdiff_t>(from), targets.end(), [&](int target) {
-            return target == targets[from];
-        });
+    return std::all_of(targets.begin() + static_cast<std::ptrdiff_t>(from), targets.end(),
+        [&](int target) { return target == targets[from]; });
 }
 
 double stress_of(const Machine& machine, const StressSettings& settings, const StressState& state) {
@@ -105,9 +101,7 @@ TEST_CASE("violent noise makes a settled budget neither swing nor creep") {
     fly(state, settings, machine, 600);
     const auto targets = fly(state, settings, machine, 20000);
     int changes = 0;
-    for (std::size_t i = 1; i < targets.size(); ++i) {
-        changes += targets[i] != targets[i - 1] ? 1 : 0;
-    }
+    for (std::size_t i = 1; i < targets.size(); ++i) { changes += targets[i] != targets[i - 1] ? 1 : 0; }
     CHECK(changes < 200);
     CHECK(stress_of(machine, settings, state) == Approx(0.825).margin(0.075));
 }
@@ -174,9 +168,7 @@ TEST_CASE("an idle machine is given the greatest budget and no more") {
 TEST_CASE("a budget that the ground does not use is not raised") {
     const StressSettings settings = settings_at(60.0);
     StressState state = initial_state(20000.0, settings);
-    for (int frame = 0; frame < 500; ++frame) {
-        state = next_state(state, settings, {2.0, 6000});
-    }
+    for (int frame = 0; frame < 500; ++frame) { state = next_state(state, settings, {2.0, 6000}); }
     CHECK(state.triangles() == 20000);
     CHECK(state.trend == StressState::Trend::Held);
     CHECK(state.stress == Approx(2.0 / settings.target_frame_ms));
@@ -201,8 +193,7 @@ TEST_CASE("whatever frames take, the budget changes in small steps within its li
     for (int run = 0; run < 50; ++run) {
         const StressSettings settings = settings_at(dice.between(1.0, 1000.0));
         StressState state = initial_state(dice.between(100.0, 1e6), settings);
-        Machine machine{
-            .fixed_ms = settings.target_frame_ms * dice.between(0.0, 2.0),
+        Machine machine{.fixed_ms = settings.target_frame_ms * dice.between(0.0, 2.0),
             .ms_per_triangle = settings.target_frame_ms * dice.between(0.0, 1e-4),
             .noise = 0.9};
         fly(state, settings, machine, 500);

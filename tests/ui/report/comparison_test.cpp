@@ -24,10 +24,7 @@ LoadedRecording run_of(const std::string& path, const std::string& method, doubl
 } // namespace
 
 TEST_CASE("only runs of the same flight are compared, and their variants told apart") {
-    std::vector runs{
-        run_of("turn", "tree", 1.0),
-        run_of("straight", "tree", 1.0),
-        run_of("turn", "cells", 1.0),
+    std::vector runs{run_of("turn", "tree", 1.0), run_of("straight", "tree", 1.0), run_of("turn", "cells", 1.0),
         run_of("turn", "tree", 1.0)};
     const auto groups = comparable_groups(runs);
     REQUIRE(groups.size() == 2);
@@ -77,13 +74,10 @@ TEST_CASE("a gate lets figures grow by so much and no more") {
     const std::vector within{run_of("turn", "tree", 10.0), run_of("turn", "cells", 10.4)};
     CHECK(gate_failures(within, gate).empty());
     const std::vector beyond{run_of("turn", "tree", 10.0), run_of("turn", "cells", 10.8)};
-    CHECK(
-        gate_failures(beyond, gate) ==
-        std::vector<std::string>{
-            "turn-cells: p50_ms 10.800 ms, +8.0 % of 10.000 ms, above +5.0 %"});
+    CHECK(gate_failures(beyond, gate) ==
+          std::vector<std::string>{"turn-cells: p50_ms 10.800 ms, +8.0 % of 10.000 ms, above +5.0 %"});
     const std::vector others{run_of("turn", "tree", 10.0), run_of("straight", "tree", 10.0)};
-    CHECK_THROWS_WITH(
-        gate_failures(others, gate),
+    CHECK_THROWS_WITH(gate_failures(others, gate),
         "straight-tree: expected a recording to be compared with turn-tree, got one that differs "
         "in path");
     for (const char* wrong : {"", "p50", "p50=5", "p51=5%", "frames=5%", "p50=-5%", "p50=x%"}) {

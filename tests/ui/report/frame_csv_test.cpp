@@ -60,25 +60,23 @@ FrameRecord full_record() {
 TEST_CASE("frames.csv begins with the columns that others rely on") {
     const std::string header = frame_csv_header();
     CHECK(header.substr(0, std::string(promised_columns).size()) == promised_columns);
-    CHECK(
-        header.substr(std::string(promised_columns).size()) ==
-        ",warm_up,record_ms,draw_calls,shadow_triangles,veil_triangles,cuts,unordered,eye_x_m,eye_"
-        "y_m,eye_z_m,"
-        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,fine_triangles,"
-        "scenery_triangles,error_px,latency_ms,missed,smooth_polygons,smooth_target,aircraft_level,"
-        "refine_splits,refine_collapses,refine_ms,mesh_wait_ms,draw_wait_ms,packets,packets_lost,"
-        "packets_late,packets_wrong,stale,jitter_"
-        "ms,host_frame,skew_frames,state_hash,picture_hash\n");
+    CHECK(header.substr(std::string(promised_columns).size()) ==
+          ",warm_up,record_ms,draw_calls,shadow_triangles,veil_triangles,cuts,unordered,eye_x_m,eye_"
+          "y_m,eye_z_m,"
+          "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,fine_triangles,"
+          "scenery_triangles,error_px,latency_ms,missed,smooth_polygons,smooth_target,aircraft_level,"
+          "refine_splits,refine_collapses,refine_ms,mesh_wait_ms,draw_wait_ms,packets,packets_lost,"
+          "packets_late,packets_wrong,stale,jitter_"
+          "ms,host_frame,skew_frames,state_hash,picture_hash\n");
 }
 
 TEST_CASE("a line has fixed decimals whatever the locale") {
     std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
-    CHECK(
-        frame_csv_line(full_record()) ==
-        "7,0.350000,0.140000,15.8457,1.0000,2.0000,12.3457,0.5000,1007,12,43,26,0.125000,-5,0.3169,"
-        "0,1,3.2500,3,24,17,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,1900,800,"
-        "0.7500,21.5000,1,30,31,2,17,9,0.4375,0.2500,1.5000,0,,0,0,0,0.0000,-1,-1,"
-        "00000000000000ab,\n");
+    CHECK(frame_csv_line(full_record()) ==
+          "7,0.350000,0.140000,15.8457,1.0000,2.0000,12.3457,0.5000,1007,12,43,26,0.125000,-5,0.3169,"
+          "0,1,3.2500,3,24,17,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,1900,800,"
+          "0.7500,21.5000,1,30,31,2,17,9,0.4375,0.2500,1.5000,0,,0,0,0,0.0000,-1,-1,"
+          "00000000000000ab,\n");
     std::setlocale(LC_NUMERIC, "C");
 }
 
@@ -123,8 +121,8 @@ TEST_CASE("what has no value is an empty field") {
 
 TEST_CASE("a torn last line is left out, wherever it is cut") {
     const ScratchFolder scratch;
-    const std::string whole = frame_csv_header() + frame_csv_line(made_up_frame(0, 1)) +
-                              frame_csv_line(made_up_frame(1, 1));
+    const std::string whole =
+        frame_csv_header() + frame_csv_line(made_up_frame(0, 1)) + frame_csv_line(made_up_frame(1, 1));
     const std::size_t first_end = whole.find('\n') + 1;
     const std::size_t second_end = whole.find('\n', first_end) + 1;
     for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
@@ -133,16 +131,13 @@ TEST_CASE("a torn last line is left out, wherever it is cut") {
         const std::size_t expected = cut == whole.size() ? 2 : (cut >= second_end ? 1 : 0);
         CAPTURE(cut);
         REQUIRE(file.records.size() == expected);
-        REQUIRE(
-            file.is_truncated ==
-            (cut != 0 && cut != first_end && cut != second_end && cut != whole.size()));
+        REQUIRE(file.is_truncated == (cut != 0 && cut != first_end && cut != second_end && cut != whole.size()));
     }
 }
 
 TEST_CASE("columns are found by name, in any order and among strange ones") {
     const ScratchFolder scratch;
-    write_file(
-        scratch / "frames.csv",
+    write_file(scratch / "frames.csv",
         "mood,overrun,stress,triangle_change,resolution_c,draw_cell,aircraft_polygons,terrain_fans,"
         "terrain_triangles,read_ms,draw_ms,plan_ms,sim_ms,frame_ms,wall_s,sim_time_s,frame\r\n"
         "good,1,,2,3.5,4,5,6,7,8,9,10,11,38,13,14,15\r\n");
@@ -152,8 +147,7 @@ TEST_CASE("columns are found by name, in any order and among strange ones") {
     CHECK(got.overrun == 1);
     CHECK_FALSE(got.warm_up);
     constexpr std::array<std::string_view, 1> required_columns{"triangle_target"};
-    CHECK_THROWS_WITH(
-        read_frame_csv(scratch / "frames.csv", required_columns),
+    CHECK_THROWS_WITH(read_frame_csv(scratch / "frames.csv", required_columns),
         Catch::Contains(":1: expected a column triangle_target, got 'mood,overrun,"));
 }
 
@@ -170,19 +164,16 @@ TEST_CASE("damage is named by file and line") {
     std::string bad = line(1);
     bad.replace(bad.find("4.5000"), 6, "4.5x");
     start = message(frame_csv_header() + line(0) + bad);
-    CHECK_THROWS_WITH(
-        read_frame_csv(path), start + "3: expected a number in column frame_ms, got '4.5x'");
+    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected a number in column frame_ms, got '4.5x'");
     bad = line(1);
     bad.replace(bad.find("1001"), 4, "1e3");
     start = message(frame_csv_header() + bad);
     CHECK_THROWS_WITH(
-        read_frame_csv(path),
-        start + "2: expected a whole number in column terrain_triangles, got '1e3'");
+        read_frame_csv(path), start + "2: expected a whole number in column terrain_triangles, got '1e3'");
     bad = frame_csv_line(made_up_frame(1, 1.0));
     bad.replace(bad.size() - 2, 1, ",abc");
     start = message(frame_csv_header() + bad);
-    CHECK_THROWS_WITH(
-        read_frame_csv(path), start + "2: expected a hash in column picture_hash, got 'abc'");
+    CHECK_THROWS_WITH(read_frame_csv(path), start + "2: expected a hash in column picture_hash, got 'abc'");
     start = message(frame_csv_header() + line(3) + line(3));
     CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected a frame after 3, got 3");
     start = message("a,b\n1,2\n");

@@ -16,45 +16,34 @@ using Catch::Contains;
 
 namespace {
 
-LoadedRecording
-made_up_recording(const std::filesystem::path& folder, const std::string& title, double draw_ms) {
+LoadedRecording made_up_recording(const std::filesystem::path& folder, const std::string& title, double draw_ms) {
     RunInfo info;
     info.title = title;
     info.settings_json = R"({"note":"<script>&","rate":60})";
     info.machine.cores = 2;
     RecordingWriter recording(folder, info);
-    for (int frame = 0; frame < 30; ++frame) {
-        recording.add(made_up_frame(frame, frame == 20 ? 30.0 : draw_ms));
-    }
-    for (int frame = 0; frame < 14; ++frame) {
-        recording.add_picture(frame, made_up_picture(8, 4, 3).view());
-    }
+    for (int frame = 0; frame < 30; ++frame) { recording.add(made_up_frame(frame, frame == 20 ? 30.0 : draw_ms)); }
+    for (int frame = 0; frame < 14; ++frame) { recording.add_picture(frame, made_up_picture(8, 4, 3).view()); }
     recording.finish({0xaaa, 0xbbb, {}});
     return load_recording(folder);
 }
 
 std::size_t count_of(const std::string& text, const std::string& what) {
     std::size_t count = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) {
-        ++count;
-    }
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) { ++count; }
     return count;
 }
 
 FlightAccumulator digest_of(const std::vector<FrameRecord>& records) {
     FlightAccumulator digest;
-    for (const FrameRecord& record : records) {
-        digest.add(record);
-    }
+    for (const FrameRecord& record : records) { digest.add(record); }
     return digest;
 }
 
 } // namespace
 
 TEST_CASE("text is escaped for elements and attributes, and broken UTF-8 mended") {
-    CHECK(
-        escaped("<a href=\"x\">'&'</a>") ==
-        "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+    CHECK(escaped("<a href=\"x\">'&'</a>") == "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
     CHECK(escaped("\xC3\xA9\n\x01\x7F.") == "\xC3\xA9\n.");
     CHECK(escaped("\xC3") == "\xEF\xBF\xBD");
     CHECK(escaped("\xC0\xAF") == "\xEF\xBF\xBD\xEF\xBF\xBD");
@@ -71,12 +60,11 @@ TEST_CASE("base64 of every remainder is as RFC 4648 has it") {
 }
 
 TEST_CASE("a table sets numbers right and escapes the rest") {
-    CHECK(
-        html_of({"T<", {"a", "b"}, {{"x&y", "1.5"}, {"z"}}, "n>"}) ==
-        "<h3>T&lt;</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>a</th>"
-        "<th class=\"number\">b</th></tr></thead>\n<tbody>\n"
-        "<tr><td>x&amp;y</td><td class=\"number\">1.5</td></tr>\n"
-        "<tr><td>z</td><td></td></tr>\n</tbody></table></div>\n<p class=\"note\">n&gt;</p>\n");
+    CHECK(html_of({"T<", {"a", "b"}, {{"x&y", "1.5"}, {"z"}}, "n>"}) ==
+          "<h3>T&lt;</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>a</th>"
+          "<th class=\"number\">b</th></tr></thead>\n<tbody>\n"
+          "<tr><td>x&amp;y</td><td class=\"number\">1.5</td></tr>\n"
+          "<tr><td>z</td><td></td></tr>\n</tbody></table></div>\n<p class=\"note\">n&gt;</p>\n");
 }
 
 TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through as markup") {
@@ -88,16 +76,13 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK_THAT(page, Contains("<h1>&lt;b&gt;flight&lt;/b&gt;</h1>"));
     CHECK_THAT(page, Contains("&lt;script&gt;&amp;"));
     CHECK_THAT(page, Contains("&lt;i&gt;"));
-    for (const char* unwanted :
-         {"<script>&", "<b>", "<i>", "<link", "src=\"http", "@import", "src=\"//"}) {
+    for (const char* unwanted : {"<script>&", "<b>", "<i>", "<link", "src=\"http", "@import", "src=\"//"}) {
         CHECK_THAT(page, !Contains(unwanted));
     }
     CHECK(count_of(page, "data:image/png;base64,") == 12 + 4); // and of the slowest frames
     CHECK(count_of(page, "<script") == 1 + 5);                 // and the numbers of each plot
     CHECK_THAT(page, Contains("12 of 14 pictures"));
-    for (const Statistic& statistic : all_statistics()) {
-        CHECK_THAT(page, Contains(escaped(statistic.definition)));
-    }
+    for (const Statistic& statistic : all_statistics()) { CHECK_THAT(page, Contains(escaped(statistic.definition))); }
     CHECK_THAT(page, Contains("1 of 28 frames took longer than 16.67 ms. In 1 of them draw took"));
     CHECK_THAT(page, Contains("draw by 25.00 ms"));
     CHECK_THAT(page, Contains("0000000000000aaa"));
@@ -122,16 +107,13 @@ TEST_CASE("the slowest frames of a flight are shown by their own pictures") {
     }
     recording.slowest.resize(1);
     REQUIRE(recording.slowest.front().record.frame == 20);
-    CHECK_THAT(
-        html_report(std::span(&recording, 1)),
-        Contains(" ms</figcaption>") && !Contains(": nearest picture"));
+    CHECK_THAT(html_report(std::span(&recording, 1)), Contains(" ms</figcaption>") && !Contains(": nearest picture"));
 }
 
 TEST_CASE("several flights stand in a table, and those of the same flight are compared") {
     const ScratchFolder scratch;
     std::vector recordings{
-        made_up_recording(scratch / "one", "first", 5.0),
-        made_up_recording(scratch / "two", "second", 7.0)};
+        made_up_recording(scratch / "one", "first", 5.0), made_up_recording(scratch / "two", "second", 7.0)};
     recordings[1].run.settings[0].second = "other";
     std::string page = html_report(recordings);
     CHECK_THAT(page, Contains("2 flights compared"));
@@ -148,8 +130,7 @@ TEST_CASE("several flights stand in a table, and those of the same flight are co
     recordings[1].name = "one";
     CHECK_THAT(html_report(recordings), Contains((scratch / "two").string()));
     write_file(scratch / "two/report.html", "its own");
-    CHECK_THAT(
-        html_report(recordings, {}, scratch.path()), Contains("<a href=\"two/report.html\">"));
+    CHECK_THAT(html_report(recordings, {}, scratch.path()), Contains("<a href=\"two/report.html\">"));
 }
 
 TEST_CASE("a change that repeats bear out is marked, and a long study stays small") {
@@ -200,8 +181,7 @@ TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture 
 
 TEST_CASE("a plot in a page has its numbers, and no text of it ends its element") {
     Plot plot{"a < b", "x", "y", {}, {}, 0.0, {}};
-    plot.series = {
-        {"</script>", "#fff", PlotSeries::Style::Line, {0.0, 1.0}, {2.5, std::nan("")}, {}}};
+    plot.series = {{"</script>", "#fff", PlotSeries::Style::Line, {0.0, 1.0}, {2.5, std::nan("")}, {}}};
     plot.marks = {{"leg \"1\"", 0.5}};
     const std::string html = page_plot(plot, PlotWidth::FullWidth);
     CHECK_THAT(html, Contains("<h3>a &lt; b</h3>"));
@@ -231,8 +211,7 @@ TEST_CASE("a flight whose triangle target moved shows its course and its stress"
     LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
     CHECK_THAT(html_report(std::vector{recording}), !Contains("<dt>Triangle target</dt>"));
     recording.flight = flight;
-    CHECK_THAT(
-        html_report(std::vector{recording}),
+    CHECK_THAT(html_report(std::vector{recording}),
         Contains("<dt>Triangle target</dt><dd>135 <small>mean of 120 to 150</small>"));
 }
 
@@ -250,17 +229,13 @@ TEST_CASE("a long flight is thinned without losing its peak") {
     CHECK(top_stage.x.size() < 3000);
     CHECK(*std::max_element(top_stage.y.begin(), top_stage.y.end()) == 23.5);
     double counted = 0.0;
-    for (const double count : plots[1].series[0].y) {
-        counted += count;
-    }
+    for (const double count : plots[1].series[0].y) { counted += count; }
     CHECK(counted == 49'998.0);
 }
 
 TEST_CASE("one stray frame does not flatten a flight's plots") {
     std::vector<FrameRecord> records;
-    for (int frame = 0; frame < 1000; ++frame) {
-        records.push_back(made_up_frame(frame, frame == 500 ? 996.5 : 16.5));
-    }
+    for (int frame = 0; frame < 1000; ++frame) { records.push_back(made_up_frame(frame, frame == 500 ? 996.5 : 16.5)); }
     CHECK(plot_ceiling_ms(statistics_of(records)) == Approx(1.05 * 2.5 * 20.0));
     CHECK(plot_ceiling_ms({}) == Approx(1.05 * 18.0));
 }
@@ -278,9 +253,7 @@ TEST_CASE("frames far below 16.67 ms fill their plots, others leave room for its
 
 TEST_CASE("a curve keeps every peak in the memory of a plot") {
     Curve curve;
-    for (int i = 0; i < 1'000'000; ++i) {
-        curve.add(i, i == 777'777 ? 9.0 : i == 3 ? -9.0 : i % 2);
-    }
+    for (int i = 0; i < 1'000'000; ++i) { curve.add(i, i == 777'777 ? 9.0 : i == 3 ? -9.0 : i % 2); }
     const PlotSeries whole = curve.series();
     CHECK(whole.x.size() <= 2 * Curve::max_pieces);
     CHECK(std::ranges::is_sorted(whole.x));

@@ -11,9 +11,7 @@ TEST_CASE("the machine is read from its files") {
     const ScratchFolder root;
     make_folder(root / "proc");
     make_folder(root / "etc");
-    write_file(
-        root / "proc/cpuinfo",
-        "processor\t: 0\nmodel name\t: Fast, 2.5 GHz\nmodel name\t: other\n");
+    write_file(root / "proc/cpuinfo", "processor\t: 0\nmodel name\t: Fast, 2.5 GHz\nmodel name\t: other\n");
     write_file(root / "proc/meminfo", "MemTotal:       16384 kB\nMemFree: 1 kB\n");
     write_file(root / "proc/loadavg", "1.25 0.50 0.10 1/93 15623\n");
     write_file(root / "proc/stat", "cpu  100 20 30 400 50 6 7 8 0 0\ncpu0 1 2 3 4\n");
@@ -51,14 +49,11 @@ TEST_CASE("processor time is shared between us, others, the host and idling") {
 TEST_CASE("a flight is noisy when steal, others or, lacking these, the load say so") {
     CHECK(noise_reasons(9.0, 2, CpuUse{0.01, 0.10}).empty());
     CHECK(
-        noise_reasons(0.0, 2, CpuUse{0.02, 0.5}) ==
-        std::vector<std::string>{
-            "2.0 % of the processor time was stolen.",
-            "Other programs used 50.0 % of the processor time."});
+        noise_reasons(0.0, 2, CpuUse{0.02, 0.5}) == std::vector<std::string>{"2.0 % of the processor time was stolen.",
+                                                        "Other programs used 50.0 % of the processor time."});
     CHECK(noise_reasons(1.0, 2, std::nullopt).empty());
-    CHECK(
-        noise_reasons(1.5, 2, std::nullopt) ==
-        std::vector<std::string>{"The load average was 1.50 on 2 cores when the flight began."});
+    CHECK(noise_reasons(1.5, 2, std::nullopt) ==
+          std::vector<std::string>{"The load average was 1.50 on 2 cores when the flight began."});
 }
 
 TEST_CASE("a time is written as UTC") {

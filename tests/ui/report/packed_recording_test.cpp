@@ -32,9 +32,7 @@ void record(const fs::path& folder) {
     info.settings_json = R"({"path":"inputs/p.toml","terrain":"../map.bil"})";
     info.files = {{"inputs/p.toml", "legs"}};
     RecordingWriter recording(folder, info);
-    for (int frame = 0; frame < 20; ++frame) {
-        recording.add(made_up_frame(frame, 10.0));
-    }
+    for (int frame = 0; frame < 20; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
     recording.add_picture(3, made_up_picture(20, 10, 3).view());
     recording.finish({1, 2, {}});
 }
@@ -80,8 +78,7 @@ TEST_CASE("what is read out of a packed recording is called by the packed file")
     fs::create_directory(scratch / "other");
     fs::copy_file(scratch / "a.zip", scratch / "other/a.zip");
     const std::vector<LoadedRecording> both = {
-        load_recording(recording_folder(scratch / "a.zip")),
-        load_recording(recording_folder(scratch / "other/a.zip"))};
+        load_recording(recording_folder(scratch / "a.zip")), load_recording(recording_folder(scratch / "other/a.zip"))};
     CHECK(both[0].display_name == (scratch / "a.zip").string());
     CHECK(both[1].display_name == (scratch / "other/a.zip").string());
     const std::string page = html_report(both, {}, scratch / "there");
@@ -136,6 +133,5 @@ TEST_CASE("files that are no packed recordings are refused and write nothing") {
     CHECK_THROWS_AS(recording_folder(zip), Error);
     CHECK_THROWS_AS(pack_recording(scratch / "nothing", zip, false), Error);
     const FolderLock lock(scratch / "rec");
-    CHECK_THROWS_WITH(
-        pack_recording(scratch / "rec", zip, false), Contains("got one that is being written"));
+    CHECK_THROWS_WITH(pack_recording(scratch / "rec", zip, false), Contains("got one that is being written"));
 }

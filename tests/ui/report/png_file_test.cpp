@@ -19,15 +19,12 @@ TEST_CASE("a picture comes back from its file as it was") {
     CHECK(got.height_px == 7);
     CHECK(got.channels == 3);
     CHECK(got.bytes == picture.bytes);
-    CHECK(
-        picture_from_png("b", png_bytes(picture.view(), PngEffort::Small)).bytes == picture.bytes);
+    CHECK(picture_from_png("b", png_bytes(picture.view(), PngEffort::Small)).bytes == picture.bytes);
 }
 
 TEST_CASE("alpha is dropped and a bottom row that comes first goes to the bottom") {
     Picture picture{1, 2, 4, {}};
-    for (const int value : {1, 2, 3, 99, 4, 5, 6, 0}) {
-        picture.bytes.push_back(static_cast<std::byte>(value));
-    }
+    for (const int value : {1, 2, 3, 99, 4, 5, 6, 0}) { picture.bytes.push_back(static_cast<std::byte>(value)); }
     PixelView view = picture.view();
     view.bottom_row_first = true;
     std::vector<int> values;
@@ -44,20 +41,17 @@ TEST_CASE("what is no picture is refused by name") {
     CHECK_THROWS_WITH(read_png(name), name + ": expected a PNG picture: Not a PNG file");
     const std::string whole = png_bytes(made_up_picture(40, 40, 3).view());
     for (const std::size_t size : {std::size_t{20}, whole.size() / 2, whole.size() - 14}) {
-        CHECK_THROWS_WITH(
-            picture_from_png("a.png", std::string_view(whole).substr(0, size)),
+        CHECK_THROWS_WITH(picture_from_png("a.png", std::string_view(whole).substr(0, size)),
             Catch::StartsWith("a.png: expected a "));
     }
-    CHECK_THROWS_WITH(
-        write_png("/nowhere/a.png", made_up_picture(2, 2, 3).view()),
+    CHECK_THROWS_WITH(write_png("/nowhere/a.png", made_up_picture(2, 2, 3).view()),
         "/nowhere/a.png: cannot be written: No such file or directory");
 }
 
 TEST_CASE("a picture that libpng cannot hold gives one error and no leak") {
     const Picture wide = made_up_picture(1'000'001, 1, 3);
     CHECK_THROWS_WITH(
-        png_bytes(wide.view()),
-        Catch::StartsWith("a picture of 1000001 x 1 pixels cannot be made a PNG: "));
+        png_bytes(wide.view()), Catch::StartsWith("a picture of 1000001 x 1 pixels cannot be made a PNG: "));
 }
 
 TEST_CASE("a picture is shrunk by whole numbers to the mean of its squares") {

@@ -17,8 +17,7 @@ using namespace octant::ui::report;
 namespace {
 
 /// A program of that name in `folder` which runs `script`.
-void make_program(
-    const std::filesystem::path& folder, const std::string& name, const std::string& script) {
+void make_program(const std::filesystem::path& folder, const std::string& name, const std::string& script) {
     make_folder(folder);
     write_file(folder / name, "#!/bin/sh\n" + script + "\n");
     std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
@@ -67,8 +66,7 @@ TEST_CASE("without ffmpeg a video is refused before anything is flown") {
     const ScratchFolder scratch;
     const SearchPath nothing(scratch.path().string());
     const auto file = scratch / "a.mp4";
-    const std::string refused =
-        file.string() + ": expected ffmpeg to make a video with, found none on PATH";
+    const std::string refused = file.string() + ": expected ffmpeg to make a video with, found none on PATH";
     CHECK_THROWS_WITH(check_video(file), refused);
     CHECK_THROWS_WITH(VideoPipe(file, {4, 4, 3, false, 60.0}), refused);
     CHECK_FALSE(std::filesystem::exists(file));
@@ -76,10 +74,7 @@ TEST_CASE("without ffmpeg a video is refused before anything is flown") {
 
 TEST_CASE("of what an ffmpeg that fails leaves only whole fragments are kept") {
     const ScratchFolder scratch;
-    make_program(
-        scratch / "bin",
-        "ffmpeg",
-        "for file; do :; done; cat \"$OCTANT_LEFT\" > \"${file#file:}\"; exit 1");
+    make_program(scratch / "bin", "ffmpeg", "for file; do :; done; cat \"$OCTANT_LEFT\" > \"${file#file:}\"; exit 1");
     const SearchPath only((scratch / "bin").string() + ":/usr/bin:/bin");
     const auto left = [&](const std::string& bytes) {
         write_file(scratch / "left", bytes);
@@ -111,8 +106,7 @@ TEST_CASE("of what an ffmpeg that fails leaves only whole fragments are kept") {
 
 TEST_CASE("an ffmpeg that complains is reported although it says that it succeeded") {
     const ScratchFolder scratch;
-    make_program(
-        scratch / "bin", "ffmpeg", "echo 'Error closing file: No space left on device' >&2");
+    make_program(scratch / "bin", "ffmpeg", "echo 'Error closing file: No space left on device' >&2");
     const SearchPath only((scratch / "bin").string());
     VideoPipe video(scratch / "a.mp4", {4, 4, 3, false, 60.0});
     CHECK(video.finish() == "not made: ffmpeg: Error closing file: No space left on device");
@@ -160,16 +154,12 @@ TEST_CASE("ffmpeg makes a fragmented video of odd size and odd name") {
     VideoPipe video(path, {63, 47, 4, true, 10.0});
     PixelView view = picture.view();
     view.bottom_row_first = true;
-    for (int i = 0; i < 25; ++i) {
-        video.add(view);
-    }
+    for (int i = 0; i < 25; ++i) { video.add(view); }
     REQUIRE_FALSE(video.finish());
     const std::string bytes = read_file(path);
     CHECK(bytes.substr(4, 4) == "ftyp");
     std::size_t fragments = 0;
-    for (std::size_t at = 0; (at = bytes.find("moof", at)) != std::string::npos; ++at) {
-        ++fragments;
-    }
+    for (std::size_t at = 0; (at = bytes.find("moof", at)) != std::string::npos; ++at) { ++fragments; }
     CHECK(fragments == 3); // 25 frames, one fragment every 10
 }
 
@@ -179,11 +169,9 @@ TEST_CASE("a plot is told to gnuplot with its data, gaps and quotes") {
     CHECK_THAT(script, Catch::Contains("set yrange [0:*]\n"));
     CHECK_THAT(script, Catch::Contains("$series0 << EOD\n1 4\n\n3 6\nEOD\n"));
     CHECK_THAT(script, Catch::Contains("$series1 << EOD\n1 1 3\n2 2 4\nEOD\n"));
-    CHECK_THAT(
-        script,
-        Catch::EndsWith("plot $series0 using 1:2 with lines lw 1.2 lc rgb '#102030' title 'a < b', "
-                        "$series1 using 1:2:3 with filledcurves lc rgb '#405060' notitle, "
-                        "2.5 with lines dt 2 lw 1 lc rgb '#ef4444' title 'limit'\n"));
+    CHECK_THAT(script, Catch::EndsWith("plot $series0 using 1:2 with lines lw 1.2 lc rgb '#102030' title 'a < b', "
+                                       "$series1 using 1:2:3 with filledcurves lc rgb '#405060' notitle, "
+                                       "2.5 with lines dt 2 lw 1 lc rgb '#ef4444' title 'limit'\n"));
 }
 
 TEST_CASE("without gnuplot or without points there is no plot") {

@@ -19,9 +19,7 @@ using namespace octant::ui::report;
 
 namespace {
 
-std::size_t lines_in(const std::filesystem::path& path) {
-    return split_lines(read_file(path)).size();
-}
+std::size_t lines_in(const std::filesystem::path& path) { return split_lines(read_file(path)).size(); }
 
 /// Lets no file grow past `bytes`, as a full disk would.
 class FileSizeLimit {
@@ -61,23 +59,16 @@ TEST_CASE("run.json says at once what is flown, and at the end how it went") {
     CHECK(at_start["machine"]["gl_renderer"] == "some, renderer");
     CHECK(at_start["path_offset_m"] == nlohmann::ordered_json({0.0, 0.0, 412.5}));
     CHECK_FALSE(at_start.contains("summary"));
-    for (int frame = 0; frame < 4; ++frame) {
-        recording.add(made_up_frame(frame, 10.0 * frame));
-    }
-    const Statistics statistics =
-        recording.finish({0xabc, 0xfedcba9876543210U, {2000, 900, 30, 500}});
+    for (int frame = 0; frame < 4; ++frame) { recording.add(made_up_frame(frame, 10.0 * frame)); }
+    const Statistics statistics = recording.finish({0xabc, 0xfedcba9876543210U, {2000, 900, 30, 500}});
     CHECK(statistics.frames == 2);
     const auto at_end = nlohmann::ordered_json::parse(read_file(scratch / "rec/run.json"));
     CHECK(at_end["settings"] == at_start["settings"]);
     const auto& summary = at_end["summary"];
     std::vector<std::string> keys;
-    for (const auto& [key, value] : summary.items()) {
-        keys.push_back(key);
-    }
+    for (const auto& [key, value] : summary.items()) { keys.push_back(key); }
     std::vector<std::string> expected;
-    for (const Statistic& statistic : all_statistics()) {
-        expected.emplace_back(statistic.key);
-    }
+    for (const Statistic& statistic : all_statistics()) { expected.emplace_back(statistic.key); }
     expected.insert(expected.end(), {"state_hash", "picture_hash"});
     CHECK(keys == expected);
     CHECK(summary["frames"] == 2);
@@ -110,8 +101,7 @@ TEST_CASE("a folder with other things in it is refused and left alone") {
     make_folder(scratch / "home");
     write_file(scratch / "home/letter.txt", "dear");
     const std::string home = (scratch / "home").string();
-    CHECK_THROWS_WITH(
-        RecordingWriter(home, made_up_info()),
+    CHECK_THROWS_WITH(RecordingWriter(home, made_up_info()),
         home + ": expected an empty folder or a recording to replace, got one with 'letter.txt'");
     write_file(scratch / "home/run.json", "{\"summary\": {}}");
     CHECK_THROWS_AS(RecordingWriter(home, made_up_info()), Error);
@@ -127,11 +117,9 @@ TEST_CASE("nobody records into a folder that is being recorded into, and a kille
     {
         RecordingWriter recording(folder, made_up_info());
         recording.add(made_up_frame(0, 1));
-        CHECK_THROWS_WITH(
-            RecordingWriter(folder, made_up_info()),
-            Catch::StartsWith(
-                folder + ": expected a folder that nobody records into, got one that process " +
-                std::to_string(getpid())));
+        CHECK_THROWS_WITH(RecordingWriter(folder, made_up_info()),
+            Catch::StartsWith(folder + ": expected a folder that nobody records into, got one that process " +
+                              std::to_string(getpid())));
         recording.finish({});
         CHECK(load_recording(folder).flight.frames() == 1);
     }
@@ -144,17 +132,13 @@ TEST_CASE("a summary of other rows is told") {
     const ScratchFolder scratch;
     {
         RecordingWriter recording(scratch / "rec", made_up_info());
-        for (int frame = 0; frame < 6; ++frame) {
-            recording.add(made_up_frame(frame, 10.0));
-        }
+        for (int frame = 0; frame < 6; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
         recording.finish({1, 2, {}, {}, "SIGINT after 6 of 9 frames"});
     }
     CHECK(load_recording(scratch / "rec").disagreement.empty());
     CHECK(load_recording(scratch / "rec").run.stopped == "SIGINT after 6 of 9 frames");
     std::string rows = frame_csv_header();
-    for (int frame = 0; frame < 4; ++frame) {
-        rows += frame_csv_line(made_up_frame(frame, 10.0));
-    }
+    for (int frame = 0; frame < 4; ++frame) { rows += frame_csv_line(made_up_frame(frame, 10.0)); }
     write_file(scratch / "rec/frames.csv", rows);
     CHECK(load_recording(scratch / "rec").disagreement == "frames: 4 in run.json, 2 by the rows");
 }
@@ -163,19 +147,13 @@ TEST_CASE("a lost row of the warm-up is told") {
     const ScratchFolder scratch;
     {
         RecordingWriter recording(scratch / "rec", made_up_info());
-        for (int frame = 0; frame < 6; ++frame) {
-            recording.add(made_up_frame(frame, 10.0));
-        }
+        for (int frame = 0; frame < 6; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
         recording.finish({1, 2, {}, {}, {}});
     }
     std::string rows = frame_csv_header();
-    for (const int frame : {0, 2, 3, 4, 5}) {
-        rows += frame_csv_line(made_up_frame(frame, 10.0));
-    }
+    for (const int frame : {0, 2, 3, 4, 5}) { rows += frame_csv_line(made_up_frame(frame, 10.0)); }
     write_file(scratch / "rec/frames.csv", rows);
-    CHECK(
-        load_recording(scratch / "rec").disagreement ==
-        "line 3 of frames.csv: expected frame 1, got 2");
+    CHECK(load_recording(scratch / "rec").disagreement == "line 3 of frames.csv: expected frame 1, got 2");
 }
 
 TEST_CASE("an older recording gives way with all its files and nothing else") {
@@ -194,15 +172,8 @@ TEST_CASE("an older recording gives way with all its files and nothing else") {
         names.push_back(entry.path().filename().string());
     }
     std::sort(names.begin(), names.end());
-    CHECK(
-        names == std::vector<std::string>{
-                     "counters.csv",
-                     "frames.csv",
-                     "mangohud.csv",
-                     "notes.txt",
-                     "recording.lock",
-                     "run.json",
-                     "trace.json"});
+    CHECK(names == std::vector<std::string>{"counters.csv", "frames.csv", "mangohud.csv", "notes.txt", "recording.lock",
+                       "run.json", "trace.json"});
 }
 
 TEST_CASE("a full disk gives one error and leaves a recording that loads") {
@@ -211,12 +182,9 @@ TEST_CASE("a full disk gives one error and leaves a recording that loads") {
         RecordingWriter recording(scratch / "rec", made_up_info(), 1);
         const FileSizeLimit limit(8000);
         const auto fly = [&] {
-            for (int frame = 0; frame < 100; ++frame) {
-                recording.add(made_up_frame(frame, 1));
-            }
+            for (int frame = 0; frame < 100; ++frame) { recording.add(made_up_frame(frame, 1)); }
         };
-        CHECK_THROWS_WITH(
-            fly(), (scratch / "rec/trace.json").string() + ": cannot be written: File too large");
+        CHECK_THROWS_WITH(fly(), (scratch / "rec/trace.json").string() + ": cannot be written: File too large");
     }
     const LoadedRecording loaded = load_recording(scratch / "rec");
     CHECK(loaded.ended_early);
@@ -227,9 +195,7 @@ TEST_CASE("a killed recording loads with the figures of what is left") {
     const ScratchFolder scratch;
     {
         RecordingWriter recording(scratch / "rec", made_up_info(), 1);
-        for (int frame = 0; frame < 6; ++frame) {
-            recording.add(made_up_frame(frame, 10.0));
-        }
+        for (int frame = 0; frame < 6; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
         recording.add_picture(4, made_up_picture(2, 2, 3).view());
         recording.add_picture(10, made_up_picture(2, 2, 3).view());
     }
@@ -253,9 +219,7 @@ TEST_CASE("a killed recording loads with the figures of what is left") {
 TEST_CASE("the figures read back are those of the summary bit for bit") {
     const ScratchFolder scratch;
     RecordingWriter recording(scratch / "rec", made_up_info());
-    for (int frame = 0; frame < 200; ++frame) {
-        recording.add(made_up_frame(frame, 3.0 + 1.0 / (1.0 + frame % 7)));
-    }
+    for (int frame = 0; frame < 200; ++frame) { recording.add(made_up_frame(frame, 3.0 + 1.0 / (1.0 + frame % 7))); }
     const Statistics at_end = recording.finish({1, 2, {}});
     const LoadedRecording loaded = load_recording(scratch / "rec");
     CHECK(loaded.statistics == at_end);
@@ -267,27 +231,22 @@ TEST_CASE("what is no recording is refused by name") {
     const ScratchFolder scratch;
     const std::string folder = scratch.path().string();
     CHECK_THROWS_WITH(
-        load_recording(folder + "/none"),
-        folder + "/none: expected the folder of a recording, found none");
+        load_recording(folder + "/none"), folder + "/none: expected the folder of a recording, found none");
     CHECK_THROWS_WITH(load_recording(folder), folder + "/run.json: expected a file, found none");
     write_file(folder + "/run.json", "{\"a\":");
     CHECK_THROWS_WITH(
-        load_recording(folder),
-        folder + "/run.json:1: expected JSON, got something else or a part of it");
+        load_recording(folder), folder + "/run.json:1: expected JSON, got something else or a part of it");
     write_file(folder + "/run.json", "[]");
     CHECK_THROWS_WITH(
-        load_recording(folder),
-        folder + "/run.json: expected \"format\": \"octant recording\", got none");
+        load_recording(folder), folder + "/run.json: expected \"format\": \"octant recording\", got none");
 }
 
 TEST_CASE("numbers of a machine that no machine has count as not told") {
     const ScratchFolder scratch;
     const auto file = scratch / "run.json";
     for (const std::string number : {"1e308", "-4", "1e19", "\"many\"", "null"}) {
-        write_file(
-            file,
-            R"({"format": "octant recording", "machine": {"cores": )" + number +
-                R"(, "memory_kb": )" + number + R"(, "load_average_1min": )" + number + "}}");
+        write_file(file, R"({"format": "octant recording", "machine": {"cores": )" + number + R"(, "memory_kb": )" +
+                             number + R"(, "load_average_1min": )" + number + "}}");
         const RunFile run = read_run_file(file);
         CHECK(run.machine_info.cores == 0);
         CHECK(run.machine_info.memory_kb == 0);

@@ -16,9 +16,7 @@ namespace octant::ui::report {
 class ScratchFolder {
 public:
     ScratchFolder()
-        : path_(
-              std::filesystem::temp_directory_path() /
-              ("octant-report-test-" + std::to_string(getpid()))) {
+        : path_(std::filesystem::temp_directory_path() / ("octant-report-test-" + std::to_string(getpid()))) {
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }
@@ -44,8 +42,7 @@ private:
 /// While it lives, programs are looked for in `path` only.
 class SearchPath {
 public:
-    explicit SearchPath(const std::string& path)
-        : before_(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "") {
+    explicit SearchPath(const std::string& path) : before_(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "") {
         setenv("PATH", path.c_str(), 1);
     }
 

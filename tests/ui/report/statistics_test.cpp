@@ -69,41 +69,22 @@ TEST_CASE("nearest ranks of 1 to 1000 are exact") {
 }
 
 TEST_CASE("warm-up frames are left out of the figures") {
-    std::vector<FrameRecord> records{
-        made_up_frame(0, 500.0), made_up_frame(1, 500.0), made_up_frame(2, 6.5)};
+    std::vector<FrameRecord> records{made_up_frame(0, 500.0), made_up_frame(1, 500.0), made_up_frame(2, 6.5)};
     CHECK(statistics_of(records).frames == 1);
     CHECK(statistics_of(records).max_ms == 10.0);
 }
 
 TEST_CASE("the figures are named as run.json names them") {
     std::vector<std::string> keys;
-    for (const Statistic& statistic : all_statistics()) {
-        keys.emplace_back(statistic.key);
-    }
-    CHECK(
-        keys == std::vector<std::string>{
-                    "frames",
-                    "mean_ms",
-                    "sd_ms",
-                    "p50_ms",
-                    "p90_ms",
-                    "p95_ms",
-                    "p99_ms",
-                    "p999_ms",
-                    "max_ms",
-                    "low_1pct_fps",
-                    "low_01pct_fps",
-                    "overruns_16ms",
-                    "overruns_33ms",
-                    "overruns_41ms",
-                    "jitter_ms"});
+    for (const Statistic& statistic : all_statistics()) { keys.emplace_back(statistic.key); }
+    CHECK(keys == std::vector<std::string>{"frames", "mean_ms", "sd_ms", "p50_ms", "p90_ms", "p95_ms", "p99_ms",
+                      "p999_ms", "max_ms", "low_1pct_fps", "low_01pct_fps", "overruns_16ms", "overruns_33ms",
+                      "overruns_41ms", "jitter_ms"});
 }
 
 TEST_CASE("an overrun names the longest stage and the one that grew") {
     std::vector<FrameRecord> records;
-    for (int frame = 0; frame < 7; ++frame) {
-        records.push_back(made_up_frame(frame, 10.0));
-    }
+    for (int frame = 0; frame < 7; ++frame) { records.push_back(made_up_frame(frame, 10.0)); }
     records[5].plan_ms = 9.0;
     records[5].frame_ms = 21.0; // 0.5 ms of it in no stage
     SlowFrameList slow;

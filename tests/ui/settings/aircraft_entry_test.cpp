@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 using namespace octant;
-using ui::settings::parse_aircraft_entry;
 using ui::settings::AircraftEntry;
+using ui::settings::parse_aircraft_entry;
 
 TEST_CASE("an aircraft may have a path of its own and a time at which it begins") {
     const AircraftEntry plain = parse_aircraft_entry("f15");

@@ -17,16 +17,14 @@ enum class Unnamed { One };
 } // namespace
 
 template <>
-inline constexpr std::array enum_names<Shuffled>{
-    EnumName{Shuffled::Two, "two"}, EnumName{Shuffled::One, "one"}};
+inline constexpr std::array enum_names<Shuffled>{EnumName{Shuffled::Two, "two"}, EnumName{Shuffled::One, "one"}};
 
 template <>
 inline constexpr std::array enum_names<OneForgotten>{
     EnumName{OneForgotten::One, "one"}, EnumName{OneForgotten::Two, "two"}};
 
 template <>
-inline constexpr std::array enum_names<OneTwice>{
-    EnumName{OneTwice::One, "one"}, EnumName{OneTwice::One, "two"}};
+inline constexpr std::array enum_names<OneTwice>{EnumName{OneTwice::One, "one"}, EnumName{OneTwice::One, "two"}};
 
 template <>
 inline constexpr std::array enum_names<GapInTheMiddle>{

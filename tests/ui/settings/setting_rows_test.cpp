@@ -32,41 +32,31 @@ double other_value(const SettingInfo& info, double value) {
 
 int other_value(const SettingInfo& info, int value) {
     return value == static_cast<int>(info.max_value) ? static_cast<int>(info.min_value)
-                                                : static_cast<int>(info.max_value);
+                                                     : static_cast<int>(info.max_value);
 }
 
-bool other_value(const SettingInfo& /*info*/, bool value) {
-    return !value;
-}
+bool other_value(const SettingInfo& /*info*/, bool value) { return !value; }
 
-std::string other_value(const SettingInfo& /*info*/, const std::string& value) {
-    return value + "-2";
-}
+std::string other_value(const SettingInfo& /*info*/, const std::string& value) { return value + "-2"; }
 
 std::vector<std::string> other_value(const SettingInfo&, std::vector<std::string> value) {
     value.emplace_back("wingman");
     return value;
 }
 
-glm::ivec2 other_value(const SettingInfo& /*info*/, const glm::ivec2& value) {
-    return value + glm::ivec2(1, 2);
-}
+glm::ivec2 other_value(const SettingInfo& /*info*/, const glm::ivec2& value) { return value + glm::ivec2(1, 2); }
 
 glm::dvec3 other_value(const SettingInfo& /*info*/, const glm::dvec3& value) {
     return value + glm::dvec3(1.0, -2.5, 3.0);
 }
 
-models::heights::VoidValues
-other_value(const SettingInfo& /*info*/, const models::heights::VoidValues& voids) {
+models::heights::VoidValues other_value(const SettingInfo& /*info*/, const models::heights::VoidValues& voids) {
     return {{-9999.0, 0.5}, !voids.only};
 }
 
-glm::vec3 other_value(const SettingInfo& /*info*/, const glm::vec3& /*colour*/) {
-    return {1.0F, 0.0F, 51.0F / 255.0F};
-}
+glm::vec3 other_value(const SettingInfo& /*info*/, const glm::vec3& /*colour*/) { return {1.0F, 0.0F, 51.0F / 255.0F}; }
 
-visuals::scene::Adaptation
-other_value(const SettingInfo& /*info*/, const visuals::scene::Adaptation& value) {
+visuals::scene::Adaptation other_value(const SettingInfo& /*info*/, const visuals::scene::Adaptation& value) {
     return {.terrain = !value.terrain, .shading = value.shading};
 }
 
@@ -99,9 +89,7 @@ TEST_CASE("each row alone makes the file entry of its setting, and the file give
         RunSettings changed;
         row.of(changed) = other_value(row, row.of(changed));
         const auto after = ui::settings::settings_json(changed);
-        for (const auto& [key, value] : after.items()) {
-            CHECK((value == before.at(key)) == (key != row.name));
-        }
+        for (const auto& [key, value] : after.items()) { CHECK((value == before.at(key)) == (key != row.name)); }
         CHECK(ui::settings::read_settings(written(after)) == changed);
     });
 }
@@ -120,16 +108,15 @@ TEST_CASE("each row alone says what a change of its setting makes anew") {
 TEST_CASE("each row has a name of its own, a meaning, and limits that hold its default") {
     std::set<std::string_view> names;
     const RunSettings defaults;
-    ui::settings::visit_settings(
-        defaults, [&]<class Value>(const SettingInfo& info, const Value& value) {
-            CAPTURE(info.name);
-            CHECK(names.insert(info.name).second);
-            CHECK(info.meaning.size() > 5);
-            if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
-                CHECK(info.min_value <= value);
-                CHECK(value <= info.max_value);
-            }
-        });
+    ui::settings::visit_settings(defaults, [&]<class Value>(const SettingInfo& info, const Value& value) {
+        CAPTURE(info.name);
+        CHECK(names.insert(info.name).second);
+        CHECK(info.meaning.size() > 5);
+        if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
+            CHECK(info.min_value <= value);
+            CHECK(value <= info.max_value);
+        }
+    });
     CHECK(names.size() == ui::settings::settings_json(defaults).size());
 }
 
@@ -137,7 +124,5 @@ TEST_CASE("settings of one group stand together, in the order of the groups") {
     std::vector<ui::settings::SettingGroup> groups;
     ui::settings::visit_rows([&](const auto& row) { groups.push_back(row.group); });
     CHECK(std::ranges::is_sorted(groups));
-    CHECK(
-        std::set(groups.begin(), groups.end()).size() ==
-        ui::settings::names_of<ui::settings::SettingGroup>().size());
+    CHECK(std::set(groups.begin(), groups.end()).size() == ui::settings::names_of<ui::settings::SettingGroup>().size());
 }

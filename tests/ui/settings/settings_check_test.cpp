@@ -17,9 +17,7 @@ void check_refused(const RunSettings& settings, const std::string& message) {
 
 } // namespace
 
-TEST_CASE("the defaults contradict nothing") {
-    CHECK_NOTHROW(ui::settings::check_settings(RunSettings()));
-}
+TEST_CASE("the defaults contradict nothing") { CHECK_NOTHROW(ui::settings::check_settings(RunSettings())); }
 
 TEST_CASE("only the numbers of samples that renderers offer are taken") {
     RunSettings settings;
@@ -38,8 +36,7 @@ TEST_CASE("a time is a day that a calendar has, and a minute of it") {
     settings.air.time = "2024-06-21T05:30";
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.air.time = "2023-02-29T12:00";
-    check_refused(
-        settings, "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '2023-02-29T12:00'");
+    check_refused(settings, "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '2023-02-29T12:00'");
 }
 
 TEST_CASE("what is seen through is refused beside a depth buffer, a ribbon without a path") {
@@ -53,13 +50,9 @@ TEST_CASE("what is seen through is refused beside a depth buffer, a ribbon witho
     settings.view.path_ribbon = false;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
-    check_refused(
-        settings,
-        "--clouds: expected --hidden-surface octant or back-face beside it, got depth-buffer");
+    check_refused(settings, "--clouds: expected --hidden-surface octant or back-face beside it, got depth-buffer");
     settings.air.clouds = 0.0;
-    check_refused(
-        settings,
-        "--effects: expected --hidden-surface octant or back-face beside it, got depth-buffer");
+    check_refused(settings, "--effects: expected --hidden-surface octant or back-face beside it, got depth-buffer");
 }
 
 TEST_CASE("eye points are refused where the view does not take them") {
@@ -73,8 +66,7 @@ TEST_CASE("eye points are refused where the view does not take them") {
     settings.view.kind = scene::View::Free;
     check_refused(settings, "--look: expected another point than --eye, got the same");
     settings.view.look_m.reset();
-    check_refused(
-        settings, "--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
+    check_refused(settings, "--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
 }
 
 TEST_CASE("a free inset needs the free view") {
@@ -88,10 +80,8 @@ TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances th
     settings.shading.kind = scene::AircraftShading::Flat;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.shading.smooth_share = 0.5;
-    check_refused(
-        settings,
-        "--shading: expected hybrid beside --adapt shading, --smooth-share, --device-ratio or "
-        "--shading-rule paper, got another one");
+    check_refused(settings, "--shading: expected hybrid beside --adapt shading, --smooth-share, --device-ratio or "
+                            "--shading-rule paper, got another one");
     settings.shading.kind = scene::AircraftShading::Hybrid;
     settings.shading.near_m = 5.0;
     settings.shading.far_m = 2.0;
@@ -105,23 +95,19 @@ TEST_CASE("terrain follows the frame time only where its triangles are counted")
     settings.path.terrain = "none";
     check_refused(settings, "--adapt terrain: expected ground with levels of detail, got none");
     settings.ground.detail = scene::DetailControl::Damped;
-    check_refused(
-        settings, "--adapt terrain: expected --detail exact beside it, got another control");
+    check_refused(settings, "--adapt terrain: expected --detail exact beside it, got another control");
 }
 
 TEST_CASE("the screen error is refused beside what only the quadtree has") {
     RunSettings settings;
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     settings.ground.error_px = 1.0;
-    check_refused(
-        settings, "--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
+    check_refused(settings, "--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
     settings.ground.mesh = scene::GroundMetric::ScreenError;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.ground.detail = scene::DetailControl::Damped;
-    check_refused(
-        settings,
-        "--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
-        "--propagation, got one that only --mesh midpoint or printed has");
+    check_refused(settings, "--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
+                            "--propagation, got one that only --mesh midpoint or printed has");
 }
 
 TEST_CASE("a texture needs ground with heights, and a drape ground that is lit at each pixel") {
@@ -129,18 +115,13 @@ TEST_CASE("a texture needs ground with heights, and a drape ground that is lit a
     settings.air.drape = "map.png";
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.air.ground_shading = scene::GroundShading::Vertex;
-    check_refused(
-        settings, "--drape: expected --ground-shading texture or auto beside it, got vertex");
+    check_refused(settings, "--drape: expected --ground-shading texture or auto beside it, got vertex");
     settings.path.terrain = "background60";
-    check_refused(
-        settings,
-        "--drape: expected ground with heights (hills, canyon or a file), got --terrain "
-        "background60");
+    check_refused(settings, "--drape: expected ground with heights (hills, canyon or a file), got --terrain "
+                            "background60");
     settings.air.drape.reset();
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.air.ground_shading = scene::GroundShading::Texture;
-    check_refused(
-        settings,
-        "--ground-shading texture: expected ground with heights (hills, canyon or a file), got "
-        "--terrain background60");
+    check_refused(settings, "--ground-shading texture: expected ground with heights (hills, canyon or a file), got "
+                            "--terrain background60");
 }

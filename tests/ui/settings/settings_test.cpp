@@ -31,22 +31,16 @@ TEST_CASE("settings survive the way to a file and back") {
     settings.path.height_mode = sim::HeightMode::Follow;
     settings.air.background = {0.0F, 1.0F, 128.0F / 255.0F};
     const auto json = ui::settings::settings_json(settings);
-    CHECK(
-        ui::settings::settings_json(ui::settings::read_settings(settings_file(json.dump(2)))) ==
-        json);
-    CHECK(
-        ui::settings::settings_json(ui::settings::read_settings(
-            settings_file(nlohmann::ordered_json{{"settings", json}}.dump()))) == json);
-    CHECK(
-        ui::settings::read_settings(settings_file(json.dump())).path.heading_deg ==
-        settings.path.heading_deg);
+    CHECK(ui::settings::settings_json(ui::settings::read_settings(settings_file(json.dump(2)))) == json);
+    CHECK(ui::settings::settings_json(
+              ui::settings::read_settings(settings_file(nlohmann::ordered_json{{"settings", json}}.dump()))) == json);
+    CHECK(ui::settings::read_settings(settings_file(json.dump())).path.heading_deg == settings.path.heading_deg);
     CHECK_FALSE(ui::settings::settings_json(RunSettings{}) == json);
 }
 
 TEST_CASE("stored numbers that mean no data are a list, with none in front the only ones") {
     const auto voids_of = [](const std::string& json) {
-        return ui::settings::read_settings(settings_file("{\"void\": " + json + "}"))
-            .path.terrain_voids;
+        return ui::settings::read_settings(settings_file("{\"void\": " + json + "}")).path.terrain_voids;
     };
     using models::heights::VoidValues;
     CHECK(voids_of("\"-9999,0.5\"") == VoidValues{{-9999.0, 0.5}, false});
@@ -57,38 +51,27 @@ TEST_CASE("stored numbers that mean no data are a list, with none in front the o
     CHECK(voids_of("-9999.0") == VoidValues{{-9999.0}, false});
     for (const char* const wrong : {"\"nothing\"", "\"0,\"", "\"\"", "\"nan\"", "\"common,0\""}) {
         CHECK_THROWS_WITH(
-            voids_of(wrong),
-            Catch::Contains("void: expected numbers with commas between them, or none, got '"));
+            voids_of(wrong), Catch::Contains("void: expected numbers with commas between them, or none, got '"));
     }
 }
 
 TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {
-    CHECK(
-        ui::settings::read_settings(settings_file("{}")).ground.triangles ==
-        RunSettings{}.ground.triangles);
+    CHECK(ui::settings::read_settings(settings_file("{}")).ground.triangles == RunSettings{}.ground.triangles);
     const auto expect = [](const std::string& text, const std::string& message) {
         const auto path = settings_file(text);
         CHECK_THROWS_WITH(ui::settings::read_settings(path), path.string() + message);
     };
     expect("{\n\"viev\": \"chase\"\n}", ":2: expected the name of a setting, got 'viev'");
-    expect(
-        "{\n\n\"view\": \"roof\"}",
-        ":3: view: expected one of chase, cockpit, tower, orbit, free, got 'roof'");
+    expect("{\n\n\"view\": \"roof\"}", ":3: view: expected one of chase, cockpit, tower, orbit, free, got 'roof'");
     expect("{\"fov\": 0}", ":1: fov: expected a number from 1 to 150, got '0'");
-    expect(
-        "{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
+    expect("{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
     expect("{\"aircraft\": []}", ":1: aircraft: expected a list of names, got []");
     expect("{\n\"samples\": 2}", ":2: samples: expected 1, 4 or 16, got 2");
-    CHECK(
-        ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt ==
-        RunSettings{}.adapt);
-    expect(
-        "{\"adapt\": \"terrain,sound\"}",
+    CHECK(ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt == RunSettings{}.adapt);
+    expect("{\"adapt\": \"terrain,sound\"}",
         ":1: adapt: expected none or a list of terrain, shading, got 'terrain,sound'");
     expect("{\"sky\": 1}", ":1: sky: expected true or false, got '1'");
-    expect(
-        "{\"background\": \"red\"}",
-        ":1: background: expected six hexadecimal digits RRGGBB, got 'red'");
+    expect("{\"background\": \"red\"}", ":1: background: expected six hexadecimal digits RRGGBB, got 'red'");
     expect("{\"fov\": 1e400}", ": expected JSON with numbers that fit into 64 bits, got others");
     expect(std::string(100000, '['), ": expected at most 64 levels of nesting, got more");
     expect("[]", ":1: expected a JSON object of settings, got array");

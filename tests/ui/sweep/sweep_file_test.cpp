@@ -20,23 +20,17 @@ std::filesystem::path file_of(const std::string& text) {
     return file;
 }
 
-Sweep sweep_of(const std::string& text) {
-    return read_sweep(file_of(text));
-}
+Sweep sweep_of(const std::string& text) { return read_sweep(file_of(text)); }
 
 std::vector<std::string> names_of(const Sweep& sweep) {
     std::vector<std::string> names;
-    for (const SweepRun& run : sweep.runs) {
-        names.push_back(run.name);
-    }
+    for (const SweepRun& run : sweep.runs) { names.push_back(run.name); }
     return names;
 }
 
 void check_refused(const std::string& text, const std::string& fault) {
     const auto file = file_of(text);
-    CHECK_THROWS_WITH(
-        read_sweep(file),
-        Catch::StartsWith(file.string() + ":") && Contains(fault) && !Contains("\n"));
+    CHECK_THROWS_WITH(read_sweep(file), Catch::StartsWith(file.string() + ":") && Contains(fault) && !Contains("\n"));
 }
 
 } // namespace
@@ -51,14 +45,8 @@ path = ["straight", "turn"]
 triangles = { from = 1000, to = 3000, step = 1000 }
 )");
     CHECK(sweep.name == "two-by-three");
-    CHECK(
-        names_of(sweep) == std::vector<std::string>{
-                               "straight-1000",
-                               "straight-2000",
-                               "straight-3000",
-                               "turn-1000",
-                               "turn-2000",
-                               "turn-3000"});
+    CHECK(names_of(sweep) == std::vector<std::string>{"straight-1000", "straight-2000", "straight-3000", "turn-1000",
+                                 "turn-2000", "turn-3000"});
     CHECK(sweep.runs[4].settings.path.name == "turn");
     CHECK(sweep.runs[4].settings.ground.triangles == 2000);
     CHECK(sweep.runs[4].settings.view.size_px == glm::ivec2(64, 48));
@@ -77,16 +65,8 @@ fov = 50
 order-method = "tree"
 )");
     CHECK(sweep.name == "budgets");
-    CHECK(
-        names_of(sweep) == std::vector<std::string>{
-                               "f15-paper-r1",
-                               "f15-paper-r2",
-                               "f15-tree-r1",
-                               "f15-tree-r2",
-                               "f15+500md-paper-r1",
-                               "f15+500md-paper-r2",
-                               "f15+500md-tree-r1",
-                               "f15+500md-tree-r2"});
+    CHECK(names_of(sweep) == std::vector<std::string>{"f15-paper-r1", "f15-paper-r2", "f15-tree-r1", "f15-tree-r2",
+                                 "f15+500md-paper-r1", "f15+500md-paper-r2", "f15+500md-tree-r1", "f15+500md-tree-r2"});
     CHECK(sweep.runs[5].settings.path.aircraft == std::vector<std::string>{"f15", "500md"});
     CHECK(sweep.runs[5].settings.view.fov_deg == 50.0);
     CHECK(sweep.runs[5].repeat == 2);
@@ -95,20 +75,17 @@ order-method = "tree"
 }
 
 TEST_CASE("ranges of decimals end where they say, and names are fit for folders") {
-    CHECK(
-        names_of(sweep_of("[vary]\nerror-px = { from = 0.1, to = 0.3, step = 0.1 }")) ==
-        std::vector<std::string>{"0.1", "0.2", "0.3"});
-    CHECK(
-        names_of(sweep_of("[vary]\npath = [\"../a b/x.toml\", \"c/x.toml\", \"..\"]")) ==
-        std::vector<std::string>{"x", "xx", "_.."});
+    CHECK(names_of(sweep_of("[vary]\nerror-px = { from = 0.1, to = 0.3, step = 0.1 }")) ==
+          std::vector<std::string>{"0.1", "0.2", "0.3"});
+    CHECK(names_of(sweep_of("[vary]\npath = [\"../a b/x.toml\", \"c/x.toml\", \"..\"]")) ==
+          std::vector<std::string>{"x", "xx", "_.."});
     CHECK(names_of(sweep_of("name = \"a/\"")) == std::vector<std::string>{"a-"});
 }
 
 TEST_CASE("a sweep's faults are told by file and line") {
     check_refused("a = ", ":1: expected TOML");
     check_refused("a = t\nb = 1", ":1: expected TOML, got a fault: ");
-    check_refused(
-        "\nflights = 3", ":2: expected name, repeats, [settings] or [vary], got 'flights'");
+    check_refused("\nflights = 3", ":2: expected name, repeats, [settings] or [vary], got 'flights'");
     check_refused("name = 3", ":1: name: expected a text");
     check_refused("repeats = 0", ":1: repeats: expected a whole number from 1 to 1000");
     check_refused("[settings]\nsize = \"64\"", ":2: size: expected");

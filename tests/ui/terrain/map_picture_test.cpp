@@ -14,9 +14,7 @@ namespace {
 HeightField ramp(int columns, int rows) {
     std::vector<float> heights_m;
     for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            heights_m.push_back(static_cast<float>(10 * column));
-        }
+        for (int column = 0; column < columns; ++column) { heights_m.push_back(static_cast<float>(10 * column)); }
     }
     return {columns, rows, 30.0, heights_m};
 }
@@ -26,13 +24,9 @@ int red_around(const ui::report::Picture& picture, int x, int y, int reach) {
     int red = 0;
     for (int j = y - reach; j <= y + reach; ++j) {
         for (int i = x - reach; i <= x + reach; ++i) {
-            if (i < 0 || j < 0 || i >= picture.width_px || j >= picture.height_px) {
-                continue;
-            }
+            if (i < 0 || j < 0 || i >= picture.width_px || j >= picture.height_px) { continue; }
             const auto at = 3 * static_cast<std::size_t>(j * picture.width_px + i);
-            const auto part = [&](std::size_t k) {
-                return std::to_integer<int>(picture.bytes[at + k]);
-            };
+            const auto part = [&](std::size_t k) { return std::to_integer<int>(picture.bytes[at + k]); };
             red += part(0) > 200 && part(1) < 30 && part(2) < 40 ? 1 : 0;
         }
     }

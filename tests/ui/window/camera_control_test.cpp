@@ -29,11 +29,9 @@ TEST_CASE("the free camera begins at the last eye point and other views forget i
     const RunSettings free = ui::window::with_view(RunSettings(), View::Free, camera);
     REQUIRE(free.view.eye_m);
     CHECK(*free.view.eye_m == camera.eye_m);
-    const RunSettings moved =
-        ui::window::moved(free, {.right = 0, .up = 1, .ahead = 0, .fast = false}, 0.5);
+    const RunSettings moved = ui::window::moved(free, {.right = 0, .up = 1, .ahead = 0, .fast = false}, 0.5);
     CHECK(moved.view.eye_m->z > 3.0);
-    CHECK(
-        glm::length(*moved.view.look_m - *moved.view.eye_m) ==
-        Approx(glm::length(*free.view.look_m - *free.view.eye_m)));
+    CHECK(glm::length(*moved.view.look_m - *moved.view.eye_m) ==
+          Approx(glm::length(*free.view.look_m - *free.view.eye_m)));
     CHECK_FALSE(ui::window::with_view(free, View::Chase, camera).view.eye_m);
 }

@@ -29,8 +29,7 @@ void change_ground(DrivenViewer& driven, const std::filesystem::path& ground) {
 
 } // namespace
 
-TEST_CASE(
-    "of damaged grounds a window refuses each, names it, or shows what it would be unharmed") {
+TEST_CASE("of damaged grounds a window refuses each, names it, or shows what it would be unharmed") {
     const std::filesystem::path sound = scratch_folder() / "sound.ground";
     write_file(sound, sound_ground());
     ui::settings::RunSettings settings = small_flight();
@@ -39,9 +38,7 @@ TEST_CASE(
     settings.path.aircraft = {"500md"};
     settings.path.terrain = sound.string();
     const auto driven = DrivenViewer::open(settings);
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     driven->strike("Home");
     const visuals::scene::Picture expected = driven->picture();

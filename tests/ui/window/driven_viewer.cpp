@@ -18,8 +18,7 @@ ui::settings::RunSettings small_flight() {
     return settings;
 }
 
-std::unique_ptr<DrivenViewer>
-DrivenViewer::open(const ui::settings::RunSettings& settings, const std::string& layout) {
+std::unique_ptr<DrivenViewer> DrivenViewer::open(const ui::settings::RunSettings& settings, const std::string& layout) {
     std::unique_ptr<VirtualDisplay> display = VirtualDisplay::start();
     if (!display) {
         std::puts("SKIPPED: Xvfb is not installed");
@@ -29,11 +28,8 @@ DrivenViewer::open(const ui::settings::RunSettings& settings, const std::string&
 }
 
 DrivenViewer::DrivenViewer(
-    std::unique_ptr<VirtualDisplay> display,
-    const ui::settings::RunSettings& settings,
-    const std::string& layout)
-    : display_(std::move(display))
-    , folder_(fs::temp_directory_path() / ("octant-window-" + std::to_string(getpid()))) {
+    std::unique_ptr<VirtualDisplay> display, const ui::settings::RunSettings& settings, const std::string& layout)
+    : display_(std::move(display)), folder_(fs::temp_directory_path() / ("octant-window-" + std::to_string(getpid()))) {
     fs::create_directories(folder_ / "kept");
     ui::window::ViewOptions options;
     options.settings = settings;
@@ -41,9 +37,7 @@ DrivenViewer::DrivenViewer(
     options.vsync = false;
     options.recordings_folder = folder_;
     options.config_folder = folder_ / "kept";
-    if (!layout.empty()) {
-        write_file(options.config_folder / "layout.ini", layout);
-    }
+    if (!layout.empty()) { write_file(options.config_folder / "layout.ini", layout); }
     viewer_ = std::make_unique<ui::window::Viewer>(options);
     turns(3);
     display_->focus();
@@ -56,17 +50,13 @@ DrivenViewer::~DrivenViewer() {
 }
 
 void DrivenViewer::turns(int count) {
-    for (int i = 0; i < count; ++i) {
-        viewer_->run_frame();
-    }
+    for (int i = 0; i < count; ++i) { viewer_->run_frame(); }
 }
 
 bool DrivenViewer::until(const std::function<bool()>& holds) {
     constexpr int most = 2000;
     for (int i = 0; i < most; ++i) {
-        if (holds()) {
-            return true;
-        }
+        if (holds()) { return true; }
         viewer_->run_frame();
     }
     return false;

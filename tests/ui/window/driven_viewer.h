@@ -13,10 +13,10 @@ namespace octant::tests {
 /// A window on a display of its own, driven as a person does.
 class DrivenViewer {
 public:
-    /// A window of a user whose layout.ini holds `layout`, of a new user where that is empty.
-    /// Returns nothing, and prints a line that says so, where no display can be started.
-    static std::unique_ptr<DrivenViewer>
-    open(const ui::settings::RunSettings& settings, const std::string& layout = "");
+    /// A window of a user whose layout.ini holds `layout`, of a new user where that is empty. Returns nothing, and
+    /// prints a line that says so, where no display can be started.
+    static std::unique_ptr<DrivenViewer> open(
+        const ui::settings::RunSettings& settings, const std::string& layout = "");
 
     ui::window::Viewer& viewer() { return *viewer_; }
 
@@ -54,9 +54,7 @@ public:
 
 private:
     DrivenViewer(
-        std::unique_ptr<VirtualDisplay> display,
-        const ui::settings::RunSettings& settings,
-        const std::string& layout);
+        std::unique_ptr<VirtualDisplay> display, const ui::settings::RunSettings& settings, const std::string& layout);
 
     std::unique_ptr<VirtualDisplay> display_;
     std::filesystem::path folder_;

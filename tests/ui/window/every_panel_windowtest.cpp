@@ -25,15 +25,10 @@ struct Shown {
 };
 
 std::vector<Shown> what_is_shown() {
-    return {
-        {"flight", {}},
-        {"frame-times", {.flight = false, .timing = true}},
-        {"terrain", {.flight = false, .terrain = true}},
-        {"draw-order", {.flight = false, .draw_order = true}},
-        {"aircraft", {.flight = false, .aircraft = true}},
-        {"scene", {.flight = false, .scene = true}},
-        {"settings", {.flight = false, .settings = true}},
-        {"keys", {.flight = false, .help = true}},
+    return {{"flight", {}}, {"frame-times", {.flight = false, .timing = true}},
+        {"terrain", {.flight = false, .terrain = true}}, {"draw-order", {.flight = false, .draw_order = true}},
+        {"aircraft", {.flight = false, .aircraft = true}}, {"scene", {.flight = false, .scene = true}},
+        {"settings", {.flight = false, .settings = true}}, {"keys", {.flight = false, .help = true}},
         {"first-steps", {.first_steps = true}},
         {"all", {true, true, true, true, true, true, true, true, false, false, true}}};
 }
@@ -42,9 +37,7 @@ std::vector<const ImGuiWindow*> seen_windows() {
     std::vector<const ImGuiWindow*> seen;
     for (const ImGuiWindow* const window : ImGui::GetCurrentContext()->Windows) {
         const bool ours = std::string_view(window->Name).substr(0, 5) != "Debug";
-        if (window->Active && window->ParentWindow == nullptr && !window->Hidden && ours) {
-            seen.push_back(window);
-        }
+        if (window->Active && window->ParentWindow == nullptr && !window->Hidden && ours) { seen.push_back(window); }
     }
     return seen;
 }
@@ -52,9 +45,7 @@ std::vector<const ImGuiWindow*> seen_windows() {
 /// Where a person asks for the pictures: a folder of OCTANT_SCREENS.
 void keep_picture(DrivenViewer& driven, const std::string& name) {
     const char* const folder = std::getenv("OCTANT_SCREENS");
-    if (folder == nullptr) {
-        return;
-    }
+    if (folder == nullptr) { return; }
     glm::ivec2 at{0};
     glm::ivec2 size{0};
     glfwGetWindowPos(driven.viewer().window(), &at.x, &at.y);
@@ -83,14 +74,11 @@ void check_places(const glm::ivec2& size) {
 } // namespace
 
 TEST_CASE("every panel lies in a window of each size, none over another, and nothing is cut off") {
-    for (const glm::ivec2& size :
-         {glm::ivec2(800, 500), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
+    for (const glm::ivec2& size : {glm::ivec2(800, 500), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
         ui::settings::RunSettings settings = small_flight();
         settings.view.size_px = size;
         const auto driven = DrivenViewer::open(settings);
-        if (!driven) {
-            return;
-        }
+        if (!driven) { return; }
         for (const Shown& shown : what_is_shown()) {
             CAPTURE(size.x, shown.name);
             driven->state().open = shown.open;

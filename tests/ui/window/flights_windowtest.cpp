@@ -31,12 +31,9 @@ std::string flown_again(const fs::path& folder) {
     settings.view.size_px = {64, 48};
     settings.ground.triangles = 500;
     ui::flight::Session session(settings);
-    for (int frame = 0; frame < session.frames(); ++frame) {
-        session.draw(frame);
-    }
+    for (int frame = 0; frame < session.frames(); ++frame) { session.draw(frame); }
     char text[17];
-    std::snprintf(
-        text, sizeof text, "%016llx", static_cast<unsigned long long>(session.state_hash()));
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(session.state_hash()));
     return text;
 }
 
@@ -48,9 +45,7 @@ double heading_rad(ui::flight::Simulation& simulation) {
 
 TEST_CASE("a path is scrubbed by its keys, faster and slower, and begins anew at its end") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     driven->strike("Home");
     driven->strike("slash");
@@ -70,13 +65,10 @@ TEST_CASE("a path is scrubbed by its keys, faster and slower, and begins anew at
     CHECK(driven->until([&] { return driven->state().playback.time_s < 5.0; }));
 }
 
-TEST_CASE(
-    "a flight by hand leaves trim, turns where the stick goes, and its recording repeats it") {
+TEST_CASE("a flight by hand leaves trim, turns where the stick goes, and its recording repeats it") {
     RunSettings settings = small_flight();
     const auto driven = DrivenViewer::open(settings);
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     ui::flight::Simulation& simulation = driven->viewer().session().simulation();
     driven->strike("h");
     driven->strike("t");
@@ -88,8 +80,7 @@ TEST_CASE(
     const fs::path folder = *driven->state().recording;
     driven->hold("Right", 0.3);
     driven->hold("Down", 3.0);
-    const double turned_rad =
-        std::remainder(heading_rad(simulation) - heading_before_rad, 2.0 * 3.14159265358979);
+    const double turned_rad = std::remainder(heading_rad(simulation) - heading_before_rad, 2.0 * 3.14159265358979);
     CHECK(turned_rad > 0.05);
     CHECK(simulation.states().front().position_m.z > height_before_m - 200.0);
     driven->strike("F9");
@@ -104,18 +95,15 @@ TEST_CASE(
     fs::create_directories(elsewhere);
     ui::report::pack_recording(folder, elsewhere / "by-hand.zip", false);
     fs::remove_all(folder);
-    CHECK(
-        flown_again(ui::report::recording_folder(elsewhere / "by-hand.zip")) ==
-        run["summary"]["state_hash"].get<std::string>());
+    CHECK(flown_again(ui::report::recording_folder(elsewhere / "by-hand.zip")) ==
+          run["summary"]["state_hash"].get<std::string>());
     ui::report::remove_unpacked();
     fs::remove_all(elsewhere);
 }
 
 TEST_CASE("a recording along a path has the states of the same flight without a window") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->turns(10);
     driven->strike("F9");
     REQUIRE(driven->state().recording.has_value());
@@ -137,9 +125,7 @@ TEST_CASE("a recording along a path has the states of the same flight without a 
 
 TEST_CASE("changing path, aircraft and ground in the window loads them, and a wrong one says so") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->state().next_settings.path.name = "turn";
     driven->state().next_settings.path.aircraft = {"500md"};
     driven->state().next_settings.path.terrain = "canyon";
@@ -154,9 +140,7 @@ TEST_CASE("changing path, aircraft and ground in the window loads them, and a wr
 
 TEST_CASE("a flight by hand into the ground stops with a message, and its recording repeats it") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("h");
     driven->strike("F9");
     REQUIRE(driven->state().recording.has_value());
@@ -176,9 +160,7 @@ TEST_CASE("a flight by hand into the ground stops with a message, and its record
 
 TEST_CASE("Esc asks while a recording is made, and leaves at once where none is") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("F9");
     REQUIRE(driven->state().recording.has_value());
     driven->strike("Escape");
@@ -199,9 +181,7 @@ TEST_CASE("Esc asks while a recording is made, and leaves at once where none is"
 
 TEST_CASE("another way to remove hidden surfaces keeps the flight's time") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     driven->strike("Home");
     driven->strike("slash");

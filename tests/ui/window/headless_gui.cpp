@@ -16,9 +16,7 @@ HeadlessGui::HeadlessGui(float width_px, float height_px) {
     io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
 }
 
-HeadlessGui::~HeadlessGui() {
-    ImGui::DestroyContext();
-}
+HeadlessGui::~HeadlessGui() { ImGui::DestroyContext(); }
 
 int HeadlessGui::frame(const Widgets& widgets) {
     ImGui::NewFrame();
@@ -47,8 +45,7 @@ bool HeadlessGui::click(const char* window, const char* label, const Widgets& wi
     return click_on(window, ImHashStr(label, 0, ImHashStr(window)), widgets);
 }
 
-bool HeadlessGui::click(
-    const char* window, const char* within, const char* label, const Widgets& widgets) {
+bool HeadlessGui::click(const char* window, const char* within, const char* label, const Widgets& widgets) {
     const ImGuiID scope = ImHashStr(within, 0, ImHashStr(window));
     return click_on(window, ImHashStr(label, 0, scope), widgets);
 }
@@ -56,9 +53,7 @@ bool HeadlessGui::click(
 bool HeadlessGui::click_on(const char* window, unsigned widget, const Widgets& widgets) {
     settled(widgets);
     const ImGuiWindow* const found = ImGui::FindWindowByName(window);
-    if (found == nullptr) {
-        return false;
-    }
+    if (found == nullptr) { return false; }
     const ImRect place = found->Rect();
     ImGuiIO& io = ImGui::GetIO();
     constexpr float step_px = 6.0F;
@@ -66,9 +61,7 @@ bool HeadlessGui::click_on(const char* window, unsigned widget, const Widgets& w
         for (float x = place.Min.x; x < place.Max.x; x += step_px) {
             io.MousePos = {x, y};
             frame(widgets);
-            if (ImGui::GetCurrentContext()->HoveredId != widget) {
-                continue;
-            }
+            if (ImGui::GetCurrentContext()->HoveredId != widget) { continue; }
             io.MouseDown[0] = true;
             frame(widgets);
             io.MouseDown[0] = false;

@@ -28,8 +28,8 @@ public:
     /// All texts of a frame in its first window, those scrolled out of sight among them.
     std::string texts(const Widgets& widgets);
 
-    /// Moves the pointer over a window until it is over the widget and clicks it. `within`: what
-    /// ImGui::PushID was called with around it. False where it is not to be found.
+    /// Moves the pointer over a window until it is over the widget and clicks it. `within`: what ImGui::PushID was
+    /// called with around it. False where it is not to be found.
     bool click(const char* window, const char* label, const Widgets& widgets);
     bool click(const char* window, const char* within, const char* label, const Widgets& widgets);
 

@@ -40,11 +40,9 @@ TEST_CASE("without a file keys are as the help has them, and every key has a nam
     }
 }
 
-TEST_CASE(
-    "a file of keys changes what it names, takes keys away where they are and leaves the rest") {
-    const KeyMapFile changed =
-        read("# mine\n\nplay = P\r\nstick back=keypad -\n  loop = space \nrecord = none\n"
-             "mouse look = middle\ngamepad pitch = -right y\njoystick throttle = -2\n");
+TEST_CASE("a file of keys changes what it names, takes keys away where they are and leaves the rest") {
+    const KeyMapFile changed = read("# mine\n\nplay = P\r\nstick back=keypad -\n  loop = space \nrecord = none\n"
+                                    "mouse look = middle\ngamepad pitch = -right y\njoystick throttle = -2\n");
     CHECK(changed.errors.empty());
     const KeyMap& keys = changed.keys;
     CHECK(keys.command_of(GLFW_KEY_P, false) == ViewCommand::PlayOrPause);
@@ -67,8 +65,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a button of a gamepad gives its command once, and then no longer moves the rudder") {
-    const KeyMapFile changed =
-        read("gamepad left bumper = record\ngamepad start = none\ngamepad a = none\n");
+    const KeyMapFile changed = read("gamepad left bumper = record\ngamepad start = none\ngamepad a = none\n");
     REQUIRE(changed.errors.empty());
     GamepadButtons pressed{};
     CHECK(pad_commands(changed.keys, pressed, pressed).empty());
@@ -85,15 +82,13 @@ TEST_CASE("a button of a gamepad gives its command once, and then no longer move
     const KeyMapFile repeat_option = read(text_of_key_map(changed.keys));
     CHECK(repeat_option.errors.empty());
     CHECK(repeat_option.keys.pad_commands == changed.keys.pad_commands);
-    CHECK_THAT(
-        read("gamepad b = dance\n").errors.at(0),
-        Catch::Contains("keys:1: expected what a key does"));
+    CHECK_THAT(read("gamepad b = dance\n").errors.at(0), Catch::Contains("keys:1: expected what a key does"));
 }
 
 TEST_CASE("lines that are wrong are told with their numbers, and count for nothing") {
-    const KeyMapFile wrong = read(
-        "play\nfly = F\nplay = Any\nmouse look = wheel\ngamepad pitch = up\njoystick roll = 17\n"
-        "gamepad nose = left x\nloop = O\n\x1b[31m = A\n");
+    const KeyMapFile wrong =
+        read("play\nfly = F\nplay = Any\nmouse look = wheel\ngamepad pitch = up\njoystick roll = 17\n"
+             "gamepad nose = left x\nloop = O\n\x1b[31m = A\n");
     REQUIRE(wrong.errors.size() == 8);
     CHECK_THAT(wrong.errors[0], Catch::Contains("keys:1: expected a line \"what = key\""));
     CHECK_THAT(wrong.errors[1], Catch::Contains("keys:2: expected something that keys"));

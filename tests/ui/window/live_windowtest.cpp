@@ -27,22 +27,20 @@ namespace {
 namespace fs = std::filesystem;
 namespace links = sim::links;
 
-/// Somebody who sends FDM packets to a port of this machine while this object lives: a turn at
-/// 100 m/s.
+/// Somebody who sends FDM packets to a port of this machine while this object lives: a turn at 100 m/s.
 class FdmSender {
 public:
     explicit FdmSender(std::uint16_t port)
         : thread_([this, port] {
-            constexpr std::uint32_t loopback = 0x7f000001;
-            links::UdpPort socket(loopback, 0);
-            const auto begin = std::chrono::steady_clock::now();
-            while (!done_) {
-                const std::chrono::duration<double> passed =
-                    std::chrono::steady_clock::now() - begin;
-                socket.send({loopback, port}, links::encode_fdm(fix_at(passed.count())));
-                std::this_thread::sleep_for(std::chrono::milliseconds(16));
-            }
-        }) {}
+              constexpr std::uint32_t loopback = 0x7f000001;
+              links::UdpPort socket(loopback, 0);
+              const auto begin = std::chrono::steady_clock::now();
+              while (!done_) {
+                  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+                  socket.send({loopback, port}, links::encode_fdm(fix_at(passed.count())));
+                  std::this_thread::sleep_for(std::chrono::milliseconds(16));
+              }
+          }) {}
 
     ~FdmSender() {
         done_ = true;
@@ -90,8 +88,7 @@ TEST_CASE("a flight of others that is recorded in the window is replayed without
         std::puts("SKIPPED: Xvfb is not installed");
         return;
     }
-    const fs::path folder =
-        fs::temp_directory_path() / ("octant-live-window-" + std::to_string(getpid()));
+    const fs::path folder = fs::temp_directory_path() / ("octant-live-window-" + std::to_string(getpid()));
     fs::remove_all(folder);
     constexpr std::uint32_t loopback = 0x7f000001;
     const std::uint16_t port = links::UdpPort(loopback, 0).port();

@@ -20,18 +20,12 @@ constexpr std::array<std::string_view, 7> side_panels{
     "Flight", "Frame times", "Scene", "Terrain", "Draw order", "Aircraft", "Settings"};
 constexpr std::array<std::string_view, 3> middle_panels{"Leave?", "Keys", "First steps"};
 
-OpenPanels all_open() {
-    return {true, true, true, true, true, true, true, true, true, true, true};
-}
+OpenPanels all_open() { return {true, true, true, true, true, true, true, true, true, true, true}; }
 
 /// The places of panels that want so much, after the window has seen them once.
 std::vector<PanelRect> places_of(PanelColumns& columns, const PanelArea& area, float wanted_height) {
-    for (const std::string_view title : side_panels) {
-        columns.report_height(title, wanted_height);
-    }
-    for (const std::string_view title : middle_panels) {
-        columns.report_height(title, wanted_height);
-    }
+    for (const std::string_view title : side_panels) { columns.report_height(title, wanted_height); }
+    for (const std::string_view title : middle_panels) { columns.report_height(title, wanted_height); }
     columns.lay_out(all_open(), area);
     std::vector<PanelRect> places;
     const auto take = [&](std::string_view title) {
@@ -40,12 +34,8 @@ std::vector<PanelRect> places_of(PanelColumns& columns, const PanelArea& area, f
         columns.report_rect(title, *rect);
         places.push_back(*rect);
     };
-    for (const std::string_view title : side_panels) {
-        take(title);
-    }
-    for (const std::string_view title : middle_panels) {
-        take(title);
-    }
+    for (const std::string_view title : side_panels) { take(title); }
+    for (const std::string_view title : middle_panels) { take(title); }
     return places;
 }
 
@@ -57,14 +47,13 @@ bool overlap(const PanelRect& a, const PanelRect& b) {
 } // namespace
 
 TEST_CASE("all panels at once lie in the window, none over another, and leave the middle free") {
-    for (const glm::vec2& size :
-         {glm::vec2(1280, 720), glm::vec2(800, 500), glm::vec2(1920, 1080)}) {
+    for (const glm::vec2& size : {glm::vec2(1280, 720), glm::vec2(800, 500), glm::vec2(1920, 1080)}) {
         for (const float wanted_height : {60.0F, 300.0F, 2000.0F}) {
             for (const float inset : {0.0F, size.y / 3.0F}) {
                 CAPTURE(size.x, wanted_height, inset);
                 PanelColumns columns;
-                const auto places = places_of(
-                    columns, {size, 1.0F, 40.0F, {inset * size.x / size.y, inset}}, wanted_height);
+                const auto places =
+                    places_of(columns, {size, 1.0F, 40.0F, {inset * size.x / size.y, inset}}, wanted_height);
                 for (std::size_t i = 0; i < places.size(); ++i) {
                     const PanelRect& place = places[i];
                     CHECK(place.at.x >= 0.0F);
@@ -73,13 +62,9 @@ TEST_CASE("all panels at once lie in the window, none over another, and leave th
                     CHECK(place.at.y + place.size.y <= size.y);
                     CHECK(place.size.y <= wanted_height);
                     CHECK(place.size.y >= 48.0F);
-                    for (std::size_t j = i + 1; j < places.size(); ++j) {
-                        CHECK_FALSE(overlap(place, places[j]));
-                    }
+                    for (std::size_t j = i + 1; j < places.size(); ++j) { CHECK_FALSE(overlap(place, places[j])); }
                     if (i < side_panels.size()) {
-                        CHECK(
-                            (place.at.x + place.size.x <= 0.4F * size.x ||
-                             place.at.x >= 0.6F * size.x));
+                        CHECK((place.at.x + place.size.x <= 0.4F * size.x || place.at.x >= 0.6F * size.x));
                     }
                     const glm::vec2 corner = size - glm::vec2(inset * size.x / size.y, inset);
                     CHECK_FALSE(overlap(place, {corner, size - corner}));
@@ -132,18 +117,10 @@ TEST_CASE("a panel that a person moves stays there until panels are put back") {
 
 TEST_CASE("of a layout file only lines of our own with numbers of a window count") {
     const std::string head = text_of_layout({});
-    CHECK(
-        layout_from(head + "Flight = 10 20 300 200\n").at("Flight") ==
-        PanelRect{{10, 20}, {300, 200}});
-    for (const std::string text :
-         {"[Table][0x00000001,999999999]",
-          "[Window][Flight]\nPos=99999999999,1",
-          "Flight = 1 2 3",
-          "Flight = 1 2 300 1e308",
-          "Flight = nan 2 300 300",
-          "Flight = 1 2 300 300 300",
-          "Flight = 1 2 -300 300",
-          "Flight = = 1 2 300 300"}) {
+    CHECK(layout_from(head + "Flight = 10 20 300 200\n").at("Flight") == PanelRect{{10, 20}, {300, 200}});
+    for (const std::string text : {"[Table][0x00000001,999999999]", "[Window][Flight]\nPos=99999999999,1",
+             "Flight = 1 2 3", "Flight = 1 2 300 1e308", "Flight = nan 2 300 300", "Flight = 1 2 300 300 300",
+             "Flight = 1 2 -300 300", "Flight = = 1 2 300 300"}) {
         CAPTURE(text);
         CHECK(layout_from(head + text + "\n").empty());
     }

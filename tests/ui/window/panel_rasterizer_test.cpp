@@ -22,8 +22,7 @@ constexpr std::uint8_t ground = 100; ///< of each byte below the panels
 class GreyPicture {
 public:
     explicit GreyPicture(const std::function<void(ImDrawList&)>& draw)
-        : gui_(panels_px.x, panels_px.y)
-        , pixels_(4 * static_cast<std::size_t>(panels_px.x * panels_px.y), ground) {
+        : gui_(panels_px.x, panels_px.y), pixels_(4 * static_cast<std::size_t>(panels_px.x * panels_px.y), ground) {
         ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
         unsigned char* texels = nullptr;
         fonts.GetTexDataAsAlpha8(&texels, &atlas_px_.x, &atlas_px_.y);
@@ -32,8 +31,7 @@ public:
             list.Flags = ImDrawListFlags_None;
             draw(list);
         });
-        ui::window::PanelRasterizer(texels, atlas_px_)
-            .draw(*ImGui::GetDrawData(), pixels_.data(), panels_px);
+        ui::window::PanelRasterizer(texels, atlas_px_).draw(*ImGui::GetDrawData(), pixels_.data(), panels_px);
     }
 
     /// Red, green and blue.
@@ -46,9 +44,7 @@ public:
     int changed() const {
         int count = 0;
         for (int y = 0; y < panels_px.y; ++y) {
-            for (int x = 0; x < panels_px.x; ++x) {
-                count += at(x, y) == glm::ivec3(ground) ? 0 : 1;
-            }
+            for (int x = 0; x < panels_px.x; ++x) { count += at(x, y) == glm::ivec3(ground) ? 0 : 1; }
         }
         return count;
     }
@@ -95,10 +91,10 @@ TEST_CASE("a letter is its texels, texel by pixel") {
         for (int x = first.x; x < end.x; ++x) {
             const int share = texels[y * size.x + x];
             covered += share > 0 ? 1 : 0;
-            const int seen = picture
-                                 .at(50 + static_cast<int>(letter.X0) + x - first.x,
-                                     40 + static_cast<int>(letter.Y0) + y - first.y)
-                                 .x;
+            const int seen =
+                picture
+                    .at(50 + static_cast<int>(letter.X0) + x - first.x, 40 + static_cast<int>(letter.Y0) + y - first.y)
+                    .x;
             CHECK(seen == (255 * share + ground * (255 - share) + 127) / 255);
         }
     }

@@ -16,9 +16,7 @@ using ui::window::ViewState;
 
 namespace {
 
-bool contains(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 ui::report::FrameRecord record_of(int frame, double frame_ms) {
     ui::report::FrameRecord record;
@@ -31,9 +29,7 @@ ui::report::FrameRecord record_of(int frame, double frame_ms) {
 
 std::vector<std::string> texts_of(const std::vector<ui::window::StatusMark>& marks) {
     std::vector<std::string> texts;
-    for (const ui::window::StatusMark& mark : marks) {
-        texts.push_back(mark.text);
-    }
+    for (const ui::window::StatusMark& mark : marks) { texts.push_back(mark.text); }
     return texts;
 }
 
@@ -45,8 +41,7 @@ TEST_CASE("a panel draws where it is open and nothing where it is closed") {
         bool ui::window::OpenPanels::*open;
     };
 
-    const std::array cases{
-        Case{ui::window::timing_panel, &ui::window::OpenPanels::timing},
+    const std::array cases{Case{ui::window::timing_panel, &ui::window::OpenPanels::timing},
         Case{ui::window::settings_panel, &ui::window::OpenPanels::settings},
         Case{ui::window::help_panel, &ui::window::OpenPanels::help},
         Case{ui::window::first_steps_panel, &ui::window::OpenPanels::first_steps}};
@@ -66,21 +61,16 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
     HeadlessGui gui;
     ViewState state;
     const std::string texts = gui.texts([&] {
-        for (const auto& [group, headline] : groups) {
-            ui::window::edit_group(state.next_settings, group);
-        }
+        for (const auto& [group, headline] : groups) { ui::window::edit_group(state.next_settings, group); }
     });
-    ui::settings::visit_settings(
-        state.next_settings, [&](const ui::settings::FieldInfo& info, const auto&) {
-            CAPTURE(info.name);
-            CHECK(contains(texts, info.name));
-        });
+    ui::settings::visit_settings(state.next_settings, [&](const ui::settings::FieldInfo& info, const auto&) {
+        CAPTURE(info.name);
+        CHECK(contains(texts, info.name));
+    });
     CHECK(state.next_settings == ui::settings::RunSettings{});
     state.open.settings = true;
     const std::string titles = gui.texts([&] { ui::window::settings_panel(state); });
-    for (const auto& [group, headline] : groups) {
-        CHECK(contains(titles, headline));
-    }
+    for (const auto& [group, headline] : groups) { CHECK(contains(titles, headline)); }
 }
 
 TEST_CASE("only the settings that are asked for are shown, in that order") {
@@ -117,9 +107,7 @@ TEST_CASE("the help names every key") {
     ViewState state;
     state.open.help = true;
     const std::string texts = gui.texts([&] { ui::window::help_panel(state); });
-    for (const ui::window::ViewKey& key : ui::window::view_keys()) {
-        CHECK(contains(texts, key.meaning));
-    }
+    for (const ui::window::ViewKey& key : ui::window::view_keys()) { CHECK(contains(texts, key.meaning)); }
     for (const ui::window::HeldKey& key : ui::window::held_keys()) {
         CHECK(contains(texts, key.meaning));
         CHECK(contains(texts, state.keys.name_of(key.chosen_action)));
@@ -134,8 +122,7 @@ TEST_CASE("the first steps close by their button and the vsync box follows a cli
     CHECK_FALSE(state.open.first_steps);
     state.open.timing = true;
     state.history.add(record_of(0, 10.0));
-    CHECK(gui.click(
-        "Frame times", "wait for the display (vsync)", [&] { ui::window::timing_panel(state); }));
+    CHECK(gui.click("Frame times", "wait for the display (vsync)", [&] { ui::window::timing_panel(state); }));
     CHECK_FALSE(state.vsync);
 }
 
@@ -143,9 +130,7 @@ TEST_CASE("the timing panel tells rate and overruns of the frames it holds") {
     HeadlessGui gui;
     ViewState state;
     state.open.timing = true;
-    for (int frame = 0; frame < 100; ++frame) {
-        state.history.add(record_of(frame, frame % 10 == 0 ? 25.0 : 10.0));
-    }
+    for (int frame = 0; frame < 100; ++frame) { state.history.add(record_of(frame, frame % 10 == 0 ? 25.0 : 10.0)); }
     const std::string texts = gui.texts([&] { ui::window::timing_panel(state); });
     CHECK(contains(texts, "50.0 frames/s"));
     CHECK(contains(texts, "overruns 10"));
@@ -159,9 +144,8 @@ TEST_CASE("what is always to be seen is said in a fixed order, and nothing in pl
     state.playback.speed = 0.5;
     ui::window::ManualFlightStatus manual_flight;
     manual_flight.warnings.stalled = true;
-    CHECK(
-        texts_of(ui::window::status_marks(state, manual_flight)) ==
-        std::vector<std::string>{"REC flight-1", "paused", "x0.5", "by hand", "STALL"});
+    CHECK(texts_of(ui::window::status_marks(state, manual_flight)) ==
+          std::vector<std::string>{"REC flight-1", "paused", "x0.5", "by hand", "STALL"});
     manual_flight.ended = true;
     CHECK(texts_of(ui::window::status_marks(state, manual_flight)).back() == "MET THE GROUND");
 }

@@ -14,8 +14,7 @@ constexpr double frame_s = 1.0 / 60.0;
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Controls after holding the devices as they are for a time.
-PilotControls after(
-    PilotControls controls, const PilotDevices& devices, double seconds, double step_s = frame_s) {
+PilotControls after(PilotControls controls, const PilotDevices& devices, double seconds, double step_s = frame_s) {
     for (long step = 0; step < std::lround(seconds / step_s); ++step) {
         controls = controls_after(controls, devices, step_s);
     }
@@ -83,8 +82,7 @@ TEST_CASE("an axis has a dead zone, is fine about the centre and reaches its sto
 }
 
 TEST_CASE("the left stick of a gamepad is the stick, the right one the rudder") {
-    const PilotControls controls =
-        controls_after({0, 0, 0, 0.4}, gamepad({-1, 1, 0.7F, 0.9F, -1, -1}), frame_s);
+    const PilotControls controls = controls_after({0, 0, 0, 0.4}, gamepad({-1, 1, 0.7F, 0.9F, -1, -1}), frame_s);
     CHECK(controls.roll == Approx(-1));
     CHECK(controls.pitch == Approx(1)); // pulled back, which a gamepad reports as down
     CHECK(controls.yaw == Approx(shaped_axis(0.7)).epsilon(1e-6));
@@ -121,8 +119,7 @@ TEST_CASE("a stick let go comes back to the centre at once or nearly") {
 }
 
 TEST_CASE("a joystick has its throttle on the third axis, or with a twist on the fourth") {
-    const PilotControls three =
-        controls_after({0, 0, 0, 0.3}, joystick({1, -1, -1, 0}, 3), frame_s);
+    const PilotControls three = controls_after({0, 0, 0, 0.3}, joystick({1, -1, -1, 0}, 3), frame_s);
     CHECK(three.roll == Approx(1));
     CHECK(three.pitch == Approx(-1));
     CHECK(three.yaw == 0.0);
@@ -165,12 +162,8 @@ TEST_CASE("the other key brings the stick over faster than letting go, both keys
     PilotKeys both = push;
     both.pull = true;
     const PilotControls pulled{0.8, 0, 0, 0};
-    CHECK(
-        controls_after(pulled, keys(push), 0.05).pitch <
-        controls_after(pulled, keys({}), 0.05).pitch);
-    CHECK(
-        controls_after(pulled, keys(both), 0.05).pitch ==
-        controls_after(pulled, keys({}), 0.05).pitch);
+    CHECK(controls_after(pulled, keys(push), 0.05).pitch < controls_after(pulled, keys({}), 0.05).pitch);
+    CHECK(controls_after(pulled, keys(both), 0.05).pitch == controls_after(pulled, keys({}), 0.05).pitch);
 }
 
 TEST_CASE("throttle keys move the throttle between its stops and nothing moves it back") {
@@ -240,11 +233,8 @@ TEST_CASE("no time, odd times and odd numbers leave controls in their ranges") {
     CHECK(controls_after({}, keys(held), 3.0).pitch == Approx(0.2));
     const float odd = std::numeric_limits<float>::quiet_NaN();
     for (const PilotDevices& devices :
-         {gamepad({odd, odd, odd, odd, odd, odd}),
-          gamepad({9, -9, 9, -9, 9, -9}),
-          joystick({odd, 9, -9, odd}, 4)}) {
-        const PilotControls controls =
-            controls_after({not_a_number, 5, -5, not_a_number}, devices, frame_s);
+        {gamepad({odd, odd, odd, odd, odd, odd}), gamepad({9, -9, 9, -9, 9, -9}), joystick({odd, 9, -9, odd}, 4)}) {
+        const PilotControls controls = controls_after({not_a_number, 5, -5, not_a_number}, devices, frame_s);
         CHECK(std::abs(controls.pitch) <= 1.0);
         CHECK(std::abs(controls.roll) <= 1.0);
         CHECK(std::abs(controls.yaw) <= 1.0);

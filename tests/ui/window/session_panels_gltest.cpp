@@ -47,8 +47,8 @@ double luminance_of(std::uint8_t byte) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-/// How many times lighter the lightest pixel of a window is than its darkest one, as WCAG 2
-/// counts contrast, where the panels of the last frame lie over a white picture.
+/// How many times lighter the lightest pixel of a window is than its darkest one, as WCAG 2 counts contrast, where the
+/// panels of the last frame lie over a white picture.
 double contrast_over_white(const char* window) {
     ImGuiIO& io = ImGui::GetIO();
     const glm::ivec2 size(static_cast<int>(io.DisplaySize.x), static_cast<int>(io.DisplaySize.y));
@@ -63,8 +63,8 @@ double contrast_over_white(const char* window) {
     for (int y = static_cast<int>(place.Min.y); y < static_cast<int>(place.Max.y); ++y) {
         for (int x = static_cast<int>(place.Min.x); x < static_cast<int>(place.Max.x); ++x) {
             const std::uint8_t* const bgr = &pixels[static_cast<std::size_t>(4 * (y * size.x + x))];
-            const double light = 0.0722 * luminance_of(bgr[0]) + 0.7152 * luminance_of(bgr[1]) +
-                                 0.2126 * luminance_of(bgr[2]);
+            const double light =
+                0.0722 * luminance_of(bgr[0]) + 0.7152 * luminance_of(bgr[1]) + 0.2126 * luminance_of(bgr[2]);
             lightest = std::max(lightest, light);
             darkest = std::min(darkest, light);
         }
@@ -72,20 +72,15 @@ double contrast_over_white(const char* window) {
     return (lightest + 0.05) / (darkest + 0.05);
 }
 
-int background_vertices() {
-    return ImGui::GetBackgroundDrawList()->VtxBuffer.Size;
-}
+int background_vertices() { return ImGui::GetBackgroundDrawList()->VtxBuffer.Size; }
 
 } // namespace
 
 TEST_CASE("panels of a session draw where they are open and change nothing by themselves") {
     Shown shown;
     ViewState& state = shown.state;
-    const std::array<bool ui::window::OpenPanels::*, 5> panels{
-        &ui::window::OpenPanels::flight,
-        &ui::window::OpenPanels::terrain,
-        &ui::window::OpenPanels::draw_order,
-        &ui::window::OpenPanels::aircraft,
+    const std::array<bool ui::window::OpenPanels::*, 5> panels{&ui::window::OpenPanels::flight,
+        &ui::window::OpenPanels::terrain, &ui::window::OpenPanels::draw_order, &ui::window::OpenPanels::aircraft,
         &ui::window::OpenPanels::scene};
     for (const auto panel : panels) {
         HeadlessGui gui;
@@ -133,10 +128,8 @@ TEST_CASE("by hand the flight panel shows what the aircraft does and the status 
     ui::flight::Simulation& simulation = shown.session.simulation();
     simulation.advance_to(simulation.time_s());
     simulation.take_over(sim::aircraft_kind("f15"));
-    const std::string texts =
-        gui.texts([&] { ui::window::flight_panel(shown.state, shown.session); });
-    const std::string marks =
-        gui.texts([&] { ui::window::status_line(shown.state, shown.session, 0.0); });
+    const std::string texts = gui.texts([&] { ui::window::flight_panel(shown.state, shown.session); });
+    const std::string marks = gui.texts([&] { ui::window::status_line(shown.state, shown.session, 0.0); });
     CHECK(marks.find("by hand") != std::string::npos);
     for (const char* const part : {"throttle", " kt", " ft", "Level off"}) {
         CAPTURE(part);
@@ -149,8 +142,7 @@ TEST_CASE("a message is shown for its time") {
     HeadlessGui gui;
     shown.state.message = {"hello", 2.0};
     const auto at = [&](double now_s) {
-        return gui.texts(
-            [&, now_s] { ui::window::status_line(shown.state, shown.session, now_s); });
+        return gui.texts([&, now_s] { ui::window::status_line(shown.state, shown.session, now_s); });
     };
     CHECK(at(1.0).find("hello") != std::string::npos);
     CHECK(at(2.0).find("hello") == std::string::npos);
@@ -172,9 +164,7 @@ TEST_CASE("painting order is written on the polygons in the middle of the chase 
     const ImDrawList& list = *ImGui::GetBackgroundDrawList();
     REQUIRE(background_vertices() > 100);
     ImVec2 sum(0.0F, 0.0F);
-    for (const ImDrawVert& vertex : list.VtxBuffer) {
-        sum = {sum.x + vertex.pos.x, sum.y + vertex.pos.y};
-    }
+    for (const ImDrawVert& vertex : list.VtxBuffer) { sum = {sum.x + vertex.pos.x, sum.y + vertex.pos.y}; }
     const auto count = static_cast<float>(background_vertices());
     // The chase camera keeps the aircraft near the middle of 1280x720.
     CHECK(std::abs(sum.x / count - 640.0F) < 100.0F);

@@ -18,9 +18,7 @@ SettingInfo info_of(std::string_view name) {
     SettingInfo found{};
     RunSettings settings;
     ui::settings::visit_settings(settings, [&](const SettingInfo& info, const auto&) {
-        if (info.name == name) {
-            found = info;
-        }
+        if (info.name == name) { found = info; }
     });
     REQUIRE(found.name == name);
     return found;
@@ -75,10 +73,8 @@ TEST_CASE("what an unset setting means is read from its brackets") {
 
 TEST_CASE("a tooltip says meaning, option, the paper's letter and bounds") {
     CHECK(
-        ui::window::tooltip_of(info_of("control-r")) ==
-        "earlier frames in the damping's mean\n--control-r r, 0 to 64");
-    CHECK(
-        ui::window::tooltip_of(info_of("sky")) == "sky and the plain beyond the map's edge\n--sky");
+        ui::window::tooltip_of(info_of("control-r")) == "earlier frames in the damping's mean\n--control-r r, 0 to 64");
+    CHECK(ui::window::tooltip_of(info_of("sky")) == "sky and the plain beyond the map's edge\n--sky");
 }
 
 TEST_CASE("names go into one line of text and come back") {
@@ -94,7 +90,6 @@ TEST_CASE("wingmen come as copies of the leader and go from the end") {
     CHECK(ui::window::with_aircraft_count(two, 4) == std::vector<std::string>{"f15", "500md", "f15", "f15"});
     CHECK(ui::window::with_aircraft_count(two, 1) == std::vector<std::string>{"f15"});
     CHECK(ui::window::with_aircraft_count(two, 0) == std::vector<std::string>{"f15"});
-    CHECK(
-        ui::window::with_lead_aircraft({"f15", "500md", "f15"}, "x.obj") ==
-        std::vector<std::string>{"x.obj", "500md", "x.obj"});
+    CHECK(ui::window::with_lead_aircraft({"f15", "500md", "f15"}, "x.obj") ==
+          std::vector<std::string>{"x.obj", "500md", "x.obj"});
 }

@@ -24,13 +24,10 @@ namespace {
 
 /// Share of pixels that differ by more than rounding.
 double difference(const visuals::scene::Picture& a, const visuals::scene::Picture& b) {
-    if (a.rgba.size() != b.rgba.size()) {
-        return 1.0;
-    }
+    if (a.rgba.size() != b.rgba.size()) { return 1.0; }
     std::size_t differing = 0;
     for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
-        const bool same = std::abs(a.rgba[i] - b.rgba[i]) < 8 &&
-                          std::abs(a.rgba[i + 1] - b.rgba[i + 1]) < 8 &&
+        const bool same = std::abs(a.rgba[i] - b.rgba[i]) < 8 && std::abs(a.rgba[i + 1] - b.rgba[i + 1]) < 8 &&
                           std::abs(a.rgba[i + 2] - b.rgba[i + 2]) < 8;
         differing += same ? 0 : 1;
     }
@@ -40,9 +37,7 @@ double difference(const visuals::scene::Picture& a, const visuals::scene::Pictur
 /// Where on the display a panel has the widget of this name, found with the pointer.
 std::optional<glm::ivec2> place_of(DrivenViewer& driven, const char* panel, const char* widget) {
     const ImGuiWindow* const window = ImGui::FindWindowByName(panel);
-    if (window == nullptr) {
-        return std::nullopt;
-    }
+    if (window == nullptr) { return std::nullopt; }
     const ImGuiID id = ImGui::FindWindowByName(panel)->GetID(widget);
     glm::ivec2 corner{0};
     glfwGetWindowPos(driven.viewer().window(), &corner.x, &corner.y);
@@ -52,9 +47,7 @@ std::optional<glm::ivec2> place_of(DrivenViewer& driven, const char* panel, cons
         const glm::ivec2 at = corner + glm::ivec2(left, static_cast<int>(window->Pos.y) + y);
         driven.display().move_pointer(at);
         driven.turns(2);
-        if (ImGui::GetHoveredID() == id) {
-            return at;
-        }
+        if (ImGui::GetHoveredID() == id) { return at; }
     }
     return std::nullopt;
 }
@@ -63,17 +56,11 @@ std::optional<glm::ivec2> place_of(DrivenViewer& driven, const char* panel, cons
 
 TEST_CASE("keys 1 to 5 show the five views, each another picture of the paused flight") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     REQUIRE_FALSE(driven->state().playback.playing);
     const std::array<std::pair<const char*, View>, 5> views{
-        {{"1", View::Cockpit},
-         {"2", View::Chase},
-         {"3", View::Tower},
-         {"4", View::Orbit},
-         {"5", View::Free}}};
+        {{"1", View::Cockpit}, {"2", View::Chase}, {"3", View::Tower}, {"4", View::Orbit}, {"5", View::Free}}};
     std::vector<visuals::scene::Picture> pictures;
     for (const auto& [key, view] : views) {
         driven->strike(key);
@@ -90,9 +77,7 @@ TEST_CASE("keys 1 to 5 show the five views, each another picture of the paused f
 
 TEST_CASE("a paused window shows the same picture again and again") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->turns(20);
     driven->strike("space");
     const visuals::scene::Picture before = driven->picture();
@@ -104,9 +89,7 @@ TEST_CASE("a paused window shows the same picture again and again") {
 
 TEST_CASE("the window's picture is that of a flight without a window") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     driven->strike("Home");
     driven->turns(3);
@@ -120,9 +103,7 @@ TEST_CASE("the window's picture is that of a flight without a window") {
 
 TEST_CASE("dragging turns the eye around the aircraft, the wheel comes nearer, V looks straight") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     const visuals::scene::Picture straight = driven->picture();
     driven->drag({240, 180}, {320, 200});
@@ -139,9 +120,7 @@ TEST_CASE("dragging turns the eye around the aircraft, the wheel comes nearer, V
 
 TEST_CASE("I opens a second view in a corner and leaves the rest of the picture") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     const visuals::scene::Picture alone = driven->picture();
     driven->strike("i");
@@ -159,17 +138,12 @@ TEST_CASE("I opens a second view in a corner and leaves the rest of the picture"
 
 TEST_CASE("each panel opens by its key and is seen in the window") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     const std::array<std::pair<const char*, bool ui::window::OpenPanels::*>, 7> panels{
-        {{"F3", &ui::window::OpenPanels::timing},
-         {"F4", &ui::window::OpenPanels::terrain},
-         {"F5", &ui::window::OpenPanels::draw_order},
-         {"F6", &ui::window::OpenPanels::aircraft},
-         {"F7", &ui::window::OpenPanels::scene},
-         {"F8", &ui::window::OpenPanels::settings},
-         {"F1", &ui::window::OpenPanels::help}}};
+        {{"F3", &ui::window::OpenPanels::timing}, {"F4", &ui::window::OpenPanels::terrain},
+            {"F5", &ui::window::OpenPanels::draw_order}, {"F6", &ui::window::OpenPanels::aircraft},
+            {"F7", &ui::window::OpenPanels::scene}, {"F8", &ui::window::OpenPanels::settings},
+            {"F1", &ui::window::OpenPanels::help}}};
     driven->state().open.flight = false;
     for (const auto& [key, panel] : panels) {
         INFO(key);
@@ -183,17 +157,13 @@ TEST_CASE("each panel opens by its key and is seen in the window") {
     }
 }
 
-TEST_CASE(
-    "a layout file that is damaged or another program's is read without harm, once and again") {
+TEST_CASE("a layout file that is damaged or another program's is read without harm, once and again") {
     for (const std::string& layout :
-         {std::string("[Table][0x00000001,999999999]\n"),
-          std::string("[Window][Flight]\nPos=1e9,nan\nSize=-1,-1\n[Table][0xFFFFFFFF,-1]\n"),
-          std::string(1000, '\0'),
-          std::string("# octant panels: title = x y width height\nFlight = 1e308 nan -5 0\n")}) {
+        {std::string("[Table][0x00000001,999999999]\n"),
+            std::string("[Window][Flight]\nPos=1e9,nan\nSize=-1,-1\n[Table][0xFFFFFFFF,-1]\n"), std::string(1000, '\0'),
+            std::string("# octant panels: title = x y width height\nFlight = 1e308 nan -5 0\n")}) {
         const auto driven = DrivenViewer::open(small_flight(), layout);
-        if (!driven) {
-            return;
-        }
+        if (!driven) { return; }
         driven->strike("F4");
         driven->turns(3);
         CHECK(driven->state().open.terrain);
@@ -203,9 +173,7 @@ TEST_CASE(
 
 TEST_CASE("the first steps leave the picture free once a key was used") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     CHECK(driven->state().open.first_steps);
     driven->strike("3");
     CHECK_FALSE(driven->state().open.first_steps);
@@ -215,9 +183,7 @@ TEST_CASE("a click on the flight panel's button pauses the flight") {
     RunSettings settings = small_flight();
     settings.view.size_px = {1000, 700};
     const auto driven = DrivenViewer::open(settings);
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("F2");
     driven->turns(3);
     const auto button = place_of(*driven, "Flight", "###play");
@@ -229,9 +195,7 @@ TEST_CASE("a click on the flight panel's button pauses the flight") {
 
 TEST_CASE("settings that do not go together are refused in the window as on the command line") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->state().next_settings.ground.mesh = visuals::scene::GroundMetric::ScreenError;
     driven->state().next_settings.ground.detail = visuals::scene::DetailControl::Damped;
     driven->turns(3);
@@ -241,9 +205,7 @@ TEST_CASE("settings that do not go together are refused in the window as on the 
 
 TEST_CASE("M shows the edges of the ground's triangles, then their levels") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     driven->strike("space");
     const visuals::scene::Picture plain = driven->picture();
     driven->strike("m");
@@ -257,9 +219,7 @@ TEST_CASE("M shows the edges of the ground's triangles, then their levels") {
 
 TEST_CASE("the window's picture follows the window's size") {
     const auto driven = DrivenViewer::open(small_flight());
-    if (!driven) {
-        return;
-    }
+    if (!driven) { return; }
     glfwSetWindowSize(driven->viewer().window(), 700, 300);
     CHECK(driven->until([&] { return driven->settings().view.size_px == glm::ivec2(700, 300); }));
     driven->turns(2);

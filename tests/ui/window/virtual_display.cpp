@@ -19,11 +19,8 @@ namespace octant::tests {
 struct VirtualDisplay::Connection {
     ::Display* display = nullptr;
 
-    explicit Connection(const std::string& name)
-        : display(XOpenDisplay(name.c_str())) {
-        if (display == nullptr) {
-            throw std::runtime_error("cannot connect to the display " + name);
-        }
+    explicit Connection(const std::string& name) : display(XOpenDisplay(name.c_str())) {
+        if (display == nullptr) { throw std::runtime_error("cannot connect to the display " + name); }
     }
 
     ~Connection() { XCloseDisplay(display); }
@@ -35,9 +32,7 @@ struct VirtualDisplay::Connection {
 
     KeyCode code_of(const std::string& key) const {
         const KeySym symbol = XStringToKeysym(key.c_str());
-        if (symbol == NoSymbol) {
-            throw std::invalid_argument("no such key: " + key);
-        }
+        if (symbol == NoSymbol) { throw std::invalid_argument("no such key: " + key); }
         return XKeysymToKeycode(display, symbol);
     }
 };
@@ -48,9 +43,7 @@ namespace {
 std::string number_from(int pipe) {
     std::string number;
     char byte = 0;
-    while (read(pipe, &byte, 1) == 1 && byte != '\n') {
-        number += byte;
-    }
+    while (read(pipe, &byte, 1) == 1 && byte != '\n') { number += byte; }
     return number;
 }
 
@@ -58,25 +51,14 @@ std::string number_from(int pipe) {
 
 std::unique_ptr<VirtualDisplay> VirtualDisplay::start() {
     int pipe_ends[2];
-    if (pipe(pipe_ends) != 0) {
-        throw std::runtime_error("no pipe");
-    }
+    if (pipe(pipe_ends) != 0) { throw std::runtime_error("no pipe"); }
     const pid_t process = fork();
     if (process == 0) {
         close(pipe_ends[0]);
         const int nowhere = open("/dev/null", O_WRONLY);
         dup2(nowhere, STDERR_FILENO);
         const std::string told_on = std::to_string(pipe_ends[1]);
-        execlp(
-            "Xvfb",
-            "Xvfb",
-            "-displayfd",
-            told_on.c_str(),
-            "-screen",
-            "0",
-            "2000x1200x24",
-            "-nolisten",
-            "tcp",
+        execlp("Xvfb", "Xvfb", "-displayfd", told_on.c_str(), "-screen", "0", "2000x1200x24", "-nolisten", "tcp",
             "-noreset", // a signal that comes while it begins anew would be lost
             nullptr);
         _exit(127);
@@ -90,21 +72,17 @@ std::unique_ptr<VirtualDisplay> VirtualDisplay::start() {
     }
     const std::string name = ":" + number;
     setenv("DISPLAY", name.c_str(), 1);
-    return std::unique_ptr<VirtualDisplay>(
-        new VirtualDisplay(process, std::make_unique<Connection>(name)));
+    return std::unique_ptr<VirtualDisplay>(new VirtualDisplay(process, std::make_unique<Connection>(name)));
 }
 
 VirtualDisplay::VirtualDisplay(int process, std::unique_ptr<Connection> connection)
-    : process_(process)
-    , connection_(std::move(connection)) {}
+    : process_(process), connection_(std::move(connection)) {}
 
 VirtualDisplay::~VirtualDisplay() {
     connection_.reset();
     kill(process_, SIGTERM);
     for (int tenth = 0; tenth < 50; ++tenth) {
-        if (waitpid(process_, nullptr, WNOHANG) != 0) {
-            return;
-        }
+        if (waitpid(process_, nullptr, WNOHANG) != 0) { return; }
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     kill(process_, SIGKILL);
@@ -116,13 +94,7 @@ void VirtualDisplay::focus() {
     Window parent = 0;
     Window* children = nullptr;
     unsigned count = 0;
-    XQueryTree(
-        connection_->display,
-        DefaultRootWindow(connection_->display),
-        &root,
-        &parent,
-        &children,
-        &count);
+    XQueryTree(connection_->display, DefaultRootWindow(connection_->display), &root, &parent, &children, &count);
     for (unsigned i = 0; i < count; ++i) {
         XWindowAttributes attributes;
         XGetWindowAttributes(connection_->display, children[i], &attributes);
@@ -160,18 +132,9 @@ void VirtualDisplay::release_button(int button) {
 }
 
 ui::report::Picture VirtualDisplay::picture(const glm::ivec2& at, const glm::ivec2& size) const {
-    XImage* const image = XGetImage(
-        connection_->display,
-        DefaultRootWindow(connection_->display),
-        at.x,
-        at.y,
-        static_cast<unsigned>(size.x),
-        static_cast<unsigned>(size.y),
-        AllPlanes,
-        ZPixmap);
-    if (image == nullptr) {
-        throw std::runtime_error("no picture of the display");
-    }
+    XImage* const image = XGetImage(connection_->display, DefaultRootWindow(connection_->display), at.x, at.y,
+        static_cast<unsigned>(size.x), static_cast<unsigned>(size.y), AllPlanes, ZPixmap);
+    if (image == nullptr) { throw std::runtime_error("no picture of the display"); }
     ui::report::Picture picture{size.x, size.y, 3, {}};
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {

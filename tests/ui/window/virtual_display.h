@@ -9,12 +9,12 @@
 
 namespace octant::tests {
 
-/// A display of its own in memory, with a keyboard and a pointer that are worked as a person's are:
-/// through the display's server. Ends with the object.
+/// A display of its own in memory, with a keyboard and a pointer that are worked as a person's are: through the
+/// display's server. Ends with the object.
 class VirtualDisplay {
 public:
-    /// Starts it, 2000 x 1200 pixels, and makes it the process's display. Nothing where the
-    /// server's program (Xvfb) is not installed.
+    /// Starts it, 2000 x 1200 pixels, and makes it the process's display. Nothing where the server's program (Xvfb) is
+    /// not installed.
     static std::unique_ptr<VirtualDisplay> start();
 
     ~VirtualDisplay();

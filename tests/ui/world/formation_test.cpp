@@ -21,9 +21,7 @@ double min_distance_m(int aircraft, double radius_m) {
     double min_m = std::numeric_limits<double>::infinity();
     for (int number = 1; number < aircraft; ++number) {
         const glm::dvec3 place_m = formation.wingman_state(leader, number).position_m;
-        for (const glm::dvec3& other_m : places_m) {
-            min_m = std::min(min_m, glm::distance(place_m, other_m));
-        }
+        for (const glm::dvec3& other_m : places_m) { min_m = std::min(min_m, glm::distance(place_m, other_m)); }
         places_m.push_back(place_m);
     }
     return min_m;

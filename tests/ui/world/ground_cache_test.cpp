@@ -18,10 +18,9 @@ namespace fs = std::filesystem;
 namespace {
 
 bool is_same(const HeightField& a, const HeightField& b) {
-    bool same = a.columns() == b.columns() && a.rows() == b.rows() &&
-                a.spacing_m() == b.spacing_m() && a.name == b.name && !a.place && !b.place &&
-                !a.system && !b.system && a.filled_voids == b.filled_voids &&
-                a.lowest_m() == b.lowest_m() && a.highest_m() == b.highest_m();
+    bool same = a.columns() == b.columns() && a.rows() == b.rows() && a.spacing_m() == b.spacing_m() &&
+                a.name == b.name && !a.place && !b.place && !a.system && !b.system &&
+                a.filled_voids == b.filled_voids && a.lowest_m() == b.lowest_m() && a.highest_m() == b.highest_m();
     for (int row = 0; same && row < a.rows(); ++row) {
         for (int column = 0; column < a.columns(); ++column) {
             same = same && a.height_m(column, row) == b.height_m(column, row);

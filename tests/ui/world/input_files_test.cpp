@@ -27,9 +27,7 @@ ui::settings::RunSettings aircraft_shown_by(const std::vector<fs::path>& aircraf
     settings.path.name = "straight";
     settings.path.terrain = "none";
     settings.path.aircraft.clear();
-    for (const fs::path& file : aircraft) {
-        settings.path.aircraft.push_back(file.string());
-    }
+    for (const fs::path& file : aircraft) { settings.path.aircraft.push_back(file.string()); }
     return settings;
 }
 
@@ -59,14 +57,11 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     write_file(folder / "shared.ac", "AC3Db\ntexture \"m/sub/wing.png\"\n");
     write_file(folder / "m/body.ac", "AC3Db\ntexture \"skin.png\"\ntexture \"none.png\"\n");
     write_file(
-        folder / "m/jet.xml",
-        "<PropertyList><path>body.ac</path><model><path>shared.ac</path></model></PropertyList>");
+        folder / "m/jet.xml", "<PropertyList><path>body.ac</path><model><path>shared.ac</path></model></PropertyList>");
     const auto hash = [&] { return input_hashes(aircraft_shown_by({folder / "m/jet.xml"})); };
     const auto before = hash();
     std::set<std::string> names;
-    for (const auto& [name, value] : before) {
-        names.insert(fs::path(name).filename().string());
-    }
+    for (const auto& [name, value] : before) { names.insert(fs::path(name).filename().string()); }
     for (const char* const name : {"jet.xml", "body.ac", "skin.png", "shared.ac", "wing.png"}) {
         CHECK(names.contains(name));
     }
@@ -78,8 +73,7 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     CHECK(location.size() == 4); // shared.ac lies above, and is only hashed
     fs::create_directories(folder / "m/Textures");
     write_file(folder / "m/Textures/skin.png", "5");
-    write_file(
-        folder / "m/jet.xml",
+    write_file(folder / "m/jet.xml",
         "<PropertyList><path>body.ac</path><texture-path>/Textures/</texture-path></PropertyList>");
     CHECK(files_to_copy(aircraft_shown_by({folder / "m/jet.xml"}), {}).size() == 4); // both pictures
     write_file(folder / "m/part.bin", "4");
@@ -115,12 +109,8 @@ TEST_CASE("models whose materials have one name keep their own") {
     }
     const auto location = files_to_copy(aircraft_shown_by({folder / "a/a.obj", folder / "b/b.obj"}), {});
     std::set<std::string> names;
-    for (const auto& [name, bytes] : location) {
-        names.insert(name);
-    }
-    CHECK(
-        names ==
-        std::set<std::string>{"inputs/a.obj", "inputs/m.mtl", "inputs/2/b.obj", "inputs/2/m.mtl"});
+    for (const auto& [name, bytes] : location) { names.insert(name); }
+    CHECK(names == std::set<std::string>{"inputs/a.obj", "inputs/m.mtl", "inputs/2/b.obj", "inputs/2/m.mtl"});
 }
 
 TEST_CASE("a recording does not take the place of the terrain that it flies over") {
@@ -128,11 +118,8 @@ TEST_CASE("a recording does not take the place of the terrain that it flies over
     fs::create_directories(folder / "rec/inputs/terrain");
     ui::settings::RunSettings settings = aircraft_shown_by({"f15"});
     settings.path.terrain = (folder / "rec/inputs/terrain/t.asc").string();
-    write_file(
-        settings.path.terrain,
-        "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
+    write_file(settings.path.terrain, "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
     CHECK_THROWS_WITH(
-        settings_in_recording(settings, folder / "rec"),
-        Catch::Contains("--record: expected another folder"));
+        settings_in_recording(settings, folder / "rec"), Catch::Contains("--record: expected another folder"));
     CHECK_NOTHROW(settings_in_recording(settings, folder / "other"));
 }

@@ -20,11 +20,9 @@ TEST_CASE("a file too large for a library is refused at once, whichever library 
         std::filesystem::resize_file(file, 1025 * mebibyte); // a hole: it takes no room
         CHECK(is_library_file(file));
         CHECK_THROWS_WITH(
-            read_library_mesh(file),
-            Contains(std::string(name) + ": expected at most 1073741824 bytes, got more"));
+            read_library_mesh(file), Contains(std::string(name) + ": expected at most 1073741824 bytes, got more"));
         std::filesystem::remove(file);
-        CHECK_THROWS_WITH(
-            read_library_mesh(file), Contains("expected a file that can be read, got none"));
+        CHECK_THROWS_WITH(read_library_mesh(file), Contains("expected a file that can be read, got none"));
     }
     CHECK_FALSE(is_library_file("own.obj"));
 }

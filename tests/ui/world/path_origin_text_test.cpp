@@ -24,18 +24,14 @@ TEST_CASE("a place in degrees is found on a map with a place") {
 }
 
 TEST_CASE("a place that is neither is refused") {
-    CHECK_THROWS_WITH(
-        path_origin_from_text("here", nullptr, {1, 1}),
+    CHECK_THROWS_WITH(path_origin_from_text("here", nullptr, {1, 1}),
         "--place: expected X,Y in metres or LAT,LON in degrees, got 'here'");
     CHECK_THROWS_WITH(path_origin_from_text("1,2,3", nullptr, {1, 1}), Catch::Contains("expected X,Y"));
     CHECK_THROWS_WITH(path_origin_from_text("49N,123", nullptr, {1, 1}), Catch::Contains("expected X,Y"));
-    CHECK_THROWS_WITH(
-        path_origin_from_text("-49N,123W", nullptr, {1, 1}), Catch::Contains("expected X,Y"));
+    CHECK_THROWS_WITH(path_origin_from_text("-49N,123W", nullptr, {1, 1}), Catch::Contains("expected X,Y"));
     CHECK_THROWS_WITH(path_origin_from_text("nan,0", nullptr, {1, 1}), Catch::Contains("expected X,Y"));
-    CHECK_THROWS_WITH(
-        path_origin_from_text("49N,123W", nullptr, {1, 1}),
+    CHECK_THROWS_WITH(path_origin_from_text("49N,123W", nullptr, {1, 1}),
         "--place: expected X,Y in metres on a map without a place on the earth, got '49N,123W'");
     const TransverseMercator map(GeoPosition{49, -123});
-    CHECK_THROWS_WITH(
-        path_origin_from_text("99N,123W", &map, {1, 1}), Catch::Contains("latitude up to 90"));
+    CHECK_THROWS_WITH(path_origin_from_text("99N,123W", &map, {1, 1}), Catch::Contains("latitude up to 90"));
 }

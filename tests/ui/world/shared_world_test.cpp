@@ -25,8 +25,7 @@ std::string rolling_ground(const std::string& name, double lift_m) {
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights_m.push_back(
-                static_cast<float>(lift_m + 60.0 * std::sin(column / 9.0) + row / 13.0));
+            heights_m.push_back(static_cast<float>(lift_m + 60.0 * std::sin(column / 9.0) + row / 13.0));
         }
     }
     const std::filesystem::path file = tests::scratch_folder() / name;
@@ -44,8 +43,7 @@ std::filesystem::path wedge(const std::string& head) {
 
 /// As if the file had been written two seconds from now.
 void age(const std::filesystem::path& file) {
-    std::filesystem::last_write_time(
-        file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
 }
 
 World shared_world(const RunSettings& settings, const World& other) {
@@ -99,12 +97,10 @@ TEST_CASE("what a shared world's files name is loaded anew once it is written an
     const std::filesystem::path shape = wedge("mtllib wedge.mtl\nusemtl one\n");
     const std::filesystem::path heights = rolling_ground("behind.tif", 0.0);
     const std::filesystem::path map = tests::scratch_folder() / "map.vrt";
-    write_file(
-        map,
-        "<VRTDataset rasterXSize=\"257\" rasterYSize=\"257\"><GeoTransform>0, 101.5625, 0, 0, 0, "
-        "-101.5625</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
-        "<SourceFilename relativeToVRT=\"1\">behind.tif</SourceFilename><SourceBand>1</SourceBand>"
-        "</SimpleSource></VRTRasterBand></VRTDataset>\n");
+    write_file(map, "<VRTDataset rasterXSize=\"257\" rasterYSize=\"257\"><GeoTransform>0, 101.5625, 0, 0, 0, "
+                    "-101.5625</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
+                    "<SourceFilename relativeToVRT=\"1\">behind.tif</SourceFilename><SourceBand>1</SourceBand>"
+                    "</SimpleSource></VRTRasterBand></VRTDataset>\n");
     RunSettings settings;
     settings.path.terrain = map.string();
     settings.path.aircraft = {shape.string()};
@@ -119,6 +115,5 @@ TEST_CASE("what a shared world's files name is loaded anew once it is written an
     age(heights);
     const World anew = shared_world(settings, first);
     CHECK(anew.scene.models.front() != first.scene.models.front());
-    CHECK(
-        *anew.scene.ground->height_at(0.0, 0.0) > *first.scene.ground->height_at(0.0, 0.0) + 400.0);
+    CHECK(*anew.scene.ground->height_at(0.0, 0.0) > *first.scene.ground->height_at(0.0, 0.0) + 400.0);
 }

@@ -12,10 +12,9 @@ TEST_CASE("a time sets the sun by the map's latitude, a night on the horizon wit
     CHECK(north.air.sun_elevation_deg == Approx(90.0 - 60.0 + 23.45).margin(0.1));
     CHECK(north.air.sun_azimuth_deg == Approx(180.0));
     CHECK(ui::world::sun_notes(settings, GeoPosition{60.0, 10.0}).empty());
-    CHECK(
-        ui::world::sun_notes(settings, GeoPosition{60.0, 10.0, {3396190.0, 1.0 / 169.9}}) ==
-        std::vector<std::string>{"--time 2024-06-21T12:00: the sun stands as over the earth at "
-                                 "this latitude and date, not as over Mars"});
+    CHECK(ui::world::sun_notes(settings, GeoPosition{60.0, 10.0, {3396190.0, 1.0 / 169.9}}) ==
+          std::vector<std::string>{"--time 2024-06-21T12:00: the sun stands as over the earth at "
+                                   "this latitude and date, not as over Mars"});
     const RunSettings nowhere = ui::world::with_sun_at_time(settings, {});
     CHECK(nowhere.air.sun_elevation_deg == Approx(45.0 + 23.45).margin(0.1));
     settings.air.time = "2024-12-21T00:00";

@@ -18,20 +18,14 @@ namespace octant {
 
 namespace {
 
-/// How far a ray goes until ground stops it. Beyond the map the ground goes on at its border's
-/// height.
+/// How far a ray goes until ground stops it. Beyond the map the ground goes on at its border's height.
 std::optional<double> ground_along(
-    const visuals::landscape::Ground& ground,
-    const glm::dvec3& from_m,
-    const glm::dvec3& way,
-    double reach_m) {
+    const visuals::landscape::Ground& ground, const glm::dvec3& from_m, const glm::dvec3& way, double reach_m) {
     double height_m = 0.0;
     for (double along_m = 4.0; along_m < reach_m; along_m += std::max(3.0, 0.01 * along_m)) {
         const glm::dvec3 at_m = from_m + along_m * way;
         height_m = ground.height_at(at_m.x, at_m.y).value_or(height_m);
-        if (at_m.z < height_m) {
-            return along_m;
-        }
+        if (at_m.z < height_m) { return along_m; }
     }
     return std::nullopt;
 }
@@ -45,10 +39,8 @@ double sky_share(const visuals::landscape::Ground& ground, const visuals::scene:
     for (int column = -3; column <= 3; ++column) {
         for (int row = -2; row <= 2; ++row, ++rays) {
             const glm::dvec3 way = camera.view_to_world *
-                                   glm::normalize(glm::dvec3(
-                                       column / 3.5 * half * 16.0 / 9.0, row / 2.5 * half, -1.0));
-            const bool is_ground =
-                way.z < -0.003 || ground_along(ground, camera.eye_m, way, far_m).has_value();
+                                   glm::normalize(glm::dvec3(column / 3.5 * half * 16.0 / 9.0, row / 2.5 * half, -1.0));
+            const bool is_ground = way.z < -0.003 || ground_along(ground, camera.eye_m, way, far_m).has_value();
             sky += is_ground ? 0 : 1;
         }
     }
@@ -76,8 +68,7 @@ void count(const char* path, const char* aircraft, const char* terrain, Pictures
     const sim::Trajectory& flight = world.flight.trajectory;
     for (double time_s = flight.start_s(); time_s < flight.end_s(); time_s += 1.0) {
         const glm::dvec3 at_m = flight.state_at(time_s).position_m;
-        const visuals::scene::Camera camera =
-            visuals::scene::tower_camera(world.points.tower, at_m, radius_m);
+        const visuals::scene::Camera camera = visuals::scene::tower_camera(world.points.tower, at_m, radius_m);
         const double distance_m = glm::distance(camera.eye_m, at_m);
         const glm::dvec3 way = (at_m - camera.eye_m) / distance_m;
         const double size = radius_m / (distance_m * std::tan(0.5 * camera.vertical_fov_rad));
@@ -99,9 +90,8 @@ TEST_CASE("over whole flights the tower sees the aircraft, large, and mostly rel
         count(path, "500md", "canyon", pictures);
     }
     REQUIRE(pictures.all > 200);
-    INFO(
-        pictures.small << " small, " << pictures.relief << " before relief and sky, "
-                       << pictures.no_sky << " without sky, of " << pictures.all);
+    INFO(pictures.small << " small, " << pictures.relief << " before relief and sky, " << pictures.no_sky
+                        << " without sky, of " << pictures.all);
     CHECK(pictures.hidden == 0);
     CHECK(pictures.small < 0.05 * pictures.all);
     CHECK(pictures.relief > 0.7 * pictures.all);

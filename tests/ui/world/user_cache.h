@@ -10,9 +10,7 @@ namespace octant::tests {
 class UserCache {
 public:
     explicit UserCache(const std::filesystem::path& folder) {
-        if (const char* before = std::getenv(variable)) {
-            before_ = before;
-        }
+        if (const char* before = std::getenv(variable)) { before_ = before; }
         ::setenv(variable, folder.c_str(), 1);
     }
 

@@ -33,8 +33,8 @@ std::string rolling_ground() {
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights_m.push_back(static_cast<float>(
-                std::lround(60.0 * std::sin(column / 9.0) + 40.0 * std::cos(row / 13.0))));
+            heights_m.push_back(
+                static_cast<float>(std::lround(60.0 * std::sin(column / 9.0) + 40.0 * std::cos(row / 13.0))));
         }
     }
     const std::filesystem::path file = tests::scratch_folder() / "rolling.tif";
@@ -66,9 +66,7 @@ TEST_CASE("a model is framed alike however its hidden surfaces are removed") {
 TEST_CASE("no point of a detailed aircraft is farther from the plain one than its row says") {
     int detailed = 0;
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        if (kind.simple_type_name.empty()) {
-            continue;
-        }
+        if (kind.simple_type_name.empty()) { continue; }
         ++detailed;
         const auto aircraft_shape = [](std::string_view name) {
             const auto file = ui::base::aircraft_file(std::string(name));
@@ -86,8 +84,7 @@ TEST_CASE("no point of a detailed aircraft is farther from the plain one than it
     CHECK(detailed >= 2);
 }
 
-TEST_CASE(
-    "a world has each model once, however many aircraft fly it, and the first one's cockpit") {
+TEST_CASE("a world has each model once, however many aircraft fly it, and the first one's cockpit") {
     RunSettings settings = over("none");
     settings.path.aircraft = {"500md", "f15", "500md"};
     const ui::world::World world = ui::world::load_world(settings);
@@ -105,26 +102,22 @@ TEST_CASE("an aircraft that flies beyond its limits in formation is told of, onc
         settings.path.aircraft = std::move(aircraft);
         settings.path.name = path;
         std::vector<std::string> notes = ui::world::load_world(settings).notes;
-        std::erase_if(notes, [](const std::string& note) {
-            return note.find("beyond its limits") == std::string::npos;
-        });
+        std::erase_if(
+            notes, [](const std::string& note) { return note.find("beyond its limits") == std::string::npos; });
         return notes;
     };
     // 250 m/s are 486 kt; the 500MD's never-exceed speed is 152 kt.
-    CHECK(
-        told({"f15", "500md", "500md"}, "straight") ==
-        std::vector<std::string>{"500md in formation is flown beyond its limits: speed in kt up to "
-                                 "486 (at most 152)"});
+    CHECK(told({"f15", "500md", "500md"}, "straight") ==
+          std::vector<std::string>{"500md in formation is flown beyond its limits: speed in kt up to "
+                                   "486 (at most 152)"});
     // A turn of 4 g at a bank of 75.5 degrees, the 500MD's limits are 2 g and 60 degrees.
     const std::vector<std::string> in_turn = told({"f15", "500md"}, "turn");
     REQUIRE(in_turn.size() == 1);
-    CHECK_THAT(
-        in_turn.front(), Catch::Contains("load factor up to 3.99") && Catch::Contains("bank"));
+    CHECK_THAT(in_turn.front(), Catch::Contains("load factor up to 3.99") && Catch::Contains("bank"));
     // 60 m/s are 117 kt; the F-15's slowest is 80 m/s.
-    CHECK(
-        told({"500md", "f15"}, "straight") ==
-        std::vector<std::string>{"f15 in formation is flown beyond its limits: speed in kt down to "
-                                 "117 (at least 156)"});
+    CHECK(told({"500md", "f15"}, "straight") == std::vector<std::string>{
+                                                    "f15 in formation is flown beyond its limits: speed in kt down to "
+                                                    "117 (at least 156)"});
     for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
         CHECK(told({"f15", "f15-detailed"}, path).empty());
         CHECK(told({"500md", "500md-detailed"}, path).empty());
@@ -139,13 +132,9 @@ TEST_CASE("a file is no known aircraft because of its name, and says whose path 
     const ui::world::World world = ui::world::load_world(settings);
     CHECK(world.leader_kind == nullptr);
     CHECK_FALSE(world.scene.cockpit);
-    CHECK(
-        glm::distance(
-            world.scene.model_of(0).subject.pilot_eye_m, sim::aircraft_kind("f15").pilot_eye_m) >
-        0.1);
-    CHECK(std::ranges::any_of(world.notes, [](const std::string& note) {
-        return note.find("flies the straight path of f15") != std::string::npos;
-    }));
+    CHECK(glm::distance(world.scene.model_of(0).subject.pilot_eye_m, sim::aircraft_kind("f15").pilot_eye_m) > 0.1);
+    CHECK(std::ranges::any_of(world.notes,
+        [](const std::string& note) { return note.find("flies the straight path of f15") != std::string::npos; }));
 }
 
 TEST_CASE("an OBJ file with pictures or glass flies as a mesh, which shows them") {
@@ -153,10 +142,8 @@ TEST_CASE("an OBJ file with pictures or glass flies as a mesh, which shows them"
     const auto has_mesh = [&](std::string_view material) {
         write_file(folder / "dart.mtl", "newmtl skin\n" + std::string(material) + "\n");
         const std::filesystem::path file = folder / "dart.obj";
-        write_file(
-            file,
-            "mtllib dart.mtl\nusemtl skin\nv 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\n"
-            "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 4/1 2/1\nf 1/1 3/1 4/1\nf 2/1 4/1 3/1\n");
+        write_file(file, "mtllib dart.mtl\nusemtl skin\nv 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\n"
+                         "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 4/1 2/1\nf 1/1 3/1 4/1\nf 2/1 4/1 3/1\n");
         RunSettings settings = over("none");
         settings.path.aircraft = {file.string()};
         return ui::world::load_world(settings).scene.model_of(0).progressive != nullptr;
@@ -171,15 +158,12 @@ TEST_CASE("an OBJ file with pictures or glass flies as a mesh, which shows them"
 
 TEST_CASE("a path file of an unknown aircraft is refused with its line") {
     const std::filesystem::path file = tests::scratch_folder() / "kite.toml";
-    write_file(
-        file,
-        "title = \"a kite\"\naircraft = \"kite\"\nrate_hz = 20\nsamples = 20\n"
-        "min_clearance_m = 5\n[start]\nnorth_m = 0\neast_m = 0\nheight_m = 100\n"
-        "heading_deg = 0\nspeed_mps = 100\n[[leg]]\nfly = \"straight\"\nduration_s = 1\n");
+    write_file(file, "title = \"a kite\"\naircraft = \"kite\"\nrate_hz = 20\nsamples = 20\n"
+                     "min_clearance_m = 5\n[start]\nnorth_m = 0\neast_m = 0\nheight_m = 100\n"
+                     "heading_deg = 0\nspeed_mps = 100\n[[leg]]\nfly = \"straight\"\nduration_s = 1\n");
     RunSettings settings = over("none");
     settings.path.name = file.string();
-    CHECK_THROWS_WITH(
-        ui::world::load_world(settings),
+    CHECK_THROWS_WITH(ui::world::load_world(settings),
         Catch::Contains("kite.toml:2: expected aircraft f15 or 500md or f15-detailed or "
                         "500md-detailed, got 'kite'"));
 }
@@ -192,8 +176,7 @@ TEST_CASE("a path is laid over ground from a file with the clearance that it ask
     CHECK(world.ground_name == "rolling.tif, 257 x 257 samples, 101.6 m apart");
     CHECK_FALSE(world.scene.ground_texture);
     for (const sim::AircraftState& sample : world.flight.trajectory.samples()) {
-        const auto ground_m =
-            world.scene.ground->height_at(sample.position_m.x, sample.position_m.y);
+        const auto ground_m = world.scene.ground->height_at(sample.position_m.x, sample.position_m.y);
         REQUIRE(ground_m);
         CHECK(sample.position_m.z - *ground_m > 140.0);
     }
@@ -226,19 +209,16 @@ TEST_CASE("aircraft with paths of their own begin beside the first one, by its c
     CHECK(states[1].time_s == start.time_s);
 
     settings.path.aircraft = {"f15=turn@2s"};
-    CHECK_THROWS_WITH(
-        ui::world::load_world(settings), Catch::Contains("the first one to begin at 0 s"));
+    CHECK_THROWS_WITH(ui::world::load_world(settings), Catch::Contains("the first one to begin at 0 s"));
     settings.path.aircraft = {"f15", "500md=no-such-path"};
     CHECK_THROWS_AS(ui::world::load_world(settings), Error);
 }
 
 TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what its type says") {
     const std::filesystem::path file = tests::scratch_folder() / "two.acmi";
-    write_file(
-        file,
-        "FileType=text/acmi/tacview\nFileVersion=2.2\n#5\n1,T=8|47|900,Type=Air+FixedWing\n"
-        "2,T=8|47.001|950,Type=Air+Rotorcraft\n3,T=8|47|0,Type=Sea+Watercraft\n#6\n"
-        "1,T=8|47.001|900\n2,T=8|47.0012|950\n#9\n1,T=8|47.004|900\n");
+    write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#5\n1,T=8|47|900,Type=Air+FixedWing\n"
+                     "2,T=8|47.001|950,Type=Air+Rotorcraft\n3,T=8|47|0,Type=Sea+Watercraft\n#6\n"
+                     "1,T=8|47.001|900\n2,T=8|47.0012|950\n#9\n1,T=8|47.004|900\n");
     RunSettings settings = over(rolling_ground());
     settings.path.name = file.string();
     settings.path.heading_deg = 90.0;
@@ -257,15 +237,12 @@ TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what it
 
 TEST_CASE("a tape that leaves the map is refused with its name") {
     const std::filesystem::path file = tests::scratch_folder() / "far.acmi";
-    write_file(
-        file,
-        "FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n1,T=8|47|900\n#900\n1,T=8|49|900\n");
+    write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n1,T=8|47|900\n#900\n1,T=8|49|900\n");
     RunSettings settings = over(rolling_ground());
     settings.path.name = file.string();
     CHECK_THROWS_WITH(
-        ui::world::load_world(settings),
-        Catch::Contains("far.acmi: path leaves the map at every heading") &&
-            Catch::EndsWith("km north of its middle, and --terrain none has no end"));
+        ui::world::load_world(settings), Catch::Contains("far.acmi: path leaves the map at every heading") &&
+                                             Catch::EndsWith("km north of its middle, and --terrain none has no end"));
 }
 
 TEST_CASE("what cannot be loaded is said before anything is flown") {
@@ -285,8 +262,7 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
     CHECK(bare.notes.empty());
     CHECK_FALSE(bare.place);
     settings.air.ground_shading = visuals::scene::GroundShading::Texture;
-    const ui::world::SceneGround textured =
-        ui::world::load_scene_ground(settings, RenderDevice::Cpu);
+    const ui::world::SceneGround textured = ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     REQUIRE(textured.texture);
     CHECK(textured.texture->albedo.width == 257);
     CHECK(textured.name == bare.name + ", textured");
@@ -312,8 +288,7 @@ TEST_CASE("the tower of a known flight stands by it; a live one's says that it k
     RunSettings settings = over(rolling_ground());
     settings.view.kind = octant::visuals::scene::View::Tower;
     const auto says_so = [](const ui::world::World& world) {
-        return std::ranges::any_of(
-            world.notes, [](const std::string& note) { return note.starts_with("tower: "); });
+        return std::ranges::any_of(world.notes, [](const std::string& note) { return note.starts_with("tower: "); });
     };
     const ui::world::World known = ui::world::load_world(settings);
     CHECK(!says_so(known));
@@ -337,6 +312,5 @@ TEST_CASE("clouds that would lie in the ground are refused with its height") {
     CHECK_NOTHROW(ui::world::load_world(settings));
     settings.air.cloud_height_m = 99.0;
     CHECK_THROWS_WITH(
-        ui::world::load_world(settings),
-        "--cloud-height: expected more than the highest ground, 100.0 m, got 99");
+        ui::world::load_world(settings), "--cloud-height: expected more than the highest ground, 100.0 m, got 99");
 }

@@ -29,11 +29,8 @@ PolygonModel model_of(const std::vector<Outline>& outlines) {
         polygon.corner_count = static_cast<std::uint32_t>(outline.size());
         for (const glm::dvec3& corner : outline) {
             const auto known = std::ranges::find(model.vertices_m, corner);
-            model.corner_vertices.push_back(
-                static_cast<std::uint32_t>(known - model.vertices_m.begin()));
-            if (known == model.vertices_m.end()) {
-                model.vertices_m.push_back(corner);
-            }
+            model.corner_vertices.push_back(static_cast<std::uint32_t>(known - model.vertices_m.begin()));
+            if (known == model.vertices_m.end()) { model.vertices_m.push_back(corner); }
         }
         model.polygons.push_back(polygon);
     }
@@ -46,9 +43,7 @@ Outline square(double z, double from_x = 0.0, double size = 1.0) {
 }
 
 /// A square across y, through the middle of square(0).
-Outline upright() {
-    return {{0, 0.5, -0.5}, {1, 0.5, -0.5}, {1, 0.5, 0.5}, {0, 0.5, 0.5}};
-}
+Outline upright() { return {{0, 0.5, -0.5}, {1, 0.5, -0.5}, {1, 0.5, 0.5}, {0, 0.5, 0.5}}; }
 
 std::vector<std::uint32_t> all_of(const PolygonPieces& pieces) {
     std::vector<std::uint32_t> items(pieces.count());
@@ -62,8 +57,7 @@ PolygonModel ball(int around, int across) {
     const auto at = [&](int i, int j) {
         const double up = 3.14159265358979 * j / across;
         const double turn = 2.0 * 3.14159265358979 * (i % around) / around;
-        return glm::dvec3(
-            std::sin(up) * std::cos(turn), std::sin(up) * std::sin(turn), std::cos(up));
+        return glm::dvec3(std::sin(up) * std::cos(turn), std::sin(up) * std::sin(turn), std::cos(up));
     };
     for (int i = 0; i < around; ++i) {
         for (int j = 1; j + 1 < across; ++j) {
@@ -79,8 +73,7 @@ PolygonModel scattered(int count) {
     std::vector<Outline> outlines;
     for (int i = 0; i < count; ++i) {
         const int corners = 3 + i % 6;
-        const glm::dvec3 across =
-            i % 4 == 0 ? glm::dvec3(0.0, 0.0, 1.0) : glm::normalize(dice.direction());
+        const glm::dvec3 across = i % 4 == 0 ? glm::dvec3(0.0, 0.0, 1.0) : glm::normalize(dice.direction());
         const glm::dvec3 right = glm::normalize(glm::cross(across, {0.6, 0.0, 0.8}));
         const glm::dvec3 up = glm::cross(across, right);
         const glm::dvec3 middle(dice.between(-2, 2), dice.between(-2, 2), i % 3);
@@ -120,14 +113,10 @@ TEST_CASE("a table of pieces says where they reach, as each of them does") {
 TEST_CASE("rows of bits become columns") {
     for (const std::size_t count : {1U, 64U, 65U, 150U}) {
         BitMatrix matrix(count);
-        const auto is_in = [](std::size_t row, std::size_t column) {
-            return (row * 7 + column * 13) % 5 == 0;
-        };
+        const auto is_in = [](std::size_t row, std::size_t column) { return (row * 7 + column * 13) % 5 == 0; };
         for (std::size_t row = 0; row < count; ++row) {
             for (std::size_t column = 0; column < count; ++column) {
-                if (is_in(row, column)) {
-                    matrix.add(row, column);
-                }
+                if (is_in(row, column)) { matrix.add(row, column); }
             }
         }
         matrix.transpose();
@@ -151,9 +140,7 @@ TEST_CASE("clusters in painting order never hide one painted later, pair by pair
         max_clusters = std::max(max_clusters, found.size());
         std::vector<std::size_t> cluster_of(pieces.count(), found.size());
         for (std::size_t i = 0; i < found.size(); ++i) {
-            for (const std::uint32_t piece : found[i]) {
-                cluster_of[piece] = i;
-            }
+            for (const std::uint32_t piece : found[i]) { cluster_of[piece] = i; }
         }
         for (std::uint32_t occluder = 0; occluder < pieces.count(); ++occluder) {
             REQUIRE(cluster_of[occluder] < found.size());
@@ -181,10 +168,9 @@ TEST_CASE("a cut shares its corners with the other piece and with neighbours alo
     CHECK(model.polygons[0].corner_count == 4);
     CHECK(model.polygons[1].corner_count == 5); // the cut meets its left side
     CHECK(model.vertices_m.size() == 8);
-    CHECK(
-        glm::distance(model.vertices_m.back(), glm::dvec3(0, 0.5, 0)) +
-            glm::distance(model.vertices_m[6], glm::dvec3(1, 0.5, 0)) <
-        1e-12);
+    CHECK(glm::distance(model.vertices_m.back(), glm::dvec3(0, 0.5, 0)) +
+              glm::distance(model.vertices_m[6], glm::dvec3(1, 0.5, 0)) <
+          1e-12);
 }
 
 TEST_CASE("nothing is written where nothing was cut") {
@@ -244,9 +230,7 @@ TEST_CASE("a convex shell is one list without a cut, however many polygons it ha
     const PartialBspTree parted = partial_bsp_tree(larger, all_of(larger));
     CHECK(larger.added() < 500);
     std::size_t listed = 0;
-    for (const auto& list : parted.lists) {
-        listed += list.size();
-    }
+    for (const auto& list : parted.lists) { listed += list.size(); }
     CHECK(listed == larger.count());
     CHECK(parted.depth < 40);
 }
@@ -256,9 +240,7 @@ TEST_CASE("plates that pass through one another are cut once") {
     const PartialBspTree tree = partial_bsp_tree(pieces, all_of(pieces));
     CHECK(pieces.added() == 1);
     std::multiset<std::uint32_t> listed;
-    for (const auto& list : tree.lists) {
-        listed.insert(list.begin(), list.end());
-    }
+    for (const auto& list : tree.lists) { listed.insert(list.begin(), list.end()); }
     CHECK(listed == std::multiset<std::uint32_t>{0, 1, 2});
     CHECK(tree.unsplit_cycles.empty());
 }

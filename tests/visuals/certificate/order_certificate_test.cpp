@@ -52,16 +52,12 @@ struct Lines {
     std::vector<std::string> all;
 
     explicit Lines(const std::string& text) {
-        for (const std::string_view line : split_lines(text)) {
-            all.emplace_back(line);
-        }
+        for (const std::string_view line : split_lines(text)) { all.emplace_back(line); }
     }
 
     std::size_t first(std::string_view beginning) const {
         for (std::size_t i = 0; i < all.size(); ++i) {
-            if (all[i].starts_with(beginning)) {
-                return i;
-            }
+            if (all[i].starts_with(beginning)) { return i; }
         }
         FAIL("no line " << beginning);
         return 0;
@@ -91,23 +87,15 @@ TEST_CASE("the orders of the aircraft are proved, by cells and by parts") {
 }
 
 TEST_CASE("the orders of models that are hard to order are proved") {
-    for (const char* name :
-         {"three-crossing-bars",
-          "order-two-sided-33",
-          "decal-decals-12",
-          "order-slivers-12",
-          "crash-t-junctions-15",
-          "eighteen-polygons-far-away",
-          "certificate-far-7001",
-          "order-tiny-34"}) {
+    for (const char* name : {"three-crossing-bars", "order-two-sided-33", "decal-decals-12", "order-slivers-12",
+             "crash-t-junctions-15", "eighteen-polygons-far-away", "certificate-far-7001", "order-tiny-34"}) {
         check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), OrderMethod::Tree);
         check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), OrderMethod::Bsp);
     }
 }
 
 TEST_CASE("sides that are parallel but for the last digits of a file are proved, and say so") {
-    const OrderCertificate certificate =
-        certificate_of("tests/visuals/certificate/parallel-but-for-a-digit.obj");
+    const OrderCertificate certificate = certificate_of("tests/visuals/certificate/parallel-but-for-a-digit.obj");
     const VerificationResult verdict = verdict_of(certificate.text);
     CHECK(certificate.unproved == 0);
     CHECK(verdict.proved());

@@ -42,9 +42,7 @@ TEST_CASE("file order lists every polygon once") {
     const auto model = octant::models::procedural::background60();
     const DrawOrder order = file_order(model);
     REQUIRE(order.polygons().size() == 60);
-    for (std::uint32_t i = 0; i < 60; ++i) {
-        CHECK(order.polygons()[i] == i);
-    }
+    for (std::uint32_t i = 0; i < 60; ++i) { CHECK(order.polygons()[i] == i); }
 }
 
 TEST_CASE("the example's eight lists are eight different ones") {
@@ -57,9 +55,8 @@ TEST_CASE("an eye paints the far side of a parting, what faces it there, then it
     constexpr int nothing = DrawOrder::nothing;
     const std::vector<std::vector<std::uint32_t>> lists{{0}, {1}, {2}, {3, 4}, {5}};
     const DrawOrder order(
-        {{{{0, 0, 1}, 0}, 1, ~0, Kind::PolygonSplit, ~2, ~1},
-         {{}, ~3, 2, Kind::Sequence, nothing, nothing},
-         {{{1, 0, 0}, 0}, ~4, nothing, Kind::ViewSplit, nothing, nothing}},
+        {{{{0, 0, 1}, 0}, 1, ~0, Kind::PolygonSplit, ~2, ~1}, {{}, ~3, 2, Kind::Sequence, nothing, nothing},
+            {{{1, 0, 0}, 0}, ~4, nothing, Kind::ViewSplit, nothing, nothing}},
         lists);
     CHECK_FALSE(order.has_one_cell_per_eye());
     DrawOrder::Walk walk;

@@ -7,30 +7,24 @@
 
 using namespace octant::visuals::draworder;
 using namespace octant::visuals::separation;
-using octant::RandomGenerator;
 using octant::Plane;
+using octant::RandomGenerator;
 
 namespace {
 
 Face face_of(const std::vector<glm::dvec3>& corners) {
-    const glm::dvec3 normal =
-        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     return outline_face(corners, {normal, -glm::dot(normal, corners[0])}, 1e-6);
 }
 
 /// A square in the plane z = height, seen from +z.
 Face plate(double height, double x = 0.0, double half = 0.5) {
     return face_of(
-        {{x - half, -half, height},
-         {x + half, -half, height},
-         {x + half, half, height},
-         {x - half, half, height}});
+        {{x - half, -half, height}, {x + half, -half, height}, {x + half, half, height}, {x - half, half, height}});
 }
 
 std::optional<ViewRegion> before(std::optional<ViewRegion> region, const Face& a, const Face& b) {
-    for (const Face* face : {&a, &b}) {
-        region = region ? region->cut(*face->plane) : region;
-    }
+    for (const Face* face : {&a, &b}) { region = region ? region->cut(*face->plane) : region; }
     return region;
 }
 
@@ -38,9 +32,7 @@ bool occludes(const Face& b, const Face& a, const ViewRegion& region = ViewRegio
     OcclusionTest test(Tolerances{});
     const auto eyes = before(region, a, b);
     std::vector<glm::dvec4> generators;
-    if (eyes) {
-        eyes->append_generators(generators);
-    }
+    if (eyes) { eyes->append_generators(generators); }
     return eyes && test.possible(b, a) && test.occludes(b, a, generators);
 }
 
@@ -53,8 +45,8 @@ TEST_CASE("of two parallel plates the nearer hides the farther, never the other 
 }
 
 TEST_CASE("a corner on a straight side that drawing in dents is no place for a parting line") {
-    // Drawing in moves the sharp first corner sideways, so that the last one, which another
-    // polygon's corner has put there, is dented by some 1e-10.
+    // Drawing in moves the sharp first corner sideways, so that the last one, which another polygon's corner has put
+    // there, is dented by some 1e-10.
     const glm::dvec3 sharp(0.3857547541, -0.004612480713, 0.0);
     const glm::dvec3 far_end(-0.8117580458, 0.1339747639, 0.0);
     const glm::dvec3 on_side = glm::mix(far_end, sharp, 0.9158);
@@ -132,9 +124,7 @@ TEST_CASE("the section test agrees with the search for a plane that separates") 
             region = region->cut({dice.direction(), dice.between(-0.5, 0.5)});
         }
         region = before(region, a, b);
-        if (!region || !test.possible(b, a)) {
-            continue;
-        }
+        if (!region || !test.possible(b, a)) { continue; }
         std::vector<glm::dvec4> eyes;
         region->append_generators(eyes);
         const bool by_section = test.occludes(b, a, eyes);
@@ -149,9 +139,7 @@ TEST_CASE("the section test agrees with the search for a plane that separates") 
 
 TEST_CASE("bodies are separated from plates by a plane or not at all") {
     Face body;
-    for (int corner = 0; corner < 8; ++corner) {
-        body.corners.emplace_back(corner % 2, corner / 2 % 2, corner / 4);
-    }
+    for (int corner = 0; corner < 8; ++corner) { body.corners.emplace_back(corner % 2, corner / 2 % 2, corner / 4); }
     OcclusionTest test(Tolerances{});
     std::vector<glm::dvec4> eyes;
     ViewRegion::all_space().cut({{0, 0, 1}, 1.0})->append_generators(eyes);

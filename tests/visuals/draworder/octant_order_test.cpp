@@ -48,9 +48,7 @@ Order list_of(const OctantOrders& orders, const std::string& octant) {
     for (int i = 0; i < 8; ++i) {
         if (octant_name(i) == octant) {
             Order list = orders.lists[static_cast<std::size_t>(i)];
-            for (std::uint32_t& polygon : list) {
-                ++polygon;
-            }
+            for (std::uint32_t& polygon : list) { ++polygon; }
             return list;
         }
     }
@@ -103,9 +101,7 @@ TEST_CASE("octants have the names and signs of the paper") {
 TEST_CASE("each octant lists the polygons of the paper's table 4, each once") {
     for (const PaperOrderOptions& options : all_readings()) {
         const OctantOrders orders = paper_orders(paper_example(), options);
-        for (const TableRow& row : table_4) {
-            CHECK(sorted(list_of(orders, row.octant)) == sorted(row.polygons));
-        }
+        for (const TableRow& row : table_4) { CHECK(sorted(list_of(orders, row.octant)) == sorted(row.polygons)); }
         CHECK(orders.broken_cycles == 0);
     }
 }
@@ -129,8 +125,8 @@ TEST_CASE("no ray from any octant of the example sees a wrong polygon") {
     for (const PaperOrderOptions& options : all_readings()) {
         const DrawOrder order(paper_orders(paper_example(), options));
         for (int octant = 0; octant < 8; ++octant) {
-            const auto count = count_wrong_rays(
-                paper_example(), order, {.eyes = 150, .rays_per_eye = 20, .octant = octant});
+            const auto count =
+                count_wrong_rays(paper_example(), order, {.eyes = 150, .rays_per_eye = 20, .octant = octant});
             CHECK(count.hits > 900);
             CHECK(count.wrong == 0);
         }
@@ -163,9 +159,7 @@ TEST_CASE("a polygon is listed where it faces some eye, also where the viewpoint
     plate.polygons[0].corner_count = 3;
     plate.vertices_m = {{0, 0, 0}, {0, 0, 1}, {0.1, 1, 0}};
     REQUIRE(octant::models::polygons::normal_of(plate, 0).x < -0.9);
-    const auto listed = [&](ListingRule how) {
-        return paper_orders(plate, {.listed = how}).lists[0].size();
-    };
+    const auto listed = [&](ListingRule how) { return paper_orders(plate, {.listed = how}).lists[0].size(); };
     CHECK(listed(ListingRule::FromOctant) == 1);
     CHECK(listed(ListingRule::FromPoint) == 0);
 }
@@ -196,8 +190,7 @@ TEST_CASE("three bars, each over the next, cannot be ordered, and the result say
     bars.polygons.resize(3);
     for (int bar = 0; bar < 3; ++bar) {
         for (const auto& [t, side] : {std::pair{-5, -2}, {5, -2}, {5, -1}, {-5, -1}}) {
-            const glm::dvec3 p =
-                along * (1.0 * t) + inward * (1.0 * side) + towards_eye * (0.1 * t);
+            const glm::dvec3 p = along * (1.0 * t) + inward * (1.0 * side) + towards_eye * (0.1 * t);
             const std::array<double, 6> turned{p.x, p.y, p.z, p.x, p.y, p.z};
             const auto first = static_cast<std::size_t>(bar);
             bars.vertices_m.emplace_back(turned[first], turned[first + 1], turned[first + 2]);
@@ -218,8 +211,7 @@ TEST_CASE("the eye in body axes follows equations (34) to (36)") {
     const double phi = -0.7;
     const double gamma = 2.1;
     const glm::dvec3 object(30, -20, 50);
-    const glm::dquat attitude = glm::angleAxis(theta, glm::dvec3(1, 0, 0)) *
-                                glm::angleAxis(phi, glm::dvec3(0, 1, 0)) *
+    const glm::dquat attitude = glm::angleAxis(theta, glm::dvec3(1, 0, 0)) * glm::angleAxis(phi, glm::dvec3(0, 1, 0)) *
                                 glm::angleAxis(gamma, glm::dvec3(0, 0, 1));
     const double st = std::sin(theta);
     const double ct = std::cos(theta);
@@ -228,18 +220,15 @@ TEST_CASE("the eye in body axes follows equations (34) to (36)") {
     const double sg = std::sin(gamma);
     const double cg = std::cos(gamma);
     const glm::dvec3 expected(
-        -object.x * cg * cp - object.y * (sg * ct + cg * sp * st) -
-            object.z * (sg * st - cg * sp * ct),
-        object.x * sg * cp - object.y * (cg * ct - sg * sp * st) -
-            object.z * (cg * st + sg * sp * ct),
+        -object.x * cg * cp - object.y * (sg * ct + cg * sp * st) - object.z * (sg * st - cg * sp * ct),
+        object.x * sg * cp - object.y * (cg * ct - sg * sp * st) - object.z * (cg * st + sg * sp * ct),
         -object.x * sp + object.y * cp * st - object.z * cp * ct);
     CHECK(glm::distance(eye_in_body({0, 0, 0}, object, attitude), expected) < 1e-12);
 }
 
 TEST_CASE("an eye behind, left and above a flying aircraft lies in octant ---") {
     // Heading east: behind is west, left is north.
-    const glm::dquat attitude =
-        octant::body_to_world_from_euler({.heading_rad = 1.5707963267948966});
+    const glm::dquat attitude = octant::body_to_world_from_euler({.heading_rad = 1.5707963267948966});
     const glm::dvec3 eye = eye_in_body({70, 220, 1010}, {100, 200, 1000}, attitude);
     CHECK(glm::distance(eye, glm::dvec3(-30, -20, -10)) < 1e-9);
     CHECK(octant_name(octant_of(eye)) == "---");

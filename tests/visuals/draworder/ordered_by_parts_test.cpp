@@ -30,14 +30,7 @@ PolygonModel crossing_rotors() {
     model.materials.emplace_back();
     model.parts = {"across", "along"};
     model.vertices_m = {
-        {-2, -0.1, 0},
-        {2, -0.1, 0},
-        {2, 0.1, 0},
-        {-2, 0.1, 0},
-        {0, -0.1, -2},
-        {0, 0.1, -2},
-        {0, 0.1, 2},
-        {0, -0.1, 2}};
+        {-2, -0.1, 0}, {2, -0.1, 0}, {2, 0.1, 0}, {-2, 0.1, 0}, {0, -0.1, -2}, {0, 0.1, -2}, {0, 0.1, 2}, {0, -0.1, 2}};
     model.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7};
     for (std::uint32_t part = 0; part < 2; ++part) {
         octant::models::polygons::Polygon blade;
@@ -47,8 +40,7 @@ PolygonModel crossing_rotors() {
         model.polygons.push_back(blade);
     }
     model.pivots = {
-        {.part = 0, .point_m = {0, 0, 0}, .axis = {0, 0, 1}},
-        {.part = 1, .point_m = {0, 0, 0}, .axis = {1, 0, 0}}};
+        {.part = 0, .point_m = {0, 0, 0}, .axis = {0, 0, 1}}, {.part = 1, .point_m = {0, 0, 0}, .axis = {1, 0, 0}}};
     return model;
 }
 
@@ -76,12 +68,8 @@ TEST_CASE("a model whose rings no cut resolves is drawn by parts") {
     PolygonModel model;
     model.materials.emplace_back();
     model.parts = {"all"};
-    model.vertices_m = {
-        {-0.985746, 0.859528, 1.75496},
-        {-0.311808, 0.775657, 1.758152},
-        {-0.623282, 0.800776, 1.756676},
-        {-0.617095, 0.896428, 1.756709},
-        {-0.311808, 0.908202, 1.758152}};
+    model.vertices_m = {{-0.985746, 0.859528, 1.75496}, {-0.311808, 0.775657, 1.758152},
+        {-0.623282, 0.800776, 1.756676}, {-0.617095, 0.896428, 1.756709}, {-0.311808, 0.908202, 1.758152}};
     model.corner_vertices = {0, 3, 2, 4, 1, 2, 3};
     model.polygons = {{0, 3, 0, 0}, {3, 4, 0, 0}};
     const OrderedModel found = by(OrderMethod::Tree, model);
@@ -98,9 +86,7 @@ TEST_CASE("a search that has no time left is replaced by parts, and a note tells
     CHECK(found.found_by == OrderSource::Parts);
     CHECK(found.cells.empty());
     REQUIRE(found.notes.size() == 1);
-    CHECK(
-        found.notes[0] ==
-        "drawn by parts, not by cells: the search for cells took more than 0.001 s");
+    CHECK(found.notes[0] == "drawn by parts, not by cells: the search for cells took more than 0.001 s");
     CHECK(count_wrong_rays(found.model, found.order, all_eyes(600)).wrong == 0);
     const OrderedModel again = ordered(pile, options);
     CHECK(std::ranges::equal(again.order.polygons(), found.order.polygons()));
@@ -123,12 +109,8 @@ TEST_CASE("cells that were found before the time was spent are kept, and the oth
 }
 
 TEST_CASE("parts and single polygons order crossing bars, rings and rotors for every eye") {
-    for (const auto& model :
-         {octant::tests::three_bars(),
-          octant::tests::fig_14(true),
-          octant::tests::pile(1989, 25),
-          octant::tests::torus(416),
-          shipped("f15")}) {
+    for (const auto& model : {octant::tests::three_bars(), octant::tests::fig_14(true), octant::tests::pile(1989, 25),
+             octant::tests::torus(416), shipped("f15")}) {
         INFO(model.name);
         const OrderedModel found = by(OrderMethod::Bsp, model);
         CHECK(found.notes.empty());
@@ -154,9 +136,8 @@ TEST_CASE("an order by a few parts has cells, which hold the same orders") {
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 eye_m = dice.direction() * dice.between(0.1, 9.0);
         const auto in = std::ranges::find_if(*cells, [&](const auto& cell) {
-            return std::ranges::all_of(cell.planes, [&](const octant::Plane& plane) {
-                return octant::distance_m(plane, eye_m) >= 0.0;
-            });
+            return std::ranges::all_of(
+                cell.planes, [&](const octant::Plane& plane) { return octant::distance_m(plane, eye_m) >= 0.0; });
         });
         REQUIRE(in != cells->end());
         std::vector<std::uint32_t> painted;
@@ -189,9 +170,7 @@ TEST_CASE("a trial sees what is painted too early, off the origin and as a decal
     OrderedModel found = by(OrderMethod::Tree, model);
     CHECK(ray_test_order(found.model, found.order, {}).wrong == 0);
     CHECK(ray_test_order(model, file_order(model), {}).wrong > 0);
-    for (glm::dvec3& vertex_m : model.vertices_m) {
-        vertex_m += glm::dvec3(1e6, -1e6, 0.0);
-    }
+    for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m += glm::dvec3(1e6, -1e6, 0.0); }
     const RayTestResult far = ray_test_order(model, file_order(model), {});
     CHECK(far.rays > 1000);
     CHECK(far.wrong > 0);
@@ -202,8 +181,7 @@ TEST_CASE("a trial sees what is painted too early, off the origin and as a decal
 
 TEST_CASE("orders are proved before they are used, by every exact method") {
     for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree, OrderMethod::Bsp}) {
-        for (const auto& model :
-             {shipped("f15"), shipped("500md"), shipped("concave"), octant::tests::three_bars()}) {
+        for (const auto& model : {shipped("f15"), shipped("500md"), shipped("concave"), octant::tests::three_bars()}) {
             const OrderedModel found = by(method, model);
             INFO(model.name << " by method " << static_cast<int>(method));
             CHECK(found.ray_test.is_proof_complete);

@@ -1,5 +1,5 @@
-#include "models/procedural/background60.h"
 #include "models/polygons/polygon_model.h"
+#include "models/procedural/background60.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "tests/order_shapes.h"
@@ -45,16 +45,13 @@ PolygonModel turned_by(const PolygonModel& model, double angle_rad) {
     PolygonModel out = model;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const auto pivot = octant::models::polygons::pivot_of(model, i);
-        if (!pivot) {
-            continue;
-        }
+        if (!pivot) { continue; }
         const auto& polygon = model.polygons[i];
         for (std::uint32_t corner = 0; corner < polygon.corner_count; ++corner) {
             std::uint32_t& vertex = out.corner_vertices[polygon.first_corner + corner];
             const glm::dvec3 place_m = model.vertices_m[vertex];
             vertex = static_cast<std::uint32_t>(out.vertices_m.size());
-            out.vertices_m.push_back(
-                octant::models::polygons::turned(model.pivots[*pivot], place_m, angle_rad));
+            out.vertices_m.push_back(octant::models::polygons::turned(model.pivots[*pivot], place_m, angle_rad));
         }
     }
     return out;
@@ -93,9 +90,7 @@ TEST_CASE("the paper's method names its eight octants and keeps its lists") {
     CHECK(model.cyclic_cells == 0);
 }
 
-TEST_CASE("one list is right for every eye of the paper's example") {
-    check_tree(paper_example(), 1500, 1);
-}
+TEST_CASE("one list is right for every eye of the paper's example") { check_tree(paper_example(), 1500, 1); }
 
 TEST_CASE("lists by cells and by the tree keep the precedences that the paper's example needs") {
     for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree}) {
@@ -141,23 +136,17 @@ TEST_CASE("a pile whose bodies hide one another in rings is ordered with few spl
 }
 
 TEST_CASE("octant paths give right lists from twice the radius outwards") {
-    const std::vector<std::pair<PolygonModel, int>> models{
-        {paper_example(), 8},
-        {shipped("f15"), 32},
-        {shipped("500md"), 24},
-        {octant::tests::plate_between_boxes(), 40},
-        {octant::tests::three_bars(), 80}};
+    const std::vector<std::pair<PolygonModel, int>> models{{paper_example(), 8}, {shipped("f15"), 32},
+        {shipped("500md"), 24}, {octant::tests::plate_between_boxes(), 40}, {octant::tests::three_bars(), 80}};
     for (const auto& [model, max_cells] : models) {
         INFO(model.name);
         const OrderedModel found = by(OrderMethod::Cells, model);
         CHECK(found.order.cell_count() <= max_cells);
         REQUIRE(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
-        const double max_radii = (found.min_distance_m + glm::length(found.centre_m)) /
-                                  octant::models::polygons::radius_m(model);
+        const double max_radii =
+            (found.min_distance_m + glm::length(found.centre_m)) / octant::models::polygons::radius_m(model);
         const auto count = count_wrong_rays(
-            found.model,
-            found.order,
-            {.eyes = 1500, .rays_per_eye = 30, .min_distance_radii = max_radii});
+            found.model, found.order, {.eyes = 1500, .rays_per_eye = 30, .min_distance_radii = max_radii});
         CHECK(count.hits > 1500);
         CHECK(count.wrong == 0);
     }
@@ -170,11 +159,8 @@ TEST_CASE("an eye lies in front of all planes of its cell, and its cell's path i
         for (int i = 0; i < 1000; ++i) {
             const glm::dvec3 from_centre_m = dice.direction() * dice.between(25.0, 80.0);
             const glm::dvec3 eye_m = found.centre_m + from_centre_m;
-            const OrderCell& cell =
-                found.cells[static_cast<std::size_t>(found.order.cell_of(eye_m))];
-            for (const octant::Plane& plane : cell.planes) {
-                CHECK(octant::distance_m(plane, eye_m) > -1e-6);
-            }
+            const OrderCell& cell = found.cells[static_cast<std::size_t>(found.order.cell_of(eye_m))];
+            for (const octant::Plane& plane : cell.planes) { CHECK(octant::distance_m(plane, eye_m) > -1e-6); }
             if (method != OrderMethod::Tree) {
                 for (int axis = 0; axis < 3; ++axis) {
                     const char sign = from_centre_m[axis] < 0.0 ? '-' : '+';
@@ -207,8 +193,7 @@ TEST_CASE("a list names a polygon that faces some eye of its cell once, and no o
         const auto list = found.order.polygons_of(found.order.cell_of(eye_m));
         CHECK(std::set<std::uint32_t>(list.begin(), list.end()).size() == list.size());
         for (std::size_t p = 0; p < found.model.polygons.size(); ++p) {
-            if (octant::distance_m(octant::models::polygons::plane_of(found.model, p), eye_m) >
-                1e-6) {
+            if (octant::distance_m(octant::models::polygons::plane_of(found.model, p), eye_m) > 1e-6) {
                 CHECK(std::ranges::count(list, p) == 1);
             }
         }
@@ -220,9 +205,7 @@ TEST_CASE("the same model gives the same cells and lists") {
     const OrderedModel twice = by(OrderMethod::Tree, shipped("f15"));
     CHECK(std::ranges::equal(once.order.polygons(), twice.order.polygons()));
     REQUIRE(once.cells.size() == twice.cells.size());
-    for (std::size_t i = 0; i < once.cells.size(); ++i) {
-        CHECK(once.cells[i].planes == twice.cells[i].planes);
-    }
+    for (std::size_t i = 0; i < once.cells.size(); ++i) { CHECK(once.cells[i].planes == twice.cells[i].planes); }
 }
 
 TEST_CASE("progress rises while cells are searched for") {
@@ -242,12 +225,9 @@ TEST_CASE("progress rises while cells are searched for") {
 TEST_CASE("neither place nor size of a model matters to its order") {
     const PolygonModel model = octant::tests::three_bars();
     const OrderedModel still = by(OrderMethod::Tree, model);
-    for (const auto& [scale, away] :
-         {std::pair{1.0, 1e6}, std::pair{1e-6, 0.0}, std::pair{1e6, 0.0}}) {
+    for (const auto& [scale, away] : {std::pair{1.0, 1e6}, std::pair{1e-6, 0.0}, std::pair{1e6, 0.0}}) {
         PolygonModel other = model;
-        for (glm::dvec3& vertex_m : other.vertices_m) {
-            vertex_m = vertex_m * scale + away;
-        }
+        for (glm::dvec3& vertex_m : other.vertices_m) { vertex_m = vertex_m * scale + away; }
         const OrderedModel moved = by(OrderMethod::Tree, other);
         INFO(scale << " times, " << away << " m away");
         CHECK(moved.splits == still.splits);
@@ -262,21 +242,17 @@ TEST_CASE("neither place nor size of a model matters to its order") {
 }
 
 TEST_CASE("a model that is turned has the same lists") {
-    for (const PolygonModel& model :
-         {shipped("f15"), octant::tests::three_bars(), octant::tests::pile(7, 6)}) {
+    for (const PolygonModel& model : {shipped("f15"), octant::tests::three_bars(), octant::tests::pile(7, 6)}) {
         PolygonModel other = model;
         const glm::dquat turn = glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, -2, 0.5)));
-        for (glm::dvec3& vertex_m : other.vertices_m) {
-            vertex_m = turn * vertex_m;
-        }
+        for (glm::dvec3& vertex_m : other.vertices_m) { vertex_m = turn * vertex_m; }
         const OrderedModel still = by(OrderMethod::Tree, model);
         const OrderedModel turned = by(OrderMethod::Tree, other);
         INFO(model.name);
         CHECK(turned.splits == still.splits);
         REQUIRE(turned.order.cell_count() == still.order.cell_count());
         for (int cell = 0; cell < still.order.cell_count(); ++cell) {
-            CHECK(
-                std::ranges::equal(turned.order.polygons_of(cell), still.order.polygons_of(cell)));
+            CHECK(std::ranges::equal(turned.order.polygons_of(cell), still.order.polygons_of(cell)));
         }
     }
 }

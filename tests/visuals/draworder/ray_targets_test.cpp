@@ -16,20 +16,15 @@ using octant::RandomGenerator;
 
 namespace {
 
-/// How far along a ray a fan of triangles is met from the front, each by the equation
-/// eye + ray * away = a + (b - a) * s + (c - a) * t.
-std::optional<double>
-met_by_fan(const std::vector<glm::dvec3>& corners, const glm::dvec3& eye, const glm::dvec3& ray) {
+/// How far along a ray a fan of triangles is met from the front, each by the equation eye + ray * away = a + (b - a) *
+/// s + (c - a) * t.
+std::optional<double> met_by_fan(const std::vector<glm::dvec3>& corners, const glm::dvec3& eye, const glm::dvec3& ray) {
     for (std::size_t k = 2; k < corners.size(); ++k) {
         const glm::dvec3 one = corners[k - 1] - corners[0];
         const glm::dvec3 other = corners[k] - corners[0];
-        if (glm::dot(glm::cross(one, other), ray) >= 0.0) {
-            continue;
-        }
+        if (glm::dot(glm::cross(one, other), ray) >= 0.0) { continue; }
         const glm::dvec3 found = glm::inverse(glm::dmat3(one, other, -ray)) * (eye - corners[0]);
-        if (found.x >= 0.0 && found.y >= 0.0 && found.x + found.y <= 1.0 && found.z > 0.0) {
-            return found.z;
-        }
+        if (found.x >= 0.0 && found.y >= 0.0 && found.x + found.y <= 1.0 && found.z > 0.0) { return found.z; }
     }
     return std::nullopt;
 }
@@ -47,8 +42,7 @@ TEST_CASE("rays of a trial meet all that they meet one by one, from far, near an
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec3 eye = dice.direction() * (0.05 * std::pow(400.0, dice.next()));
         const auto& aim = targets.all()[static_cast<std::size_t>(i) % targets.all().size()];
-        const glm::dvec3 ray =
-            glm::normalize(aim.middle + dice.direction() * (0.9 * aim.radius) - eye);
+        const glm::dvec3 ray = glm::normalize(aim.middle + dice.direction() * (0.9 * aim.radius) - eye);
         targets.set_eye(eye);
         targets.intersect(ray, hits);
         auto hit = hits.begin();

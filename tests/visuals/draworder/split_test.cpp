@@ -36,8 +36,7 @@ double area_m2(const PolygonModel& model, std::size_t polygon) {
     const glm::dvec3& origin_m = model.vertices_m[outline[0]];
     glm::dvec3 sum(0.0);
     for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-        sum += glm::cross(
-            model.vertices_m[outline[i]] - origin_m, model.vertices_m[outline[i + 1]] - origin_m);
+        sum += glm::cross(model.vertices_m[outline[i]] - origin_m, model.vertices_m[outline[i + 1]] - origin_m);
     }
     return glm::length(sum) * 0.5;
 }
@@ -45,9 +44,7 @@ double area_m2(const PolygonModel& model, std::size_t polygon) {
 /// Areas of the pieces of each polygon of the file.
 std::vector<double> areas_by_parent(const PolygonModel& model, std::size_t parents) {
     std::vector<double> areas_m2(parents, 0.0);
-    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        areas_m2[model.parent_of(i)] += area_m2(model, i);
-    }
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) { areas_m2[model.parent_of(i)] += area_m2(model, i); }
     return areas_m2;
 }
 
@@ -69,8 +66,7 @@ double volume_m3(const PolygonModel& model) {
     return sum;
 }
 
-/// Sides that the same number of polygons runs along in each direction: all of them, without
-/// cracks, in closed solids.
+/// Sides that the same number of polygons runs along in each direction: all of them, without cracks, in closed solids.
 bool closed(const PolygonModel& model) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ahead;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> back;
@@ -96,20 +92,15 @@ PolygonModel square() {
 }
 
 /// One model of two, the second moved.
-PolygonModel
-together(const PolygonModel& first, const PolygonModel& second, const glm::dvec3& by_m) {
+PolygonModel together(const PolygonModel& first, const PolygonModel& second, const glm::dvec3& by_m) {
     PolygonModel both = first;
     const auto vertices = static_cast<std::uint32_t>(first.vertices_m.size());
-    for (const glm::dvec3& vertex_m : second.vertices_m) {
-        both.vertices_m.push_back(vertex_m + by_m);
-    }
+    for (const glm::dvec3& vertex_m : second.vertices_m) { both.vertices_m.push_back(vertex_m + by_m); }
     for (std::size_t i = 0; i < second.polygons.size(); ++i) {
         both.polygons.push_back(second.polygons[i]);
         both.polygons.back().part += static_cast<std::uint32_t>(first.parts.size());
         both.polygons.back().first_corner = static_cast<std::uint32_t>(both.corner_vertices.size());
-        for (const std::uint32_t vertex : second.corners(i)) {
-            both.corner_vertices.push_back(vertices + vertex);
-        }
+        for (const std::uint32_t vertex : second.corners(i)) { both.corner_vertices.push_back(vertices + vertex); }
     }
     both.parts.insert(both.parts.end(), second.parts.begin(), second.parts.end());
     return both;
@@ -191,8 +182,7 @@ TEST_CASE("a plane in which two faces lie cuts for both of them") {
 }
 
 TEST_CASE("polygons that only touch are not cut") {
-    for (PolygonModel model :
-         {u_channel(), plate_between_boxes(), three_bars(), torus(416), pile(3, 30)}) {
+    for (PolygonModel model : {u_channel(), plate_between_boxes(), three_bars(), torus(416), pile(3, 30)}) {
         CHECK(cut_all(model) == 0);
         CHECK(model.parents.empty());
     }
@@ -214,9 +204,7 @@ TEST_CASE("a polygon beside another, though across its plane, is not cut") {
         model.vertices_m[vertex].x += 2.7; // D comes to lie 0.03 outside the rectangle
     }
     CHECK(cut_all(model) == 0);
-    for (std::size_t vertex = 4; vertex < 7; ++vertex) {
-        model.vertices_m[vertex].x -= 0.1;
-    }
+    for (std::size_t vertex = 4; vertex < 7; ++vertex) { model.vertices_m[vertex].x -= 0.1; }
     CHECK(cut_all(model) == 1);
 }
 
@@ -231,9 +219,7 @@ TEST_CASE("bodies that pass through one another are cut apart without loss of ar
     CHECK(bad_polygons(model) == 0);
     CHECK(closed(model));
     const std::vector<double> after_m2 = areas_by_parent(model, polygons);
-    for (std::size_t i = 0; i < polygons; ++i) {
-        CHECK(after_m2[i] == Approx(before_m2[i]));
-    }
+    for (std::size_t i = 0; i < polygons; ++i) { CHECK(after_m2[i] == Approx(before_m2[i])); }
 }
 
 TEST_CASE("a turning part is cut against itself only") {
@@ -254,12 +240,7 @@ TEST_CASE("the test shapes have the polygons they promise, convex, planar and fa
     CHECK(volume_m3(u_channel()) == Approx(18.0));
     CHECK(volume_m3(plate_between_boxes()) == Approx(16.0));
     for (const PolygonModel& model :
-         {u_channel(),
-          plate_between_boxes(),
-          three_bars(),
-          fig_14(true),
-          torus(1000),
-          big_pile()}) {
+        {u_channel(), plate_between_boxes(), three_bars(), fig_14(true), torus(1000), big_pile()}) {
         CHECK(bad_polygons(model) == 0);
         CHECK(closed(model));
     }

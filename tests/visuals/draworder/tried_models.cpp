@@ -10,8 +10,7 @@ models::polygons::PolygonModel shipped(const std::string& name) {
     return models::polygons::read_obj(OCTANT_SOURCE_DIR "/models/" + name + ".obj");
 }
 
-visuals::draworder::OrderedModel
-by(visuals::draworder::OrderMethod method, models::polygons::PolygonModel model) {
+visuals::draworder::OrderedModel by(visuals::draworder::OrderMethod method, models::polygons::PolygonModel model) {
     return visuals::draworder::ordered(std::move(model), {.method = method, .paper = {}});
 }
 

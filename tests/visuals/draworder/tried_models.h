@@ -11,8 +11,7 @@ namespace octant::tests {
 /// A model that comes with the program, by its file's name without ending.
 models::polygons::PolygonModel shipped(const std::string& name);
 
-visuals::draworder::OrderedModel
-by(visuals::draworder::OrderMethod method, models::polygons::PolygonModel model);
+visuals::draworder::OrderedModel by(visuals::draworder::OrderMethod method, models::polygons::PolygonModel model);
 
 /// From inside the model outwards.
 visuals::orderfile::RaySampling all_eyes(int eyes);

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 using namespace octant::visuals::draworder;
-using octant::RandomGenerator;
 using octant::Plane;
+using octant::RandomGenerator;
 
 namespace {
 
@@ -27,12 +27,7 @@ std::vector<glm::dvec4> generators_of(const ViewRegion& region) {
 }
 
 const std::vector<Plane> unit_box{
-    {{1, 0, 0}, 1},
-    {{-1, 0, 0}, 1},
-    {{0, 1, 0}, 1},
-    {{0, -1, 0}, 1},
-    {{0, 0, 1}, 1},
-    {{0, 0, -1}, 1}};
+    {{1, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{0, 1, 0}, 1}, {{0, -1, 0}, 1}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}};
 
 } // namespace
 
@@ -67,8 +62,7 @@ TEST_CASE("planes that others make needless are not named") {
     std::vector<Plane> planes{{{1, 0, 0}, 5}, {{0.6, 0.8, 0}, 5}};
     planes.insert(planes.end(), unit_box.begin(), unit_box.end());
     CHECK(cut_by(planes).planes() == unit_box);
-    CHECK(
-        cut_by({{{1, 0, 0}, 0}, {{1, 0, 0}, -1}}).planes() == std::vector<Plane>{{{1, 0, 0}, -1}});
+    CHECK(cut_by({{{1, 0, 0}, 0}, {{1, 0, 0}, -1}}).planes() == std::vector<Plane>{{{1, 0, 0}, -1}});
 }
 
 TEST_CASE("cuts keep exactly the eyes in front of all planes") {

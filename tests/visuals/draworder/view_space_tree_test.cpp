@@ -3,9 +3,9 @@
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/cell_search.h"
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/working_model.h"
-#include "visuals/draworder/view_space_tree.h"
 #include "visuals/draworder/search_budget.h"
+#include "visuals/draworder/view_space_tree.h"
+#include "visuals/draworder/working_model.h"
 
 #include <catch2/catch.hpp>
 
@@ -34,11 +34,7 @@ OcclusionGraph two_rings() {
 /// Unit squares across x at x = 0, 1, 2, ..., seen from +x.
 ModelFaces row_of_plates(std::size_t count) {
     ModelFaces model{
-        .faces = {},
-        .tolerances = {},
-        .rigid = OcclusionGraph(count),
-        .ignored = OcclusionGraph(count),
-        .notes = {}};
+        .faces = {}, .tolerances = {}, .rigid = OcclusionGraph(count), .ignored = OcclusionGraph(count), .notes = {}};
     for (std::size_t i = 0; i < count; ++i) {
         const auto x = static_cast<double>(i);
         const std::vector<glm::dvec3> corners{{x, 0, 0}, {x, 1, 0}, {x, 1, 1}, {x, 0, 1}};
@@ -52,9 +48,7 @@ OcclusionGraph complete(std::size_t count) {
     OcclusionGraph graph(count);
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = 0; b < count; ++b) {
-            if (a != b) {
-                graph.add(b, a);
-            }
+            if (a != b) { graph.add(b, a); }
         }
     }
     return graph;
@@ -63,21 +57,17 @@ OcclusionGraph complete(std::size_t count) {
 bool holds(const std::vector<Plane>& planes, const Plane& wanted) {
     return std::ranges::any_of(planes, [&](const Plane& plane) {
         const double turn = glm::dot(plane.normal, wanted.normal);
-        return std::abs(turn) > 1.0 - 1e-9 &&
-               std::abs(plane.offset_m * turn - wanted.offset_m) < 1e-9;
+        return std::abs(turn) > 1.0 - 1e-9 && std::abs(plane.offset_m * turn - wanted.offset_m) < 1e-9;
     });
 }
 
 /// The bars as the eye at (1, 1, 1) sees them: each over the next.
-PersistentCycle of_bars() {
-    return {{0, 1, 2}, ViewRegion::all_space(), glm::dvec3(5.0)};
-}
+PersistentCycle of_bars() { return {{0, 1, 2}, ViewRegion::all_space(), glm::dvec3(5.0)}; }
 
 } // namespace
 
 TEST_CASE("bits that two rows share are counted, however long the rows") {
-    for (const std::size_t words :
-         {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{70}}) {
+    for (const std::size_t words : {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{70}}) {
         const std::vector<std::uint64_t> all(words, ~std::uint64_t{0});
         const std::vector<std::uint64_t> ends(words, 0x8000000000000001);
         CHECK(count_common_bits(all, all) == 64 * words);
@@ -215,9 +205,7 @@ TEST_CASE("a tree that splits more than another order is given up, and only then
     try {
         best_tree(three_bars(), budget, at_most(enough - 1));
         FAIL("a tree was found");
-    } catch (const SearchGivenUp& given_up) {
-        CHECK(given_up.is_worse_than_best);
-    }
+    } catch (const SearchGivenUp& given_up) { CHECK(given_up.is_worse_than_best); }
     asked = 0;
     CHECK(best_tree(octant::tests::u_channel(), budget, at_most(0)).work.sibling_pieces.empty());
     CHECK(asked == 0);

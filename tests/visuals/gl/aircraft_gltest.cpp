@@ -33,9 +33,7 @@ TEST_CASE("a polygon whose back is seen by its plane is not drawn, however its c
     Studio studio;
     for (const float outwards : {1.0F, -1.0F}) { // as of slivers that the rounding of corners turns
         scene::ModelBuffers model = square_model(red);
-        for (scene::ModelVertex& vertex : model.vertices) {
-            vertex.face_normal *= outwards;
-        }
+        for (scene::ModelVertex& vertex : model.vertices) { vertex.face_normal *= outwards; }
         studio.renderer().load_models({&model, 1});
         scene::FramePlan plan = empty_plan();
         set_square(plan, 0, ahead(10.0F));
@@ -46,8 +44,8 @@ TEST_CASE("a polygon whose back is seen by its plane is not drawn, however its c
 }
 
 TEST_CASE("which way a sliver of an aircraft faces is told by its corners as they are rounded") {
-    // From the middle of a pixel, in 1/256 of it. As they are the corners go round clockwise, when
-    // they are rounded the other way, and the triangle covers the middle.
+    // From the middle of a pixel, in 1/256 of it. As they are the corners go round clockwise, when they are rounded the
+    // other way, and the triangle covers the middle.
     Studio studio;
     const glm::vec2 middle_px(40.5F, 30.5F);
     scene::ModelBuffers model;
@@ -104,9 +102,7 @@ TEST_CASE("within an aircraft the last polygon is on top, unless depth decides")
         vertex.position_m.z = -0.25F;
         model.vertices.push_back(vertex);
     }
-    for (const std::uint32_t index : behind.indices) {
-        model.indices.push_back(index + 4);
-    }
+    for (const std::uint32_t index : behind.indices) { model.indices.push_back(index + 4); }
     studio.renderer().load_models({&model, 1});
     scene::FramePlan plan = empty_plan();
     add_square(plan, 0, ahead(10.0F));
@@ -119,8 +115,7 @@ TEST_CASE("an aircraft is drawn from its own model and its own range of indices"
     Studio studio;
     scene::ModelBuffers two_colours = square_model(red);
     const scene::ModelBuffers other = square_model(blue);
-    two_colours.vertices.insert(
-        two_colours.vertices.end(), other.vertices.begin(), other.vertices.end());
+    two_colours.vertices.insert(two_colours.vertices.end(), other.vertices.begin(), other.vertices.end());
     two_colours.indices.insert(two_colours.indices.end(), {4, 5, 6, 4, 6, 7});
     const std::array<scene::ModelBuffers, 2> models{square_model(green), two_colours};
     studio.renderer().load_models(models);
@@ -142,9 +137,7 @@ TEST_CASE("an aircraft of several ranges is drawn by them in their order") {
         const scene::ModelBuffers other = square_model(colour);
         const auto first = static_cast<std::uint32_t>(model.vertices.size());
         model.vertices.insert(model.vertices.end(), other.vertices.begin(), other.vertices.end());
-        for (const std::uint32_t index : other.indices) {
-            model.indices.push_back(first + index);
-        }
+        for (const std::uint32_t index : other.indices) { model.indices.push_back(first + index); }
     }
     const std::array<scene::ModelBuffers, 2> models{square_model(green), model};
     studio.renderer().load_models(models);
@@ -198,10 +191,7 @@ TEST_CASE("aircraft drawn together give the picture of those drawn one by one") 
     for (int i = 0; i < 60; ++i) {
         const auto turn = static_cast<float>(i);
         const glm::vec3 aside(3.0F * std::sin(2.4F * turn), 3.0F * std::cos(2.4F * turn), 0.0F);
-        add_square(
-            together,
-            static_cast<std::uint32_t>(i % 3),
-            glm::translate(ahead(12.0F - 0.1F * turn), aside));
+        add_square(together, static_cast<std::uint32_t>(i % 3), glm::translate(ahead(12.0F - 0.1F * turn), aside));
     }
     scene::FramePlan apart = together;
     apart.steps.clear();

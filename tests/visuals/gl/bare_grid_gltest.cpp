@@ -16,9 +16,7 @@ TEST_CASE("the bare grid covers the whole picture and has the triangles asked fo
     for (const int triangles : {2, 3, 1000, 20000, 200000}) {
         const gl::BareGrid grid = gl::bare_grid(triangles, view_to_clip);
         CHECK(grid.indices.size() / 3 >= static_cast<std::size_t>(triangles));
-        CHECK(
-            static_cast<double>(grid.indices.size()) / 3 <=
-            triangles + 2.0 + 2.0 * std::sqrt(triangles / 2.0));
+        CHECK(static_cast<double>(grid.indices.size()) / 3 <= triangles + 2.0 + 2.0 * std::sqrt(triangles / 2.0));
         scene::FramePlan plan;
         plan.view_to_clip = view_to_clip;
         plan.background = red;

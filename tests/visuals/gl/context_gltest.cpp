@@ -36,11 +36,9 @@ TEST_CASE("a driver older than OpenGL 4.5 is refused with what it has") {
     CHECK_NOTHROW(gl::require_gl_4_5("4.6.0 NVIDIA 550.54"));
     CHECK_NOTHROW(gl::require_gl_4_5("5.0"));
     CHECK_NOTHROW(gl::require_gl_4_5("4.10"));
-    CHECK_THROWS_WITH(
-        gl::require_gl_4_5("3.3 (Core Profile) Mesa 22.3.6"),
+    CHECK_THROWS_WITH(gl::require_gl_4_5("3.3 (Core Profile) Mesa 22.3.6"),
         "expected OpenGL 4.5, got 3.3 (Core Profile) Mesa 22.3.6");
-    CHECK_THROWS_WITH(
-        gl::require_gl_4_5("OpenGL ES 3.2 Mesa"), "expected OpenGL 4.5, got OpenGL ES 3.2 Mesa");
+    CHECK_THROWS_WITH(gl::require_gl_4_5("OpenGL ES 3.2 Mesa"), "expected OpenGL 4.5, got OpenGL ES 3.2 Mesa");
     CHECK_THROWS_WITH(gl::require_gl_4_5("4"), "expected OpenGL 4.5, got 4");
 }
 
@@ -48,13 +46,9 @@ TEST_CASE("a driver without a needed function is refused by the function's name"
     const auto context = gl::make_osmesa_context();
     static const gl::Functions& there = context->functions();
     const auto only_versions = [](const char* name) -> gl::AnyFunction {
-        return std::string(name) == "glGetString"
-                   ? reinterpret_cast<gl::AnyFunction>(there.get_string)
-                   : nullptr;
+        return std::string(name) == "glGetString" ? reinterpret_cast<gl::AnyFunction>(there.get_string) : nullptr;
     };
-    CHECK_THROWS_WITH(
-        gl::load_functions(only_versions),
-        "expected the driver to have glAttachShader, got nothing");
+    CHECK_THROWS_WITH(gl::load_functions(only_versions), "expected the driver to have glAttachShader, got nothing");
 }
 
 TEST_CASE("an off-screen context says what draws") {
@@ -106,25 +100,19 @@ TEST_CASE("a context made after another one was destroyed draws the same") {
 
 TEST_CASE("EGL and OSMesa give the same picture bit for bit, in turns in one program") {
     auto context = egl_if_present();
-    if (!context) {
-        return;
-    }
+    if (!context) { return; }
     Studio by_egl(std::move(context));
     Studio by_osmesa;
     if (by_egl.context().info().device != by_osmesa.context().info().device) {
         std::cout << "SKIPPED: EGL draws with " << by_egl.context().info().device << '\n';
         return;
     }
-    for (int turn = 0; turn < 2; ++turn) {
-        CHECK(hash_of_full_scene(by_egl) == hash_of_full_scene(by_osmesa));
-    }
+    for (int turn = 0; turn < 2; ++turn) { CHECK(hash_of_full_scene(by_egl) == hash_of_full_scene(by_osmesa)); }
 }
 
 TEST_CASE("an EGL context outlives another one on the same display") {
     auto context = egl_if_present();
-    if (!context) {
-        return;
-    }
+    if (!context) { return; }
     CHECK_THAT(context->info().description, Catch::StartsWith("egl, OpenGL 4."));
     Studio stays(std::move(context));
     {
@@ -142,19 +130,15 @@ TEST_CASE("a picture that the driver cannot hold is refused with the sizes that 
     context->functions().get_integerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     const std::string most = std::to_string(largest);
     const auto refusal = [&](int width, int height) {
-        return "expected a picture of 1 x 1 to " + most + " x " + most + " pixels, got " +
-               std::to_string(width) + " x " + std::to_string(height);
+        return "expected a picture of 1 x 1 to " + most + " x " + most + " pixels, got " + std::to_string(width) +
+               " x " + std::to_string(height);
     };
-    const auto make = [&](int width, int height, int samples) {
-        gl::Renderer(context, {width, height}, samples);
-    };
+    const auto make = [&](int width, int height, int samples) { gl::Renderer(context, {width, height}, samples); };
     CHECK_THROWS_WITH(make(largest + 1, 10, 1), refusal(largest + 1, 10));
     CHECK_THROWS_WITH(make(10, largest + 1, 1), refusal(10, largest + 1));
     CHECK_THROWS_WITH(make(0, 10, 1), refusal(0, 10));
     CHECK_THROWS_WITH(make(10, -3, 1), refusal(10, -3));
-    CHECK_THROWS_WITH(
-        make(10, 10, 3),
-        Catch::StartsWith("expected 1 or 4 samples a pixel (the driver has up to "));
+    CHECK_THROWS_WITH(make(10, 10, 3), Catch::StartsWith("expected 1 or 4 samples a pixel (the driver has up to "));
     CHECK_THROWS_WITH(make(10, 10, 3), Catch::EndsWith("), got 3"));
     CHECK_NOTHROW(make(1, 1, 1));
 }
@@ -162,16 +146,11 @@ TEST_CASE("a picture that the driver cannot hold is refused with the sizes that 
 TEST_CASE("a shader that is wrong is refused by name with the driver's reason") {
     const auto context = gl::make_osmesa_context();
     const char* const right = "#version 450 core\nvoid main() { gl_Position = vec4(0); }\n";
-    CHECK_THROWS_WITH(
-        gl::make_program(context->functions(), "odd", {"#version 450 core\nnonsense\n", right}),
+    CHECK_THROWS_WITH(gl::make_program(context->functions(), "odd", {"#version 450 core\nnonsense\n", right}),
         Catch::StartsWith("shader odd: expected it to compile, got "));
-    CHECK_THROWS_WITH(
-        gl::make_program(
-            context->functions(),
-            "odd",
-            {right,
-             "#version 450 core\nin vec3 missing;\nout vec3 pixel;\n"
-             "void main() { pixel = missing; }\n"}),
+    CHECK_THROWS_WITH(gl::make_program(context->functions(), "odd",
+                          {right, "#version 450 core\nin vec3 missing;\nout vec3 pixel;\n"
+                                  "void main() { pixel = missing; }\n"}),
         Catch::StartsWith("shader odd: expected it to link, got "));
 }
 

@@ -15,8 +15,7 @@ namespace {
 /// What is said on standard error while it lives.
 class Overheard {
 public:
-    Overheard()
-        : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+    Overheard() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
 
     ~Overheard() { std::cerr.rdbuf(before_); }
 

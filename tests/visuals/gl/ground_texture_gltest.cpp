@@ -9,12 +9,11 @@ using namespace octant::tests;
 
 namespace {
 
-/// Four texels over 20 x 20 m about the middle: red in the south-west, green in the south-east,
-/// blue in the north-west, grey in the north-east. `slope` is every texel's normal.
+/// Four texels over 20 x 20 m about the middle: red in the south-west, green in the south-east, blue in the north-west,
+/// grey in the north-east. `slope` is every texel's normal.
 scene::GroundTexture four_texels(std::uint8_t slope_x = 128) {
     scene::GroundTexture texture;
-    texture.albedo = {
-        .width = 2,
+    texture.albedo = {.width = 2,
         .height = 2,
         .texels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 128, 128, 128},
         .first_m = {-5.0, -5.0},

@@ -28,9 +28,7 @@ TEST_CASE("haze at a known distance gives the colour of its formula, on ground a
             Triangles ground;
             const float edge = 0.5F;
             ground.add(
-                {-edge, -edge, edge, edge},
-                distance_m / std::sqrt(1.0F + 2.0F * edge * edge),
-                {0.2F, 0.4F, 0.9F});
+                {-edge, -edge, edge, edge}, distance_m / std::sqrt(1.0F + 2.0F * edge * edge), {0.2F, 0.4F, 0.9F});
             scene::FramePlan plan = empty_plan();
             plan.haze = {{0.8F, 0.7F, 0.1F}, visibility_m};
             plan.ground = ground.draw();
@@ -43,11 +41,8 @@ TEST_CASE("haze at a known distance gives the colour of its formula, on ground a
             const Pixel on_aircraft = middle(studio.picture(plan));
             for (int part = 0; part < 3; ++part) {
                 const auto i = static_cast<std::size_t>(part);
-                const double expected = hazy(
-                    own[i],
-                    static_cast<double>(plan.haze.colour[part]),
-                    static_cast<double>(distance_m),
-                    static_cast<double>(visibility_m));
+                const double expected = hazy(own[i], static_cast<double>(plan.haze.colour[part]),
+                    static_cast<double>(distance_m), static_cast<double>(visibility_m));
                 CHECK(on_ground[i] == Approx(expected).margin(1.0));
                 CHECK(on_aircraft[i] == Approx(expected).margin(1.0));
             }
@@ -110,9 +105,7 @@ TEST_CASE("light beyond white is cut before the haze is mixed in") {
 TEST_CASE("a flat polygon has one colour, the face colour of the corner its fan starts from") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);
-    for (std::size_t corner : {1U, 2U, 3U}) {
-        model.vertices[corner].face_colour = models::packed_colour(green);
-    }
+    for (std::size_t corner : {1U, 2U, 3U}) { model.vertices[corner].face_colour = models::packed_colour(green); }
     studio.renderer().load_models({&model, 1});
     scene::FramePlan plan = empty_plan();
     add_square(plan, 0, ahead(1.0F));

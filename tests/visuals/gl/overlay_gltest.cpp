@@ -20,8 +20,7 @@ struct Overlay {
     Overlay& add(const glm::vec2& least, const glm::vec2& most, std::uint32_t colour, int alpha) {
         const auto first = static_cast<std::uint32_t>(vertices.size());
         const std::uint32_t packed = colour | static_cast<std::uint32_t>(alpha) << 24U;
-        for (const glm::vec2 corner :
-             {least, glm::vec2(most.x, least.y), most, glm::vec2(least.x, most.y)}) {
+        for (const glm::vec2 corner : {least, glm::vec2(most.x, least.y), most, glm::vec2(least.x, most.y)}) {
             vertices.push_back({corner, packed});
         }
         for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 3U, 2U}) { // either way round
@@ -69,8 +68,7 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
     Studio studio;
     load_squares(studio);
     Overlay overlay;
-    overlay.add({8.0F, 4.0F}, {16.0F, 60.0F}, white, 255)
-        .add({32.0F, 4.0F}, {40.0F, 60.0F}, 0, 128);
+    overlay.add({8.0F, 4.0F}, {16.0F, 60.0F}, white, 255).add({32.0F, 4.0F}, {40.0F, 60.0F}, 0, 128);
     for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
         add_square(plan, 0, ahead(0.6F)); // red over the whole picture, near
@@ -95,8 +93,7 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
 TEST_CASE("later parts of an overlay cover earlier ones") {
     Studio studio;
     Overlay overlay;
-    overlay.add({0.0F, 0.0F}, {64.0F, 64.0F}, 0x0000ffU, 255)
-        .add({0.0F, 0.0F}, {64.0F, 64.0F}, 0xff0000U, 255);
+    overlay.add({0.0F, 0.0F}, {64.0F, 64.0F}, 0x0000ffU, 255).add({0.0F, 0.0F}, {64.0F, 64.0F}, 0xff0000U, 255);
     scene::FramePlan plan = empty_plan();
     plan.overlay = overlay.draw();
     CHECK(count_of(studio.picture(plan), blue_px) == side_px * side_px);
@@ -109,17 +106,14 @@ TEST_CASE("an inset shows what a renderer of its size shows, around it nothing c
     overlay.add({3.0F, 5.0F}, {20.0F, 9.0F}, white, 200);
     Studio large(gl::make_osmesa_context(), 1, 200, 120);
     Studio small(gl::make_osmesa_context(), 1, rect.width, rect.height);
-    for (Studio* studio : {&large, &small}) {
-        studio->renderer().load_models(full.models());
-    }
+    for (Studio* studio : {&large, &small}) { studio->renderer().load_models(full.models()); }
     for (const HiddenSurfaceMode outer_way : all_modes) {
         for (const HiddenSurfaceMode mode : all_modes) {
             const scene::FramePlan plan = full.plan();
             scene::FramePlan inset = full.plan();
             inset.overlay = overlay.draw();
             const scene::Picture alone = small.picture(inset, mode, FullScene::shadow_indices);
-            const scene::Picture without =
-                large.picture(plan, outer_way, FullScene::shadow_indices);
+            const scene::Picture without = large.picture(plan, outer_way, FullScene::shadow_indices);
             scene::Picture with;
             large.renderer().draw(framed(plan, outer_way, FullScene::shadow_indices));
             large.renderer().draw_inset(framed(inset, mode, FullScene::shadow_indices), rect);
@@ -144,8 +138,7 @@ TEST_CASE("in an inset planes cut where they cut in a picture of its own") {
     load_squares(studio);
     scene::FramePlan inset = empty_plan();
     add_square(inset, 0, ahead(0.6F)); // red over the whole inset
-    inset.clips.push_back(
-        {{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
+    inset.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
     inset.steps = {{scene::PaintStep::Content::Aircraft, 0, 1, 0}};
     const scene::PixelRect rect{24, 40, 20, 20};
     studio.renderer().draw(empty_plan());

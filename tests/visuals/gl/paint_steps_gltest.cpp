@@ -23,8 +23,8 @@ scene::Clip right_of(float offset) {
     return clip;
 }
 
-/// Green ground 10 m ahead that fills the picture, and red and blue squares of 2 m over its middle,
-/// drawn 32 and 16 pixels wide.
+/// Green ground 10 m ahead that fills the picture, and red and blue squares of 2 m over its middle, drawn 32 and 16
+/// pixels wide.
 struct Overlapping {
     Triangles ground;
     scene::FramePlan plan = empty_plan();
@@ -51,9 +51,7 @@ TEST_CASE("aircraft and ground are painted in the order of the steps") {
     scene.plan.steps = {{Content::Aircraft, 0, 2, whole}, {Content::GroundRepaint, 0, 6, whole}};
     CHECK(count_of(studio.picture(scene.plan), green_px) == side_px * side_px);
     scene.plan.steps = {
-        {Content::Aircraft, 0, 1, whole},
-        {Content::GroundRepaint, 0, 6, whole},
-        {Content::Aircraft, 1, 1, whole}};
+        {Content::Aircraft, 0, 1, whole}, {Content::GroundRepaint, 0, 6, whole}, {Content::Aircraft, 1, 1, whole}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, blue_px) == 16 * 16);
     CHECK(count_of(picture, red_px) == 0);
@@ -69,9 +67,7 @@ TEST_CASE("a clear surface is blended where it is nearest and hides nothing by i
     add_square(plan, 2, glm::scale(ahead(3.0F), glm::vec3(3.0F, 0.25F, 1.0F)));
     plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(side_px)}};
     using scene::DepthUse;
-    plan.steps = {
-        {Content::ClearDepth, 0, 1},
-        {Content::Aircraft, 0, 2, whole, DepthUse::Nearest},
+    plan.steps = {{Content::ClearDepth, 0, 1}, {Content::Aircraft, 0, 2, whole, DepthUse::Nearest},
         {Content::Aircraft, 2, 1, whole, DepthUse::Nearest, 0.25F},
         {Content::Aircraft, 3, 1, whole, DepthUse::Nearest}};
     const scene::Picture picture = studio.picture(plan);
@@ -97,9 +93,7 @@ TEST_CASE("a shadow piece is painted again like the ground it counts on after") 
     shadow.add({-0.25F, -0.25F, 0.25F, 0.25F}, 10.0F, grey);
     scene.plan.shadow_vertices = shadow.vertices;
     scene.plan.repaint_indices.clear();
-    for (const std::uint32_t corner : shadow.indices) {
-        scene.plan.repaint_indices.push_back(corner + 4);
-    }
+    for (const std::uint32_t corner : shadow.indices) { scene.plan.repaint_indices.push_back(corner + 4); }
     scene.plan.steps = {{Content::Aircraft, 0, 1, whole}, {Content::GroundRepaint, 0, 6, whole}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, grey_px) == 16 * 16);
@@ -126,15 +120,9 @@ TEST_CASE("up to eight planes cut a draw, each by its own offset") {
     Overlapping scene(studio);
     scene.plan.steps = {{Content::Aircraft, 0, 1, 0}};
     scene::Clip octagon;
-    octagon.planes = {
-        glm::vec4(1.0F, 0.0F, 0.0F, 3.75F),
-        glm::vec4(-1.0F, 0.0F, 0.0F, 2.5F),
-        glm::vec4(0.0F, 1.0F, 0.0F, 1.25F),
-        glm::vec4(0.0F, -1.0F, 0.0F, 3.125F),
-        glm::vec4(1.0F, 1.0F, 0.0F, 100.0F),
-        glm::vec4(0.0F, 0.0F, 1.0F, 11.0F),
-        glm::vec4(0.0F, 0.0F, -1.0F, -9.0F),
-        glm::vec4(-1.0F, 0.0F, 0.0F, 1.25F)};
+    octagon.planes = {glm::vec4(1.0F, 0.0F, 0.0F, 3.75F), glm::vec4(-1.0F, 0.0F, 0.0F, 2.5F),
+        glm::vec4(0.0F, 1.0F, 0.0F, 1.25F), glm::vec4(0.0F, -1.0F, 0.0F, 3.125F), glm::vec4(1.0F, 1.0F, 0.0F, 100.0F),
+        glm::vec4(0.0F, 0.0F, 1.0F, 11.0F), glm::vec4(0.0F, 0.0F, -1.0F, -9.0F), glm::vec4(-1.0F, 0.0F, 0.0F, 1.25F)};
     for (const auto& [count, columns] : {std::pair(8, 12 + 4), {7, 12 + 8}, {1, 12 + 16}}) {
         octagon.count = count;
         scene.plan.clips = {octagon};
@@ -154,9 +142,7 @@ TEST_CASE("planes lie in world axes whichever way the eye looks") {
     const glm::mat4 view_to_world = glm::transpose(world_to_view);
     scene.plan.world_to_view = world_to_view;
     scene.plan.ground = {};
-    for (glm::mat4& part : scene.plan.parts) {
-        part = view_to_world * part;
-    }
+    for (glm::mat4& part : scene.plan.parts) { part = view_to_world * part; }
     scene::Clip clip = right_of(0.125F);
     clip.planes[0] = view_to_world * clip.planes[0];
     scene.plan.clips = {clip};
@@ -235,19 +221,13 @@ TEST_CASE("solids are hidden by depth among themselves, and by nothing painted b
     add_square(plan, 0, ahead(10.0F));
     add_square(plan, 2, ahead(12.0F));
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}};
-    plan.steps = {
-        {Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 0, 2, whole, scene::DepthUse::Nearest}};
+    plan.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 0, 2, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == red_px);
-    plan.steps = {
-        {Content::ClearDepth, 0, 1, whole},
-        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest},
+    plan.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest},
         {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == red_px);
-    plan.steps = {
-        {Content::ClearDepth, 0, 1, whole},
-        {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
-        {Content::ClearDepth, 0, 1, whole},
-        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
+    plan.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
+        {Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == blue_px);
 }
 
@@ -262,9 +242,7 @@ TEST_CASE("ground drawn as depth alone hides solids and changes no pixel") {
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}};
     add_square(plan, 0, ahead(9.0F));
     add_square(plan, 2, ahead(11.0F));
-    plan.steps = {
-        {Content::ClearDepth, 0, 1, whole},
-        {Content::GroundRepaint, 0, 6, whole, scene::DepthUse::DepthOnly},
+    plan.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::GroundRepaint, 0, 6, whole, scene::DepthUse::DepthOnly},
         {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == grey_px);
     plan.steps.back() = {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest};
@@ -278,11 +256,8 @@ TEST_CASE("depth is cleared inside its box only") {
     add_square(plan, 0, glm::scale(ahead(10.0F), glm::vec3(20.0F, 20.0F, 1.0F)));
     add_square(plan, 2, glm::scale(ahead(20.0F), glm::vec3(40.0F, 40.0F, 1.0F)));
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}, {{8, 4}, {20, 14}}};
-    plan.steps = {
-        {Content::ClearDepth, 0, 1, whole},
-        {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
-        {Content::ClearDepth, 1, 1, whole},
-        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
+    plan.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
+        {Content::ClearDepth, 1, 1, whole}, {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     const scene::Picture picture = studio.picture(plan);
     CHECK(count_of(picture, blue_px) == 12 * 10);
     CHECK(pixel(picture, 8, 4) == blue_px);

@@ -21,27 +21,22 @@ namespace {
 constexpr std::uint32_t whole = PaintStep::no_clip;
 constexpr int picture_px = 160;
 
-/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a
-/// whole.
+/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a whole.
 std::vector<scene::ModelVertex> torus_corners() {
     const models::polygons::PolygonModel quads = models::procedural::torus();
     std::vector<scene::ModelVertex> corners;
     const auto add = [&](const std::array<std::uint32_t, 3>& triangle) {
         std::array<glm::dvec3, 3> at_m;
-        for (std::size_t k = 0; k < 3; ++k) {
-            at_m[k] = quads.vertices_m[triangle[k]];
-        }
-        const glm::vec3 face_normal(
-            glm::normalize(glm::cross(at_m[1] - at_m[0], at_m[2] - at_m[0])));
+        for (std::size_t k = 0; k < 3; ++k) { at_m[k] = quads.vertices_m[triangle[k]]; }
+        const glm::vec3 face_normal(glm::normalize(glm::cross(at_m[1] - at_m[0], at_m[2] - at_m[0])));
         const glm::dvec3 middle_m = (at_m[0] + at_m[1] + at_m[2]) / 3.0;
         for (const glm::dvec3& vertex_m : at_m) {
             const glm::dvec3 ring_m = glm::normalize(glm::dvec3(vertex_m.x, vertex_m.y, 0.0));
-            corners.push_back(
-                {.position_m = glm::vec3(vertex_m),
-                 .normal = glm::vec3(glm::normalize(vertex_m - ring_m)),
-                 .face_normal = face_normal,
-                 .colour = models::packed_colour(glm::vec3(0.55 + 0.3 * vertex_m)),
-                 .face_colour = models::packed_colour(glm::vec3(0.55 + 0.3 * middle_m))});
+            corners.push_back({.position_m = glm::vec3(vertex_m),
+                .normal = glm::vec3(glm::normalize(vertex_m - ring_m)),
+                .face_normal = face_normal,
+                .colour = models::packed_colour(glm::vec3(0.55 + 0.3 * vertex_m)),
+                .face_colour = models::packed_colour(glm::vec3(0.55 + 0.3 * middle_m))});
         }
     };
     for (std::size_t i = 0; i < quads.polygons.size(); ++i) {
@@ -52,12 +47,11 @@ std::vector<scene::ModelVertex> torus_corners() {
     return corners;
 }
 
-/// A torus 2 m ahead, leaning so that it hides a part of itself, as a level of detail drawn in full
-/// and as a mesh of the same triangles that comes with each plan.
+/// A torus 2 m ahead, leaning so that it hides a part of itself, as a level of detail drawn in full and as a mesh of
+/// the same triangles that comes with each plan.
 class TwoTori {
 public:
-    TwoTori()
-        : refined_(torus_corners()) {
+    TwoTori() : refined_(torus_corners()) {
         level_.vertices = refined_;
         level_.has_depth_drawn_meshes = true;
         for (std::uint32_t i = 0; i < refined_.size(); ++i) {
@@ -73,8 +67,7 @@ public:
     scene::FramePlan level_plan(bool smooth) const {
         scene::FramePlan plan = lit_plan();
         plan.smooth.assign(refined_.size() / 3 / 32 + 1, smooth ? ~0U : 0U);
-        plan.aircraft = {
-            {.model = 0, .index_count = static_cast<std::uint32_t>(level_.indices.size())}};
+        plan.aircraft = {{.model = 0, .index_count = static_cast<std::uint32_t>(level_.indices.size())}};
         plan.steps.push_back({Content::Aircraft, 0, 1, whole, DepthUse::Nearest});
         return plan;
     }
@@ -124,9 +117,7 @@ int pixels_that_differ(const scene::Picture& one, const scene::Picture& other, i
             const Pixel a = pixel(one, column, row);
             const Pixel b = pixel(other, column, row);
             bool differs = false;
-            for (std::size_t k = 0; k < 3; ++k) {
-                differs = differs || std::abs(a[k] - b[k]) > by;
-            }
+            for (std::size_t k = 0; k < 3; ++k) { differs = differs || std::abs(a[k] - b[k]) > by; }
             count += differs ? 1 : 0;
         }
     }
@@ -152,9 +143,7 @@ TEST_CASE("a refined mesh looks as the same mesh drawn in full, smooth and flat"
     const scene::Picture flat = here.picture(here.tori.level_plan(false));
     CHECK(pixels_that_differ(smooth, here.picture(empty_plan())) > 4000);
     CHECK(pixels_that_differ(smooth, flat, 2) > 2000);
-    CHECK(
-        largest_difference(smooth, here.picture(here.tori.refined_plan(here.tori.triangles()))) <=
-        1);
+    CHECK(largest_difference(smooth, here.picture(here.tori.refined_plan(here.tori.triangles()))) <= 1);
     CHECK(largest_difference(flat, here.picture(here.tori.refined_plan(0))) <= 1);
 }
 
@@ -190,9 +179,7 @@ TEST_CASE("a refined mesh hides itself and is hidden by ground before it, and by
     ground.add({0.0F, -1.0F, 1.0F, 1.0F}, 5.0F, green);  // the right half, behind it
     painted.ground = {ground.vertices, {}};
     painted.repaint_indices = ground.indices;
-    painted.steps = {
-        {Content::ClearDepth, 0, 1, whole},
-        {Content::GroundRepaint, 0, 12, whole, DepthUse::DepthOnly},
+    painted.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::GroundRepaint, 0, 12, whole, DepthUse::DepthOnly},
         {Content::Refined, 0, 1, whole, DepthUse::Nearest}};
     const scene::Picture free = here.picture(here.tori.refined_plan(here.tori.triangles() / 3));
     const scene::Picture cut = here.picture(painted);
@@ -209,14 +196,12 @@ TEST_CASE("tints show what is smooth and what is flat") {
     scene::FramePlan plan = here.tori.refined_plan(here.tori.triangles() / 2);
     plan.ambient = glm::vec3(1.0F);
     plan.sunlight = glm::vec3(0.0F);
-    plan.refined[0].tints = {
-        .smooth = models::packed_colour(blue), .flat = models::packed_colour(red)};
+    plan.refined[0].tints = {.smooth = models::packed_colour(blue), .flat = models::packed_colour(red)};
     const scene::Picture picture = here.picture(plan);
     CHECK(count_of(picture, blue_px) > 1000);
     CHECK(count_of(picture, red_px) > 1000);
     CHECK(
-        count_of(picture, blue_px) + count_of(picture, red_px) + count_of(picture, grey_px) ==
-        picture_px * picture_px);
+        count_of(picture, blue_px) + count_of(picture, red_px) + count_of(picture, grey_px) == picture_px * picture_px);
 }
 
 TEST_CASE("depth is cleared within an inset alone, as large as the picture too") {

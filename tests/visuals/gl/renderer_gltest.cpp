@@ -21,8 +21,7 @@ TEST_CASE("an empty plan gives the background everywhere") {
 TEST_CASE("the first row of the picture is its top, the first column its left") {
     Studio studio;
     Triangles ground;
-    ground.add({-1.0F, 0.0F, 1.0F, 1.0F}, 100.0F, red)
-        .add({-1.0F, -1.0F, 0.0F, 0.0F}, 100.0F, green);
+    ground.add({-1.0F, 0.0F, 1.0F, 1.0F}, 100.0F, red).add({-1.0F, -1.0F, 0.0F, 0.0F}, 100.0F, green);
     scene::FramePlan plan = empty_plan();
     plan.ground = ground.draw();
     const scene::Picture picture = studio.picture(plan);
@@ -54,8 +53,8 @@ TEST_CASE("without depth the ground is painted in its order, whatever is nearer"
     CHECK(middle(studio.picture(plan)) == green_px);
 }
 
-// Depth is 0.5 / distance: 1 cm at 5 km changes it by 2e-10, and floats there are 7e-12 apart.
-// The distances themselves are known to half a millimetre (floats at 5 km are 0.5 mm apart).
+// Depth is 0.5 / distance: 1 cm at 5 km changes it by 2e-10, and floats there are 7e-12 apart. The distances themselves
+// are known to half a millimetre (floats at 5 km are 0.5 mm apart).
 TEST_CASE("reversed depth tells 1 cm apart at 5 km") {
     Studio studio;
     for (const bool nearer_first : {true, false}) {
@@ -111,9 +110,7 @@ TEST_CASE("four samples a pixel soften an edge, one does not") {
         const scene::Picture picture = studio.picture(plan);
         std::set<int> reds;
         for (int row = 0; row < side_px; ++row) {
-            for (int column = 0; column < side_px; ++column) {
-                reds.insert(pixel(picture, column, row)[0]);
-            }
+            for (int column = 0; column < side_px; ++column) { reds.insert(pixel(picture, column, row)[0]); }
         }
         const std::set<int> shares{0, 64, 128, 191, 255};
         CHECK(std::includes(shares.begin(), shares.end(), reds.begin(), reds.end()));

@@ -14,11 +14,8 @@ constexpr int wide_px = 256;
 
 /// Two triangles of a slope that reaches from below the eye to far away.
 std::vector<models::ColourVertex> slope(float tilt) {
-    const std::array<glm::vec2, 4> corners{
-        glm::vec2(-900.0F, -3.0F),
-        glm::vec2(1100.0F, -3.0F),
-        glm::vec2(1300.0F, -4000.0F),
-        glm::vec2(-700.0F, -4000.0F)};
+    const std::array<glm::vec2, 4> corners{glm::vec2(-900.0F, -3.0F), glm::vec2(1100.0F, -3.0F),
+        glm::vec2(1300.0F, -4000.0F), glm::vec2(-700.0F, -4000.0F)};
     std::vector<models::ColourVertex> vertices;
     for (const glm::vec2& corner : corners) {
         const float up = -5.0F + tilt * corner.x + 0.02F * corner.y;
@@ -28,17 +25,15 @@ std::vector<models::ColourVertex> slope(float tilt) {
 }
 
 /// A point of the slope's first or second triangle.
-glm::vec3
-on_slope(const std::vector<models::ColourVertex>& corners, std::size_t second, float b, float c) {
+glm::vec3 on_slope(const std::vector<models::ColourVertex>& corners, std::size_t second, float b, float c) {
     const glm::vec3& origin = corners[0].position_m;
-    return origin + b * (corners[1 + second].position_m - origin) +
-           c * (corners[2 + second].position_m - origin);
+    return origin + b * (corners[1 + second].position_m - origin) + c * (corners[2 + second].position_m - origin);
 }
 
 } // namespace
 
-// The pieces of a shadow have other corners than the ground they lie on: drawn by depth alone they
-// would flicker through it. Triangles of all sizes, near and far, in the plane of a slope.
+// The pieces of a shadow have other corners than the ground they lie on: drawn by depth alone they would flicker
+// through it. Triangles of all sizes, near and far, in the plane of a slope.
 TEST_CASE("with depth a shadow lies on the ground without a hole") {
     Studio studio(gl::make_osmesa_context(), 1, wide_px, wide_px);
     for (const float tilt : {0.0F, 0.01F, -0.3F}) {
@@ -52,17 +47,14 @@ TEST_CASE("with depth a shadow lies on the ground without a hole") {
             const float b = 0.9F * std::fmod(0.414F * static_cast<float>(i), 1.0F) * (1.0F - c);
             const float size = 0.002F + 0.0002F * static_cast<float>(i);
             for (const glm::vec2 aside :
-                 {glm::vec2(0.0F), glm::vec2(size, 0.1F * size), glm::vec2(0.3F * size, size)}) {
-                plan.repaint_indices.push_back(
-                    static_cast<std::uint32_t>(4 + plan.shadow_vertices.size()));
+                {glm::vec2(0.0F), glm::vec2(size, 0.1F * size), glm::vec2(0.3F * size, size)}) {
+                plan.repaint_indices.push_back(static_cast<std::uint32_t>(4 + plan.shadow_vertices.size()));
                 plan.shadow_vertices.push_back(
-                    {on_slope(ground, second, b + aside.x, c + aside.y),
-                     models::packed_colour(red)});
+                    {on_slope(ground, second, b + aside.x, c + aside.y), models::packed_colour(red)});
             }
         }
         const auto shadows = static_cast<std::uint32_t>(plan.repaint_indices.size());
-        const scene::Picture by_depth =
-            studio.picture(plan, HiddenSurfaceMode::ByDepth, static_cast<int>(shadows));
+        const scene::Picture by_depth = studio.picture(plan, HiddenSurfaceMode::ByDepth, static_cast<int>(shadows));
         // The same painted: ground, then shadows.
         plan.steps = {{scene::PaintStep::Content::GroundRepaint, 0, shadows}};
         const scene::Picture over = studio.picture(plan);
@@ -82,9 +74,7 @@ TEST_CASE("a shadow is hidden by ground and aircraft in front of it") {
     scene::FramePlan plan = empty_plan();
     plan.ground = ground.draw();
     plan.shadow_vertices = shadow.vertices;
-    for (const std::uint32_t corner : shadow.indices) {
-        plan.repaint_indices.push_back(corner + 8);
-    }
+    for (const std::uint32_t corner : shadow.indices) { plan.repaint_indices.push_back(corner + 8); }
     CHECK(count_of(studio.picture(plan, HiddenSurfaceMode::ByDepth, 6), grey_px) == 16 * 32);
     add_square(plan, 0, ahead(10.09F));
     CHECK(middle(studio.picture(plan, HiddenSurfaceMode::ByDepth, 6)) == red_px);

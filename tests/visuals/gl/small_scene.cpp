@@ -21,12 +21,9 @@ scene::ModelBuffers box_model(const glm::vec3& half_m) {
             const auto first = static_cast<std::uint32_t>(model.vertices.size());
             const std::uint32_t colour = models::packed_colour(0.5F + 0.3F * (normal + right));
             for (const glm::vec3& corner : {-right - up, right - up, right + up, up - right}) {
-                model.vertices.push_back(
-                    {half_m * (normal + corner), normal, normal, colour, colour});
+                model.vertices.push_back({half_m * (normal + corner), normal, normal, colour, colour});
             }
-            for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
-                model.indices.push_back(first + corner);
-            }
+            for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) { model.indices.push_back(first + corner); }
         }
     }
     return model;
@@ -51,14 +48,11 @@ scene::FramePlan framed(scene::FramePlan plan, HiddenSurfaceMode mode, int shado
     const auto shadows = static_cast<std::uint32_t>(shadow_indices);
     const std::uint32_t first_shadow = size(plan.repaint_indices) - shadows;
     plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(1 << 14)}}; // beyond any picture
-    plan.steps = {
-        {Content::ClearDepth, 0, 1},
-        {Content::Aircraft, 0, size(plan.aircraft), whole, DepthUse::Nearest},
+    plan.steps = {{Content::ClearDepth, 0, 1}, {Content::Aircraft, 0, size(plan.aircraft), whole, DepthUse::Nearest},
         {Content::Refined, 0, size(plan.refined), whole, DepthUse::Nearest},
         {Content::Ground, 0, size(plan.ground.indices), whole, DepthUse::Nearest},
         {Content::GroundRepaint, first_shadow, shadows, whole, DepthUse::OnGround},
-        {Content::Sky, 0, size(plan.sky.indices), whole, DepthUse::InfinitelyFar},
-        overlay};
+        {Content::Sky, 0, size(plan.sky.indices), whole, DepthUse::InfinitelyFar}, overlay};
     return plan;
 }
 
@@ -77,11 +71,8 @@ void set_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& bo
 }
 
 void load_squares(Studio& studio, bool as_meshes) {
-    std::array<scene::ModelBuffers, 3> models{
-        square_model(red), square_model(green), square_model(blue)};
-    for (scene::ModelBuffers& model : models) {
-        model.has_depth_drawn_meshes = as_meshes;
-    }
+    std::array<scene::ModelBuffers, 3> models{square_model(red), square_model(green), square_model(blue)};
+    for (scene::ModelBuffers& model : models) { model.has_depth_drawn_meshes = as_meshes; }
     studio.renderer().load_models(models);
 }
 
@@ -95,21 +86,16 @@ int count_of(const scene::Picture& picture, const Pixel& colour) {
     return count;
 }
 
-FullScene::FullScene()
-    : models_{box_model({6.0F, 1.0F, 1.5F}), box_model({1.0F, 5.0F, 0.2F})} {
+FullScene::FullScene() : models_{box_model({6.0F, 1.0F, 1.5F}), box_model({1.0F, 5.0F, 0.2F})} {
     const gl::BareGrid grid = gl::bare_grid(2000, empty_plan().view_to_clip);
     ground_ = {grid.vertices, grid.indices};
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        models_[1].vertices[corner].part = 1;
-    }
+    for (std::size_t corner = 0; corner < 4; ++corner) { models_[1].vertices[corner].part = 1; }
     for (models::ColourVertex& vertex : ground_.vertices) {
         vertex.position_m.y -= 0.4F * -vertex.position_m.z; // lowers the horizon into view
     }
     sky_.add({-1.0F, -1.0F, 1.0F, 0.5F}, 1.0F, {0.7F, 0.8F, 0.9F})
         .add({-1.0F, 0.5F, 1.0F, 1.0F}, 1.0F, {0.3F, 0.5F, 0.9F});
-    for (std::size_t vertex : {2U, 3U}) {
-        sky_.vertices[vertex].colour = models::packed_colour({0.3F, 0.5F, 0.9F});
-    }
+    for (std::size_t vertex : {2U, 3U}) { sky_.vertices[vertex].colour = models::packed_colour({0.3F, 0.5F, 0.9F}); }
 }
 
 scene::FramePlan FullScene::plan() const {
@@ -123,28 +109,21 @@ scene::FramePlan FullScene::plan() const {
     using Content = scene::PaintStep::Content;
     for (const int i : {2, 1, 0}) {
         const auto turn = static_cast<float>(i) + 0.5F;
-        const glm::mat4 body_to_eye_world = glm::rotate(
-            glm::translate(glm::mat4(1.0F), glm::vec3(3.0F * turn - 6.0F, 2.0F, -15.0F * turn)),
-            turn,
-            glm::normalize(glm::vec3(0.3F, 1.0F, 0.2F)));
+        const glm::mat4 body_to_eye_world =
+            glm::rotate(glm::translate(glm::mat4(1.0F), glm::vec3(3.0F * turn - 6.0F, 2.0F, -15.0F * turn)), turn,
+                glm::normalize(glm::vec3(0.3F, 1.0F, 0.2F)));
         const auto first_part = static_cast<std::uint32_t>(plan.parts.size());
         plan.parts.push_back(body_to_eye_world);
         plan.parts.push_back(glm::rotate(body_to_eye_world, 0.3F, glm::vec3(1.0F, 0.0F, 0.0F)));
         plan.aircraft.push_back({static_cast<std::uint32_t>(i % 2), 0, 36, first_part});
     }
-    plan.shadow_vertices = {
-        {glm::vec3(-5.0F, -6.0F, -20.0F), 0xff202020U},
-        {glm::vec3(5.0F, -6.0F, -20.0F), 0xff202020U},
-        {glm::vec3(0.0F, -7.0F, -40.0F), 0xff202020U}};
+    plan.shadow_vertices = {{glm::vec3(-5.0F, -6.0F, -20.0F), 0xff202020U},
+        {glm::vec3(5.0F, -6.0F, -20.0F), 0xff202020U}, {glm::vec3(0.0F, -7.0F, -40.0F), 0xff202020U}};
     const auto first_shadow = static_cast<std::uint32_t>(ground_.vertices.size());
     plan.repaint_indices = {0, 1, 2, first_shadow, first_shadow + 1, first_shadow + 2};
-    plan.clips.push_back(
-        {{glm::vec4(0.7F, 0.7F, 0.0F, 1.0F), glm::vec4(-1.0F, 0.0F, 0.0F, 3.0F)}, 2});
+    plan.clips.push_back({{glm::vec4(0.7F, 0.7F, 0.0F, 1.0F), glm::vec4(-1.0F, 0.0F, 0.0F, 3.0F)}, 2});
     constexpr std::uint32_t whole = scene::PaintStep::no_clip;
-    plan.steps = {
-        {Content::Aircraft, 0, 2, whole},
-        {Content::GroundRepaint, 0, 6, 0},
-        {Content::Aircraft, 2, 1, whole},
+    plan.steps = {{Content::Aircraft, 0, 2, whole}, {Content::GroundRepaint, 0, 6, 0}, {Content::Aircraft, 2, 1, whole},
         {Content::Aircraft, 0, 1, 0}};
     return plan;
 }

@@ -11,8 +11,8 @@
 #include <memory>
 #include <vector>
 
-// Scenes of a few triangles, seen along -z from the origin in a square picture with a field of
-// view of 90 degrees: what is `d` metres ahead at (x d, y d) lands at (x, y) of -1..1.
+// Scenes of a few triangles, seen along -z from the origin in a square picture with a field of view of 90 degrees: what
+// is `d` metres ahead at (x d, y d) lands at (x, y) of -1..1.
 namespace octant::tests {
 
 using namespace octant::visuals;
@@ -50,19 +50,13 @@ struct Triangles {
     /// A rectangle facing the eye, or turned away from it.
     Triangles& add(Area area, float ahead_m, const glm::vec3& colour, bool faces_eye = true) {
         const auto first = static_cast<std::uint32_t>(vertices.size());
-        const std::array<glm::vec2, 4> corners{
-            glm::vec2(area.left, area.bottom),
-            glm::vec2(area.right, area.bottom),
-            glm::vec2(area.right, area.top),
-            glm::vec2(area.left, area.top)};
+        const std::array<glm::vec2, 4> corners{glm::vec2(area.left, area.bottom), glm::vec2(area.right, area.bottom),
+            glm::vec2(area.right, area.top), glm::vec2(area.left, area.top)};
         for (const glm::vec2& corner : corners) {
-            vertices.push_back(
-                {glm::vec3(corner * ahead_m, -ahead_m), models::packed_colour(colour)});
+            vertices.push_back({glm::vec3(corner * ahead_m, -ahead_m), models::packed_colour(colour)});
         }
         const std::array<std::uint32_t, 6> seen{0, 1, 2, 0, 2, 3};
-        for (std::size_t i = 0; i < 6; ++i) {
-            indices.push_back(first + seen[faces_eye ? i : 5 - i]);
-        }
+        for (std::size_t i = 0; i < 6; ++i) { indices.push_back(first + seen[faces_eye ? i : 5 - i]); }
         return *this;
     }
 
@@ -72,23 +66,18 @@ struct Triangles {
 /// An aircraft that is one square of 2 m facing along +z of its body, two triangles.
 inline scene::ModelBuffers square_model(const glm::vec3& colour) {
     scene::ModelBuffers model;
-    for (const glm::vec2 corner :
-         {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-        model.vertices.push_back(
-            {glm::vec3(corner, 0.0F),
-             glm::vec3(0, 0, 1),
-             glm::vec3(0, 0, 1),
-             models::packed_colour(colour),
-             models::packed_colour(colour)});
+    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        model.vertices.push_back({glm::vec3(corner, 0.0F), glm::vec3(0, 0, 1), glm::vec3(0, 0, 1),
+            models::packed_colour(colour), models::packed_colour(colour)});
     }
     model.indices = {0, 1, 2, 0, 2, 3};
     return model;
 }
 
-/// The steps of a whole picture for a plan. In order: sky, ground, the plan's own steps, overlay.
-/// By depth: all its aircraft and meshes, ground, the last `shadow_indices` of repaint_indices as
-/// shadows, sky, overlay.
-scene::FramePlan framed(scene::FramePlan plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder, int shadow_indices = 0);
+/// The steps of a whole picture for a plan. In order: sky, ground, the plan's own steps, overlay. By depth: all its
+/// aircraft and meshes, ground, the last `shadow_indices` of repaint_indices as shadows, sky, overlay.
+scene::FramePlan framed(
+    scene::FramePlan plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder, int shadow_indices = 0);
 
 /// Nothing but grey background; aircraft keep their own colour.
 inline scene::FramePlan empty_plan() {
@@ -110,34 +99,27 @@ inline glm::mat4 ahead(float ahead_m) {
     return body_to_eye_world;
 }
 
-/// Puts the whole of square_model, as model `model`, behind the aircraft of the plan. Its steps
-/// become one with all aircraft.
+/// Puts the whole of square_model, as model `model`, behind the aircraft of the plan. Its steps become one with all
+/// aircraft.
 void add_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world);
 
 /// Leaves the plan with this one aircraft.
 void set_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world);
 
 inline Pixel pixel(const scene::Picture& picture, int column, int row) {
-    const std::size_t at =
-        4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
-             static_cast<std::size_t>(column));
+    const std::size_t at = 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
+                                   static_cast<std::size_t>(column));
     return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2], picture.rgba[at + 3]};
 }
 
-inline Pixel middle(const scene::Picture& picture) {
-    return pixel(picture, picture.width / 2, picture.height / 2);
-}
+inline Pixel middle(const scene::Picture& picture) { return pixel(picture, picture.width / 2, picture.height / 2); }
 
 /// A context and a renderer that take a plan to its picture.
 class Studio {
 public:
-    explicit Studio(
-        std::unique_ptr<gl::Context> context = gl::make_osmesa_context(),
-        int samples = 1,
-        int width = side_px,
-        int height = side_px)
-        : context_(std::move(context))
-        , renderer_(context_, {width, height}, samples) {}
+    explicit Studio(std::unique_ptr<gl::Context> context = gl::make_osmesa_context(), int samples = 1,
+        int width = side_px, int height = side_px)
+        : context_(std::move(context)), renderer_(context_, {width, height}, samples) {}
 
     ~Studio() = default;
     Studio(const Studio&) = delete;
@@ -146,8 +128,8 @@ public:
     Studio& operator=(Studio&&) = delete;
 
     /// Of the framed() plan.
-    scene::Picture
-    picture(const scene::FramePlan& plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder, int shadow_indices = 0) {
+    scene::Picture picture(
+        const scene::FramePlan& plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder, int shadow_indices = 0) {
         scene::Picture drawn;
         renderer_.draw(framed(plan, mode, shadow_indices));
         renderer_.finish_and_read(drawn);
@@ -163,9 +145,8 @@ private:
     gl::Renderer renderer_;
 };
 
-/// A scene with everything in it: hilly ground, a shadow, sky, three aircraft of two models, one
-/// with a turning part, one painted again cut by planes, haze. Its plan is valid as long as it
-/// lives where it is.
+/// A scene with everything in it: hilly ground, a shadow, sky, three aircraft of two models, one with a turning part,
+/// one painted again cut by planes, haze. Its plan is valid as long as it lives where it is.
 class FullScene {
 public:
     FullScene();

@@ -27,8 +27,8 @@ namespace {
 
 using Catch::Matchers::Contains;
 using std::filesystem::path;
-using terrain::make_ground_tiles;
 using terrain::GroundPrefetcher;
+using terrain::make_ground_tiles;
 using terrain::NodePart;
 
 constexpr double spacing_m = 30.0;
@@ -52,16 +52,9 @@ path write_tiff(const std::string& name, const Cut& cut, const Height& height) {
     const path file = scratch(name);
     std::vector<std::int16_t> numbers;
     for (int row = cut.north - 1; row >= cut.south; --row) {
-        for (int column = cut.west; column < cut.east; ++column) {
-            numbers.push_back(height(column, row));
-        }
+        for (int column = cut.west; column < cut.east; ++column) { numbers.push_back(height(column, row)); }
     }
-    write_geotiff(
-        file,
-        cut.east - cut.west,
-        numbers,
-        spacing_m,
-        {cut.west * spacing_m, cut.north * spacing_m});
+    write_geotiff(file, cut.east - cut.west, numbers, spacing_m, {cut.west * spacing_m, cut.north * spacing_m});
     return file;
 }
 
@@ -73,10 +66,9 @@ GroundTiles imported(const std::vector<path>& inputs, const std::string& name) {
 }
 
 bool same_ground(const GroundTiles& a, const GroundTiles& b) {
-    return a.memory().size() == b.memory().size() &&
-           a.shape().height_base_m == b.shape().height_base_m &&
-           a.shape().height_unit_m == b.shape().height_unit_m &&
-           a.shape().spacing_m == b.shape().spacing_m && a.metadata().mean_m == b.metadata().mean_m &&
+    return a.memory().size() == b.memory().size() && a.shape().height_base_m == b.shape().height_base_m &&
+           a.shape().height_unit_m == b.shape().height_unit_m && a.shape().spacing_m == b.shape().spacing_m &&
+           a.metadata().mean_m == b.metadata().mean_m &&
            std::memcmp(a.memory().data(), b.memory().data(), a.memory().size()) == 0;
 }
 
@@ -113,9 +105,7 @@ TEST_CASE("an imported file is the ground of its field, byte for byte") {
 
 TEST_CASE("fractions of a metre are imported as the field has them") {
     std::vector<float> heights_m;
-    for (int i = 0; i < 90 * 70; ++i) {
-        heights_m.push_back(400.0F * std::sin(0.01F * static_cast<float>(i)));
-    }
+    for (int i = 0; i < 90 * 70; ++i) { heights_m.push_back(400.0F * std::sin(0.01F * static_cast<float>(i))); }
     const models::heights::HeightField field(90, 70, 12.5, heights_m);
     models::heights::write_height_field(scratch("fractions.tif"), field);
     const GroundTiles ground = imported({scratch("fractions.tif")}, "fractions.ground");
@@ -158,9 +148,7 @@ TEST_CASE("a stopped import goes on and makes the same bytes") {
 
     for (const ImportStage stage : {ImportStage::Reading, ImportStage::Building}) {
         const auto stop = [stage](ImportStage now, double done) {
-            if (now == stage && done > 0.6) {
-                throw Stop();
-            }
+            if (now == stage && done > 0.6) { throw Stop(); }
             return true;
         };
         CHECK_THROWS_AS(import_ground({file}, out, {}, stop), Stop);
@@ -175,9 +163,7 @@ TEST_CASE("an import of other inputs starts anew and says so") {
     const Made made;
     const path out = scratch("other.ground");
     const auto stop = [](ImportStage stage, double) {
-        if (stage == ImportStage::Building) {
-            throw Error("stopped");
-        }
+        if (stage == ImportStage::Building) { throw Error("stopped"); }
         return true;
     };
     CHECK_THROWS(import_ground({made.whole("first.tif")}, out, {}, stop));
@@ -222,8 +208,7 @@ TEST_CASE("files that do not fit together are refused by name") {
     const path picture = scratch("picture.pgm");
     std::ofstream(picture) << "P2 2 2 9 1 2 3 4\n";
     CHECK_THROWS_WITH(
-        imported({west, picture}, "unfit.ground"),
-        Contains("picture.pgm") && Contains("knows its place"));
+        imported({west, picture}, "unfit.ground"), Contains("picture.pgm") && Contains("knows its place"));
     CHECK_FALSE(std::filesystem::exists(scratch("unfit.ground.part")));
 }
 
@@ -260,9 +245,7 @@ TEST_CASE("fetching ahead changes nothing and ends at once") {
     const Made made;
     const GroundTiles ground = imported({made.whole("ahead.tif")}, "ahead.ground");
     GroundPrefetcher prefetcher(ground);
-    for (double x_m = -20000.0; x_m < 20000.0; x_m += 500.0) {
-        prefetcher.prefetch_around({x_m, 0.3 * x_m});
-    }
+    for (double x_m = -20000.0; x_m < 20000.0; x_m += 500.0) { prefetcher.prefetch_around({x_m, 0.3 * x_m}); }
     CHECK(same_ground(ground, make_ground_tiles(made.field)));
 }
 

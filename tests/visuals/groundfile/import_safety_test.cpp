@@ -34,14 +34,12 @@ namespace {
 
 using Catch::Matchers::Contains;
 using std::filesystem::path;
-using terrain::NodePart;
 using terrain::MorphMargin;
+using terrain::NodePart;
 
 const auto never_save = [](ImportStage, double) { return false; };
 
-path scratch(const std::string& name) {
-    return tests::scratch_folder() / name;
-}
+path scratch(const std::string& name) { return tests::scratch_folder() / name; }
 
 /// 40 x 30 whole metres, all 7 but the one in the middle.
 path write_plain(const std::string& name, std::int16_t middle_m = 7) {
@@ -56,18 +54,14 @@ std::string content_of(const path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-GroundHeader sound_header() {
-    return header_of({40, 30, 30.0, 7.0, 0x1p-12}, {"plain", {}, {}, 0, 7.0F, 7.0F, 7.0F});
-}
+GroundHeader sound_header() { return header_of({40, 30, 30.0, 7.0, 0x1p-12}, {"plain", {}, {}, 0, 7.0F, 7.0F, 7.0F}); }
 
 bool is_taken(const std::function<void(GroundHeader&)>& change) {
     GroundHeader header = sound_header();
     change(header);
     try {
         read_header("header", header_page(header));
-    } catch (const Error&) {
-        return false;
-    }
+    } catch (const Error&) { return false; }
     return true;
 }
 
@@ -78,10 +72,7 @@ std::string name_read(const std::string& name) {
 }
 
 /// The file of an earlier version, as a shape tells, that is made of a field.
-void write_earlier_version(
-    const path& file,
-    const models::heights::HeightField& field,
-    const GroundShape& shape,
+void write_earlier_version(const path& file, const models::heights::HeightField& field, const GroundShape& shape,
     const GroundMetadata& metadata) {
     std::vector<std::int16_t> numbers;
     for (int row = 0; row < shape.rows; ++row) {
@@ -102,8 +93,7 @@ void write_earlier_version(
     assembly.write_overview();
     for (std::size_t tile = 0; tile < assembly.tiles();) {
         tile = assembly.build(tile, 1, [&](std::size_t index, std::size_t offset, auto made) {
-            std::copy(
-                made.begin(), made.end(), memory.begin() + static_cast<std::ptrdiff_t>(offset));
+            std::copy(made.begin(), made.end(), memory.begin() + static_cast<std::ptrdiff_t>(offset));
             put_checksum(index + 1, checksum_of(made));
         });
     }
@@ -114,9 +104,7 @@ void write_earlier_version(
     const auto page = header_page(header);
     std::copy(page.begin(), page.end(), bytes.begin());
     std::ofstream(file, std::ios::binary)
-        .write(
-            reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 } // namespace
@@ -127,8 +115,7 @@ TEST_CASE("an input in the place of the unfinished file is refused and stays who
     const path link = scratch("linked.ground.part");
     std::filesystem::create_hard_link(input, link);
     for (const char* out : {"same.ground", "linked.ground"}) {
-        CHECK_THROWS_WITH(
-            import_ground({input}, scratch(out), {}, never_save), Contains("one of the inputs"));
+        CHECK_THROWS_WITH(import_ground({input}, scratch(out), {}, never_save), Contains("one of the inputs"));
     }
     CHECK(content_of(input) == before);
 }
@@ -137,8 +124,7 @@ TEST_CASE("a foreign file in the place of the unfinished one is refused and stay
     const path input = write_plain("beside.tif");
     const path part = scratch("foreign.ground.part");
     std::ofstream(part) << "a letter";
-    CHECK_THROWS_WITH(
-        import_ground({input}, scratch("foreign.ground"), {}, never_save),
+    CHECK_THROWS_WITH(import_ground({input}, scratch("foreign.ground"), {}, never_save),
         Contains("foreign.ground.part") && Contains("another kind of file"));
     CHECK(content_of(part) == "a letter");
     std::ofstream(part, std::ios::trunc).close();
@@ -152,9 +138,7 @@ TEST_CASE("a second import to the same file is refused while the first goes on u
     int refused = 0;
     import_ground({input}, out, {}, [&](ImportStage, double done) {
         if (done < 1.0) {
-            CHECK_THROWS_WITH(
-                import_ground({other}, out, {}, never_save),
-                Contains("another import is writing it"));
+            CHECK_THROWS_WITH(import_ground({other}, out, {}, never_save), Contains("another import is writing it"));
             ++refused;
         }
         return false;
@@ -230,13 +214,11 @@ TEST_CASE("grounds of versions 1 to 5 are refused where the field's border cuts 
     for (const auto& [columns, rows] : {std::pair{40, 30}, {40, 40}, {65, 33}, {33, 34}}) {
         INFO(columns << " x " << rows);
         for (std::uint32_t version = 1; version <= 5; ++version) {
-            GroundHeader header =
-                header_of({columns, rows, 30.0, 7.0, 1.0, version > 3, version > 4}, {});
+            GroundHeader header = header_of({columns, rows, 30.0, 7.0, 1.0, version > 3, version > 4}, {});
             header.version = version;
             CHECK_THROWS_WITH(read_header("header", header_page(header)), Contains("import it again"));
         }
-        CHECK_NOTHROW(
-            read_header("header", header_page(header_of({columns, rows, 30.0, 7.0, 1.0}, {}))));
+        CHECK_NOTHROW(read_header("header", header_page(header_of({columns, rows, 30.0, 7.0, 1.0}, {}))));
     }
     GroundHeader whole = header_of({33, 33, 30.0, 7.0, 1.0}, {});
     whole.version = 5;
@@ -278,9 +260,9 @@ TEST_CASE("a ground of version 4 is read, and its wider steps between errors cos
     for (int i = 0; i < 257 * 257; ++i) {
         const double x = i % 257;
         const double y = i / 257;
-        heights_m.push_back(static_cast<float>(
-            400.0 * std::sin(0.02 * x) * std::cos(0.03 * y) + 60.0 * std::sin(0.11 * x + 0.07 * y) +
-            9.0 * std::sin(0.43 * x - 0.31 * y) + 1.5 * std::sin(1.3 * x + 1.7 * y)));
+        heights_m.push_back(
+            static_cast<float>(400.0 * std::sin(0.02 * x) * std::cos(0.03 * y) + 60.0 * std::sin(0.11 * x + 0.07 * y) +
+                               9.0 * std::sin(0.43 * x - 0.31 * y) + 1.5 * std::sin(1.3 * x + 1.7 * y)));
     }
     const models::heights::HeightField field(257, 257, 30.0, heights_m);
     const GroundTiles today = terrain::make_ground_tiles(field);

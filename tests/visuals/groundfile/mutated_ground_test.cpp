@@ -3,8 +3,8 @@
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
-#include "visuals/terrain/conformity.h"
 #include "visuals/terrain/bisection_mesher.h"
+#include "visuals/terrain/conformity.h"
 
 #include <catch2/catch.hpp>
 
@@ -20,8 +20,8 @@ namespace octant::visuals::groundfile {
 namespace {
 
 using std::filesystem::path;
-using terrain::ConformityCheck;
 using terrain::BisectionMesher;
+using terrain::ConformityCheck;
 using terrain::GroundMesh;
 using terrain::GroundSamples;
 using terrain::MeshView;
@@ -49,9 +49,7 @@ double worst_m(const GroundTiles& ground, const models::heights::HeightField& fi
     for (int row = 0; row < wave_rows; ++row) {
         for (int column = 0; column < wave_columns; ++column) {
             worst = std::max(
-                worst,
-                std::abs(static_cast<double>(
-                    ground.height_m(column, row) - field.height_m(column, row))));
+                worst, std::abs(static_cast<double>(ground.height_m(column, row) - field.height_m(column, row))));
         }
     }
     return worst;
@@ -74,9 +72,7 @@ std::string with_bad_tile(int level, std::size_t tile) {
     const GroundLayout::Level& at = layout.level(level);
     const std::size_t start = GroundHeader::bytes + at.first_tile + tile * at.tile_bytes;
     Numbers numbers(static_cast<std::uint64_t>(level) + 1);
-    for (std::size_t i = 0; i < at.tile_bytes; ++i) {
-        bytes[start + i] = static_cast<char>(numbers.below(256));
-    }
+    for (std::size_t i = 0; i < at.tile_bytes; ++i) { bytes[start + i] = static_cast<char>(numbers.below(256)); }
     return bytes;
 }
 
@@ -88,8 +84,7 @@ TEST_CASE("of 200 damaged grounds each is refused, named, or the same to the las
     int named = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Numbers numbers(seed);
-        const path file =
-            written("damaged" + std::to_string(seed) + ".ground", damaged(sound_ground(), numbers));
+        const path file = written("damaged" + std::to_string(seed) + ".ground", damaged(sound_ground(), numbers));
         INFO("seed " << seed);
         try {
             const GroundTiles ground = open_ground(file);
@@ -98,9 +93,7 @@ TEST_CASE("of 200 damaged grounds each is refused, named, or the same to the las
             CHECK(faults.empty());
             CHECK((off_m == 0.0 || is_noted(file)));
             named += is_noted(file) ? 1 : 0;
-        } catch (const Error&) {
-            ++refused;
-        }
+        } catch (const Error&) { ++refused; }
         std::filesystem::remove(file);
     }
     CHECK(refused > 50);
@@ -111,8 +104,7 @@ TEST_CASE("a damaged tile of any level is drawn from its neighbours, without cra
     const models::heights::HeightField field = waves();
     const GroundLayout layout(wave_columns, wave_rows);
     for (int level = 0; level < layout.levels(); ++level) {
-        const path file =
-            written("level" + std::to_string(level) + ".ground", with_bad_tile(level, 0));
+        const path file = written("level" + std::to_string(level) + ".ground", with_bad_tile(level, 0));
         INFO("level " << level);
         const GroundTiles ground = open_ground(file);
         CHECK_FALSE(is_noted(file));
@@ -127,8 +119,7 @@ TEST_CASE("with all tiles damaged a ground still has heights and no cracks") {
     const GroundLayout layout(wave_columns, wave_rows);
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
-        const auto tiles =
-            static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+        const auto tiles = static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
         for (std::size_t tile = 0; tile < tiles; ++tile) {
             bytes[GroundHeader::bytes + at.first_tile + tile * at.tile_bytes] ^= '\x55';
         }

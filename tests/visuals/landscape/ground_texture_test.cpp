@@ -16,16 +16,13 @@ namespace {
 
 models::heights::HeightField rugged() {
     std::vector<float> heights_m;
-    for (int i = 0; i < 9 * 7; ++i) {
-        heights_m.push_back(static_cast<float>(i * i % 97) * 2.0F - 20.0F);
-    }
+    for (int i = 0; i < 9 * 7; ++i) { heights_m.push_back(static_cast<float>(i * i % 97) * 2.0F - 20.0F); }
     return {9, 7, 50.0, heights_m};
 }
 
 std::array<int, 3> colour(const GroundImage& image, int column, int row) {
     const std::size_t at =
-        3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-             static_cast<std::size_t>(column));
+        3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(column));
     return {image.texels[at], image.texels[at + 1], image.texels[at + 2]};
 }
 
@@ -39,8 +36,7 @@ glm::dvec2 texel_below(const GroundImage& image, const TextureTransform& place) 
 TEST_CASE("the texture under its light shows each sample as the lit vertex does, at its place") {
     const models::heights::HeightField field = rugged();
     const Settings settings;
-    const GroundTexture texture =
-        ground_texture(terrain::GroundSamples(field), settings.air, nullptr);
+    const GroundTexture texture = ground_texture(terrain::GroundSamples(field), settings.air, nullptr);
     const std::vector<std::uint32_t> lit = ground_colours(field, settings.air);
     const visuals::nature::Daylight day = daylight_of(settings.air);
     REQUIRE(texture.normal.width == 9);
@@ -48,16 +44,14 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
     for (int row = 0; row < 7; ++row) {
         for (int column = 0; column < 9; ++column) {
             const auto at = static_cast<std::size_t>(row * 9 + column);
-            const glm::vec2 slope(
-                static_cast<float>(texture.normal.texels[2 * at] - 128) / 127.0F,
+            const glm::vec2 slope(static_cast<float>(texture.normal.texels[2 * at] - 128) / 127.0F,
                 static_cast<float>(texture.normal.texels[2 * at + 1] - 128) / 127.0F);
             const glm::vec3 normal(slope, std::sqrt(1.0F - glm::dot(slope, slope)));
             const std::array<int, 3> own = colour(texture.albedo, column, row);
             for (std::size_t part = 0; part < 3; ++part) {
                 const float expected = static_cast<float>((lit[at] >> (8 * part)) & 255U);
-                const float shown = std::min(
-                    static_cast<float>(own[part]) * illumination(normal, day)[static_cast<int>(part)],
-                    255.0F);
+                const float shown =
+                    std::min(static_cast<float>(own[part]) * illumination(normal, day)[static_cast<int>(part)], 255.0F);
                 CHECK(shown == Approx(expected).margin(4.0));
             }
             const GroundTextureTransforms places = ground_texture_transforms(texture, field.sample_m(column, row));
@@ -67,15 +61,12 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
         }
     }
     const glm::vec3 mean = mean_colour(lit);
-    for (int part = 0; part < 3; ++part) {
-        CHECK(texture.mean_colour[part] == Approx(mean[part]).margin(0.01));
-    }
+    for (int part = 0; part < 3; ++part) { CHECK(texture.mean_colour[part] == Approx(mean[part]).margin(0.01)); }
 }
 
 TEST_CASE("level ground has a normal that is exactly upright") {
     const models::heights::HeightField field(3, 3, 10.0, std::vector<float>(9, -1.0F));
-    for (const std::uint8_t part :
-         ground_texture(terrain::GroundSamples(field), {}, nullptr).normal.texels) {
+    for (const std::uint8_t part : ground_texture(terrain::GroundSamples(field), {}, nullptr).normal.texels) {
         CHECK(int{part} == 128);
     }
 }
@@ -85,23 +76,10 @@ TEST_CASE("a drape lies north up from edge to edge and lets the ground through w
     models::heights::Image drape;
     drape.width = 2;
     drape.height = 2;
-    drape.rgba = {
-        255,
-        0,
-        0,
-        255,
-        /* north-east */ 0,
-        255,
-        0,
-        255,
-        /* south-west */ 0,
-        0,
-        255,
-        255,
-        /* nothing */ 9,
-        9,
-        9,
-        0};
+    drape.rgba = {255, 0, 0, 255,
+        /* north-east */ 0, 255, 0, 255,
+        /* south-west */ 0, 0, 255, 255,
+        /* nothing */ 9, 9, 9, 0};
     const GroundTexture texture = ground_texture(terrain::GroundSamples(field), {}, &drape);
     const GroundTexture bare = ground_texture(terrain::GroundSamples(field), {}, nullptr);
     CHECK(colour(texture.albedo, 0, 1) == std::array{255, 0, 0});

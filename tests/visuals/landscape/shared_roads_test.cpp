@@ -48,8 +48,6 @@ TEST_CASE("roads keep off the embankments of a runway") {
     const auto ground = landscape::make_bisection_ground(
         terrain::make_ground_tiles(models::procedural::procedural_hills()), scene::AirSettings(), strip);
     for (const roads::RoadSection& section : ground->road_network()->sections()) {
-        for (const roads::RoadPoint& point : section.levels[0]) {
-            REQUIRE(strip->distance_m(point.at_m) > 200.0);
-        }
+        for (const roads::RoadPoint& point : section.levels[0]) { REQUIRE(strip->distance_m(point.at_m) > 200.0); }
     }
 }

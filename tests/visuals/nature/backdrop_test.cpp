@@ -16,24 +16,15 @@ const glm::vec3 mean_colour(0.4F, 0.5F, 0.3F);
 
 /// Ground that rises to the east, brighter there, over 4 x 2 km.
 BackdropSource slope(std::vector<glm::dvec2>* asked = nullptr) {
-    return {
-        {2000.0, 1000.0},
-        mean_m,
-        mean_colour,
+    return {{2000.0, 1000.0}, mean_m, mean_colour,
         [asked](const glm::dvec2& at_m) {
-            if (asked != nullptr) {
-                asked->push_back(at_m);
-            }
+            if (asked != nullptr) { asked->push_back(at_m); }
             return mean_m + 0.1 * at_m.x;
         },
-        [](const glm::dvec2& at_m, double) {
-            return glm::vec3(static_cast<float>(0.5 + at_m.x / 5000.0));
-        }};
+        [](const glm::dvec2& at_m, double) { return glm::vec3(static_cast<float>(0.5 + at_m.x / 5000.0)); }};
 }
 
-double outside_m(const glm::dvec3& at_m) {
-    return std::max(std::abs(at_m.x) - 2000.0, std::abs(at_m.y) - 1000.0);
-}
+double outside_m(const glm::dvec3& at_m) { return std::max(std::abs(at_m.x) - 2000.0, std::abs(at_m.y) - 1000.0); }
 
 } // namespace
 

@@ -7,8 +7,8 @@
 using octant::visuals::nature::climate_of;
 
 TEST_CASE("trees and snow are where travellers find them") {
-    // Tree line in the Alps 1,900 to 2,300 m, in Scandinavia at 68 degrees 400 to 800 m, in the
-    // Himalaya about 3,900 m; snow there from 5,000 to 6,000 m, in the Alps from 2,700 to 3,200 m.
+    // Tree line in the Alps 1,900 to 2,300 m, in Scandinavia at 68 degrees 400 to 800 m, in the Himalaya about 3,900 m;
+    // snow there from 5,000 to 6,000 m, in the Alps from 2,700 to 3,200 m.
     CHECK(std::abs(climate_of(46.5, 8.0).tree_line_m - 2200.0F) < 250.0F);
     CHECK(std::abs(climate_of(68.0, 18.0).tree_line_m - 500.0F) < 300.0F);
     CHECK(climate_of(28.0, 87.0).tree_line_m > 3500.0F);

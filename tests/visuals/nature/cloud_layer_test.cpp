@@ -25,9 +25,7 @@ Above above(const CloudLayer::Triangles& clouds, const glm::dvec2& place_m) {
     for (std::size_t i = 0; i + 2 < clouds.indices.size(); i += 3) {
         const auto corner = [&](std::size_t k) { return clouds.vertices[clouds.indices[i + k]]; };
         const auto at = [&](std::size_t k) { return glm::dvec2(corner(k).position_m); };
-        const auto area = [](const glm::dvec2& a, const glm::dvec2& b) {
-            return a.x * b.y - a.y * b.x;
-        };
+        const auto area = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
         const double whole = area(at(1) - at(0), at(2) - at(0));
         const double first = area(at(1) - place_m, at(2) - place_m) / whole;
         const double second = area(at(2) - place_m, at(0) - place_m) / whole;
@@ -45,9 +43,7 @@ Above above(const CloudLayer::Triangles& clouds, const glm::dvec2& place_m) {
 template <class Visit>
 void for_places(const Visit& visit) {
     for (double x_m = -9013.7; x_m < 9000.0; x_m += 751.3) {
-        for (double y_m = -9011.9; y_m < 9000.0; y_m += 753.9) {
-            visit(glm::dvec2(x_m, y_m));
-        }
+        for (double y_m = -9011.9; y_m < 9000.0; y_m += 753.9) { visit(glm::dvec2(x_m, y_m)); }
     }
 }
 
@@ -58,8 +54,7 @@ TEST_CASE("clouds cover the share of the sky that they are asked for, each place
         CloudLayer layer(cover);
         int places = 0;
         int covered = 0;
-        for (const glm::dvec2 eye_m :
-             {glm::dvec2(0.0, 0.0), {16e3, 0.0}, {0.0, 16e3}, {16e3, 16e3}}) {
+        for (const glm::dvec2 eye_m : {glm::dvec2(0.0, 0.0), {16e3, 0.0}, {0.0, 16e3}, {16e3, 16e3}}) {
             const auto clouds = layer.seen_from({eye_m, 0.0}, layer_m, 0.0);
             for_places([&](const glm::dvec2& place_m) {
                 const Above found = above(clouds, place_m);
@@ -80,9 +75,7 @@ TEST_CASE("clouds stand still over the ground while the eye moves below them") {
     const glm::dvec3 on_m(32.0, 11.0, 5.0); // less than a cell, across an edge of the lattice
     std::vector<double> before;
     const auto here = layer.seen_from(eye_m, layer_m, 0.0);
-    for_places([&](const glm::dvec2& place_m) {
-        before.push_back(above(here, place_m - glm::dvec2(eye_m)).density);
-    });
+    for_places([&](const glm::dvec2& place_m) { before.push_back(above(here, place_m - glm::dvec2(eye_m)).density); });
     const auto there = layer.seen_from(eye_m + on_m, layer_m, 0.0);
     std::size_t number = 0;
     double worst = 0.0;
@@ -116,9 +109,7 @@ TEST_CASE("clouds lie at their height, sink over a round earth and end where the
         const glm::dvec3 at_m(vertex.position_m);
         const double away_m2 = at_m.x * at_m.x + at_m.y * at_m.y;
         CHECK(at_m.z == Approx(layer_m - eye_m.z - away_m2 / (2.0 * earth_m)).margin(0.01));
-        if (std::sqrt(away_m2) > CloudLayer::reach_m) {
-            CHECK(vertex.colour >> 24U == 0);
-        }
+        if (std::sqrt(away_m2) > CloudLayer::reach_m) { CHECK(vertex.colour >> 24U == 0); }
     }
 }
 
@@ -130,10 +121,7 @@ TEST_CASE("clouds are white at noon, dark where thick from below, warm under a l
         double weight = 0.0;
         for (const auto& vertex : layer.seen_from({0.0, 0.0, eye_m}, layer_m, 0.0).vertices) {
             const double density = vertex.colour >> 24U;
-            sum +=
-                density *
-                glm::dvec3(
-                    vertex.colour & 255U, vertex.colour >> 8U & 255U, vertex.colour >> 16U & 255U);
+            sum += density * glm::dvec3(vertex.colour & 255U, vertex.colour >> 8U & 255U, vertex.colour >> 16U & 255U);
             weight += 255.0 * density;
         }
         return sum / weight;

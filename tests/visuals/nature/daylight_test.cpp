@@ -15,9 +15,7 @@ Daylight under(double elevation_deg) {
     return Daylight({.sun_azimuth_rad = 1.0, .sun_elevation_rad = rad_from_deg(elevation_deg)});
 }
 
-float warmth(const glm::vec3& colour) {
-    return colour.x / colour.z;
-}
+float warmth(const glm::vec3& colour) { return colour.x / colour.z; }
 
 } // namespace
 
@@ -46,9 +44,7 @@ TEST_CASE("sunlight is lost in the air, blue first, and more of it under a low s
 TEST_CASE("under a sun of 35 degrees the haze away from the sun has the colour that was given") {
     const glm::vec3 given(0.3F, 0.5F, 0.4F);
     const Daylight day({0.0, rad_from_deg(35.0), given});
-    for (int part = 0; part < 3; ++part) {
-        CHECK(day.haze_away()[part] == Approx(given[part]).margin(1e-4));
-    }
+    for (int part = 0; part < 3; ++part) { CHECK(day.haze_away()[part] == Approx(given[part]).margin(1e-4)); }
 }
 
 TEST_CASE("the lower the sun, the warmer and the darker light and horizon are") {
@@ -72,8 +68,8 @@ TEST_CASE("all colours are display values for every sun and direction") {
         for (int i = 0; i < 400; ++i) {
             const double up = std::asin((i % 20) / 19.0);
             const double around = 2.0 * pi * i / 20.0;
-            const glm::vec3 colour = day.sky(
-                {std::cos(up) * std::sin(around), std::cos(up) * std::cos(around), std::sin(up)});
+            const glm::vec3 colour =
+                day.sky({std::cos(up) * std::sin(around), std::cos(up) * std::cos(around), std::sin(up)});
             for (int part = 0; part < 3; ++part) {
                 REQUIRE(colour[part] >= 0.0F);
                 REQUIRE(colour[part] <= 1.0F);

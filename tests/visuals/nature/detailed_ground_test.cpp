@@ -34,8 +34,7 @@ struct Field {
         for (int row = 0; row < cells; row += block) {
             for (int column = 0; column < cells; column += block) {
                 const auto at = [&](int i, int j) {
-                    return static_cast<std::uint32_t>(
-                        (row + block * j) * (cells + 1) + column + block * i);
+                    return static_cast<std::uint32_t>((row + block * j) * (cells + 1) + column + block * i);
                 };
                 indices.insert(indices.end(), {at(0, 0), at(1, 0), at(1, 1)});
                 indices.insert(indices.end(), {at(0, 0), at(1, 1), at(0, 1)});
@@ -52,18 +51,12 @@ struct Field {
 };
 
 Scenery scenery_of(const SceneryDensity& scenery_density) {
-    return {
-        glm::dvec2(0.0), glm::ivec2(cells + 1), spacing_m, [scenery_density](int, int) { return scenery_density; }};
+    return {glm::dvec2(0.0), glm::ivec2(cells + 1), spacing_m, [scenery_density](int, int) { return scenery_density; }};
 }
 
 NearDetailView view_from(const glm::dvec3& eye_m) {
-    return {
-        eye_m,
-        spacing_m,
-        visuals::terrain::PaintOrder::BackToFront,
-        {glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F)},
-        100000,
-        100000};
+    return {eye_m, spacing_m, visuals::terrain::PaintOrder::BackToFront,
+        {glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F)}, 100000, 100000};
 }
 
 const glm::dvec3 low_eye_m(101.0, 87.0, 14.0);
@@ -90,13 +83,11 @@ TEST_CASE("detail gives no cracks: every inner edge belongs to two triangles") {
         }
     }
     for (const auto& [edge, count] : uses) {
-        const glm::dvec3 middle = 0.5 * glm::dvec3(
-                                            detailed_mesh.vertices[edge.first].position_m +
-                                            detailed_mesh.vertices[edge.second].position_m) +
+        const glm::dvec3 middle = 0.5 * glm::dvec3(detailed_mesh.vertices[edge.first].position_m +
+                                                   detailed_mesh.vertices[edge.second].position_m) +
                                   low_eye_m;
         const double end_m = cells * spacing_m;
-        const bool border =
-            std::min({middle.x, middle.y, end_m - middle.x, end_m - middle.y}) < 0.01;
+        const bool border = std::min({middle.x, middle.y, end_m - middle.x, end_m - middle.y}) < 0.01;
         REQUIRE(count == (border ? 1 : 2));
     }
 }
@@ -110,8 +101,7 @@ TEST_CASE("detail keeps samples, turns no triangle over and covers the same grou
     }
     double area_m2 = 0.0;
     for (std::size_t i = 0; i < detailed_mesh.indices.size(); i += 3) {
-        const float twice_m2 = signed_area2(
-            detailed_mesh.vertices[detailed_mesh.indices[i]].position_m,
+        const float twice_m2 = signed_area2(detailed_mesh.vertices[detailed_mesh.indices[i]].position_m,
             detailed_mesh.vertices[detailed_mesh.indices[i + 1]].position_m,
             detailed_mesh.vertices[detailed_mesh.indices[i + 2]].position_m);
         REQUIRE(twice_m2 > 0.0F);
@@ -123,11 +113,9 @@ TEST_CASE("detail keeps samples, turns no triangle over and covers the same grou
 
 TEST_CASE("the parts of a triangle come from far to near, or the reverse") {
     const Field field(low_eye_m, cells, 3.0);
-    for (const auto order :
-         {visuals::terrain::PaintOrder::BackToFront, visuals::terrain::PaintOrder::FrontToBack}) {
+    for (const auto order : {visuals::terrain::PaintOrder::BackToFront, visuals::terrain::PaintOrder::FrontToBack}) {
         auto mesh = field.mesh();
-        mesh.indices =
-            mesh.indices.first(3); // the triangle below the diagonal, which holds the eye
+        mesh.indices = mesh.indices.first(3); // the triangle below the diagonal, which holds the eye
         NearDetailView view = view_from(low_eye_m);
         view.order = order;
         DetailedGround near(scenery_of({}));
@@ -137,8 +125,7 @@ TEST_CASE("the parts of a triangle come from far to near, or the reverse") {
                 const auto corner = [&](std::size_t k) {
                     return detailed_mesh.vertices[detailed_mesh.indices[i + k]].position_m;
                 };
-                if (signed_area2(corner(0), corner(1), at) >= 0.0F &&
-                    signed_area2(corner(1), corner(2), at) >= 0.0F &&
+                if (signed_area2(corner(0), corner(1), at) >= 0.0F && signed_area2(corner(1), corner(2), at) >= 0.0F &&
                     signed_area2(corner(2), corner(0), at) >= 0.0F) {
                     return static_cast<int>(i / 3);
                 }
@@ -164,9 +151,7 @@ TEST_CASE("from afar, and on level ground, nothing is moved") {
     const glm::dvec3 high_m(120.0, 120.0, 3000.0);
     const Field field(high_m, 1, 6.0);
     DetailedGround near(scenery_of({}));
-    CHECK(
-        near.detailed_mesh(field.mesh(), view_from(high_m), fine_only).indices.size() ==
-        field.indices.size());
+    CHECK(near.detailed_mesh(field.mesh(), view_from(high_m), fine_only).indices.size() == field.indices.size());
     const Field level(low_eye_m, 1, 0.0);
     const auto detailed_mesh = near.detailed_mesh(level.mesh(), view_from(low_eye_m), fine_only);
     for (const ColourVertex& vertex : detailed_mesh.vertices) {
@@ -180,8 +165,7 @@ TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex fa
         const Field field(eye_m, 1, 6.0);
         DetailedGround near(scenery_of({}));
         std::map<std::pair<long, long>, double> heights;
-        for (const ColourVertex& vertex :
-             near.detailed_mesh(field.mesh(), view_from(eye_m), fine_only).vertices) {
+        for (const ColourVertex& vertex : near.detailed_mesh(field.mesh(), view_from(eye_m), fine_only).vertices) {
             const glm::dvec3 at_m = glm::dvec3(vertex.position_m) + eye_m;
             heights[{std::lround(at_m.x * 64.0), std::lround(at_m.y * 64.0)}] = at_m.z;
         }
@@ -196,10 +180,7 @@ TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex fa
         if (found != after.end()) {
             ++both;
             const double distance_m = glm::length(
-                glm::dvec3(
-                    static_cast<double>(at.first) / 64.0,
-                    static_cast<double>(at.second) / 64.0,
-                    height_m) -
+                glm::dvec3(static_cast<double>(at.first) / 64.0, static_cast<double>(at.second) / 64.0, height_m) -
                 low_eye_m);
             max_rad = std::max(max_rad, std::abs(found->second - height_m) / distance_m);
         }
@@ -241,9 +222,7 @@ TEST_CASE("what must look long to be halved changes steadily as the eye moves") 
         const Field field(eye_m, 1, 20.0);
         const auto min_edge_rad = static_cast<double>(survey.min_edge_rad_for_budget(field.mesh(), view));
         CHECK(min_edge_rad > static_cast<double>(view.min_edge_rad));
-        if (step > 0) {
-            CHECK(std::abs(min_edge_rad / last_rad - 1.0) < 0.02);
-        }
+        if (step > 0) { CHECK(std::abs(min_edge_rad / last_rad - 1.0) < 0.02); }
         last_rad = min_edge_rad;
     }
 }
@@ -275,9 +254,7 @@ TEST_CASE("what stands on the ground stands within its triangle, whichever mesh 
             places.insert({std::lround(at_m.x * 16.0F), std::lround(at_m.y * 16.0F)});
         }
         std::vector<std::uint32_t> all(field.indices.size() / 3);
-        for (std::uint32_t i = 0; i < all.size(); ++i) {
-            all[i] = i;
-        }
+        for (std::uint32_t i = 0; i < all.size(); ++i) { all[i] = i; }
         for (const std::uint32_t triangle : all) {
             std::vector<std::uint32_t> own{triangle};
             near.replace(own, 0);
@@ -332,7 +309,8 @@ TEST_CASE("triangles that detail adds and those of what stands there are counted
         const auto detailed_mesh = near.detailed_mesh(field.mesh(), view_from(low_eye_m), detail);
         CHECK((detailed_mesh.detail_triangles > 0) == detail.has_subdivision);
         CHECK((detailed_mesh.scenery_triangles > 0) == detail.scenery);
-        CHECK(given + detailed_mesh.detail_triangles + detailed_mesh.scenery_triangles == detailed_mesh.indices.size() / 3);
+        CHECK(given + detailed_mesh.detail_triangles + detailed_mesh.scenery_triangles ==
+              detailed_mesh.indices.size() / 3);
     }
     const auto bare = near.detailed_mesh(field.mesh(), view_from(low_eye_m), {false, true});
     std::vector<std::uint32_t> all(given);

@@ -30,10 +30,7 @@ models::heights::HeightField make_ground_tiles(const std::function<double(double
 glm::dvec3 sun_at(double azimuth_deg, double elevation_deg) {
     const double azimuth = rad_from_deg(azimuth_deg);
     const double elevation = rad_from_deg(elevation_deg);
-    return {
-        std::cos(elevation) * std::sin(azimuth),
-        std::cos(elevation) * std::cos(azimuth),
-        std::sin(elevation)};
+    return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth), std::sin(elevation)};
 }
 
 ReliefShadows light_of(const models::heights::HeightField& field, const glm::dvec3& to_sun) {
@@ -60,15 +57,11 @@ TEST_CASE("a strip of ground that is reduced to one row or column has its light 
     for (const glm::ivec2& size : {glm::ivec2(length, 2), {length, 8}, {2, length}, {8, length}}) {
         CAPTURE(size.x, size.y);
         const models::heights::HeightField strip(
-            size.x,
-            size.y,
-            spacing_m,
-            std::vector<float>(static_cast<std::size_t>(size.x * size.y), 5.0F));
+            size.x, size.y, spacing_m, std::vector<float>(static_cast<std::size_t>(size.x * size.y), 5.0F));
         const ReliefShadows light = light_of(strip, sun_at(37.0, 20.0));
         for (const double at_m : {0.0, 4444.0, end_m}) {
             const auto along = static_cast<float>(at_m);
-            const auto left =
-                size.x > size.y ? light.at(along, 10.0F, 1.0F) : light.at(10.0F, along, 1.0F);
+            const auto left = size.x > size.y ? light.at(along, 10.0F, 1.0F) : light.at(10.0F, along, 1.0F);
             CHECK(left.sun == Approx(1.0));
             CHECK(left.sky == Approx(1.0));
         }
@@ -77,8 +70,7 @@ TEST_CASE("a strip of ground that is reduced to one row or column has its light 
 
 TEST_CASE("a wall throws a shadow as long as the sun says, away from the sun") {
     // 60 m high, from north to south; the sun stands in the west, 30 degrees up.
-    const auto wall =
-        make_ground_tiles([](double east, double) { return std::abs(east - 300.0) < 11.0 ? 60.0 : 0.0; });
+    const auto wall = make_ground_tiles([](double east, double) { return std::abs(east - 300.0) < 11.0 ? 60.0 : 0.0; });
     const ReliefShadows light = light_of(wall, sun_at(270.0, 30.0));
     const double reach_m = 60.0 / std::tan(rad_from_deg(30.0));
     CHECK(light.at(280.0F, 400.0F, 1.0F).sun == Approx(1.0));
@@ -90,9 +82,8 @@ TEST_CASE("a wall throws a shadow as long as the sun says, away from the sun") {
 }
 
 TEST_CASE("a shadow is as long under a sun between the grid's axes") {
-    const auto tower = make_ground_tiles([](double east, double north) {
-        return std::hypot(east - 400.0, north - 400.0) < 45.0 ? 80.0 : 0.0;
-    });
+    const auto tower = make_ground_tiles(
+        [](double east, double north) { return std::hypot(east - 400.0, north - 400.0) < 45.0 ? 80.0 : 0.0; });
     for (const double azimuth_deg : {20.0, 45.0, 110.0, 200.0, 290.0}) {
         INFO(azimuth_deg);
         const glm::dvec3 to_sun = sun_at(azimuth_deg, 25.0);
@@ -101,9 +92,7 @@ TEST_CASE("a shadow is as long under a sun between the grid's axes") {
         const double reach_m = 45.0 + 80.0 / std::tan(rad_from_deg(25.0));
         const auto sun_at_m = [&](double from_m) {
             return light
-                .at(static_cast<float>(400.0 + from_m * away.x),
-                    static_cast<float>(400.0 + from_m * away.y),
-                    1.0F)
+                .at(static_cast<float>(400.0 + from_m * away.x), static_cast<float>(400.0 + from_m * away.y), 1.0F)
                 .sun;
         };
         CHECK(sun_at_m(100.0) < 0.1F);
@@ -123,8 +112,8 @@ TEST_CASE("the bottom of a valley sees less of the sky than its rims") {
 }
 
 TEST_CASE("a wide footprint sees the mean of light and shadow") {
-    const auto teeth = make_ground_tiles(
-        [](double east, double) { return static_cast<int>(east / 40.0) % 2 == 0 ? 25.0 : 0.0; });
+    const auto teeth =
+        make_ground_tiles([](double east, double) { return static_cast<int>(east / 40.0) % 2 == 0 ? 25.0 : 0.0; });
     const ReliefShadows light = light_of(teeth, sun_at(270.0, 35.0));
     const float wide = light.at(400.0F, 400.0F, 160.0F).sun;
     CHECK(wide > 0.3F);

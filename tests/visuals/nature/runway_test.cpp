@@ -23,12 +23,11 @@ std::vector<RunwayRectangle> markings(double heading_deg) {
 }
 
 /// The patches of such a size that begin between two places along the runway, from left to right.
-std::vector<RunwayRectangle>
-of_size(std::vector<RunwayRectangle> patches, const glm::vec2& size_m, float from_m, float to_m) {
+std::vector<RunwayRectangle> of_size(
+    std::vector<RunwayRectangle> patches, const glm::vec2& size_m, float from_m, float to_m) {
     std::erase_if(patches, [&](const RunwayRectangle& patch) {
         const glm::vec2 off_m = glm::abs(patch.max_m - patch.min_m - size_m);
-        return off_m.x > 1e-3F || off_m.y > 1e-3F || patch.min_m.x < from_m ||
-               patch.min_m.x > to_m;
+        return off_m.x > 1e-3F || off_m.y > 1e-3F || patch.min_m.x < from_m || patch.min_m.x > to_m;
     });
     std::ranges::sort(patches, {}, [](const RunwayRectangle& patch) { return -patch.min_m.y; });
     return patches;
@@ -67,8 +66,7 @@ TEST_CASE("a runway's surface is all of it once, and markings lie on it apart fr
     for (std::size_t a = 0; a < all.size(); ++a) {
         for (std::size_t b = a + 1; b < all.size(); ++b) {
             if (all[a].is_painted == all[b].is_painted) {
-                const glm::vec2 overlap_m = glm::min(all[a].max_m, all[b].max_m) -
-                                            glm::max(all[a].min_m, all[b].min_m);
+                const glm::vec2 overlap_m = glm::min(all[a].max_m, all[b].max_m) - glm::max(all[a].min_m, all[b].min_m);
                 REQUIRE(std::min(overlap_m.x, overlap_m.y) <= 1e-3F);
             }
         }
@@ -116,8 +114,8 @@ TEST_CASE("who turns around finds the same runway but for its number") {
     for (const RunwayRectangle& patch : there) {
         const glm::vec2 end(length_m, 0.0F);
         CHECK(std::ranges::any_of(back, [&](const RunwayRectangle& other) {
-            const glm::vec2 off_m = glm::abs(other.min_m - (end - patch.max_m)) +
-                                    glm::abs(other.max_m - (end - patch.min_m));
+            const glm::vec2 off_m =
+                glm::abs(other.min_m - (end - patch.max_m)) + glm::abs(other.max_m - (end - patch.min_m));
             return off_m.x + off_m.y < 1e-2F;
         }));
     }

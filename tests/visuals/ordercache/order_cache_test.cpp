@@ -27,8 +27,8 @@ using models::polygons::PolygonModel;
 using octant::tests::check_same;
 using octant::tests::crossing_plates;
 using octant::tests::shipped_model;
-using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
+using visuals::draworder::OrderMethod;
 using visuals::draworder::OrderOptions;
 
 namespace {
@@ -40,8 +40,7 @@ const OrderOptions by_bsp{.method = OrderMethod::Bsp, .paper = {}};
 using octant::tests::empty_folder;
 
 std::size_t files_in(const fs::path& folder) {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
 /// A folder that keeps the order of the plates, its file, and that file's bytes.
@@ -68,8 +67,8 @@ std::string with_checksum(std::string bytes) {
     return bytes;
 }
 
-/// Puts bytes in place of the kept file. The plates must then be ordered anew, with one note that
-/// names the file, and the file must be as it was.
+/// Puts bytes in place of the kept file. The plates must then be ordered anew, with one note that names the file, and
+/// the file must be as it was.
 std::string note_about(const Kept& kept, const std::string& bytes) {
     write_file(kept.file, bytes);
     const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_bsp);
@@ -144,15 +143,13 @@ TEST_CASE("a file of another version, kind or model is computed anew, whatever i
     const Kept kept = kept_plates("version");
     std::string older = kept.bytes;
     older[8] = static_cast<char>(order_version + 1);
-    CHECK_THAT(
-        note_about(kept, with_checksum(older)),
+    CHECK_THAT(note_about(kept, with_checksum(older)),
         Contains(fmt::format("expected version {}, got {}", order_version, order_version + 1)));
     CHECK_THAT(note_about(kept, "v 0 0 0\nv 1 0 0\n"), Contains("got another kind of file"));
 
     PolygonModel moved = crossing_plates();
     moved.vertices_m[4].x -= 0.25;
-    CHECK_THAT(
-        note_about(kept, read_file(cached_order(kept.folder, moved, by_bsp).file)),
+    CHECK_THAT(note_about(kept, read_file(cached_order(kept.folder, moved, by_bsp).file)),
         Contains("got that of another one"));
 }
 
@@ -190,8 +187,7 @@ TEST_CASE("a place that cannot be a folder, or not be written in, is refused at 
     const fs::path folder = empty_folder("refused");
     write_file(folder / "file", "");
     CHECK_THROWS_WITH(
-        make_cache_folder(folder / "file" / "cache"),
-        Contains("order cache " + (folder / "file" / "cache").string()));
+        make_cache_folder(folder / "file" / "cache"), Contains("order cache " + (folder / "file" / "cache").string()));
     CHECK_THROWS_AS(make_cache_folder(folder / "file"), Error);
     make_cache_folder(folder / "a" / "b");
     CHECK(fs::is_directory(folder / "a" / "b"));

@@ -1,7 +1,7 @@
 #include "models/procedural/background60.h"
-#include "sim/base/random_generator.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/random_generator.h"
 #include "tests/visuals/ordercache/small_models.h"
 #include "visuals/ordercache/binary_file.h"
 #include "visuals/ordercache/order_cache.h"
@@ -21,8 +21,8 @@ using octant::tests::check_same;
 using octant::tests::crossing_plates;
 using octant::tests::shipped_model;
 using visuals::draworder::DrawOrder;
-using visuals::draworder::OrderMethod;
 using visuals::draworder::OrderedModel;
+using visuals::draworder::OrderMethod;
 using visuals::draworder::OrderOptions;
 
 namespace {
@@ -31,8 +31,8 @@ OrderedModel by(OrderMethod method, const PolygonModel& model) {
     return visuals::draworder::ordered(model, {.method = method, .paper = {}});
 }
 
-/// Reads bytes that may be anything. Where they are taken for an order, eyes all around must be
-/// able to ask it for what is painted, and that must be polygons of the model.
+/// Reads bytes that may be anything. Where they are taken for an order, eyes all around must be able to ask it for what
+/// is painted, and that must be polygons of the model.
 void read_anything(const std::string& bytes, const PolygonModel& given) {
     try {
         const OrderedModel read = decode_order(bytes, given);
@@ -49,15 +49,11 @@ void read_anything(const std::string& bytes, const PolygonModel& given) {
                 }
             }
         }
-    } catch (const Error& fault) {
-        REQUIRE(std::string(fault.what()).starts_with("expected "));
-    }
+    } catch (const Error& fault) { REQUIRE(std::string(fault.what()).starts_with("expected ")); }
 }
 
 /// An order of two whole plates from these nodes and lists, as bytes.
-std::string order_of(
-    const std::vector<DrawOrder::Node>& nodes,
-    const std::vector<std::vector<std::uint32_t>>& lists) {
+std::string order_of(const std::vector<DrawOrder::Node>& nodes, const std::vector<std::vector<std::uint32_t>>& lists) {
     const PolygonModel model = crossing_plates();
     BinaryWriter out;
     out.array(model.vertices_m);
@@ -68,30 +64,21 @@ std::string order_of(
     for (const DrawOrder::Node& node : nodes) {
         out.array(std::span(&node.plane, 1));
         out.number(static_cast<std::uint32_t>(node.kind));
-        for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) {
-            out.number(child);
-        }
+        for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) { out.number(child); }
     }
     out.number(std::uint64_t{lists.size()});
-    for (const auto& list : lists) {
-        out.array(list);
-    }
+    for (const auto& list : lists) { out.array(list); }
     // No regions, the centre, the least distance, splits, cycles, no notes, a tree, the trial.
-    const OrderedModel rest{
-        .model = {}, .order = DrawOrder(std::vector<std::uint32_t>{}), .cells = {}, .notes = {}};
+    const OrderedModel rest{.model = {}, .order = DrawOrder(std::vector<std::uint32_t>{}), .cells = {}, .notes = {}};
     constexpr std::size_t before_rest = 4 * 8 + 8 + 8 + 8;
     out.raw(encode_order(rest).substr(before_rest));
     return out.bytes();
 }
 
-std::string fault_of(
-    const std::vector<DrawOrder::Node>& nodes,
-    const std::vector<std::vector<std::uint32_t>>& lists) {
+std::string fault_of(const std::vector<DrawOrder::Node>& nodes, const std::vector<std::vector<std::uint32_t>>& lists) {
     try {
         decode_order(order_of(nodes, lists), crossing_plates());
-    } catch (const Error& fault) {
-        return fault.what();
-    }
+    } catch (const Error& fault) { return fault.what(); }
     return "";
 }
 
@@ -100,10 +87,7 @@ std::string fault_of(
 TEST_CASE("an ordered model read back is the same, bit for bit, by every method") {
     for (const OrderMethod method : {OrderMethod::Paper, OrderMethod::Cells, OrderMethod::Tree, OrderMethod::Bsp}) {
         for (const PolygonModel& model :
-             {shipped_model("f15"),
-              shipped_model("500md"),
-              shipped_model("concave"),
-              crossing_plates()}) {
+            {shipped_model("f15"), shipped_model("500md"), shipped_model("concave"), crossing_plates()}) {
             CAPTURE(model.name, static_cast<int>(method));
             const OrderedModel ordered = by(method, model);
             check_same(decode_order(encode_order(ordered), model), ordered);
@@ -135,18 +119,14 @@ TEST_CASE("what decides the order is in the key, names and colours are not") {
     changed[4].parts[1] = "rotor";
     changed[5].pivots = {{1, {0, 0, 0}, {0, 0, 1}, 6.0}};
     changed[6].parents = {0, 0};
-    for (const PolygonModel& model : changed) {
-        CHECK(encode_key(model, options) != key);
-    }
+    for (const PolygonModel& model : changed) { CHECK(encode_key(model, options) != key); }
     std::vector<OrderOptions> asked(5);
     asked[0].method = OrderMethod::Bsp;
     asked[1].seconds = 19.0;
     asked[2].min_distance_radii = 3.0;
     asked[3].paper.viewpoint_radii = {3.0, 3.0, 4.0};
     asked[4].paper.screen = visuals::draworder::ScreenProjection::Perspective;
-    for (const OrderOptions& one : asked) {
-        CHECK(encode_key(plates, one) != key);
-    }
+    for (const OrderOptions& one : asked) { CHECK(encode_key(plates, one) != key); }
 }
 
 TEST_CASE("an order cut short anywhere is refused") {
@@ -191,8 +171,8 @@ TEST_CASE("nodes and lists that are no tree over the polygons are refused") {
     CHECK(fault_of({{.plane = {}, .front = 1, .back = ~0}}, {{0}}).starts_with(children));
     CHECK(fault_of({leaf}, {{0, 1}}).starts_with(children));
     CHECK(fault_of({{.plane = {}, .front = 1, .back = 1}, leaf}, {{0}, {1}}).starts_with(children));
-    CHECK(fault_of({{.plane = {}, .front = ~0, .back = DrawOrder::nothing}}, {{0}})
-              .starts_with("expected a choice between nodes or cells"));
+    CHECK(fault_of({{.plane = {}, .front = ~0, .back = DrawOrder::nothing}},
+        {{0}}).starts_with("expected a choice between nodes or cells"));
     CHECK(fault_of({}, {{0, 2}}).starts_with("expected lists of different polygons"));
     CHECK(fault_of({}, {{1, 0, 1}}).starts_with("expected lists of different polygons"));
     CHECK(fault_of({}, {{0}, {1}}).starts_with("expected one list or nodes"));
@@ -200,8 +180,8 @@ TEST_CASE("nodes and lists that are no tree over the polygons are refused") {
 }
 
 TEST_CASE("a builder that gives other orders has another version") {
-    // Where this fails, draworder::ordered() gives other results than before, and files that were
-    // kept would go on giving the old ones: raise order_version, and write the new number here.
+    // Where this fails, draworder::ordered() gives other results than before, and files that were kept would go on
+    // giving the old ones: raise order_version, and write the new number here.
     Hash hash;
     const auto add = [&](const OrderedModel& ordered) {
         hash.add(std::as_bytes(ordered.order.polygons()));

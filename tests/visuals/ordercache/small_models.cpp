@@ -21,14 +21,7 @@ PolygonModel crossing_plates() {
     PolygonModel model;
     model.name = "plates";
     model.vertices_m = {
-        {-1, -1, 0},
-        {1, -1, 0},
-        {1, 1, 0},
-        {-1, 1, 0},
-        {-0.5, 0, -1},
-        {0.5, 0, -1},
-        {0.5, 0.1, 1},
-        {-0.5, 0.1, 1}};
+        {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-0.5, 0, -1}, {0.5, 0, -1}, {0.5, 0.1, 1}, {-0.5, 0.1, 1}};
     model.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7};
     model.polygons = {{0, 4, 0, 0}, {4, 4, 1, 1}};
     model.materials = {{"red", {1, 0, 0}}, {"blue", {0, 0, 1}}};
@@ -36,8 +29,7 @@ PolygonModel crossing_plates() {
     return model;
 }
 
-void check_same(
-    const visuals::draworder::OrderedModel& one, const visuals::draworder::OrderedModel& other) {
+void check_same(const visuals::draworder::OrderedModel& one, const visuals::draworder::OrderedModel& other) {
     using visuals::ordercache::encode_order;
     CHECK(encode_order(one) == encode_order(other));
     CHECK(std::ranges::equal(one.order.polygons(), other.order.polygons()));
@@ -52,8 +44,7 @@ void check_same(
     };
     CHECK(std::ranges::equal(one.model.materials, other.model.materials, same_material));
     const auto same_pivot = [](const models::polygons::Pivot& a, const models::polygons::Pivot& b) {
-        return a.part == b.part && a.point_m == b.point_m && a.axis == b.axis &&
-               a.turns_per_s == b.turns_per_s;
+        return a.part == b.part && a.point_m == b.point_m && a.axis == b.axis && a.turns_per_s == b.turns_per_s;
     };
     CHECK(std::ranges::equal(one.model.pivots, other.model.pivots, same_pivot));
 }

@@ -30,11 +30,7 @@ RayTestCounts rays_of(const BspTree& tree) {
         return std::span<const std::uint32_t>(list);
     };
     const RaySampling samples{
-        .eyes = 150,
-        .rays_per_eye = 100,
-        .min_distance_radii = 0.1,
-        .max_distance_radii = 4.0,
-        .seed = 11};
+        .eyes = 150, .rays_per_eye = 100, .min_distance_radii = 0.1, .max_distance_radii = 4.0, .seed = 11};
     return count_wrong_rays(tree.model, painted_from, samples);
 }
 
@@ -58,11 +54,7 @@ TEST_CASE("three bars, each over the next, are cut once or more") {
 
 TEST_CASE("a tree paints what faces the eye, far before near, inside the model too") {
     for (const auto& model :
-         {tests::paper_example(),
-          tests::u_channel(),
-          tests::three_bars(),
-          tests::fig_14(true),
-          tests::pile(5, 6)}) {
+        {tests::paper_example(), tests::u_channel(), tests::three_bars(), tests::fig_14(true), tests::pile(5, 6)}) {
         const BspTree tree = bsp_tree(model);
         auto all = tree.polygons;
         std::ranges::sort(all);

@@ -17,9 +17,9 @@
 using namespace octant;
 using namespace octant::visuals::orderfile;
 using namespace octant::visuals::separation;
-using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
 using visuals::draworder::OrderedModel;
+using visuals::draworder::OrderMethod;
 
 namespace {
 
@@ -57,9 +57,7 @@ CellOrders with_pair_swapped(CellOrders orders, std::size_t cell, std::size_t pl
 const std::vector<glm::dvec3> low_plate{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
 
 std::vector<glm::dvec3> moved(std::vector<glm::dvec3> corners, const glm::dvec3& by) {
-    for (glm::dvec3& corner : corners) {
-        corner += by;
-    }
+    for (glm::dvec3& corner : corners) { corner += by; }
     return corners;
 }
 
@@ -79,8 +77,7 @@ TEST_CASE("of two plates one above the other only the lower may be painted first
 TEST_CASE("two slanted plates side by side need a plane that none of them has") {
     // Both see the eyes above; neither lies on one side of the other's plane.
     const auto slanted = model_of(
-        {{{-3, -1, 0}, {-1, -1, 1}, {-1, 1, 1}, {-3, 1, 0}},
-         {{1, -1, 1.2}, {3, -1, 0}, {3, 1, 0}, {1, 1, 1.2}}});
+        {{{-3, -1, 0}, {-1, -1, 1}, {-1, 1, 1}, {-3, 1, 0}}, {{1, -1, 1.2}, {3, -1, 0}, {3, 1, 0}, {1, 1, 1.2}}});
     const Plane over{{0, 0, 1}, -5};
     const OrderCheck check = check_order(slanted, one_cell({over}, {0, 1}, 2));
     CHECK(check.good());
@@ -89,21 +86,17 @@ TEST_CASE("two slanted plates side by side need a plane that none of them has") 
     const Plane right{{1, 0, 0}, -4};
     CHECK(check_order(slanted, one_cell({right}, {0, 1}, 2)).good());
     const auto tipped = model_of(
-        {{{-3, -1, 0}, {-1, -1, -0.5}, {-1, 1, -0.5}, {-3, 1, 0}},
-         {{1, -1, 1}, {3, -1, 0}, {3, 1, 0}, {1, 1, 1}}});
+        {{{-3, -1, 0}, {-1, -1, -0.5}, {-1, 1, -0.5}, {-3, 1, 0}}, {{1, -1, 1}, {3, -1, 0}, {3, 1, 0}, {1, 1, 1}}});
     CHECK(check_order(tipped, one_cell({right}, {0, 1}, 2)).good());
     CHECK_FALSE(check_order(tipped, one_cell({right}, {1, 0}, 2)).good());
 }
 
 TEST_CASE("polygons that touch are certified, polygons that cross are not") {
-    const auto roof = model_of(
-        {{{0, -1, 1}, {1, -1, 0}, {1, 1, 0}, {0, 1, 1}},
-         {{-1, -1, 0}, {0, -1, 1}, {0, 1, 1}, {-1, 1, 0}},
-         {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}});
+    const auto roof = model_of({{{0, -1, 1}, {1, -1, 0}, {1, 1, 0}, {0, 1, 1}},
+        {{-1, -1, 0}, {0, -1, 1}, {0, 1, 1}, {-1, 1, 0}}, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}});
     CHECK(check_order(roof, one_cell({above}, {2, 1, 0}, 3)).good());
     CHECK(check_order(roof, one_cell({above}, {2, 0, 1}, 3)).good());
-    const auto crossing =
-        model_of({low_plate, {{-0.5, -0.5, -1}, {0.5, -0.5, 1}, {0.5, 0.5, 1}, {-0.5, 0.5, -1}}});
+    const auto crossing = model_of({low_plate, {{-0.5, -0.5, -1}, {0.5, -0.5, 1}, {0.5, 0.5, 1}, {-0.5, 0.5, -1}}});
     const Plane high{{0, 0, 1}, -9};
     CHECK_FALSE(check_order(crossing, one_cell({high}, {0, 1}, 2)).good());
     CHECK_FALSE(check_order(crossing, one_cell({high}, {1, 0}, 2)).good());
@@ -132,8 +125,8 @@ TEST_CASE("the paper's table is certified beyond the model's radius, and no othe
     for (std::size_t cell = 0; cell < 8; ++cell) {
         for (std::size_t place = 0; place + 1 < orders.cells[cell].list.size(); ++place) {
             const CellOrders swapped = with_pair_swapped(orders, cell, place);
-            const auto rays = count_wrong_rays(
-                model, swapped, {.eyes = 4000, .rays_per_eye = 5, .min_distance_radii = 1.8});
+            const auto rays =
+                count_wrong_rays(model, swapped, {.eyes = 4000, .rays_per_eye = 5, .min_distance_radii = 1.8});
             INFO(cell << " " << place);
             CHECK(check_order(model, swapped).good() == (rays.wrong == 0));
         }
@@ -152,10 +145,8 @@ TEST_CASE("rays find eyes that no cell has") {
 
 TEST_CASE("a turning part is certified for every angle") {
     // A blade that turns about z above a plate, and one that dips into a box beside it.
-    auto rotor = model_of(
-        {low_plate,
-         {{0, -0.1, 1}, {3, -0.1, 1}, {3, 0.1, 1}, {0, 0.1, 1}},
-         {{-2.5, -1, 0}, {-1.5, -1, 0}, {-1.5, 1, 2}, {-2.5, 1, 2}}});
+    auto rotor = model_of({low_plate, {{0, -0.1, 1}, {3, -0.1, 1}, {3, 0.1, 1}, {0, 0.1, 1}},
+        {{-2.5, -1, 0}, {-1.5, -1, 0}, {-1.5, 1, 2}, {-2.5, 1, 2}}});
     rotor.parts = {"body", "rotor"};
     rotor.polygons[1].part = 1;
     rotor.pivots = {{.part = 1, .point_m = {0, 0, 1}, .axis = {0, 0, 1}}};
@@ -163,8 +154,7 @@ TEST_CASE("a turning part is certified for every angle") {
     plate_and_blade.polygons.resize(2);
     CHECK(check_order(plate_and_blade, one_cell({}, {0, 1}, 2)).good());
     CHECK_FALSE(check_order(plate_and_blade, one_cell({}, {1, 0}, 2)).good());
-    // At the file's angle the ramp is far from the blade, at half a turn they cross.
-    // The eyes are high above both.
+    // At the file's angle the ramp is far from the blade, at half a turn they cross. The eyes are high above both.
     const double half = std::sqrt(0.5);
     const std::vector<Plane> high{{{0, 0, 1}, -9}, {{half, 0, half}, 0}, {{-half, 0, half}, 0}};
     const CellOrders orders = one_cell(high, {0, 2, 1}, 3);
@@ -180,19 +170,14 @@ TEST_CASE("planes that others make needless are dropped") {
     const Plane left{{1, 0, 0}, 1};
     const Plane farther_left{{1, 0, 0}, 2};
     const Plane near_corner{glm::normalize(glm::dvec3(1, 0, 1)), 5};
-    CHECK(
-        without_redundant(std::vector<Plane>{farther_left, left, above, near_corner}) ==
-        std::vector<Plane>{left, above});
+    CHECK(without_redundant(std::vector<Plane>{farther_left, left, above, near_corner}) ==
+          std::vector<Plane>{left, above});
 }
 
 TEST_CASE("orders found for all kinds of shapes are certified, and come back from a file") {
     const auto path = tests::scratch_folder() / "shapes.txt";
-    for (const auto& model :
-         {tests::u_channel(),
-          tests::plate_between_boxes(),
-          tests::three_bars(),
-          tests::fig_14(true),
-          tests::pile(3, 4)}) {
+    for (const auto& model : {tests::u_channel(), tests::plate_between_boxes(), tests::three_bars(),
+             tests::fig_14(true), tests::pile(3, 4)}) {
         for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree}) {
             const OrderedModel found = ordered(model, {.method = method, .paper = {}});
             const CellOrders orders = cell_orders(found);
@@ -201,8 +186,7 @@ TEST_CASE("orders found for all kinds of shapes are certified, and come back fro
             write_file(path, order_text(orders));
             const CellOrders read = read_order_file(path, found.model.polygons.size());
             CHECK(check_order(found.model, read).good());
-            const RayTestCounts rays =
-                count_wrong_rays(found.model, read, {.eyes = 300, .min_distance_radii = 0.1});
+            const RayTestCounts rays = count_wrong_rays(found.model, read, {.eyes = 300, .min_distance_radii = 0.1});
             CHECK(rays.hits > 100);
             CHECK(rays.wrong == 0);
             CHECK(rays.eyes_without_cell == 0);

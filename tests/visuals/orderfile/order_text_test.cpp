@@ -1,7 +1,7 @@
 #include "models/polygons/polygon_model.h"
-#include "sim/base/random_generator.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/random_generator.h"
 #include "tests/paper_example.h"
 #include "tests/scratch.h"
 #include "visuals/orderfile/order_text.h"
@@ -14,8 +14,8 @@
 using namespace octant;
 using namespace octant::visuals::orderfile;
 using visuals::draworder::DrawOrder;
-using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
+using visuals::draworder::OrderMethod;
 
 namespace {
 
@@ -60,9 +60,8 @@ TEST_CASE("orders come back from their text as they were, byte for byte") {
 }
 
 TEST_CASE("a file is read into cells, planes, distances and lists") {
-    const CellOrders orders =
-        read("# orders by hand\n\ndraworder 1 # version\nfaces 3\r\ncenter 1 0 0\n"
-             "cell half 1 0 0 2 -4 order 2\ncell +++ min 5 max 9 order 0 1\ncell ++- order 1\n");
+    const CellOrders orders = read("# orders by hand\n\ndraworder 1 # version\nfaces 3\r\ncenter 1 0 0\n"
+                                   "cell half 1 0 0 2 -4 order 2\ncell +++ min 5 max 9 order 0 1\ncell ++- order 1\n");
     REQUIRE(orders.cells.size() == 3);
     CHECK(orders.metric == Metric::L2);
     CHECK(orders.cells[0].planes == std::vector<Plane>{{{0, 0, 1}, -2}});
@@ -76,8 +75,7 @@ TEST_CASE("a file is read into cells, planes, distances and lists") {
 }
 
 TEST_CASE("the octant orders of a model and its exported file choose the same lists") {
-    const auto ordered_example =
-        ordered(tests::paper_example(), {.method = OrderMethod::Paper, .paper = {}});
+    const auto ordered_example = ordered(tests::paper_example(), {.method = OrderMethod::Paper, .paper = {}});
     const models::polygons::FileAxes axes;
     const auto path = file_with(order_text(cell_orders(ordered_example), axes));
     const CellOrders orders = read_order_file(path, 10, axes);
@@ -86,8 +84,7 @@ TEST_CASE("the octant orders of a model and its exported file choose the same li
         const glm::dvec3 eye_m = dice.direction() * 1000.0;
         const auto cell = cell_of(orders, eye_m);
         REQUIRE(cell);
-        const auto expected =
-            ordered_example.order.polygons_of(ordered_example.order.cell_of(eye_m));
+        const auto expected = ordered_example.order.polygons_of(ordered_example.order.cell_of(eye_m));
         CHECK(std::ranges::equal(orders.cells[*cell].list, expected));
     }
     CHECK(cell_of(orders, {10, 10, 10}) == std::nullopt);
@@ -112,21 +109,15 @@ TEST_CASE("parts come back from their text as they were, and paint the same") {
 TEST_CASE("parts that hang together badly are refused") {
     const std::string lists = head + "list 0\nlist 1 2\n";
     CHECK(refusal(lists) == ": expected nodes between several lists, got none");
-    CHECK(
-        refusal(lists + "node sequence list 0 list 2\n") ==
-        ": expected children among 1 nodes and 2 lists, got list 2");
+    CHECK(refusal(lists + "node sequence list 0 list 2\n") ==
+          ": expected children among 1 nodes and 2 lists, got list 2");
     CHECK_THAT(
-        refusal(lists + "node sequence list 0 node 0\n"),
-        Catch::StartsWith(":5: expected the number of a later node"));
-    CHECK_THAT(
-        refusal(lists + "node sequence node 1 node 1\nnode sequence list 0 list 1\n"),
+        refusal(lists + "node sequence list 0 node 0\n"), Catch::StartsWith(":5: expected the number of a later node"));
+    CHECK_THAT(refusal(lists + "node sequence node 1 node 1\nnode sequence list 0 list 1\n"),
         Catch::StartsWith(":5: expected each node below one other, got '1'"));
-    CHECK_THAT(
-        refusal(lists + "node either list 0 list 1\n"),
+    CHECK_THAT(refusal(lists + "node either list 0 list 1\n"),
         Catch::StartsWith(":5: expected choice, parting or sequence, got 'either'"));
-    CHECK_THAT(
-        refusal(lists + "cell half 0 order 0\n"),
-        Catch::StartsWith(":5: expected either cells or parts"));
+    CHECK_THAT(refusal(lists + "cell half 0 order 0\n"), Catch::StartsWith(":5: expected either cells or parts"));
 }
 
 TEST_CASE("whatever is wrong with a file of orders is told with its line") {
@@ -135,9 +126,7 @@ TEST_CASE("whatever is wrong with a file of orders is told with its line") {
     CHECK_THAT(refusal("draworder 2\n"), StartsWith(":1: expected 'draworder 1' first"));
     CHECK_THAT(refusal("faces 3\n"), StartsWith(":1: expected 'draworder 1' first"));
     CHECK(refusal(head) == ": expected at least one cell or list, got none");
-    CHECK(
-        refusal("draworder 1\nfaces 4\n") ==
-        ":2: expected as many faces as the model has (3 to 3), got '4'");
+    CHECK(refusal("draworder 1\nfaces 4\n") == ":2: expected as many faces as the model has (3 to 3), got '4'");
     CHECK_THAT(refusal("draworder 1\ncell +++ order 0\n"), StartsWith(":2: expected faces before"));
     CHECK_THAT(refusal(head + "faces 3\n"), StartsWith(":3: expected each keyword once"));
     CHECK_THAT(refusal(head + "cell +++ order 0\nmetric l1\n"), StartsWith(":4: expected each"));
@@ -151,24 +140,18 @@ TEST_CASE("whatever is wrong with a file of orders is told with its line") {
     CHECK_THAT(refusal(head + "cell +++/4 order 0\n"), StartsWith(":3: expected a region"));
     CHECK_THAT(refusal(head + "cell ball 3 order 0\n"), StartsWith(":3: expected a region"));
     CHECK_THAT(
-        refusal(head + "cell +++ order 0 3\n"),
-        StartsWith(":3: expected a polygon of the model (0 to 2), got '3'"));
+        refusal(head + "cell +++ order 0 3\n"), StartsWith(":3: expected a polygon of the model (0 to 2), got '3'"));
     CHECK_THAT(refusal(head + "cell +++ order 0 x\n"), StartsWith(":3: expected a polygon"));
     CHECK(refusal(head + "cell +++ order 0 1 0\n") == ":3: expected each polygon once, got '0'");
     CHECK_THAT(refusal(head + "cell +++ 0 1\n"), StartsWith(":3: expected min R, max R or order"));
     CHECK_THAT(refusal(head + "cell +++ min -1 order 0\n"), StartsWith(":3: expected the least"));
-    CHECK_THAT(
-        refusal(head + "cell +++ min 2 max 2 order 0\n"),
+    CHECK_THAT(refusal(head + "cell +++ min 2 max 2 order 0\n"),
         StartsWith(":3: expected a greatest distance above the least, got '2'"));
-    CHECK_THAT(
-        refusal(head + "cell half 1 0 0 1 inf order 0\n"), StartsWith(":3: expected an off"));
-    CHECK_THAT(
-        refusal(head + "cell half 1 0 0 0 1 order\n"), StartsWith(":3: expected a normal w"));
+    CHECK_THAT(refusal(head + "cell half 1 0 0 1 inf order 0\n"), StartsWith(":3: expected an off"));
+    CHECK_THAT(refusal(head + "cell half 1 0 0 0 1 order\n"), StartsWith(":3: expected a normal w"));
     CHECK_THAT(refusal(head + "cell half -1 order 0\n"), StartsWith(":3: expected how many"));
-    CHECK_THAT(
-        refusal(head + "cell cone 3 1 0 0 0 1 0 1 1 0 order 0\n"),
+    CHECK_THAT(refusal(head + "cell cone 3 1 0 0 0 1 0 1 1 0 order 0\n"),
         StartsWith(":3: expected directions that do not lie in one plane"));
     CHECK_THAT(refusal(head + "cell cone 2 1 0 0 0 1 0 order 0\n"), StartsWith(":3: expected how"));
-    CHECK_THROWS_WITH(
-        read(std::string("draworder 1\0", 12)), Catch::Contains("expected text, got binary"));
+    CHECK_THROWS_WITH(read(std::string("draworder 1\0", 12)), Catch::Contains("expected text, got binary"));
 }

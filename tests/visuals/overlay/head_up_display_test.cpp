@@ -25,9 +25,8 @@ constexpr glm::ivec2 size_px(1280, 720);
 InstrumentReadings flying(const EulerAngles& attitude, double speed_mps, double climb_rad) {
     InstrumentReadings inputs;
     inputs.state.body_to_world = body_to_world_from_euler(attitude);
-    inputs.state.velocity_mps =
-        speed_mps * (std::cos(climb_rad) * direction_from_heading(attitude.heading_rad) +
-                     glm::dvec3(0.0, 0.0, std::sin(climb_rad)));
+    inputs.state.velocity_mps = speed_mps * (std::cos(climb_rad) * direction_from_heading(attitude.heading_rad) +
+                                                glm::dvec3(0.0, 0.0, std::sin(climb_rad)));
     inputs.height_m = 1000.0;
     inputs.height_above_ground_m = 200.0;
     return inputs;
@@ -35,8 +34,7 @@ InstrumentReadings flying(const EulerAngles& attitude, double speed_mps, double 
 
 const InstrumentReadings level = flying({1.0, 0.0, 0.0}, 100.0, 0.0);
 
-Camera
-cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0, double elevation_deg = 0) {
+Camera cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0, double elevation_deg = 0) {
     Settings settings;
     settings.view.kind = View::Cockpit;
     settings.view.azimuth_deg = azimuth_deg;
@@ -48,17 +46,14 @@ cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0, double 
 /// Where the renderer shows a direction of the world.
 glm::vec2 seen_at(const Camera& camera, const glm::dvec3& direction) {
     const double aspect = static_cast<double>(size_px.x) / size_px.y;
-    const glm::vec4 clip = view_to_clip(camera, aspect) * world_to_view(camera) *
-                           glm::vec4(glm::vec3(direction), 0.0F);
+    const glm::vec4 clip = view_to_clip(camera, aspect) * world_to_view(camera) * glm::vec4(glm::vec3(direction), 0.0F);
     const glm::vec2 share = glm::vec2(clip) / clip.w;
     return glm::vec2(0.5F + 0.5F * share.x, 0.5F - 0.5F * share.y) * glm::vec2(size_px);
 }
 
 std::vector<glm::vec2> places(const OverlayDraw& draw) {
     std::vector<glm::vec2> places;
-    for (const OverlayVertex& vertex : draw.vertices) {
-        places.push_back(vertex.at_px);
-    }
+    for (const OverlayVertex& vertex : draw.vertices) { places.push_back(vertex.at_px); }
     return places;
 }
 
@@ -97,8 +92,8 @@ TEST_CASE("a rung lies at its pitch, whole above the horizon and dashed below") 
         int inked = 0;
         for (int i = 0; i < 40; ++i) {
             const double aside = 0.035 + 0.055 * i / 40.0;
-            const glm::dvec3 rung = level_ahead + aside * level_right +
-                                    glm::dvec3(0, 0, std::tan(rad_from_deg(pitch_deg)));
+            const glm::dvec3 rung =
+                level_ahead + aside * level_right + glm::dvec3(0, 0, std::tan(rad_from_deg(pitch_deg)));
             inked += ink_at(draw, seen_at(camera, rung)) > 0.5 ? 1 : 0;
         }
         return inked;
@@ -120,11 +115,7 @@ TEST_CASE("the flight-path marker rings where the flight goes") {
         int ring = 0;
         for (int i = 0; i < 16; ++i) {
             const auto angle_rad = static_cast<float>(0.2 + i * pi / 8.0);
-            ring +=
-                ink_at(draw, at + radius * glm::vec2(std::cos(angle_rad), std::sin(angle_rad))) >
-                        0.5
-                    ? 1
-                    : 0;
+            ring += ink_at(draw, at + radius * glm::vec2(std::cos(angle_rad), std::sin(angle_rad))) > 0.5 ? 1 : 0;
         }
         CHECK(ring == 16);
     }
@@ -133,9 +124,7 @@ TEST_CASE("the flight-path marker rings where the flight goes") {
 TEST_CASE("a flight path beyond the display is marked at its edge, one behind not at all") {
     const auto farthest_down = [](const InstrumentReadings& inputs) {
         float most = 0.0F;
-        for (const glm::vec2& place : drawn_places(inputs)) {
-            most = std::max(most, place.y);
-        }
+        for (const glm::vec2& place : drawn_places(inputs)) { most = std::max(most, place.y); }
         return most;
     };
     const InstrumentReadings falling = flying({1.0, 0.0, 0.0}, 100.0, -0.6);
@@ -207,12 +196,10 @@ TEST_CASE("the display is as large in a larger picture, and drawn at all in a sm
 TEST_CASE("straight up and straight down something is drawn, all of it finite") {
     HeadUpDisplay display;
     for (const double pitch_deg : {90.0, 89.9, -90.0, 85.0, -84.0}) {
-        const InstrumentReadings inputs =
-            flying({1.0, rad_from_deg(pitch_deg), 0.3}, 200.0, rad_from_deg(pitch_deg));
+        const InstrumentReadings inputs = flying({1.0, rad_from_deg(pitch_deg), 0.3}, 200.0, rad_from_deg(pitch_deg));
         const auto drawn = places(display.draw(inputs, cockpit_camera(inputs), size_px));
         CHECK(drawn.size() > 500);
-        CHECK(std::ranges::all_of(drawn, [](const glm::vec2& place) {
-            return std::abs(place.x) < 2000.0F && std::abs(place.y) < 2000.0F;
-        }));
+        CHECK(std::ranges::all_of(
+            drawn, [](const glm::vec2& place) { return std::abs(place.x) < 2000.0F && std::abs(place.y) < 2000.0F; }));
     }
 }

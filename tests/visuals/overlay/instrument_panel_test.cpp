@@ -21,12 +21,10 @@ constexpr double dial_radius_m = 0.04;
 
 using Quantity = Dial::Quantity;
 
-InstrumentReadings
-flying(const EulerAngles& attitude, double speed_kt, double height_ft, double load_factor) {
+InstrumentReadings flying(const EulerAngles& attitude, double speed_kt, double height_ft, double load_factor) {
     InstrumentReadings inputs;
     inputs.state.body_to_world = body_to_world_from_euler(attitude);
-    inputs.state.velocity_mps =
-        mps_from_kt(speed_kt) * direction_from_heading(attitude.heading_rad);
+    inputs.state.velocity_mps = mps_from_kt(speed_kt) * direction_from_heading(attitude.heading_rad);
     inputs.state.load_factor = load_factor;
     inputs.height_m = m_from_ft(height_ft);
     return inputs;
@@ -42,32 +40,24 @@ Camera cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0.0
 
 InstrumentLayout one_dial(Quantity quantity) {
     return {
-        {{quantity, {0.78, 0.1, 0.2}, dial_radius_m}},
-        speed_scale_kt(mps_from_kt(800.0)),
-        load_scale_g(-3.0, 7.33)};
+        {{quantity, {0.78, 0.1, 0.2}, dial_radius_m}}, speed_scale_kt(mps_from_kt(800.0)), load_scale_g(-3.0, 7.33)};
 }
 
 /// Colour of what is drawn last at a place of the dial above: radii right and down from its middle.
-std::uint32_t
-colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::uint32_t nothing = 0) {
+std::uint32_t colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::uint32_t nothing = 0) {
     const double px_per_m = 0.5 * size_px.y / std::tan(rad_from_deg(22.5)) / 0.78;
-    const glm::dvec2 at =
-        0.5 * glm::dvec2(size_px) + px_per_m * (glm::dvec2(0.1, 0.2) + dial_radius_m * radii);
+    const glm::dvec2 at = 0.5 * glm::dvec2(size_px) + px_per_m * (glm::dvec2(0.1, 0.2) + dial_radius_m * radii);
     std::uint32_t colour = nothing;
     for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
-        const auto corner = [&](std::size_t k) {
-            return glm::dvec2(draw.vertices[draw.indices[i + k]].at_px);
-        };
+        const auto corner = [&](std::size_t k) { return glm::dvec2(draw.vertices[draw.indices[i + k]].at_px); };
         const auto side = [&](std::size_t k) {
             const glm::dvec2 along = corner((k + 1) % 3) - corner(k);
             const glm::dvec2 to = at - corner(k);
             return along.x * to.y - along.y * to.x;
         };
-        const bool inside = (side(0) > 0.0 && side(1) > 0.0 && side(2) > 0.0) ||
-                            (side(0) < 0.0 && side(1) < 0.0 && side(2) < 0.0);
-        if (inside) {
-            colour = draw.vertices[draw.indices[i]].colour;
-        }
+        const bool inside =
+            (side(0) > 0.0 && side(1) > 0.0 && side(2) > 0.0) || (side(0) < 0.0 && side(1) < 0.0 && side(2) < 0.0);
+        if (inside) { colour = draw.vertices[draw.indices[i]].colour; }
     }
     return colour;
 }
@@ -78,15 +68,11 @@ bool points_at(Quantity quantity, const InstrumentReadings& inputs, double angle
     const OverlayDraw draw = panel.draw(one_dial(quantity), inputs, cockpit_camera(inputs), size_px);
     const double angle_rad = rad_from_deg(angle_deg);
     const glm::dvec2 out(std::sin(angle_rad), -std::cos(angle_rad));
-    const auto is_light = [&](const glm::dvec2& at) {
-        return (colour_at(draw, at) & 0xffU) > 0xe0U;
-    };
+    const auto is_light = [&](const glm::dvec2& at) { return (colour_at(draw, at) & 0xffU) > 0xe0U; };
     return is_light(0.4 * out) && !is_light(-0.2 * out);
 }
 
-bool is_blue(std::uint32_t colour) {
-    return (colour >> 16U & 0xffU) > (colour & 0xffU);
-}
+bool is_blue(std::uint32_t colour) { return (colour >> 16U & 0xffU) > (colour & 0xffU); }
 
 } // namespace
 
@@ -111,8 +97,8 @@ TEST_CASE("the horizon of the attitude dial lies as the world's does") {
     InstrumentPanel panel;
     const auto is_sky = [&](const EulerAngles& attitude, const glm::dvec2& radii) {
         const InstrumentReadings inputs = flying(attitude, 300.0, 1000.0, 1.0);
-        return is_blue(colour_at(
-            panel.draw(one_dial(Quantity::Attitude), inputs, cockpit_camera(inputs), size_px), radii));
+        return is_blue(
+            colour_at(panel.draw(one_dial(Quantity::Attitude), inputs, cockpit_camera(inputs), size_px), radii));
     };
     const EulerAngles level{};
     CHECK(is_sky(level, {0.3, -0.3}));

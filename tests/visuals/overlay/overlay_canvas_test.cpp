@@ -85,8 +85,7 @@ TEST_CASE("a circle is closed: as strong where it ends as elsewhere") {
 TEST_CASE("lines are cut at the clip box and go on where they come back") {
     OverlayCanvas canvas = new_canvas();
     canvas.clip_to({{20.0F, 0.0F}, {60.0F, 40.0F}});
-    canvas.polyline(
-        std::array{glm::vec2(0, 30), glm::vec2(40, 30), glm::vec2(40, 80), glm::vec2(50, 0)});
+    canvas.polyline(std::array{glm::vec2(0, 30), glm::vec2(40, 30), glm::vec2(40, 80), glm::vec2(50, 0)});
     canvas.line({0.0F, 90.0F}, {90.0F, 90.0F});
     const OverlayDraw draw = canvas.finish();
     CHECK(ink_at(draw, {15.0F, 30.0F}) == 0.0);

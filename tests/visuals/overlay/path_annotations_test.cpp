@@ -15,9 +15,7 @@ std::size_t corners_of(const glm::dvec3& look, const WorldLabel* place) {
     PathAnnotations marks;
     const Camera camera = camera_looking_at({0.0, 0.0, 0.0}, look);
     marks.begin(camera, marks_px, {0.0, 100.0, 0.0});
-    if (place != nullptr) {
-        marks.add(*place);
-    }
+    if (place != nullptr) { marks.add(*place); }
     return marks.finish().vertices.size();
 }
 

@@ -29,9 +29,8 @@ Drawn drawn(const std::vector<std::string>& lines, const glm::ivec2& picture_px)
     return all;
 }
 
-const std::string long_line =
-    "grounds differ by -40.0 m: theirs 40.0 m, ours 0.0 m, and so on for "
-    "as long as there are words that a picture of this width has no room for";
+const std::string long_line = "grounds differ by -40.0 m: theirs 40.0 m, ours 0.0 m, and so on for "
+                              "as long as there are words that a picture of this width has no room for";
 
 } // namespace
 
@@ -45,8 +44,7 @@ TEST_CASE("a line that is too long for a picture goes on below, with all its let
     CHECK(narrow.bottom_px >= two_lines.bottom_px);
 }
 
-TEST_CASE(
-    "a word that is longer than a picture is wide is broken, and lines end at its lower end") {
+TEST_CASE("a word that is longer than a picture is wide is broken, and lines end at its lower end") {
     const Drawn narrow = drawn({std::string(200, 'W')}, {200, 450});
     CHECK(narrow.right_px < 200.0F);
     CHECK(narrow.vertices == drawn({std::string(200, 'W')}, {9000, 450}).vertices);

@@ -16,21 +16,13 @@ using models::polygons::PolygonModel;
 namespace {
 
 /// Adds one more box as a part of its own.
-void add_part(
-    PolygonModel& model,
-    const std::string& name,
-    const glm::dvec3& at_m,
-    const glm::dvec3& half_m) {
+void add_part(PolygonModel& model, const std::string& name, const glm::dvec3& at_m, const glm::dvec3& half_m) {
     const PolygonModel box = box_model(half_m);
     const auto vertices = static_cast<std::uint32_t>(model.vertices_m.size());
     const auto corners = static_cast<std::uint32_t>(model.corner_vertices.size());
     model.parts.push_back(name);
-    for (const glm::dvec3& vertex_m : box.vertices_m) {
-        model.vertices_m.push_back(vertex_m + at_m);
-    }
-    for (const std::uint32_t corner : box.corner_vertices) {
-        model.corner_vertices.push_back(corner + vertices);
-    }
+    for (const glm::dvec3& vertex_m : box.vertices_m) { model.vertices_m.push_back(vertex_m + at_m); }
+    for (const std::uint32_t corner : box.corner_vertices) { model.corner_vertices.push_back(corner + vertices); }
     for (models::polygons::Polygon polygon : box.polygons) {
         polygon.first_corner += corners;
         polygon.part = static_cast<std::uint32_t>(model.parts.size() - 1);
@@ -58,10 +50,7 @@ struct Painted {
     std::size_t after = 0;
 };
 
-Painted painted(
-    AircraftEffects& effects,
-    const glm::dvec3& eye_m,
-    const EffectStrength& strength,
+Painted painted(AircraftEffects& effects, const glm::dvec3& eye_m, const EffectStrength& strength,
     std::span<const ArticulatedPart> articulated_parts = {}) {
     const Camera camera = camera_looking_at(eye_m, {0.0, 0.0, 0.0});
     TransparentGeometry transparents;
@@ -122,8 +111,8 @@ TEST_CASE("afterburners follow thrust, vapour follows load") {
     // ... but not where the speed pays for it.
     state.speed_rate_mps2 = -9.0;
     CHECK(strength_of(f15, state).burner == 0.0);
-    // A climb of 45 degrees: 118 kN of weight and some 25 kN of drag at a constant speed; none
-    // where speed is lost as fast as gravity takes it.
+    // A climb of 45 degrees: 118 kN of weight and some 25 kN of drag at a constant speed; none where speed is lost as
+    // fast as gravity takes it.
     state.load_factor = 0.7;
     state.velocity_mps = {150.0, 0.0, 150.0};
     state.speed_rate_mps2 = 0.0;

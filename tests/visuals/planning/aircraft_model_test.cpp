@@ -25,8 +25,7 @@ models::polygons::PolygonModel as_drawn(const visuals::planning::AircraftModel& 
     }
     for (std::size_t i = 0; i < drawn.polygons.size(); ++i) {
         drawn.polygons[i].first_corner = aircraft.first_vertices[i];
-        drawn.polygons[i].corner_count =
-            aircraft.first_vertices[i + 1] - aircraft.first_vertices[i];
+        drawn.polygons[i].corner_count = aircraft.first_vertices[i + 1] - aircraft.first_vertices[i];
     }
     return drawn;
 }
@@ -40,9 +39,7 @@ TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
     model.corner_vertices.insert(model.corner_vertices.end(), {24, 25, 26});
     const visuals::planning::AircraftModel aircraft = tests::convex_aircraft(model);
     int with_five = 0;
-    for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
-        with_five += aircraft.index_count_of(i) == 9 ? 1 : 0;
-    }
+    for (std::uint32_t i = 0; i < model.polygons.size(); ++i) { with_five += aircraft.index_count_of(i) == 9 ? 1 : 0; }
     CHECK(with_five == 2); // the sides of two squares meet there
     CHECK(models::planar::t_junctions(as_drawn(aircraft)).empty());
     CHECK(aircraft.polygons.corner_vertices == model.corner_vertices); // that the order speaks of
@@ -52,8 +49,7 @@ TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
 }
 
 TEST_CASE("no corner of the F-15 as it is drawn lies on a side without one") {
-    const auto given =
-        models::polygons::read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
+    const auto given = models::polygons::read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
     REQUIRE(models::planar::t_junctions(given).size() == 6);
     const auto aircraft = tests::convex_aircraft(given);
     CHECK(aircraft.polygons.polygons.size() == given.polygons.size());
@@ -62,17 +58,14 @@ TEST_CASE("no corner of the F-15 as it is drawn lies on a side without one") {
 
 TEST_CASE("no triangle of a polygon with several corners on one side is a sliver") {
     models::polygons::PolygonModel model = tests::box_model(glm::dvec3(1.0));
-    model.vertices_m.insert(
-        model.vertices_m.end(), {{1.0, 0.25, 1.0}, {1.0, 0.5, 1.0}, {2.0, 0, 1}, {2.0, 1, 1}});
+    model.vertices_m.insert(model.vertices_m.end(), {{1.0, 0.25, 1.0}, {1.0, 0.5, 1.0}, {2.0, 0, 1}, {2.0, 1, 1}});
     model.polygons.push_back({24, 4, 0, 0});
     model.corner_vertices.insert(model.corner_vertices.end(), {24, 26, 27, 25});
     const visuals::planning::AircraftModel aircraft = tests::convex_aircraft(model);
     const auto& buffers = aircraft.buffers;
     REQUIRE(!buffers.indices.empty());
     for (std::size_t i = 0; i < buffers.indices.size(); i += 3) {
-        const auto at_m = [&](std::size_t k) {
-            return buffers.vertices[buffers.indices[i + k]].position_m;
-        };
+        const auto at_m = [&](std::size_t k) { return buffers.vertices[buffers.indices[i + k]].position_m; };
         CHECK(glm::length(glm::cross(at_m(1) - at_m(0), at_m(2) - at_m(0))) > 0.01F);
     }
 }

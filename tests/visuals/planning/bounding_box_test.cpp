@@ -13,9 +13,7 @@ using namespace octant::visuals::planning;
 
 namespace {
 
-OrientedBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) {
-    return {centre_m, glm::dmat3(1.0), half_m};
-}
+OrientedBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) { return {centre_m, glm::dmat3(1.0), half_m}; }
 
 } // namespace
 
@@ -28,11 +26,8 @@ TEST_CASE("the outline of a box has four edges face-on and six from a corner") {
 TEST_CASE("a box and no other direction lies inside its cone") {
     PlaceDice dice(7);
     for (int i = 0; i < 200; ++i) {
-        const OrientedBox box{
-            dice.in_box(glm::dvec3(30)), glm::mat3_cast(dice.attitude()), {5.0, 3.0, 1.0}};
-        if (contains_eye(box)) {
-            continue;
-        }
+        const OrientedBox box{dice.in_box(glm::dvec3(30)), glm::mat3_cast(dice.attitude()), {5.0, 3.0, 1.0}};
+        if (contains_eye(box)) { continue; }
         const ViewCone cone = cone_of(box);
         const auto corners = corners_of(box);
         for (const glm::dvec3& normal : cone.planes()) {
@@ -53,16 +48,14 @@ TEST_CASE("a sight line enters a box at its near side") {
 }
 
 TEST_CASE("of two boxes one behind the other only the near one hides") {
-    const OcclusionPair pair =
-        occlusion_pair(box_at({0, 10, 0}, {3, 1, 1}), box_at({2, 14, 0}, {3, 1, 1}));
+    const OcclusionPair pair = occlusion_pair(box_at({0, 10, 0}, {3, 1, 1}), box_at({2, 14, 0}, {3, 1, 1}));
     CHECK_FALSE(pair.intersect);
     CHECK(pair.a_occludes_b);
     CHECK_FALSE(pair.b_occludes_a);
 }
 
 TEST_CASE("boxes seen side by side hide nothing of each other") {
-    const OcclusionPair pair =
-        occlusion_pair(box_at({-5, 10, 0}, {3, 1, 1}), box_at({5, 12, 0}, {3, 1, 1}));
+    const OcclusionPair pair = occlusion_pair(box_at({-5, 10, 0}, {3, 1, 1}), box_at({5, 12, 0}, {3, 1, 1}));
     CHECK_FALSE(pair.intersect);
     CHECK_FALSE(pair.a_occludes_b);
     CHECK_FALSE(pair.b_occludes_a);
@@ -76,8 +69,7 @@ TEST_CASE("the hull holds the whole circle that a turning part runs") {
     models::polygons::PolygonModel model = box_model({4.0, 1.0, 1.0});
     model.parts.emplace_back("rotor");
     const auto first = static_cast<std::uint32_t>(model.vertices_m.size());
-    model.vertices_m.insert(
-        model.vertices_m.end(), {{1.0, 0.0, -2.0}, {6.0, -0.2, -2.0}, {6.0, 0.2, -2.0}});
+    model.vertices_m.insert(model.vertices_m.end(), {{1.0, 0.0, -2.0}, {6.0, -0.2, -2.0}, {6.0, 0.2, -2.0}});
     model.polygons.push_back({static_cast<std::uint32_t>(model.corner_vertices.size()), 3, 0, 1});
     model.corner_vertices.insert(model.corner_vertices.end(), {first, first + 1, first + 2});
     model.pivots.push_back({1, {1.0, 0.0, -2.0}, {0.0, 0.0, 1.0}, 5.0});

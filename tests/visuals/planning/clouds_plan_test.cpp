@@ -17,9 +17,7 @@ namespace {
 
 constexpr double clouds_m = 150.0;
 
-double below_clouds_m(double x_m, double y_m) {
-    return 60.0 * std::sin(x_m / 90.0) * std::cos(y_m / 70.0);
-}
+double below_clouds_m(double x_m, double y_m) { return 60.0 * std::sin(x_m / 90.0) * std::cos(y_m / 70.0); }
 
 Settings cloudy() {
     Settings settings = plain_settings();
@@ -36,9 +34,7 @@ Scene scene_of(int aircraft) {
     return scene;
 }
 
-glm::dvec3 in_the_air(PlaceDice& dice) {
-    return dice.in_box({300.0, 300.0, 110.0}) + glm::dvec3(0.0, 0.0, 190.0);
-}
+glm::dvec3 in_the_air(PlaceDice& dice) { return dice.in_box({300.0, 300.0, 110.0}) + glm::dvec3(0.0, 0.0, 190.0); }
 
 } // namespace
 
@@ -51,9 +47,7 @@ TEST_CASE("with clouds between them ground and aircraft are painted in the right
     int wrong = 0;
     for (int i = 0; i < 60; ++i) {
         std::vector<sim::AircraftState> states;
-        for (int k = 0; k < 6; ++k) {
-            states.push_back(state_at(in_the_air(dice), dice.attitude()));
-        }
+        for (int k = 0; k < 6; ++k) { states.push_back(state_at(in_the_air(dice), dice.attitude())); }
         Camera camera = camera_looking_at(in_the_air(dice), states.front().position_m);
         camera.near_m = 1e-3;
         const auto [plan, counts] = planner.plan({camera, states});
@@ -69,8 +63,7 @@ TEST_CASE("clouds come after what lies beyond them and before what lies on the e
     const Scene scene = scene_of(2);
     const Settings settings = cloudy();
     Planner planner(scene, settings);
-    const std::vector<sim::AircraftState> states{
-        state_at({0.0, 200.0, 110.0}), state_at({20.0, 200.0, 190.0})};
+    const std::vector<sim::AircraftState> states{state_at({0.0, 200.0, 110.0}), state_at({20.0, 200.0, 190.0})};
     for (const double eye_m : {100.0, 400.0}) {
         const Camera camera = camera_looking_at({0.0, -200.0, eye_m}, states.front().position_m);
         const auto [plan, counts] = planner.plan({camera, states});
@@ -83,8 +76,7 @@ TEST_CASE("clouds come after what lies beyond them and before what lies on the e
         CHECK((step(PaintStep::Content::Ground) < veil) == (eye_m > clouds_m));
         const auto first = step(PaintStep::Content::Aircraft);
         CHECK(first < veil); // the one beyond
-        const std::uint32_t beyond =
-            plan.aircraft[plan.steps[static_cast<std::size_t>(first)].first].first_part;
+        const std::uint32_t beyond = plan.aircraft[plan.steps[static_cast<std::size_t>(first)].first].first_part;
         CHECK(beyond == (eye_m > clouds_m ? 0U : 1U));
         CHECK(counts.transparent_triangles > 0);
         CHECK(plan.overlay.indices.size() == 3 * static_cast<std::size_t>(counts.transparent_triangles));

@@ -11,13 +11,10 @@ namespace {
 
 constexpr double pixel_rad = 1e-3;
 
-/// Triangles kept of one triangle on level ground `height_m` above the eye, counter-clockwise seen
-/// from above.
+/// Triangles kept of one triangle on level ground `height_m` above the eye, counter-clockwise seen from above.
 std::size_t kept_of_one(float height_m, float far_m = 100.0F) {
     const std::vector<models::ColourVertex> vertices = {
-        {{-10.0F, far_m, height_m}, 0},
-        {{10.0F, far_m, height_m}, 0},
-        {{0.0F, far_m + 10.0F, height_m}, 0}};
+        {{-10.0F, far_m, height_m}, 0}, {{10.0F, far_m, height_m}, 0}, {{0.0F, far_m + 10.0F, height_m}, 0}};
     const std::vector<std::uint32_t> indices = {0, 1, 2};
     std::vector<std::uint32_t> kept;
     return front_facing({{vertices, indices}, {}, {}}, pixel_rad, kept).indices.size() / 3;
@@ -40,10 +37,7 @@ TEST_CASE("ground seen edge-on is kept from either side") {
 
 TEST_CASE("kept triangles stay in their order with their corners") {
     const std::vector<models::ColourVertex> vertices = {
-        {{-1.0F, 9.0F, -5.0F}, 0},
-        {{1.0F, 9.0F, -5.0F}, 0},
-        {{0.0F, 12.0F, -5.0F}, 0},
-        {{0.0F, 12.0F, 5.0F}, 0}};
+        {{-1.0F, 9.0F, -5.0F}, 0}, {{1.0F, 9.0F, -5.0F}, 0}, {{0.0F, 12.0F, -5.0F}, 0}, {{0.0F, 12.0F, 5.0F}, 0}};
     const std::vector<std::uint32_t> indices = {0, 1, 2, 0, 2, 1, 1, 2, 0};
     std::vector<std::uint32_t> kept;
     front_facing({{vertices, indices}, {}, {}}, pixel_rad, kept);

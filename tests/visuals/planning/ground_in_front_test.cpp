@@ -17,16 +17,8 @@ namespace {
 const OrientedBox wings{{0, 100, 0}, glm::dmat3(1.0), {6, 4, 1}};
 
 /// Ground across the line of sight, level or rising to the north.
-GroundTriangle strip(
-    double x_m,
-    double half_width_m,
-    double from_y_m,
-    double from_z_m,
-    double to_y_m,
-    double to_z_m) {
-    return {
-        glm::dvec3(x_m - half_width_m, from_y_m, from_z_m),
-        glm::dvec3(x_m + half_width_m, from_y_m, from_z_m),
+GroundTriangle strip(double x_m, double half_width_m, double from_y_m, double from_z_m, double to_y_m, double to_z_m) {
+    return {glm::dvec3(x_m - half_width_m, from_y_m, from_z_m), glm::dvec3(x_m + half_width_m, from_y_m, from_z_m),
         glm::dvec3(x_m, to_y_m, to_z_m)};
 }
 
@@ -42,9 +34,7 @@ Found before(const OrientedBox& box, std::vector<GroundTriangle> triangles) {
     GroundInFront in_front;
     in_front.find(box, *mesher, draw, glm::dvec3(0.0));
     Found found{{}, {in_front.intersecting().begin(), in_front.intersecting().end()}};
-    for (const GroundInFrontTriangle& near : in_front.found()) {
-        found.triangles.push_back(near.triangle);
-    }
+    for (const GroundInFrontTriangle& near : in_front.found()) { found.triangles.push_back(near.triangle); }
     return found;
 }
 
@@ -76,20 +66,16 @@ TEST_CASE("rising ground that crosses the height of the box is before it where i
 }
 
 TEST_CASE("ground that cuts the box is told apart and comes with what lies before") {
-    const Found found = before(
-        wings,
-        {strip(0, 30, 120, -10, 130, 5),
-         strip(0, 50, 90, -5, 110, 5),
-         strip(0, 30, 50, -10, 60, 5)});
+    const Found found =
+        before(wings, {strip(0, 30, 120, -10, 130, 5), strip(0, 50, 90, -5, 110, 5), strip(0, 30, 50, -10, 60, 5)});
     CHECK(found.intersecting == Numbers{1});
     CHECK(found.triangles == Numbers{1, 2});
 }
 
 TEST_CASE("a triangle under one wing with a ridge before the other leaves the ridge alone") {
-    // No order of the three whole things is right: the large triangle hides the ridge's foot, the
-    // ridge hides the box, the box hides the large triangle.
-    const GroundTriangle large = {
-        glm::dvec3(-300, 20, -2.5), glm::dvec3(2, 20, -2.5), glm::dvec3(-150, 300, -2.5)};
+    // No order of the three whole things is right: the large triangle hides the ridge's foot, the ridge hides the box,
+    // the box hides the large triangle.
+    const GroundTriangle large = {glm::dvec3(-300, 20, -2.5), glm::dvec3(2, 20, -2.5), glm::dvec3(-150, 300, -2.5)};
     const GroundTriangle ridge = strip(5, 4, 60, -4, 70, 3);
     CHECK(before(wings, {ridge, large}).triangles == Numbers{0});
 }

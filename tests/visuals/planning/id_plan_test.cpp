@@ -34,10 +34,7 @@ planning::Scene scene_of(planning::AircraftModel model) {
 }
 
 /// Colours of the corners that begin the triangles of a range.
-void add_numbers(
-    const scene::ModelBuffers& buffers,
-    const scene::IndexRange& range,
-    std::set<std::uint32_t>& numbers) {
+void add_numbers(const scene::ModelBuffers& buffers, const scene::IndexRange& range, std::set<std::uint32_t>& numbers) {
     for (std::uint32_t i = 0; i < range.index_count; i += 3) {
         numbers.insert(buffers.vertices[buffers.indices[range.first_index + i]].face_colour);
     }
@@ -57,9 +54,7 @@ TEST_CASE("every polygon and every triangle of a level has a number, of each air
     std::set<std::uint32_t> numbers;
     for (const scene::ModelBuffers& buffers : ids.models()) {
         add_numbers(buffers, world.models[0]->file_order, numbers);
-        for (const planning::MeshLevel& level : world.models[0]->levels) {
-            add_numbers(buffers, level.range, numbers);
-        }
+        for (const planning::MeshLevel& level : world.models[0]->levels) { add_numbers(buffers, level.range, numbers); }
     }
     CHECK(numbers.size() == 2 * (6 + 4 + 4));
 }
@@ -80,8 +75,7 @@ TEST_CASE("a mesh that is refined in each frame has no numbers, and the refusal 
     planning::AircraftModel model = convex_aircraft(box_model({1, 1, 1}));
     models::CollapseSequence sequence;
     sequence.original = tetrahedron();
-    planning::add_progressive(
-        model, std::make_shared<const refine::ProgressiveMesh>(sequence), 0.5);
+    planning::add_progressive(model, std::make_shared<const refine::ProgressiveMesh>(sequence), 0.5);
     const planning::Scene world = scene_of(std::move(model));
     CHECK_THROWS_AS(planning::IdPlan(world), Error);
 }

@@ -24,9 +24,7 @@ models::TriangleMesh folded_square(double bend_m) {
 
 std::set<std::uint32_t> first_corners(const scene::ModelBuffers& buffers) {
     std::set<std::uint32_t> firsts;
-    for (std::size_t i = 0; i < buffers.indices.size(); i += 3) {
-        firsts.insert(buffers.indices[i]);
-    }
+    for (std::size_t i = 0; i < buffers.indices.size(); i += 3) { firsts.insert(buffers.indices[i]); }
     return firsts;
 }
 
@@ -79,9 +77,7 @@ TEST_CASE("every triangle of a level begins with a vertex of its own, with its o
         const double angle = 0.785398163397448 * i;
         fan.vertices_m.push_back({std::cos(angle), std::sin(angle), 0.3});
     }
-    for (std::uint32_t i = 0; i < 8; ++i) {
-        fan.triangles.push_back({0, 1 + (i + 1) % 8, 1 + i});
-    }
+    for (std::uint32_t i = 0; i < 8; ++i) { fan.triangles.push_back({0, 1 + (i + 1) % 8, 1 + i}); }
     scene::ModelBuffers buffers;
     planning::append_level(buffers, {&fan, 0.0});
     CHECK(first_corners(buffers).size() == 8);
@@ -100,9 +96,7 @@ TEST_CASE("a model's meshes lie behind its polygons, and both count for its size
     planning::AircraftModel model = convex_aircraft(box_model({1, 1, 1}));
     const auto polygon_indices = static_cast<std::uint32_t>(model.buffers.indices.size());
     models::TriangleMesh large = folded_square(0.0);
-    for (glm::dvec3& vertex_m : large.vertices_m) {
-        vertex_m *= 5.0;
-    }
+    for (glm::dvec3& vertex_m : large.vertices_m) { vertex_m *= 5.0; }
     const std::array<planning::MeshSource, 1> sources{{{&large, 0.0}}};
     planning::add_levels(model, sources, 0.5);
     CHECK(model.levels[0].range.first_index == polygon_indices);

@@ -42,8 +42,7 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
     const AircraftDraw& nearest = plan.aircraft.back();
     REQUIRE(nearest.model == 1);
     const glm::dvec3 point_m(3.0, -0.5, 1.0);
-    const glm::dvec3 turned_m =
-        models::polygons::turned(model.pivots[0], point_m, 2.0 * 3.14159265358979 * 0.3 * 12.5);
+    const glm::dvec3 turned_m = models::polygons::turned(model.pivots[0], point_m, 2.0 * 3.14159265358979 * 0.3 * 12.5);
     const auto placed = [&](const glm::dvec3& body_m, std::uint32_t part) {
         return glm::dvec3(plan.parts[nearest.first_part + part] * glm::vec4(glm::vec3(body_m), 1));
     };
@@ -72,12 +71,10 @@ TEST_CASE("a far model stands in by distance, and others turn its part of the sa
     scene.aircraft = {0};
     scene.far_models = {{0, 1, 0.1}};
     const double quarter_rad = 0.5 * 3.14159265358979;
-    const std::vector<ArticulatedPart> turned = {
-        {0, 0, glm::angleAxis(quarter_rad, glm::dvec3(0.0, 0.0, 1.0))}};
+    const std::vector<ArticulatedPart> turned = {{0, 0, glm::angleAxis(quarter_rad, glm::dvec3(0.0, 0.0, 1.0))}};
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
-    for (const auto& [away_m, model, rotor] :
-         {std::tuple{30.0, 0U, 1U}, std::tuple{30000.0, 1U, 2U}}) {
+    for (const auto& [away_m, model, rotor] : {std::tuple{30.0, 0U, 1U}, std::tuple{30000.0, 1U, 2U}}) {
         const std::vector<sim::AircraftState> states = {state_at({0, away_m, 0})};
         PlanRequest request{camera_looking_at({0, 0, 0}, {0, away_m, 0}), states};
         request.articulated_parts = turned;
@@ -106,27 +103,21 @@ TEST_CASE("a far model is drawn only where its distance from the near one is not
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
     const Camera camera;
-    const double pixel_rad =
-        2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings.view.size_px.y;
+    const double pixel_rad = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings.view.size_px.y;
     const double radius_m = scene.models[0]->subject.radius_m;
     int far = 0;
     int changes = 0;
     for (int step = 0; step <= 400; ++step) { // off and back again
         const double away_m = 20.0 * std::pow(1.03, step <= 200 ? step : 400 - step);
         const std::vector states{state_at({0, away_m, 0})};
-        const FramePlan& plan =
-            planner.plan({camera_looking_at({0, 0, 0}, {0, away_m, 0}), states}).plan;
+        const FramePlan& plan = planner.plan({camera_looking_at({0, 0, 0}, {0, away_m, 0}), states}).plan;
         REQUIRE(plan.aircraft.size() == 1);
         const bool is_far = plan.aircraft.front().model == 1;
         changes += step > 0 && is_far != (far == step) ? 1 : 0;
         far = is_far ? step + 1 : 0;
         const double seen_px = error_m / ((away_m - radius_m) * pixel_rad);
-        if (is_far) {
-            CHECK(seen_px <= settings.surface.aircraft_error_px);
-        }
-        if (seen_px < 0.5 * settings.surface.aircraft_error_px) {
-            CHECK(is_far);
-        }
+        if (is_far) { CHECK(seen_px <= settings.surface.aircraft_error_px); }
+        if (seen_px < 0.5 * settings.surface.aircraft_error_px) { CHECK(is_far); }
     }
     CHECK(changes == 2);
 }
@@ -148,9 +139,7 @@ TEST_CASE("aircraft whose models change are placed as by a planner that never sa
     for (const double away_m : {30.0, 30000.0, 40.0, 20000.0, 30.0}) {
         std::vector<sim::AircraftState> states{
             state_at({0, away_m, 0}), state_at({0, 1.5 * away_m, 0}), state_at({9, 60, 0})};
-        for (sim::AircraftState& state : states) {
-            state.time_s = away_m / 7.0;
-        }
+        for (sim::AircraftState& state : states) { state.time_s = away_m / 7.0; }
         Planner fresh(scene, settings);
         const Camera camera = camera_looking_at({0, 0, 0}, {0, away_m, 0});
         const FramePlan& expected = fresh.plan({camera, states}).plan;

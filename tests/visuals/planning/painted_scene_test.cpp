@@ -15,8 +15,7 @@ using namespace octant::visuals::scene;
 namespace {
 
 double rugged(double x_m, double y_m) {
-    return 60.0 * std::sin(x_m / 90.0) * std::cos(y_m / 70.0) +
-           25.0 * std::sin(x_m / 31.0 + y_m / 23.0);
+    return 60.0 * std::sin(x_m / 90.0) * std::cos(y_m / 70.0) + 25.0 * std::sin(x_m / 31.0 + y_m / 23.0);
 }
 
 struct Total {
@@ -28,12 +27,8 @@ struct Total {
 };
 
 /// Boxes and concave bodies where `place` puts them, seen from `eye`.
-Total paint_scenes(
-    int scenes,
-    int aircraft,
-    std::shared_ptr<const Ground> ground,
-    const std::function<glm::dvec3(PlaceDice&)>& place,
-    const std::function<glm::dvec3(PlaceDice&)>& eye,
+Total paint_scenes(int scenes, int aircraft, std::shared_ptr<const Ground> ground,
+    const std::function<glm::dvec3(PlaceDice&)>& place, const std::function<glm::dvec3(PlaceDice&)>& eye,
     const Settings& settings = plain_settings()) {
     Total total;
     PlaceDice dice(1989);
@@ -41,15 +36,11 @@ Total paint_scenes(
     scene.ground = std::move(ground);
     scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
     scene.add_model(concave_aircraft(0.1));
-    for (int i = 0; i < aircraft; ++i) {
-        scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
-    }
+    for (int i = 0; i < aircraft; ++i) { scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2)); }
     Planner planner(scene, settings);
     for (int i = 0; i < scenes; ++i) {
         std::vector<sim::AircraftState> states;
-        for (int k = 0; k < aircraft; ++k) {
-            states.push_back(state_at(place(dice), dice.attitude()));
-        }
+        for (int k = 0; k < aircraft; ++k) { states.push_back(state_at(place(dice), dice.attitude())); }
         Camera camera = camera_looking_at(eye(dice), states.front().position_m);
         camera.near_m = 1e-3;
         const auto [plan, counts] = planner.plan({camera, states});
@@ -67,9 +58,7 @@ Total paint_scenes(
     return total;
 }
 
-std::shared_ptr<const Ground> cells(const Height& height) {
-    return cell_ground(16, 50.0, height);
-}
+std::shared_ptr<const Ground> cells(const Height& height) { return cell_ground(16, 50.0, height); }
 
 const Height level = [](double, double) { return 0.0; };
 
@@ -77,9 +66,7 @@ const Height level = [](double, double) { return 0.0; };
 
 TEST_CASE("aircraft apart over level ground are painted right without repaints") {
     const Total total = paint_scenes(
-        100,
-        6,
-        cells(level),
+        100, 6, cells(level),
         [](PlaceDice& dice) {
             return dice.in_box({300, 300, 60}) + glm::dvec3(0, 0, 100);
         },
@@ -94,9 +81,7 @@ TEST_CASE("aircraft apart over level ground are painted right without repaints")
 
 TEST_CASE("aircraft among ridges are painted right") {
     const Total total = paint_scenes(
-        100,
-        5,
-        cells(rugged),
+        100, 5, cells(rugged),
         [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(18.0, 60.0));
@@ -113,9 +98,7 @@ TEST_CASE("aircraft among ridges are painted right") {
 
 TEST_CASE("aircraft that touch the ground are painted right") {
     const Total total = paint_scenes(
-        100,
-        3,
-        cells(rugged),
+        100, 3, cells(rugged),
         [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(-2.0, 8.0));
@@ -133,12 +116,8 @@ TEST_CASE("aircraft that touch the ground are painted right") {
 TEST_CASE("aircraft close together, in rings and through each other are painted right") {
     for (const double spread_m : {8.0, 15.0, 30.0}) {
         const Total total = paint_scenes(
-            60,
-            5,
-            cells(rugged),
-            [&](PlaceDice& dice) {
-                return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150);
-            },
+            60, 5, cells(rugged),
+            [&](PlaceDice& dice) { return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150); },
             [](PlaceDice& dice) {
                 return dice.in_box({120, 120, 60}) + glm::dvec3(0, 0, 150);
             });
@@ -152,9 +131,7 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
 TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
     int next = 0;
     const Total total = paint_scenes(
-        30,
-        27,
-        cells(level),
+        30, 27, cells(level),
         [&](PlaceDice& /*dice*/) {
             const int i = next++;
             return 20.0 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 + 4);
@@ -178,8 +155,7 @@ TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving u
     std::vector<sim::AircraftState> states;
     for (int i = 0; i < 125; ++i) {
         scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
-        states.push_back(
-            state_at(20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25 + 4), dice.attitude()));
+        states.push_back(state_at(20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25 + 4), dice.attitude()));
     }
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
@@ -203,8 +179,7 @@ TEST_CASE("a heap of aircraft that meet in thousands of places is drawn by depth
     }
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
-    const auto [plan, counts] =
-        planner.plan({camera_looking_at({-120, -90, 140}, {0, 0, 120}), states});
+    const auto [plan, counts] = planner.plan({camera_looking_at({-120, -90, 140}, {0, 0, 120}), states});
     CHECK(counts.unordered == count);
     CHECK(counts.cuts == 0);
     CHECK(plan.clips.empty());
@@ -219,16 +194,15 @@ TEST_CASE("a heap of aircraft that meet in thousands of places is drawn by depth
 }
 
 TEST_CASE("ground before a knot stays behind what is seen between the members") {
-    // Two bars meet in a corner. Before the box around both stands a wall, before it a small box
-    // that is painted first, as its sphere is farther than theirs.
+    // Two bars meet in a corner. Before the box around both stands a wall, before it a small box that is painted first,
+    // as its sphere is farther than theirs.
     Scene scene;
     scene.ground = triangle_ground({{{{20, 7, 20}, {100, 7, 20}, {20, 7, 100}}}});
     scene.add_model(convex_aircraft(box_model({50, 1, 1})));
     scene.add_model(convex_aircraft(box_model({1, 1, 50})));
     scene.add_model(convex_aircraft(box_model({1, 1, 1})));
     scene.aircraft = {0, 1, 2};
-    const std::vector states = {
-        state_at({50, 11, 0}), state_at({0, 11, 50}), state_at({40, 5, 40})};
+    const std::vector states = {state_at({50, 11, 0}), state_at({0, 11, 50}), state_at({40, 5, 40})};
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
     const Camera camera = camera_looking_at({0, 0, 0}, states[2].position_m);
@@ -244,9 +218,7 @@ TEST_CASE("ground before a knot stays behind what is seen between the members") 
 TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
     int next = 0;
     const Total total = paint_scenes(
-        30,
-        27,
-        cells(rugged),
+        30, 27, cells(rugged),
         [&](PlaceDice& /*dice*/) {
             const int i = next++;
             const glm::dvec3 at = 21.0 * glm::dvec3(i % 9 - 4, i / 9 % 3 - 1, 0);
@@ -266,17 +238,14 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     std::vector<float> heights_m;
     for (int row = 0; row < 65; ++row) {
         for (int column = 0; column < 65; ++column) {
-            heights_m.push_back(
-                static_cast<float>(rugged((column - 32) * 12.5, (row - 32) * 12.5)));
+            heights_m.push_back(static_cast<float>(rugged((column - 32) * 12.5, (row - 32) * 12.5)));
         }
     }
     Settings settings = plain_settings();
     settings.ground.triangles = 600;
     settings.ground.mesh = GroundMetric::Midpoint;
     const Total total = paint_scenes(
-        60,
-        5,
-        make_quadtree_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
+        60, 5, make_quadtree_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
         [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));

@@ -18,8 +18,8 @@ class PlanPainter {
 public:
     PlanPainter(const visuals::scene::FramePlan& plan, const visuals::planning::Scene& scene);
 
-    /// Along a ray from the eye, world axes, distances in multiples of its length. Nothing where
-    /// the ray passes so close to an edge that rounding decides what it meets.
+    /// Along a ray from the eye, world axes, distances in multiples of its length. Nothing where the ray passes so
+    /// close to an edge that rounding decides what it meets.
     std::optional<Sight> look(const glm::dvec3& ray) const;
 
 private:
@@ -31,9 +31,7 @@ private:
         bool again = false; ///< painted once more: tells nothing new of what is nearest
     };
 
-    void add_aircraft(
-        const visuals::scene::FramePlan& plan,
-        const visuals::planning::Scene& scene,
+    void add_aircraft(const visuals::scene::FramePlan& plan, const visuals::planning::Scene& scene,
         const visuals::scene::PaintStep& step);
 
     std::vector<Triangle> triangles_; ///< first painted first
@@ -45,11 +43,7 @@ struct SightCount {
 };
 
 /// Sight lines around the aircraft and between them that a picture of 4:3 shows.
-SightCount count_wrong_sights(
-    const visuals::scene::FramePlan& plan,
-    const visuals::planning::Scene& scene,
-    const std::vector<sim::AircraftState>& states,
-    const visuals::scene::Camera& camera,
-    PlaceDice& dice);
+SightCount count_wrong_sights(const visuals::scene::FramePlan& plan, const visuals::planning::Scene& scene,
+    const std::vector<sim::AircraftState>& states, const visuals::scene::Camera& camera, PlaceDice& dice);
 
 } // namespace octant::tests

@@ -26,8 +26,8 @@ namespace {
 
 constexpr std::uint32_t rim = 24;
 
-/// A fan of 24 triangles about (0, 0, -1), its rim on a circle of 4 m in the plane z = 0, seen from
-/// above (z down). The rim is merged pair by pair, three times over: 12, 6 and 3 triangles.
+/// A fan of 24 triangles about (0, 0, -1), its rim on a circle of 4 m in the plane z = 0, seen from above (z down). The
+/// rim is merged pair by pair, three times over: 12, 6 and 3 triangles.
 models::CollapseSequence folding_fan() {
     models::CollapseSequence sequence;
     models::TriangleMesh& mesh = sequence.original;
@@ -48,8 +48,7 @@ models::CollapseSequence folding_fan() {
             merge.position_m = mesh.vertices_m[1 + i * apart];
             merge.right = (i + 1) * apart - 1;
             merge.error_m = error_m;
-            merged.push_back(
-                static_cast<std::uint32_t>(mesh.vertices_m.size() + sequence.collapses.size()));
+            merged.push_back(static_cast<std::uint32_t>(mesh.vertices_m.size() + sequence.collapses.size()));
             sequence.collapses.push_back(merge);
         }
         ring = merged;
@@ -90,9 +89,7 @@ int triangles_at(double away_m) {
 
 std::vector<glm::vec3> places(const scene::RefinedDraw& draw) {
     std::vector<glm::vec3> found;
-    for (const scene::ModelVertex& vertex : draw.vertices) {
-        found.push_back(vertex.position_m);
-    }
+    for (const scene::ModelVertex& vertex : draw.vertices) { found.push_back(vertex.position_m); }
     return found;
 }
 
@@ -122,8 +119,7 @@ TEST_CASE("a nearer eye sees more triangles of a refined aircraft, up to all of 
     CHECK(triangles_at(5.0) == 24);
 }
 
-TEST_CASE(
-    "a standing eye gives a refined aircraft no work, an aircraft seen first is fit at once") {
+TEST_CASE("a standing eye gives a refined aircraft no work, an aircraft seen first is fit at once") {
     planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
     const auto first = aircraft.update(below(60.0), looking_down(), true);
     CHECK(first.splits + first.collapses + first.moving == 0);
@@ -137,9 +133,8 @@ TEST_CASE(
     CHECK(aircraft.update(below(20.0), looking_down(), false).splits > 0);
 }
 
-TEST_CASE(
-    "as many triangles are smooth as asked for; a flat one begins with a vertex of its own that "
-    "has its normal and the mean of its corners' colours") {
+TEST_CASE("as many triangles are smooth as asked for; a flat one begins with a vertex of its own that "
+          "has its normal and the mean of its corners' colours") {
     for (const int smooth : {0, 1, 5, 12}) {
         planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
         aircraft.update(below(60.0), looking_down(), true);
@@ -151,12 +146,9 @@ TEST_CASE(
         CHECK(smooth_in(draw) == smooth);
         for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
             const std::array<scene::ModelVertex, 3> corners{
-                draw.vertices[draw.indices[i]],
-                draw.vertices[draw.indices[i + 1]],
-                draw.vertices[draw.indices[i + 2]]};
+                draw.vertices[draw.indices[i]], draw.vertices[draw.indices[i + 1]], draw.vertices[draw.indices[i + 2]]};
             const glm::vec3 normal = glm::normalize(glm::cross(
-                corners[1].position_m - corners[0].position_m,
-                corners[2].position_m - corners[0].position_m));
+                corners[1].position_m - corners[0].position_m, corners[2].position_m - corners[0].position_m));
             CHECK(normal.z < 0.0F); // up
             if (corners[0].polygon == 1) {
                 CHECK(glm::distance(corners[0].face_normal, normal) < 1e-5F);
@@ -208,9 +200,7 @@ TEST_CASE("a refined mesh shows its levels: white where it is as its file, else 
     shading.show_model = scene::ModelDisplay::Levels;
     planning::RefinedAircraft fine(hierarchy(), refining(), shading);
     fine.update(below(5.0), looking_down(), true);
-    for (const scene::ModelVertex& vertex : fine.draw().vertices) {
-        CHECK(vertex.colour == 0xffffffffU);
-    }
+    for (const scene::ModelVertex& vertex : fine.draw().vertices) { CHECK(vertex.colour == 0xffffffffU); }
     CHECK(scene::level_colour(0.0, 4.0) == 0xffffffffU);
     CHECK(scene::level_colour(0.09, 4.0) != scene::level_colour(0.2, 4.0));
     CHECK(scene::level_colour(0.09, 4.0) == scene::level_colour(0.9, 40.0));
@@ -233,16 +223,13 @@ TEST_CASE("aircraft that share a hierarchy have fronts of their own") {
 TEST_CASE("far away, where its polygons are good enough, a refined aircraft is drawn as them") {
     planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
     planning::add_progressive(model, hierarchy(), 0.5);
-    const auto drawn_at = [&](double away_m) {
-        return planning::select_level(model.errors_m, away_m * 0.001, -1);
-    };
+    const auto drawn_at = [&](double away_m) { return planning::select_level(model.errors_m, away_m * 0.001, -1); };
     REQUIRE(model.errors_m.size() == 2);
     CHECK(drawn_at(100.0) == 0);
     CHECK(drawn_at(1000.0) == static_cast<int>(model.polygons_from_mesh()));
 }
 
-TEST_CASE(
-    "what is clear of refined aircraft is drawn after all of them, the farthest first by depth") {
+TEST_CASE("what is clear of refined aircraft is drawn after all of them, the farthest first by depth") {
     planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
     planning::add_progressive(model, hierarchy(), 0.2);
     models::TriangleMesh pane;
@@ -261,8 +248,7 @@ TEST_CASE(
         scene::Settings settings = plain_settings();
         settings.surface.hidden_surface = hidden;
         planning::Planner planner(scene, settings);
-        const scene::FramePlan& plan =
-            planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states}).plan;
+        const scene::FramePlan& plan = planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states}).plan;
         REQUIRE(plan.aircraft.size() == 2);
         REQUIRE(plan.steps.size() >= 4);
         const auto last = std::span(plan.steps).last(2);
@@ -274,9 +260,7 @@ TEST_CASE(
         CHECK(last[0].depth == scene::DepthUse::Nearest);
         REQUIRE(last[0].count == 1);
         REQUIRE(last[1].count == 1);
-        const auto first_part = [&](const scene::PaintStep& step) {
-            return plan.aircraft[step.first].first_part;
-        };
+        const auto first_part = [&](const scene::PaintStep& step) { return plan.aircraft[step.first].first_part; };
         CHECK((first_part(last[0]) > first_part(last[1])) == (nearest == 0));
     }
 }
@@ -305,8 +289,7 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
         planning::Planner planner(scene, settings);
         std::array states{state_at({0, 30, 0})};
         states[0].time_s = 1.0; // a quarter turn
-        const planning::PlannedFrame frame =
-            planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states});
+        const planning::PlannedFrame frame = planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states});
         const scene::FramePlan& plan = frame.plan;
         REQUIRE(plan.steps.size() == 3);
         CHECK(plan.steps[0].content == scene::PaintStep::Content::ClearDepth);
@@ -322,8 +305,7 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
         const scene::ModelBuffers& buffers = scene.models[0]->buffers;
         const scene::ModelVertex& tip = buffers.vertices[buffers.indices[draw.first_index + 1]];
         CHECK(tip.part == 1);
-        const glm::vec3 turned(
-            plan.parts[draw.first_part + tip.part] * glm::vec4(tip.position_m, 1.0F));
+        const glm::vec3 turned(plan.parts[draw.first_part + tip.part] * glm::vec4(tip.position_m, 1.0F));
         const glm::vec3 still(plan.parts[draw.first_part] * glm::vec4(5.0F, -6.0F, 1.0F, 1.0F));
         CHECK(glm::distance(turned, still) < 1e-4F);
     }

@@ -112,15 +112,12 @@ TEST_CASE("with a ribbon among them ground and aircraft are painted in the right
     int transparents = 0;
     int hidden_again = 0;
     for (int i = 0; i < 40; ++i) {
-        std::vector<sim::AircraftState> states{
-            state_at({0.0, 0.0, 200.0}),
+        std::vector<sim::AircraftState> states{state_at({0.0, 0.0, 200.0}),
             state_at(dice.in_box({300.0, 100.0, 40.0}) + glm::dvec3(0, 0, 220), dice.attitude()),
             state_at(dice.in_box({300.0, 100.0, 40.0}) + glm::dvec3(0, 0, 220), dice.attitude())};
-        for (sim::AircraftState& state : states) {
-            state.time_s = ribbon_time_s;
-        }
-        Camera camera = camera_looking_at(
-            dice.in_box({400.0, 60.0, 30.0}) + glm::dvec3(0, -380, 190), states.front().position_m);
+        for (sim::AircraftState& state : states) { state.time_s = ribbon_time_s; }
+        Camera camera =
+            camera_looking_at(dice.in_box({400.0, 60.0, 30.0}) + glm::dvec3(0, -380, 190), states.front().position_m);
         camera.near_m = 1e-3;
         const auto [plan, counts] = planner.plan({camera, states});
         const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);

@@ -32,9 +32,8 @@ models::heights::HeightField valleys() {
         for (int column = 0; column < samples; ++column) {
             const double x_m = column * spacing_m;
             const double y_m = row * spacing_m;
-            heights.push_back(static_cast<float>(
-                300.0 + 90.0 * std::sin(x_m / 800.0) + 20.0 * std::sin(y_m / 500.0) +
-                4.0 * std::sin(x_m / 60.0) * std::cos(y_m / 75.0)));
+            heights.push_back(static_cast<float>(300.0 + 90.0 * std::sin(x_m / 800.0) + 20.0 * std::sin(y_m / 500.0) +
+                                                 4.0 * std::sin(x_m / 60.0) * std::cos(y_m / 75.0)));
         }
     }
     return {samples, samples, spacing_m, std::move(heights)};
@@ -52,8 +51,7 @@ scene::Camera over_a_road(double height_m, std::size_t number = 3) {
     const glm::dvec2 from_m = section.levels[0].front().at_m;
     const glm::dvec2 to_m = section.levels[0].back().at_m;
     const double ground_m = shared_ground()->height_at(from_m.x, from_m.y).value();
-    return scene::camera_looking_at(
-        {from_m, ground_m + height_m}, {to_m, ground_m + 0.2 * height_m});
+    return scene::camera_looking_at({from_m, ground_m + height_m}, {to_m, ground_m + 0.2 * height_m});
 }
 
 struct PaintedRoads {
@@ -64,8 +62,7 @@ struct PaintedRoads {
     FrameView view;
     scene::TriangleDraw ground;
 
-    explicit PaintedRoads(const scene::Camera& from, bool things = false, int most = without_limit)
-        : camera(from) {
+    explicit PaintedRoads(const scene::Camera& from, bool things = false, int most = without_limit) : camera(from) {
         landscape::MeshSettings settings;
         settings.ground.near_detail = things;
         settings.ground.scenery = things;
@@ -88,9 +85,7 @@ struct PaintedRoads {
 bool is_before(std::span<const glm::dvec3> corners, const glm::dvec3& sight) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3 inward = -glm::cross(corners[i], corners[(i + 1) % corners.size()]);
-        if (glm::dot(inward, sight) < -1e-9 * glm::length(inward) * glm::length(sight)) {
-            return false;
-        }
+        if (glm::dot(inward, sight) < -1e-9 * glm::length(inward) * glm::length(sight)) { return false; }
     }
     return true;
 }
@@ -120,43 +115,33 @@ TEST_CASE("a road near the eye is painted wherever the ground below it is in vie
     ViewPolygon placed;
     const auto& sections = shared_ground()->road_network()->sections();
     for (int i = 0; i < 20000; ++i) {
-        const auto number =
-            static_cast<std::size_t>(dice.between(0.0, static_cast<double>(sections.size())));
+        const auto number = static_cast<std::size_t>(dice.between(0.0, static_cast<double>(sections.size())));
         const std::vector<roads::RoadPoint>& line = sections[number].levels[0];
-        const auto stretch =
-            1 + static_cast<std::size_t>(dice.between(0.0, static_cast<double>(line.size() - 1)));
+        const auto stretch = 1 + static_cast<std::size_t>(dice.between(0.0, static_cast<double>(line.size() - 1)));
         const double share = dice.next();
         const double aside = dice.between(-0.9, 0.9);
         const glm::dvec2 plan =
             glm::mix(line[stretch - 1].at_m, line[stretch].at_m, share) +
             aside * glm::mix(line[stretch - 1].to_left_edge_m, line[stretch].to_left_edge_m, share) -
             glm::dvec2(world.camera.eye_m);
-        if (glm::length(plan) > 600.0) {
-            continue;
-        }
+        if (glm::length(plan) > 600.0) { continue; }
         for (std::uint32_t t = 0; t < world.ground.indices.size() / 3; ++t) {
             place_triangle(world.ground, t, placed);
             const auto [a, b, c] = std::array{placed[0].at_m, placed[1].at_m, placed[2].at_m};
             const auto side = [&](const glm::dvec3& p, const glm::dvec3& q) {
                 return (q.x - p.x) * (plan.y - p.y) - (q.y - p.y) * (plan.x - p.x);
             };
-            if (side(a, b) < 0.0 || side(b, c) < 0.0 || side(c, a) < 0.0) {
-                continue;
-            }
+            if (side(a, b) < 0.0 || side(b, c) < 0.0 || side(c, a) < 0.0) { continue; }
             const glm::dvec3 normal = glm::cross(b - a, c - a);
-            const double z_m =
-                a.z - (normal.x * (plan.x - a.x) + normal.y * (plan.y - a.y)) / normal.z;
+            const double z_m = a.z - (normal.x * (plan.x - a.x) + normal.y * (plan.y - a.y)) / normal.z;
             const glm::dvec3 at_m(plan, z_m);
-            const bool in_view = std::ranges::all_of(
-                world.view.frustum, [&](const glm::dvec3& in) { return glm::dot(in, at_m) > 0.0; });
-            if (!in_view || glm::dot(normal, a) >= 0.0) {
-                continue;
-            }
+            const bool in_view =
+                std::ranges::all_of(world.view.frustum, [&](const glm::dvec3& in) { return glm::dot(in, at_m) > 0.0; });
+            if (!in_view || glm::dot(normal, a) >= 0.0) { continue; }
             ++seen;
-            REQUIRE(
-                std::ranges::any_of(world.cutter.decals().decals, [&](const GroundDecal& paint) {
-                    return paint.triangle == t && is_before(world.corners(paint), at_m);
-                }));
+            REQUIRE(std::ranges::any_of(world.cutter.decals().decals, [&](const GroundDecal& paint) {
+                return paint.triangle == t && is_before(world.corners(paint), at_m);
+            }));
         }
     }
     CHECK(seen > 100);
@@ -166,20 +151,13 @@ TEST_CASE("no road is painted on trees and houses, and none of them stands on on
     const PaintedRoads world(over_a_road(25.0), true);
     int things = 0;
     for (std::uint32_t t = 0; t < world.ground.indices.size() / 3; ++t) {
-        const bool is_scenery = std::all_of(
-            &world.ground.indices[3 * t], &world.ground.indices[3 * t] + 3, [&](std::uint32_t v) {
-                return world.ground.vertices[v].colour >> 24U == 0;
-            });
-        if (!is_scenery) {
-            continue;
-        }
+        const bool is_scenery = std::all_of(&world.ground.indices[3 * t], &world.ground.indices[3 * t] + 3,
+            [&](std::uint32_t v) { return world.ground.vertices[v].colour >> 24U == 0; });
+        if (!is_scenery) { continue; }
         ++things;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
-            REQUIRE(paint.triangle != t);
-        }
+        for (const GroundDecal& paint : world.cutter.decals().decals) { REQUIRE(paint.triangle != t); }
         const glm::dvec2 foot_m =
-            glm::dvec2(world.camera.eye_m) +
-            glm::dvec2(world.ground.vertices[world.ground.indices[3 * t]].position_m);
+            glm::dvec2(world.camera.eye_m) + glm::dvec2(world.ground.vertices[world.ground.indices[3 * t]].position_m);
         REQUIRE_FALSE(shared_ground()->road_network()->is_near(foot_m, roads::half_width_m));
     }
     CHECK(things > 50);

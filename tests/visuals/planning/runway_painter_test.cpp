@@ -25,9 +25,7 @@ namespace {
 
 constexpr int plenty = 1'000'000;
 
-double rolling(double x_m, double y_m) {
-    return 4.0 * std::sin(x_m / 70.0) + 3.0 * std::cos(y_m / 90.0);
-}
+double rolling(double x_m, double y_m) { return 4.0 * std::sin(x_m / 70.0) + 3.0 * std::cos(y_m / 90.0); }
 
 std::shared_ptr<const models::heights::RunwayStrip> askew() {
     models::heights::RunwayStrip strip;
@@ -72,12 +70,10 @@ struct PaintedRunway {
 };
 
 double side_m(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
-    return ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) /
-           std::hypot(b.x - a.x, b.y - a.y);
+    return ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / std::hypot(b.x - a.x, b.y - a.y);
 }
 
-/// How far a place lies within a polygon that is counter-clockwise seen from above; less than 0
-/// outside.
+/// How far a place lies within a polygon that is counter-clockwise seen from above; less than 0 outside.
 double inside_m(std::span<const glm::dvec3> corners, const glm::dvec3& p) {
     double min_m = 1e9;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -86,14 +82,13 @@ double inside_m(std::span<const glm::dvec3> corners, const glm::dvec3& p) {
     return min_m;
 }
 
-/// The same of a polygon that faces the eye as the eye sees it: the least angle to the planes
-/// through the eye and its sides.
+/// The same of a polygon that faces the eye as the eye sees it: the least angle to the planes through the eye and its
+/// sides.
 double inside_rad(std::span<const glm::dvec3> corners, const glm::dvec3& p) {
     double min_rad = 1e9;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3 inward = -glm::cross(corners[i], corners[(i + 1) % corners.size()]);
-        min_rad =
-            std::min(min_rad, std::asin(glm::dot(glm::normalize(inward), glm::normalize(p))));
+        min_rad = std::min(min_rad, std::asin(glm::dot(glm::normalize(inward), glm::normalize(p))));
     }
     return min_rad;
 }
@@ -143,9 +138,7 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
         });
     };
     std::set<std::uint32_t> triangles;
-    for (const GroundDecal& paint : world.cutter.decals().decals) {
-        triangles.insert(paint.triangle);
-    }
+    for (const GroundDecal& paint : world.cutter.decals().decals) { triangles.insert(paint.triangle); }
     int on_surface = 0;
     int on_marking = 0;
     ViewPolygon placed;
@@ -160,8 +153,7 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
                 if (is_within(at_m, patch)) {
                     ++(patch.is_painted ? on_marking : on_surface);
                     const double beyond_px = patch.is_painted ? 0.0199 : 0.0099;
-                    REQUIRE(covers(
-                        triangle, patch.is_painted, glm::normalize(at_m) + outward * beyond_px));
+                    REQUIRE(covers(triangle, patch.is_painted, glm::normalize(at_m) + outward * beyond_px));
                 }
             }
         }
@@ -175,14 +167,12 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     double surface_m2 = 0.0;
     double marked_m2 = 0.0;
     for (const GroundDecal& paint : world.cutter.decals().decals) {
-        (paint.layer == GroundLayer::Surface ? surface_m2 : marked_m2) +=
-            area_m2(world.corners(paint));
+        (paint.layer == GroundLayer::Surface ? surface_m2 : marked_m2) += area_m2(world.corners(paint));
     }
     CHECK(surface_m2 > 1800.0 * 45.0);
     CHECK(surface_m2 < 1.005 * 1800.0 * 45.0);
     double expected_m2 = 0.0;
-    for (const nature::RunwayRectangle& patch :
-         nature::runway_rectangles(1800.0, 45.0, world.strip->heading_rad)) {
+    for (const nature::RunwayRectangle& patch : nature::runway_rectangles(1800.0, 45.0, world.strip->heading_rad)) {
         const glm::vec2 size_m = patch.max_m - patch.min_m;
         expected_m2 += patch.is_painted ? static_cast<double>(size_m.x * size_m.y) : 0.0;
     }
@@ -193,8 +183,7 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
         const glm::dvec2 at_m(dice.between(0.5, 1799.5), dice.between(-22.0, 22.0));
         const glm::dvec3 place = glm::dvec3(world.strip->place(at_m), 0.0) - world.camera.eye_m;
         const auto covers = [&](const GroundDecal& paint) {
-            return paint.layer == GroundLayer::Surface &&
-                   inside_m(world.corners(paint), place) > -1e-6;
+            return paint.layer == GroundLayer::Surface && inside_m(world.corners(paint), place) > -1e-6;
         };
         REQUIRE(std::ranges::any_of(world.cutter.decals().decals, covers));
     }
@@ -234,9 +223,7 @@ TEST_CASE("a runway is painted on triangles that may be in view and on no others
     PaintedRunway world({-900.0, -300.0, 60.0});
     const auto painted = [&] {
         std::set<std::uint32_t> triangles;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
-            triangles.insert(paint.triangle);
-        }
+        for (const GroundDecal& paint : world.cutter.decals().decals) { triangles.insert(paint.triangle); }
         return triangles;
     };
     const std::set<std::uint32_t> all = painted();
@@ -249,9 +236,8 @@ TEST_CASE("a runway is painted on triangles that may be in view and on no others
         ViewPolygon corners;
         place_triangle(world.ground, triangle, corners);
         const bool is_beyond = std::ranges::any_of(view.frustum, [&](const glm::dvec3& inwards) {
-            return std::ranges::all_of(corners, [&](const ViewVertex& corner) {
-                return glm::dot(inwards, corner.at_m) < 0.0;
-            });
+            return std::ranges::all_of(
+                corners, [&](const ViewVertex& corner) { return glm::dot(inwards, corner.at_m) < 0.0; });
         });
         CHECK((seen.contains(triangle) || is_beyond));
     }
@@ -263,9 +249,7 @@ TEST_CASE("what looks narrow takes the surface's colour before it is left out") 
         std::set<std::uint32_t> colours;
         for (const GroundDecal& paint : world.cutter.decals().decals) {
             CHECK(paint.colour >> 24U == 0); // neither pattern nor texture
-            if (glm::length(world.corners(paint)[0]) < nearer_m) {
-                colours.insert(paint.colour);
-            }
+            if (glm::length(world.corners(paint)[0]) < nearer_m) { colours.insert(paint.colour); }
         }
         return colours;
     };

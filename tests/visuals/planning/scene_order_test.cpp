@@ -14,9 +14,7 @@ using namespace octant::visuals::planning;
 
 namespace {
 
-OrientedBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) {
-    return {centre_m, glm::dmat3(1.0), half_m};
-}
+OrientedBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) { return {centre_m, glm::dmat3(1.0), half_m}; }
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
 
@@ -45,9 +43,7 @@ Groups members_of_each(const SceneOrder& order) {
 Groups groups(std::size_t count, const std::function<bool(std::size_t, std::size_t)>& leads) {
     std::vector<std::vector<char>> reaches(count, std::vector<char>(count, 0));
     for (std::size_t a = 0; a < count; ++a) {
-        for (std::size_t b = 0; b < count; ++b) {
-            reaches[a][b] = a == b || leads(a, b) ? 1 : 0;
-        }
+        for (std::size_t b = 0; b < count; ++b) { reaches[a][b] = a == b || leads(a, b) ? 1 : 0; }
     }
     for (std::size_t by = 0; by < count; ++by) {
         for (std::size_t a = 0; a < count; ++a) {
@@ -60,35 +56,27 @@ Groups groups(std::size_t count, const std::function<bool(std::size_t, std::size
     for (std::size_t a = 0; a < count; ++a) {
         std::vector<std::uint32_t> group;
         for (std::size_t b = 0; b < count; ++b) {
-            if (reaches[a][b] != 0 && reaches[b][a] != 0) {
-                group.push_back(static_cast<std::uint32_t>(b));
-            }
+            if (reaches[a][b] != 0 && reaches[b][a] != 0) { group.push_back(static_cast<std::uint32_t>(b)); }
         }
-        if (group.front() == a) {
-            found.push_back(group);
-        }
+        if (group.front() == a) { found.push_back(group); }
     }
     return found;
 }
 
 /// The knots that no order can do without.
 Groups rings_of(const std::vector<OrientedBox>& boxes) {
-    return groups(boxes.size(), [&](std::size_t a, std::size_t b) {
-        return occlusion_pair(boxes[a], boxes[b]).a_occludes_b;
-    });
+    return groups(
+        boxes.size(), [&](std::size_t a, std::size_t b) { return occlusion_pair(boxes[a], boxes[b]).a_occludes_b; });
 }
 
 Groups meeting_groups(const std::vector<OrientedBox>& boxes) {
-    return groups(boxes.size(), [&](std::size_t a, std::size_t b) {
-        return occlusion_pair(boxes[a], boxes[b]).intersect;
-    });
+    return groups(
+        boxes.size(), [&](std::size_t a, std::size_t b) { return occlusion_pair(boxes[a], boxes[b]).intersect; });
 }
 
 std::size_t largest(const Groups& overlap_groups) {
     std::size_t most = 0;
-    for (const auto& overlap_group : overlap_groups) {
-        most = std::max(most, overlap_group.size());
-    }
+    for (const auto& overlap_group : overlap_groups) { most = std::max(most, overlap_group.size()); }
     return most;
 }
 
@@ -112,17 +100,14 @@ int wrong_pairs(const std::vector<OrientedBox>& boxes, const SceneOrder& order) 
 
 TEST_CASE("boxes apart come farthest first") {
     const glm::dvec3 half(1.0);
-    CHECK(
-        arranged({box_at({0, 10, 0}, half), box_at({0, 50, 0}, half), box_at({0, -30, 0}, half)}) ==
-        Groups{{1}, {2}, {0}});
+    CHECK(arranged({box_at({0, 10, 0}, half), box_at({0, 50, 0}, half), box_at({0, -30, 0}, half)}) ==
+          Groups{{1}, {2}, {0}});
     CHECK(arranged({}).empty());
 }
 
 TEST_CASE("a large near box comes last though its middle is farther") {
     // Middles 45 m and 40 m away; the large one's side is 5 m from the eye, beside the small one.
-    CHECK(
-        arranged({box_at({0, 45, 0}, {1, 40, 1}), box_at({5, 40, 0}, {1, 1, 1})}) ==
-        Groups{{1}, {0}});
+    CHECK(arranged({box_at({0, 45, 0}, {1, 40, 1}), box_at({5, 40, 0}, {1, 1, 1})}) == Groups{{1}, {0}});
 }
 
 TEST_CASE("boxes whose spheres meet follow the plane between them") {
@@ -135,9 +120,8 @@ TEST_CASE("boxes whose spheres meet follow the plane between them") {
 
 TEST_CASE("boxes that meet become one knot and draw in what meets the two together") {
     const glm::dvec3 half(2.0);
-    CHECK(
-        arranged({box_at({0, 10, 0}, half), box_at({40, 10, 0}, half), box_at({3, 13, 0}, half)}) ==
-        Groups{{1}, {0, 2}});
+    CHECK(arranged({box_at({0, 10, 0}, half), box_at({40, 10, 0}, half), box_at({3, 13, 0}, half)}) ==
+          Groups{{1}, {0, 2}});
 }
 
 TEST_CASE("three bars each before the next become one knot, a chain of them does not") {
@@ -146,9 +130,7 @@ TEST_CASE("three bars each before the next become one knot, a chain of them does
         const glm::dquat turn = glm::angleAxis(turn_rad, glm::dvec3(0, 1, 0));
         const glm::dquat lean = glm::angleAxis(lean_rad, glm::dvec3(0, 0, 1));
         return OrientedBox{
-            glm::dvec3(0, 100, 0) + turn * glm::dvec3(0, 0, 4),
-            glm::mat3_cast(turn * lean),
-            {10, 0.3, 0.5}};
+            glm::dvec3(0, 100, 0) + turn * glm::dvec3(0, 0, 4), glm::mat3_cast(turn * lean), {10, 0.3, 0.5}};
     };
     const double third = 2.0943951023931953;
     CHECK(arranged({bar(0.0, 0.3), bar(third, 0.3), bar(2.0 * third, 0.3)}) == Groups{{0, 1, 2}});
@@ -157,19 +139,14 @@ TEST_CASE("three bars each before the next become one knot, a chain of them does
 
 TEST_CASE("a box between two that meet is none of their knot") {
     // The corner between the two holds a third box, inside the box around both.
-    const Groups overlap_groups = arranged(
-        {box_at({0, 40, 0}, {10, 1, 1}),
-         box_at({-10, 50, 0}, {1, 10, 1}),
-         box_at({5, 50, 0}, {1, 1, 1})});
+    const Groups overlap_groups =
+        arranged({box_at({0, 40, 0}, {10, 1, 1}), box_at({-10, 50, 0}, {1, 10, 1}), box_at({5, 50, 0}, {1, 1, 1})});
     CHECK(overlap_groups == Groups{{2}, {0, 1}});
 }
 
 TEST_CASE("what two that meet hide and are hidden by joins them") {
-    const Groups overlap_groups = arranged(
-        {box_at({0, 40, 0}, {10, 1, 1}),
-         box_at({-10, 50, 0}, {1, 10, 1}),
-         box_at({-5, 60, 0}, {15, 1, 1}),
-         box_at({0, 50, 0}, {1, 1, 1})});
+    const Groups overlap_groups = arranged({box_at({0, 40, 0}, {10, 1, 1}), box_at({-10, 50, 0}, {1, 10, 1}),
+        box_at({-5, 60, 0}, {15, 1, 1}), box_at({0, 50, 0}, {1, 1, 1})});
     CHECK(overlap_groups == Groups{{0, 1, 2, 3}});
 }
 
@@ -179,10 +156,8 @@ TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
     for (int scene = 0; scene < 100; ++scene) {
         std::vector<OrientedBox> boxes;
         for (int i = 0; i < 12; ++i) {
-            boxes.push_back(
-                {dice.in_box(glm::dvec3(60)) + glm::dvec3(0, 80, 0),
-                 glm::mat3_cast(dice.attitude()),
-                 {15.0, 4.0, 2.0}});
+            boxes.push_back({dice.in_box(glm::dvec3(60)) + glm::dvec3(0, 80, 0), glm::mat3_cast(dice.attitude()),
+                {15.0, 4.0, 2.0}});
         }
         order.arrange(boxes);
         CHECK(wrong_pairs(boxes, order) == 0);
@@ -194,10 +169,8 @@ TEST_CASE("125 boxes close together in any attitudes make only the knots that th
     PlaceDice dice(1);
     std::vector<OrientedBox> boxes;
     for (int i = 0; i < 125; ++i) {
-        boxes.push_back(
-            {20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25) + glm::dvec3(90, 70, -80),
-             glm::mat3_cast(dice.attitude()),
-             {9.7, 6.5, 2.8}});
+        boxes.push_back({20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25) + glm::dvec3(90, 70, -80),
+            glm::mat3_cast(dice.attitude()), {9.7, 6.5, 2.8}});
     }
     SceneOrder order;
     order.arrange(boxes);

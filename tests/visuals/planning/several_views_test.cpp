@@ -27,8 +27,8 @@ models::heights::HeightField rough_field() {
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights_m.push_back(static_cast<float>(
-                40.0 * std::sin(column / 3.0) * std::cos(row / 4.0) + 10.0 * std::sin(row * 1.7)));
+            heights_m.push_back(
+                static_cast<float>(40.0 * std::sin(column / 3.0) * std::cos(row / 4.0) + 10.0 * std::sin(row * 1.7)));
         }
     }
     return {side, side, 25.0, heights_m};
@@ -50,9 +50,7 @@ planning::Scene scene_over(std::shared_ptr<const landscape::Ground> ground) {
     return scene;
 }
 
-scene::Camera camera_at(int frame) {
-    return scene::camera_looking_at({-600.0 + 20.0 * frame, -500, 200}, {0, 0, 0});
-}
+scene::Camera camera_at(int frame) { return scene::camera_looking_at({-600.0 + 20.0 * frame, -500, 200}, {0, 0, 0}); }
 
 /// Triangles of ground in each of the first frames of a flight.
 std::vector<int> flown(planning::Planner& planner, const std::function<void()>& between) {
@@ -113,9 +111,7 @@ TEST_CASE("a planner that is given the last one's mesher goes on with its detail
     std::vector<int> triangles;
     for (int frame = 0; frame < 12; ++frame) {
         triangles.push_back(planner->plan({camera_at(frame), there}).counts.ground.triangles);
-        planner = std::make_unique<planning::Planner>(
-            scene,
-            settings,
+        planner = std::make_unique<planning::Planner>(scene, settings,
             landscape::reuse_or_make_mesher(
                 planner->take_mesher(), *scene.ground, landscape::mesh_settings(settings, false)));
     }
@@ -145,8 +141,7 @@ TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one a
     const std::array there{state_at({0, 0, 100})};
     for (int frame = 0; frame < 6; ++frame) {
         const scene::FramePlan& drawn = ahead.plan({camera_at(frame), there, 500}).plan;
-        const std::vector<std::uint32_t> indices(
-            drawn.ground.indices.begin(), drawn.ground.indices.end());
+        const std::vector<std::uint32_t> indices(drawn.ground.indices.begin(), drawn.ground.indices.end());
         ahead.begin_next_mesh(camera_at(frame + 3), 500);
         ahead.begin_next_mesh(camera_at(frame + 1), 300 + 50 * frame);
         ahead.begin_next_mesh(camera_at(frame + 2), 500);
@@ -159,10 +154,8 @@ TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one a
 
 TEST_CASE("a mesher of tiles goes on over them in other colours, not over others") {
     scene::Settings settings = plain_settings();
-    const auto tiles =
-        landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air);
-    std::unique_ptr<landscape::GroundMesher> mesher =
-        tiles->mesher(landscape::mesh_settings(settings, false));
+    const auto tiles = landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air);
+    std::unique_ptr<landscape::GroundMesher> mesher = tiles->mesher(landscape::mesh_settings(settings, false));
     const landscape::GroundMesher* const before = mesher.get();
     const landscape::MeshRequest request{camera_at(0), 1.0, 500};
     landscape::GroundCounts counts;
@@ -172,8 +165,7 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
     settings.air.sun_elevation_deg = 70.0;
     settings.air.palette = scene::Palette::Arid;
     const auto lit = tiles->with_settings(settings.ground, settings.air);
-    mesher =
-        landscape::reuse_or_make_mesher(std::move(mesher), *lit, landscape::mesh_settings(settings, false));
+    mesher = landscape::reuse_or_make_mesher(std::move(mesher), *lit, landscape::mesh_settings(settings, false));
     CHECK(mesher.get() == before);
     CHECK(&mesher->ground() == lit.get());
     for (const int frame : {0, 1, 1, 2}) {
@@ -183,15 +175,12 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
         const scene::TriangleDraw expected = fresh->triangles(next, counts);
         const auto colours = [](const scene::TriangleDraw& draw) {
             std::vector<std::uint32_t> each;
-            for (const std::uint32_t index : draw.indices) {
-                each.push_back(draw.vertices[index].colour);
-            }
+            for (const std::uint32_t index : draw.indices) { each.push_back(draw.vertices[index].colour); }
             return each;
         };
         CHECK(colours(drawn) == colours(expected));
     }
-    const auto others =
-        landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air);
+    const auto others = landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air);
     CHECK_FALSE(mesher->switch_ground(others));
     CHECK(&mesher->ground() == lit.get());
 }
@@ -223,8 +212,7 @@ TEST_CASE("ground says which settings it suits and is made anew of its heights f
 
 TEST_CASE("whoever measures is called once a frame, before the ground is meshed") {
     const scene::Settings settings = plain_settings();
-    const planning::Scene scene =
-        scene_over(cell_ground(4, 100.0, [](double, double) { return 0.0; }));
+    const planning::Scene scene = scene_over(cell_ground(4, 100.0, [](double, double) { return 0.0; }));
     planning::Planner planner(scene, settings);
     const std::array there{state_at({0, 0, 100})};
     int calls = 0;

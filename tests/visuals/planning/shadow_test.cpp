@@ -17,9 +17,7 @@ using namespace octant::visuals::scene;
 
 namespace {
 
-double rolling_m(double x_m, double y_m) {
-    return 3.0 * std::sin(x_m / 12.0) + 2.0 * std::cos(y_m / 9.0);
-}
+double rolling_m(double x_m, double y_m) { return 3.0 * std::sin(x_m / 12.0) + 2.0 * std::cos(y_m / 9.0); }
 
 struct Shadowed {
     Scene scene;
@@ -32,8 +30,7 @@ struct Shadowed {
         scene.ground = cell_ground(40, 10.0, rolling_m);
         scene.add_model(convex_aircraft(box_model({8.0, 2.0, 1.0})));
         scene.aircraft = {0, 0};
-        states = {
-            state_at({20, 10, 30}, glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)))),
+        states = {state_at({20, 10, 30}, glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)))),
             state_at({-30, 20, 25}, glm::angleAxis(1.2, glm::normalize(glm::dvec3(3, -2, 1))))};
     }
 };
@@ -42,42 +39,33 @@ struct Corners {
     std::array<glm::dvec3, 3> at;
 };
 
-Corners
-corners_of(const FramePlan& plan, std::span<const std::uint32_t> indices, std::size_t first) {
+Corners corners_of(const FramePlan& plan, std::span<const std::uint32_t> indices, std::size_t first) {
     Corners corners;
     const std::size_t own = plan.ground.vertices.size();
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t vertex = indices[first + i];
         corners.at[i] = glm::dvec3(
-            vertex < own ? plan.ground.vertices[vertex].position_m
-                         : plan.shadow_vertices[vertex - own].position_m);
+            vertex < own ? plan.ground.vertices[vertex].position_m : plan.shadow_vertices[vertex - own].position_m);
     }
     return corners;
 }
 
 double plan_side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
-    return ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) /
-           std::hypot(b.x - a.x, b.y - a.y);
+    return ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / std::hypot(b.x - a.x, b.y - a.y);
 }
 
 double inside_m(const Corners& t, const glm::dvec3& p) {
-    return std::min(
-        {plan_side(t.at[0], t.at[1], p),
-         plan_side(t.at[1], t.at[2], p),
-         plan_side(t.at[2], t.at[0], p)});
+    return std::min({plan_side(t.at[0], t.at[1], p), plan_side(t.at[1], t.at[2], p), plan_side(t.at[2], t.at[0], p)});
 }
 
 double off_plane_m(const Corners& t, const glm::dvec3& p) {
     return glm::dot(glm::normalize(glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0])), p - t.at[0]);
 }
 
-bool is_shadow(const FramePlan& plan, std::uint32_t index) {
-    return index >= plan.ground.vertices.size();
-}
+bool is_shadow(const FramePlan& plan, std::uint32_t index) { return index >= plan.ground.vertices.size(); }
 
 /// Whether a sun ray from a point meets the box of an aircraft: -1 surely not, 1 surely, 0 close.
-int in_the_way(
-    const sim::AircraftState& state, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
+int in_the_way(const sim::AircraftState& state, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
     const auto intersects = [&](double grown_m) {
         const glm::dquat to_body = glm::inverse(state.body_to_world);
         const glm::dvec3 half_m = glm::dvec3(8.0, 2.0, 1.0) + grown_m;
@@ -137,20 +125,16 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
     PlaceDice dice(11);
     int dark = 0;
     for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
-        if (is_shadow(plan, plan.ground.indices[i])) {
-            continue;
-        }
+        if (is_shadow(plan, plan.ground.indices[i])) { continue; }
         const Corners t = corners_of(plan, plan.ground.indices, i);
         for (int k = 0; k < 10; ++k) {
             const double u = dice.next();
             const double v = dice.next() * (1.0 - u);
             const glm::dvec3 p = t.at[0] + (t.at[1] - t.at[0]) * u + (t.at[2] - t.at[0]) * v;
             double covered_m = -1e9; // how deep inside a piece
-            for (std::size_t n = i + 3;
-                 n < plan.ground.indices.size() && is_shadow(plan, plan.ground.indices[n]);
+            for (std::size_t n = i + 3; n < plan.ground.indices.size() && is_shadow(plan, plan.ground.indices[n]);
                  n += 3) {
-                covered_m =
-                    std::max(covered_m, inside_m(corners_of(plan, plan.ground.indices, n), p));
+                covered_m = std::max(covered_m, inside_m(corners_of(plan, plan.ground.indices, n), p));
             }
             int expected = -1;
             for (const sim::AircraftState& state : world.states) {
@@ -192,8 +176,7 @@ TEST_CASE("with a depth buffer shadows come apart from the ground") {
     CHECK(step->content == PaintStep::Content::GroundRepaint);
     CHECK(step->count / 3 == static_cast<std::uint32_t>(frame.counts.shadow_triangles));
     CHECK(frame.counts.shadow_triangles > 10);
-    CHECK(std::ranges::none_of(
-        plan.ground.indices, [&](std::uint32_t index) { return is_shadow(plan, index); }));
+    CHECK(std::ranges::none_of(plan.ground.indices, [&](std::uint32_t index) { return is_shadow(plan, index); }));
 }
 
 TEST_CASE("a low sun, a shadow out of view or too small and a switch give no shadows") {
@@ -206,10 +189,6 @@ TEST_CASE("a low sun, a shadow out of view or too small and a switch give no sha
     CHECK(shadow_triangles([](Shadowed&) {}) > 0);
     CHECK(shadow_triangles([](Shadowed& w) { w.settings.air.sun_elevation_deg = 2.0; }) == 0);
     CHECK(shadow_triangles([](Shadowed& w) { w.settings.surface.shadows = false; }) == 0);
-    CHECK(shadow_triangles([](Shadowed& w) {
-              w.camera = camera_looking_at({-60, -80, 90}, {-200, -300, 0});
-          }) == 0);
-    CHECK(shadow_triangles([](Shadowed& w) {
-              w.camera = camera_looking_at({0, 0, 6000}, {0, 0, 0});
-          }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) { w.camera = camera_looking_at({-60, -80, 90}, {-200, -300, 0}); }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) { w.camera = camera_looking_at({0, 0, 6000}, {0, 0, 0}); }) == 0);
 }

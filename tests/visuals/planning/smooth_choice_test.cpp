@@ -41,19 +41,15 @@ struct Box {
     Shown shown(const planning::SmoothTarget& smooth_target = {}) {
         planning::Planner planner(scene, settings);
         const std::array there{state_at({20, 0, 50})};
-        const auto [plan, counts] =
-            planner.plan({.camera = camera, .states = there, .smooth = smooth_target});
+        const auto [plan, counts] = planner.plan({.camera = camera, .states = there, .smooth = smooth_target});
         return {counts.smooth_polygons, std::popcount(plan.smooth.at(0) & 0x3fU)};
     }
 };
 
 } // namespace
 
-TEST_CASE(
-    "an aircraft that has all it can take leaves the rest to one that weighs next to nothing") {
-    CHECK(
-        given({{.polygons = 5, .weight = 1e12}, {.polygons = 50, .weight = 1e-3}}, 30) ==
-        std::vector<int>{5, 25});
+TEST_CASE("an aircraft that has all it can take leaves the rest to one that weighs next to nothing") {
+    CHECK(given({{.polygons = 5, .weight = 1e12}, {.polygons = 50, .weight = 1e-3}}, 30) == std::vector<int>{5, 25});
 }
 
 TEST_CASE("smooth polygons are shared out by weight, and what one cannot take others get") {
@@ -78,9 +74,7 @@ TEST_CASE("what is shared out is what was asked for, or all there is") {
         const int asked = static_cast<int>(dice.between(0, 1200));
         const std::vector<int> got = given(aircraft, asked);
         CHECK(std::accumulate(got.begin(), got.end(), 0) == std::min(asked, all));
-        for (std::size_t i = 0; i < got.size(); ++i) {
-            CHECK(got[i] <= aircraft[i].polygons);
-        }
+        for (std::size_t i = 0; i < got.size(); ++i) { CHECK(got[i] <= aircraft[i].polygons); }
     }
 }
 
@@ -108,8 +102,7 @@ TEST_CASE("a frame's share goes before the settings' own, a number before both")
     CHECK(box.shown().counted == 3);
 }
 
-TEST_CASE(
-    "models show their shading and their levels by tints, but for refined ones their levels") {
+TEST_CASE("models show their shading and their levels by tints, but for refined ones their levels") {
     Box box;
     const auto tints = [&](scene::ModelDisplay look) {
         box.settings.shading.show_model = look;

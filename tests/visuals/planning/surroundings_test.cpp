@@ -15,9 +15,7 @@ using namespace octant::visuals::scene;
 namespace {
 
 glm::ivec3 parts(std::uint32_t colour) {
-    return {
-        static_cast<int>(colour & 255U),
-        static_cast<int>((colour >> 8U) & 255U),
+    return {static_cast<int>(colour & 255U), static_cast<int>((colour >> 8U) & 255U),
         static_cast<int>((colour >> 16U) & 255U)};
 }
 
@@ -56,9 +54,7 @@ int faces_hit(const TriangleDraw& draw, std::size_t first, std::size_t end, cons
 constexpr std::size_t dome_indices = std::size_t{20} * 36 * 6; ///< before those of the sun
 
 glm::dvec3 ray_at(double elevation_rad, double azimuth_rad) {
-    return {
-        std::cos(elevation_rad) * std::sin(azimuth_rad),
-        std::cos(elevation_rad) * std::cos(azimuth_rad),
+    return {std::cos(elevation_rad) * std::sin(azimuth_rad), std::cos(elevation_rad) * std::cos(azimuth_rad),
         std::sin(elevation_rad)};
 }
 
@@ -77,8 +73,7 @@ TEST_CASE("the sky's triangles face the eye and cover every direction above the 
     }
 }
 
-TEST_CASE(
-    "the sun's disc lies where the sun stands, is half a degree wide and brighter than the sky") {
+TEST_CASE("the sun's disc lies where the sun stands, is half a degree wide and brighter than the sky") {
     for (const double elevation_deg : {0.1, 2.0, 35.0, 89.0, 90.0}) {
         INFO(elevation_deg);
         const visuals::nature::Daylight day = sun_at(120.0, elevation_deg);
@@ -86,8 +81,7 @@ TEST_CASE(
         const TriangleDraw draw = sky.around({}, {{0.8F, 0.8F, 0.8F}, 1000.0F});
         const std::size_t disc = draw.indices.size() - std::size_t{30} * 3;
         CHECK(faces_hit(draw, disc, draw.indices.size(), day.to_sun()) >= 1);
-        const glm::dvec3 across =
-            glm::normalize(glm::cross(day.to_sun(), glm::dvec3(0.3, -0.2, 0.1)));
+        const glm::dvec3 across = glm::normalize(glm::cross(day.to_sun(), glm::dvec3(0.3, -0.2, 0.1)));
         for (const double side : {-1.0, 1.0}) {
             const auto beside = [&](double from_sun_deg) {
                 const double rad = side * rad_from_deg(from_sun_deg);
@@ -111,9 +105,7 @@ TEST_CASE("the sky has the haze's colour at the horizon and is bluer overhead") 
         if (vertex.position_m.z == 0.0F && vertex.position_m.x < 0.0F) {
             CHECK(vertex.colour == (models::packed_colour(day.haze_away()) & 0x00ffffffU));
         }
-        if (vertex.position_m.z > 999.0F) {
-            CHECK(parts(vertex.colour).z > parts(vertex.colour).x + 50);
-        }
+        if (vertex.position_m.z > 999.0F) { CHECK(parts(vertex.colour).z > parts(vertex.colour).x + 50); }
     }
 }
 
@@ -128,8 +120,7 @@ TEST_CASE("below the horizon the plain fades into the haze with distance") {
         lowest = &draw.vertices[ring * 36];
         CHECK(brightness(lowest->colour) <= last);
         last = brightness(lowest->colour);
-        const double distance_m =
-            std::max(1000.0 / -static_cast<double>(lowest->position_m.z) * 1000.0, map_edge_m);
+        const double distance_m = std::max(1000.0 / -static_cast<double>(lowest->position_m.z) * 1000.0, map_edge_m);
         CHECK(last / 765.0 == Approx(1.0 - std::exp(-distance_m / 20000.0)).margin(0.01));
     }
     CHECK(last < 255 * 3 / 3);
@@ -157,9 +148,7 @@ TEST_CASE("haze thins with height, and has the sun's colour towards the sun") {
     CHECK(through_haze(haze, {0.0, 10000.0, 0.0}, black).x == Approx(level.x));
     // 8 km up and 6 km along: the mean of exp(-h / 2000) over 8,000 m of height.
     const double mean = (1.0 - std::exp(-4.0)) / 4.0;
-    CHECK(
-        through_haze(haze, {6000.0, 0.0, 8000.0}, black).x ==
-        Approx(1.0 - std::exp(-mean)).epsilon(1e-4));
+    CHECK(through_haze(haze, {6000.0, 0.0, 8000.0}, black).x == Approx(1.0 - std::exp(-mean)).epsilon(1e-4));
     CHECK(through_haze(haze, {6000.0, 0.0, -800.0}, black).x > level.x * 0.6F);
     haze.falloff_per_m = 0.0F;
     haze.horizontal_to_sun = {1.0F, 0.0F};

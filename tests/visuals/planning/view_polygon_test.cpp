@@ -11,9 +11,7 @@ using namespace octant::visuals::planning;
 namespace {
 
 /// A square of 2 m, 10 m ahead (y), seen from its front.
-ViewPolygon square() {
-    return {{{-1, 10, -1}}, {{1, 10, -1}}, {{1, 10, 1}}, {{-1, 10, 1}}};
-}
+ViewPolygon square() { return {{{-1, 10, -1}}, {{1, 10, -1}}, {{1, 10, 1}}, {{-1, 10, 1}}}; }
 
 long cut_edges(const ViewPolygon& polygon) {
     return std::ranges::count_if(polygon, [](const ViewVertex& corner) { return corner.cut; });

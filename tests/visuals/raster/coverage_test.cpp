@@ -45,9 +45,7 @@ std::vector<FlatTriangle> any_triangles(std::uint64_t seed, int count) {
     return triangles;
 }
 
-glm::ivec3 colour_of(std::uint32_t packed) {
-    return {packed & 0xffU, packed >> 8 & 0xffU, packed >> 16 & 0xffU};
-}
+glm::ivec3 colour_of(std::uint32_t packed) { return {packed & 0xffU, packed >> 8 & 0xffU, packed >> 16 & 0xffU}; }
 
 /// Samples of the picture whose colour differs from the reference, weighed by levels / 255.
 double difference(const std::vector<FlatTriangle>& triangles, int samples) {
@@ -62,9 +60,7 @@ double difference(const std::vector<FlatTriangle>& triangles, int samples) {
             glm::dvec3 mean(0.0);
             for (int i = 0; i < samples; ++i) {
                 const std::uint32_t number = seen[next++];
-                if (number != 0) {
-                    mean += glm::dvec3(colour_of(triangles[number - 1].colour[0]));
-                }
+                if (number != 0) { mean += glm::dvec3(colour_of(triangles[number - 1].colour[0])); }
             }
             const glm::dvec3 apart = glm::dvec3(pixel(picture, x, y)) - mean / (1.0 * samples);
             for (glm::length_t k = 0; k < 3; ++k) {
@@ -85,8 +81,7 @@ TEST_CASE("with one sample each pixel shows the last triangle that covers its mi
 }
 
 TEST_CASE("with four and sixteen samples a pixel is the mean of what its samples show") {
-    // Crossings are known to 2^-16 pixel within a row: a sample may fall on the other side of an
-    // edge that it touches.
+    // Crossings are known to 2^-16 pixel within a row: a sample may fall on the other side of an edge that it touches.
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         CAPTURE(seed);
         CHECK(difference(any_triangles(seed, 60), 4) <= 100.0);
@@ -99,15 +94,13 @@ TEST_CASE("no line shows between neighbours, whatever their corners and samples"
         for (std::uint64_t seed = 1; seed <= 10; ++seed) {
             // A fan around any place inside, its rim outside the picture.
             RandomGenerator dice(seed);
-            const glm::vec2 middle(
-                static_cast<float>(below(dice, 128 * 256)) / 256.0F,
+            const glm::vec2 middle(static_cast<float>(below(dice, 128 * 256)) / 256.0F,
                 static_cast<float>(below(dice, 64 * 256)) / 256.0F);
             std::vector<glm::vec2> rim;
             for (const auto& [from, to] :
-                 {std::pair(glm::vec2(-9, -9), glm::vec2(140, -9)),
-                  std::pair(glm::vec2(140, -9), glm::vec2(140, 80)),
-                  std::pair(glm::vec2(140, 80), glm::vec2(-9, 80)),
-                  std::pair(glm::vec2(-9, 80), glm::vec2(-9, -9))}) {
+                {std::pair(glm::vec2(-9, -9), glm::vec2(140, -9)), std::pair(glm::vec2(140, -9), glm::vec2(140, 80)),
+                    std::pair(glm::vec2(140, 80), glm::vec2(-9, 80)),
+                    std::pair(glm::vec2(-9, 80), glm::vec2(-9, -9))}) {
                 float share = 0.0F;
                 while (share < 1.0F) {
                     rim.push_back(from + (to - from) * share);
@@ -124,9 +117,7 @@ TEST_CASE("no line shows between neighbours, whatever their corners and samples"
             plan.paint(fan);
             const scene::Picture picture = drawn(plan.plan(), size_px, samples);
             int dark = 0;
-            for (const std::uint8_t byte : picture.rgba) {
-                dark += byte != 255 ? 1 : 0;
-            }
+            for (const std::uint8_t byte : picture.rgba) { dark += byte != 255 ? 1 : 0; }
             CAPTURE(samples, seed, middle.x, middle.y);
             CHECK(dark == 0);
         }

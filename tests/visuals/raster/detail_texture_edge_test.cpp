@@ -28,9 +28,7 @@ void paint_blades(FlatPlan& plan, std::uint32_t ground, bool has_blades) {
     for (int i = 0; i < 9 && has_blades; ++i) {
         FlatTriangle blade;
         const auto y = static_cast<float>(15 + 20 * i);
-        blade.at_px = {
-            glm::vec2(10.0F, y),
-            glm::vec2(240.0F, y + static_cast<float>(i)),
+        blade.at_px = {glm::vec2(10.0F, y), glm::vec2(240.0F, y + static_cast<float>(i)),
             glm::vec2(240.0F, y + 2.5F + static_cast<float>(i))};
         blade.colour.fill(0U);
         blades.push_back(blade);
@@ -41,9 +39,7 @@ void paint_blades(FlatPlan& plan, std::uint32_t ground, bool has_blades) {
 scene::Picture blades_drawn(std::uint32_t ground, bool has_blades, bool has_detail_texture) {
     FlatPlan plan(edge_picture_px);
     paint_blades(plan, ground, has_blades);
-    if (has_detail_texture) {
-        plan.plan().detail_texture = strong_detail();
-    }
+    if (has_detail_texture) { plan.plan().detail_texture = strong_detail(); }
     return drawn(plan.plan(), edge_picture_px, 16);
 }
 
@@ -62,8 +58,8 @@ TEST_CASE("where something covers a part of a pixel its ground keeps the colour 
             const double own = pixel(ground, x, y).x;
             edges += share > 0.0 && share < 1.0 ? 1 : 0;
             const double seen = pixel(blades, x, y).x;
-            // The mean of ground and blade changes, not the ground's part alone; where the ground
-            // beside is hidden, it may be left as it is.
+            // The mean of ground and blade changes, not the ground's part alone; where the ground beside is hidden, it
+            // may be left as it is.
             const double changed = std::abs(seen - share * own);
             const double unchanged = std::abs(seen - share * 128.0);
             wrong += std::min(changed, unchanged) > 0.3 * own + 3.0 ? 1 : 0;

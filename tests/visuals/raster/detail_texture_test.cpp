@@ -91,10 +91,8 @@ glm::dvec2 texels_at(const glm::dvec3& from_eye_m, int scale, bool is_upright) {
     const auto at = static_cast<std::size_t>(scale);
     const bool is_odd = scale % 2 != 0;
     const double sign = is_odd ? -1.0 : 1.0;
-    const double east =
-        from_eye_m.x + sign * static_cast<double>(DetailPattern::shift_per_height.x) * from_eye_m.z;
-    const double north =
-        from_eye_m.y + sign * static_cast<double>(DetailPattern::shift_per_height.y) * from_eye_m.z;
+    const double east = from_eye_m.x + sign * static_cast<double>(DetailPattern::shift_per_height.x) * from_eye_m.z;
+    const double north = from_eye_m.y + sign * static_cast<double>(DetailPattern::shift_per_height.y) * from_eye_m.z;
     const double texels_per_m = 8.0 / std::pow(16.0, scale);
     glm::dvec2 turned = is_odd ? glm::dvec2(north, -east) : glm::dvec2(east, north);
     glm::dvec2 eye(at_eye[at]);
@@ -124,8 +122,8 @@ double pattern_at(double in_level, const glm::dvec2& texels) {
     return (south * (1.0 - part.y) + north * part.y) / 128.0 - 1.0;
 }
 
-/// Between which values the pattern at a pixel lies, up to half a level finer and coarser than the
-/// size of what it sees asks for.
+/// Between which values the pattern at a pixel lies, up to half a level finer and coarser than the size of what it sees
+/// asks for.
 struct Range {
     double least = 1.0;
     double most = -1.0;
@@ -136,8 +134,7 @@ Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
         return seen_from_eye_m(at_px + glm::dvec2(columns, rows), slope);
     };
     const glm::dvec3 here = seen_from(0.0, 0.0);
-    const double wide_m =
-        std::max(glm::length(seen_from(1.0, 0.0) - here), glm::length(seen_from(0.0, 1.0) - here));
+    const double wide_m = std::max(glm::length(seen_from(1.0, 0.0) - here), glm::length(seen_from(0.0, 1.0) - here));
     Range range;
     for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
         const double level = std::clamp(std::log2(8.0 * wide_m) + off, 0.0, 11.99);
@@ -184,9 +181,7 @@ Chosen chosen_in(const scene::Picture& picture, const Slope& slope) {
 /// Mean of the red bytes.
 double mean_level(const scene::Picture& picture) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-        sum += picture.rgba[i];
-    }
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) { sum += picture.rgba[i]; }
     return 4.0 * sum / static_cast<double>(picture.rgba.size());
 }
 
@@ -234,9 +229,7 @@ TEST_CASE("in dense haze the fine pattern is gone") {
     set_detail_texture(plan);
     plan.plan().haze = {.colour = glm::vec3(0.5F), .visibility_m = 2.0F};
     const scene::Picture picture = drawn(plan.plan(), picture_px, 16);
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-        REQUIRE(std::abs(int{picture.rgba[i]} - 128) <= 2);
-    }
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) { REQUIRE(std::abs(int{picture.rgba[i]} - 128) <= 2); }
 }
 
 TEST_CASE("along a level horizon, where pixels are half sky, there is none of the fine pattern") {
@@ -263,8 +256,7 @@ TEST_CASE("the fine pattern moves with the ground and does not shimmer") {
     const auto moved = [&](float px) {
         FlatPlan plan(picture_px);
         FlatTriangle wall;
-        wall.at_px = {
-            glm::vec2(-400.0F, -10.0F), glm::vec2(700.0F, -10.0F), glm::vec2(128.0F, 900.0F)};
+        wall.at_px = {glm::vec2(-400.0F, -10.0F), glm::vec2(700.0F, -10.0F), glm::vec2(128.0F, 900.0F)};
         wall.depth_m.fill(40.0F);
         wall.colour.fill(half_and_half);
         plan.paint({wall});
@@ -293,9 +285,7 @@ TEST_CASE("the fine pattern moves with the ground and does not shimmer") {
     const scene::Picture twice = moved(2.0F);
     double off = 0.0;
     for (int y = 0; y < picture_px.y; ++y) {
-        for (int x = 0; x + 2 < picture_px.x; ++x) {
-            off += std::abs(pixel(twice, x, y).x - pixel(first, x + 2, y).x);
-        }
+        for (int x = 0; x + 2 < picture_px.x; ++x) { off += std::abs(pixel(twice, x, y).x - pixel(first, x + 2, y).x); }
     }
     CHECK(off < 0.05 * by_neighbour);
     CHECK((whole.rgba != first.rgba));

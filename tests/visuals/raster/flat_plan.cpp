@@ -6,8 +6,7 @@
 
 namespace octant::visuals::raster {
 
-FlatPlan::FlatPlan(const glm::ivec2& size_px)
-    : size_px_(size_px) {
+FlatPlan::FlatPlan(const glm::ivec2& size_px) : size_px_(size_px) {
     plan_.view_to_clip = glm::mat4(0.0F);
     plan_.view_to_clip[0][0] = 1.0F;
     plan_.view_to_clip[1][1] = 1.0F;
@@ -15,16 +14,14 @@ FlatPlan::FlatPlan(const glm::ivec2& size_px)
     plan_.view_to_clip[3][2] = 1.0F; // near plane, metres
 }
 
-void FlatPlan::paint(
-    const std::vector<FlatTriangle>& triangles, scene::DepthUse depth, std::uint32_t clip) {
+void FlatPlan::paint(const std::vector<FlatTriangle>& triangles, scene::DepthUse depth, std::uint32_t clip) {
     const auto first = static_cast<std::uint32_t>(indices_.size());
     for (const FlatTriangle& triangle : triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
             const float depth_m = triangle.depth_m[i];
             const glm::vec2 share = triangle.at_px[i] / glm::vec2(size_px_) * 2.0F - 1.0F;
             indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
-            vertices_.push_back(
-                {{share.x * depth_m, -share.y * depth_m, -depth_m}, triangle.colour[i]});
+            vertices_.push_back({{share.x * depth_m, -share.y * depth_m, -depth_m}, triangle.colour[i]});
         }
     }
     const auto count = static_cast<std::uint32_t>(indices_.size()) - first;
@@ -39,22 +36,15 @@ scene::FramePlan& FlatPlan::plan() {
 scene::DetailTexture strong_detail() {
     const scene::LandCover dark{glm::vec3(0.2F, 0.25F, 0.15F), 0.1F};
     const scene::LandCover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
-    return {
-        {glm::vec2(0.2F, 0.6F), glm::vec2(0.9F, 0.1F), glm::vec2(0.4F, 0.7F), glm::vec2(0.5F)},
+    return {{glm::vec2(0.2F, 0.6F), glm::vec2(0.9F, 0.1F), glm::vec2(0.4F, 0.7F), glm::vec2(0.5F)},
         {0.3F, 0.8F, 0.1F, 0.6F},
         std::make_shared<const scene::LandCoverContrast>(std::array{dark, bright, dark, bright})};
 }
 
-scene::Picture drawn(
-    const scene::FramePlan& plan,
-    const glm::ivec2& size_px,
-    int samples,
-    int threads,
+scene::Picture drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads,
     const scene::GroundTexture* texture) {
     Renderer renderer(std::make_shared<Workers>(threads), size_px, samples);
-    if (texture != nullptr) {
-        renderer.load_ground_texture(*texture);
-    }
+    if (texture != nullptr) { renderer.load_ground_texture(*texture); }
     scene::Picture picture;
     renderer.draw(plan);
     renderer.finish_and_read(picture);
@@ -67,8 +57,7 @@ std::uint64_t below(RandomGenerator& dice, std::uint64_t most) {
 
 glm::ivec3 pixel(const scene::Picture& picture, int x, int y) {
     const std::size_t at =
-        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-             static_cast<std::size_t>(x));
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
     return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
 }
 

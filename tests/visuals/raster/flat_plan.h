@@ -22,8 +22,8 @@ struct FlatTriangle {
     std::array<std::uint32_t, 3> colour{0xffffffffU, 0xffffffffU, 0xffffffffU};
 };
 
-/// A plan that paints triangles of ground, in their order, before a black background. It owns what
-/// the plan's spans point at: it stays where it is.
+/// A plan that paints triangles of ground, in their order, before a black background. It owns what the plan's spans
+/// point at: it stays where it is.
 class FlatPlan {
 public:
     explicit FlatPlan(const glm::ivec2& size_px);
@@ -34,9 +34,7 @@ public:
     ~FlatPlan() = default;
 
     /// One step of these triangles.
-    void paint(
-        const std::vector<FlatTriangle>& triangles,
-        scene::DepthUse depth = scene::DepthUse::None,
+    void paint(const std::vector<FlatTriangle>& triangles, scene::DepthUse depth = scene::DepthUse::None,
         std::uint32_t clip = scene::PaintStep::no_clip);
 
     scene::FramePlan& plan();
@@ -52,11 +50,7 @@ private:
 scene::DetailTexture strong_detail();
 
 /// The plan's picture.
-scene::Picture drawn(
-    const scene::FramePlan& plan,
-    const glm::ivec2& size_px,
-    int samples,
-    int threads = 1,
+scene::Picture drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads = 1,
     const scene::GroundTexture* texture = nullptr);
 
 /// A whole number 0 .. most - 1.

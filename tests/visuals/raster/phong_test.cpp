@@ -14,8 +14,8 @@ namespace {
 constexpr glm::ivec2 size_px{65, 65};
 constexpr glm::ivec2 middle_px{32, 32};
 
-/// One square polygon that fills the picture, whose normals at the corners lean outwards by 60
-/// degrees, before an eye with the sun behind it.
+/// One square polygon that fills the picture, whose normals at the corners lean outwards by 60 degrees, before an eye
+/// with the sun behind it.
 struct LeaningNormals {
     scene::ModelBuffers model;
     scene::FramePlan plan;
@@ -69,8 +69,8 @@ TEST_CASE("light in each pixel follows the normal between the corners and shines
     CHECK(pixel(square.picture(1), middle_px.x, middle_px.y).x == Approx(dim).margin(1));
     square.plan.lights_pixels = true;
     // Between opposite corners the normal points at the eye and the sun.
-    const int bright = static_cast<int>(
-        std::lround(own_level * (0.25F + 0.5F) + 255.0F * 0.5F * scene::Highlight::share));
+    const int bright =
+        static_cast<int>(std::lround(own_level * (0.25F + 0.5F) + 255.0F * 0.5F * scene::Highlight::share));
     for (const int samples : {1, 4, 16}) {
         const scene::Picture picture = square.picture(samples);
         CHECK(pixel(picture, middle_px.x, middle_px.y).x == Approx(bright).margin(1));
@@ -79,8 +79,7 @@ TEST_CASE("light in each pixel follows the normal between the corners and shines
     }
 }
 
-TEST_CASE(
-    "flat polygons stay flat where pixels are lit, and what faces away from the sun is dark") {
+TEST_CASE("flat polygons stay flat where pixels are lit, and what faces away from the sun is dark") {
     LeaningNormals square;
     square.plan.lights_pixels = true;
     square.plan.smooth = {0U};
@@ -98,13 +97,8 @@ TEST_CASE("light in each pixel is the same by depth and on any number of threads
     const scene::Picture one = square.picture(16);
     CHECK(square.picture(16, 3).rgba == one.rgba);
     square.plan.depth_boxes = {{glm::ivec2(0), size_px}};
-    square.plan.steps = {
-        {scene::PaintStep::Content::ClearDepth, 0, 1},
-        {scene::PaintStep::Content::Aircraft,
-         0,
-         1,
-         scene::PaintStep::no_clip,
-         scene::DepthUse::Nearest}};
+    square.plan.steps = {{scene::PaintStep::Content::ClearDepth, 0, 1},
+        {scene::PaintStep::Content::Aircraft, 0, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest}};
     CHECK(square.picture(16).rgba == one.rgba);
     CHECK(square.picture(1).rgba.size() == one.rgba.size());
 }

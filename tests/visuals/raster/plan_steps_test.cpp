@@ -19,8 +19,7 @@ constexpr glm::ivec3 red_px{255, 0, 0};
 constexpr glm::ivec3 green_px{0, 255, 0};
 
 /// Two triangles that fill a rectangle.
-std::vector<FlatTriangle>
-rectangle(glm::vec2 least, glm::vec2 most, std::uint32_t colour, float depth_m) {
+std::vector<FlatTriangle> rectangle(glm::vec2 least, glm::vec2 most, std::uint32_t colour, float depth_m) {
     FlatTriangle lower;
     lower.at_px = {least, glm::vec2(most.x, least.y), most};
     FlatTriangle upper;
@@ -35,9 +34,7 @@ rectangle(glm::vec2 least, glm::vec2 most, std::uint32_t colour, float depth_m) 
 void clear_depth(FlatPlan& plan) {
     plan.plan().depth_boxes.push_back({glm::ivec2(0), size_px});
     plan.plan().steps.push_back(
-        {PaintStep::Content::ClearDepth,
-         static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1),
-         1});
+        {PaintStep::Content::ClearDepth, static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1), 1});
 }
 
 /// Even light on a model that stands at the eye.
@@ -53,8 +50,7 @@ void paint_triangle(scene::FramePlan& frame, std::uint32_t first_index) {
     frame.steps.push_back({PaintStep::Content::Aircraft, 0, 1});
 }
 
-scene::Picture
-drawn_with(const scene::ModelBuffers& model, const scene::FramePlan& frame, int samples) {
+scene::Picture drawn_with(const scene::ModelBuffers& model, const scene::FramePlan& frame, int samples) {
     Renderer renderer(std::make_shared<Workers>(1), size_px, samples);
     renderer.load_models(std::span(&model, 1));
     renderer.draw(frame);
@@ -132,9 +128,7 @@ TEST_CASE("both sides of a cut make the whole, through the eye or not") {
         const scene::Picture picture = drawn(plan.plan(), size_px, samples);
         int whole = 0;
         for (int y = 0; y < size_px.y; ++y) {
-            for (int x = 0; x < size_px.x; ++x) {
-                whole += pixel(picture, x, y) == red_px ? 1 : 0;
-            }
+            for (int x = 0; x < size_px.x; ++x) { whole += pixel(picture, x, y) == red_px ? 1 : 0; }
         }
         CHECK(whole == size_px.x * size_px.y);
         // Each side alone is not.
@@ -151,8 +145,7 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
     scene::ModelBuffers model;
     for (std::uint32_t polygon = 0; polygon < 2; ++polygon) {
         const float left = polygon == 0 ? -1.0F : 0.0F;
-        for (const glm::vec2 at :
-             {glm::vec2(left, -1.0F), glm::vec2(left + 1.0F, -1.0F), glm::vec2(left, 1.0F)}) {
+        for (const glm::vec2 at : {glm::vec2(left, -1.0F), glm::vec2(left + 1.0F, -1.0F), glm::vec2(left, 1.0F)}) {
             scene::ModelVertex vertex;
             vertex.position_m = glm::vec3(at, -1.0F);
             vertex.normal = glm::vec3(0.0F, 0.0F, 1.0F);
@@ -174,13 +167,12 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
 }
 
 TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding turns it round") {
-    // The corners, not much farther apart than they are rounded, go round as those of a front do;
-    // whether it is one, the polygon's normal says where there is one.
+    // The corners, not much farther apart than they are rounded, go round as those of a front do; whether it is one,
+    // the polygon's normal says where there is one.
     const float px = 2.0F / 64.0F;
     for (const float outwards : {1.0F, -1.0F, 0.0F}) {
         scene::ModelBuffers model;
-        for (const glm::vec2 at :
-             {glm::vec2(0.497F, 20.0F), glm::vec2(0.497F, -20.0F), glm::vec2(0.503F, 20.0F)}) {
+        for (const glm::vec2 at : {glm::vec2(0.497F, 20.0F), glm::vec2(0.497F, -20.0F), glm::vec2(0.503F, 20.0F)}) {
             scene::ModelVertex vertex;
             vertex.position_m = glm::vec3(px * at, -1.0F);
             vertex.face_normal = glm::vec3(0.0F, 0.0F, outwards);
@@ -195,30 +187,24 @@ TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding tur
         const scene::Picture picture = drawn_with(model, frame, 1);
         int drawn_px = 0;
         for (int y = 0; y < size_px.y; ++y) {
-            for (int x = 0; x < size_px.x; ++x) {
-                drawn_px += pixel(picture, x, y) == red_px ? 1 : 0;
-            }
+            for (int x = 0; x < size_px.x; ++x) { drawn_px += pixel(picture, x, y) == red_px ? 1 : 0; }
         }
         CHECK((drawn_px > 0) == (outwards >= 0.0F));
     }
 }
 
-TEST_CASE(
-    "a transparent surface is blended over what is seen behind it, none over what is nearer") {
+TEST_CASE("a transparent surface is blended over what is seen behind it, none over what is nearer") {
     scene::ModelBuffers model;
     for (const std::uint32_t colour : {red, green, 0xffff0000U}) {
         const auto first = static_cast<std::uint32_t>(model.vertices.size());
-        for (const glm::vec2 at :
-             {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
             scene::ModelVertex vertex;
             vertex.position_m = glm::vec3(at, 0.0F);
             vertex.normal = vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
             vertex.colour = vertex.face_colour = colour;
             model.vertices.push_back(vertex);
         }
-        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
-            model.indices.push_back(first + corner);
-        }
+        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) { model.indices.push_back(first + corner); }
     }
     const auto ahead = [](float ahead_m, float scale) {
         glm::mat4 place(scale);
@@ -231,16 +217,13 @@ TEST_CASE(
     light_evenly(frame, ~0U);
     frame.parts = {ahead(4.0F, 4.0F), ahead(2.0F, 1.0F), ahead(1.0F, 0.25F)};
     for (std::uint32_t i = 0; i < 3; ++i) {
-        frame.aircraft.push_back(
-            {.model = 0, .first_index = 6 * i, .index_count = 6, .first_part = i});
+        frame.aircraft.push_back({.model = 0, .first_index = 6 * i, .index_count = 6, .first_part = i});
     }
     using Content = PaintStep::Content;
     clear_depth(plan);
     frame.steps.push_back({Content::Aircraft, 0, 1, PaintStep::no_clip, DepthUse::Nearest});
     const bool shares_depth = GENERATE(true, false);
-    if (shares_depth) {
-        frame.steps.push_back({Content::Aircraft, 2, 1, PaintStep::no_clip, DepthUse::Nearest});
-    }
+    if (shares_depth) { frame.steps.push_back({Content::Aircraft, 2, 1, PaintStep::no_clip, DepthUse::Nearest}); }
     frame.steps.push_back({Content::Aircraft, 1, 1, PaintStep::no_clip, DepthUse::Nearest, 0.25F});
     if (!shares_depth) { // painted over all
         frame.steps.push_back({Content::Aircraft, 2, 1});
@@ -263,18 +246,13 @@ TEST_CASE("light is lost in haze as exp says, to single precision") {
 TEST_CASE("neighbours of the overlay with one colour are blended as one") {
     FlatPlan plan(size_px);
     const std::uint32_t half_white = 0x80ffffffU;
-    const std::vector<scene::OverlayVertex> vertices{
-        {{3.3F, 4.7F}, half_white},
-        {{50.2F, 9.1F}, half_white},
-        {{60.9F, 55.5F}, half_white},
-        {{8.4F, 48.8F}, half_white}};
+    const std::vector<scene::OverlayVertex> vertices{{{3.3F, 4.7F}, half_white}, {{50.2F, 9.1F}, half_white},
+        {{60.9F, 55.5F}, half_white}, {{8.4F, 48.8F}, half_white}};
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
     plan.plan().overlay = {vertices, indices};
     plan.plan().steps.push_back({PaintStep::Content::Overlay, 0, 6});
     const scene::Picture picture = drawn(plan.plan(), size_px, 16);
-    for (int along = 12; along < 45; ++along) {
-        CHECK(pixel(picture, along, along) == glm::ivec3(128));
-    }
+    for (int along = 12; along < 45; ++along) { CHECK(pixel(picture, along, along) == glm::ivec3(128)); }
 }
 
 TEST_CASE("an inset is a picture of its own within a thin frame") {

@@ -43,9 +43,7 @@ Place sample_of(int samples, int number) {
 
 /// Whether a place lies right of an edge, or on it.
 bool is_right_of(const Place& at, Place top, Place bottom) {
-    if (top.y > bottom.y) {
-        std::swap(top, bottom);
-    }
+    if (top.y > bottom.y) { std::swap(top, bottom); }
     return (at.x - top.x) * (bottom.y - top.y) >= (bottom.x - top.x) * (at.y - top.y);
 }
 
@@ -55,17 +53,15 @@ bool covers(const std::array<Place, 3>& corners, const Place& at) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Place& from = corners[i];
         const Place& to = corners[(i + 1) % 3];
-        if ((from.y <= at.y) != (to.y <= at.y)) {
-            left += is_right_of(at, from, to) ? 1 : 0;
-        }
+        if ((from.y <= at.y) != (to.y <= at.y)) { left += is_right_of(at, from, to) ? 1 : 0; }
     }
     return left == 1;
 }
 
 } // namespace
 
-std::vector<std::uint32_t>
-covered_by(const std::vector<FlatTriangle>& triangles, const glm::ivec2& size_px, int samples) {
+std::vector<std::uint32_t> covered_by(
+    const std::vector<FlatTriangle>& triangles, const glm::ivec2& size_px, int samples) {
     std::vector<std::uint32_t> seen;
     for (int y = 0; y < size_px.y; ++y) {
         for (int x = 0; x < size_px.x; ++x) {
@@ -75,9 +71,7 @@ covered_by(const std::vector<FlatTriangle>& triangles, const glm::ivec2& size_px
                 std::uint32_t last = 0;
                 for (std::uint32_t i = 0; i < triangles.size(); ++i) {
                     const auto& px = triangles[i].at_px;
-                    if (covers({place_of(px[0]), place_of(px[1]), place_of(px[2])}, at)) {
-                        last = i + 1;
-                    }
+                    if (covers({place_of(px[0]), place_of(px[1]), place_of(px[2])}, at)) { last = i + 1; }
                 }
                 seen.push_back(last);
             }

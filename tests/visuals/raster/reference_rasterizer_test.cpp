@@ -24,9 +24,7 @@ std::vector<FlatTriangle> many_triangles(std::uint64_t seed) {
         const glm::vec2 middle(across_px, down_px);
         triangle.depth_m.fill(2.0F + static_cast<float>(below(dice, 1000)) / 10.0F);
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto part = [&] {
-                return static_cast<float>(below(dice, 6001)) / 100.0F - 30.0F;
-            };
+            const auto part = [&] { return static_cast<float>(below(dice, 6001)) / 100.0F - 30.0F; };
             const float x = part();
             triangle.at_px[k] = middle + glm::vec2(x, part());
             triangle.colour[k] = static_cast<std::uint32_t>(below(dice, 1U << 24)) | black;
@@ -39,9 +37,7 @@ std::vector<FlatTriangle> many_triangles(std::uint64_t seed) {
 void clear_depth(FlatPlan& plan) {
     plan.plan().depth_boxes.push_back({glm::ivec2(0), size_px});
     plan.plan().steps.push_back(
-        {scene::PaintStep::Content::ClearDepth,
-         static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1),
-         1});
+        {scene::PaintStep::Content::ClearDepth, static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1), 1});
 }
 
 /// Everything by one depth buffer.
@@ -74,9 +70,7 @@ TEST_CASE("from far to near, each over what is there, the picture is the same") 
     plan.paint(many_triangles(2), scene::DepthUse::Nearest);
     plan.paint(many_triangles(4));
     for (const bool has_detail_texture : {false, true}) {
-        if (has_detail_texture) {
-            plan.plan().detail_texture = strong_detail();
-        }
+        if (has_detail_texture) { plan.plan().detail_texture = strong_detail(); }
         const scene::Picture near_to_far = drawn(plan.plan(), size_px, 1);
         Renderer renderer(std::make_shared<Workers>(2), size_px, 1);
         renderer.set_paint_direction(Renderer::PaintDirection::FarToNear);

@@ -24,9 +24,7 @@ void paint_much(FlatPlan& plan) {
             const glm::vec2 middle(across_px, down_px);
             const auto reach = static_cast<float>(1 + below(dice, i % 20 == 0 ? 128 : 12));
             for (std::size_t k = 0; k < 3; ++k) {
-                const auto part = [&] {
-                    return static_cast<float>(below(dice, 2001)) / 1000.0F - 1.0F;
-                };
+                const auto part = [&] { return static_cast<float>(below(dice, 2001)) / 1000.0F - 1.0F; };
                 const float x = part();
                 triangle.at_px[k] = middle + reach * glm::vec2(x, part());
                 triangle.depth_m[k] = 1.0F + static_cast<float>(below(dice, 1000)) / 10.0F;
@@ -44,18 +42,14 @@ void paint_much(FlatPlan& plan) {
             clip.planes[1] = glm::vec4(-0.2F, 0.5F, 0.3F, 4.0F);
             plan.plan().clips.push_back(clip);
         }
-        plan.paint(
-            triangles,
-            by_depth ? scene::DepthUse::Nearest : scene::DepthUse::None,
-            cut ? static_cast<std::uint32_t>(plan.plan().clips.size() - 1)
-                : scene::PaintStep::no_clip);
+        plan.paint(triangles, by_depth ? scene::DepthUse::Nearest : scene::DepthUse::None,
+            cut ? static_cast<std::uint32_t>(plan.plan().clips.size() - 1) : scene::PaintStep::no_clip);
     }
 }
 
 /// Air that thins out upwards and is brighter towards the sun.
 void put_in_haze(FlatPlan& plan) {
-    plan.plan().haze = {
-        .colour = glm::vec3(0.6F, 0.7F, 0.8F),
+    plan.plan().haze = {.colour = glm::vec3(0.6F, 0.7F, 0.8F),
         .visibility_m = 60.0F,
         .falloff_per_m = 0.02F,
         .horizontal_to_sun = glm::vec2(0.6F, 0.8F),
@@ -94,9 +88,7 @@ void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* textur
         int sets = 0;
         for (int bit = 0; bit < 63; ++bit) {
             const std::int64_t target = std::int64_t{1} << bit;
-            if ((all & target) == 0) {
-                continue;
-            }
+            if ((all & target) == 0) { continue; }
             hwy::SetSupportedTargetsForTest(target);
             hwy::GetChosenTarget().Update(hwy::SupportedTargets());
             CAPTURE(samples, hwy::TargetName(target));

@@ -78,9 +78,7 @@ double level_at(double texel) {
 }
 
 /// One over the distance of ground that reaches to the picture's upper edge.
-double inverse_depth_of_ground(double y_px) {
-    return 0.01 + 0.09 * y_px / small_px.y;
-}
+double inverse_depth_of_ground(double y_px) { return 0.01 + 0.09 * y_px / small_px.y; }
 
 /// That ground in triangles of so many pixels: at the top a pixel is five times as long as wide.
 void paint_ground(FlatPlan& plan, int cell_px, scene::DepthUse depth) {
@@ -114,8 +112,7 @@ double red_of_ground(int x, int y) {
     for (int k = 0; k < side * side; ++k) {
         const glm::dvec2 at_px(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
         const double across = at_px.x / small_px.x * 2.0 - 1.0;
-        const double texel =
-            (0.5 + across / inverse_depth_of_ground(at_px.y) * double{ground_per_m}) * texels - 0.5;
+        const double texel = (0.5 + across / inverse_depth_of_ground(at_px.y) * double{ground_per_m}) * texels - 0.5;
         sum += level_at(std::clamp(texel, 0.0, texels - 1.0));
     }
     return sum / (side * side);
@@ -178,7 +175,7 @@ TEST_CASE("places in a texture are right to a sixteenth of a texel in small tria
 
     // Small triangles take their places from planes, large ones from the ends of sixteen pixels.
     for (const auto& [cell_px, max_texels_wrong] :
-         {Case{glm::ivec2(8, 6), 1.0 / 16.0}, Case{glm::ivec2(64, 96), 1.0 / 5.0}}) {
+        {Case{glm::ivec2(8, 6), 1.0 / 16.0}, Case{glm::ivec2(64, 96), 1.0 / 5.0}}) {
         FlatPlan plan(small_px);
         paint_slope(plan, cell_px);
         constexpr float per_m = 0.0078125F;

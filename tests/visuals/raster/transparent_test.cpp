@@ -30,13 +30,10 @@ struct Sheet {
 
     void add(const glm::vec2& by_px, std::uint32_t colour) {
         const auto first = static_cast<std::uint32_t>(vertices.size());
-        for (const glm::vec2 at :
-             {glm::vec2(3.3F, 4.7F), {50.2F, 9.1F}, {60.9F, 55.5F}, {8.4F, 48.8F}}) {
+        for (const glm::vec2 at : {glm::vec2(3.3F, 4.7F), {50.2F, 9.1F}, {60.9F, 55.5F}, {8.4F, 48.8F}}) {
             vertices.push_back({at + by_px, colour});
         }
-        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
-            indices.push_back(first + corner);
-        }
+        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) { indices.push_back(first + corner); }
     }
 };
 
@@ -71,9 +68,7 @@ TEST_CASE("no line shows where the triangles of a veil meet") {
     plan.plan().overlay = {sheet.vertices, sheet.indices};
     plan.plan().steps.push_back({PaintStep::Content::Transparent, 0, 6});
     const scene::Picture picture = drawn(plan.plan(), veil_size_px, 16);
-    for (int along = 12; along < 45; ++along) {
-        CHECK(pixel(picture, along, along) == glm::ivec3(224));
-    }
+    for (int along = 12; along < 45; ++along) { CHECK(pixel(picture, along, along) == glm::ivec3(224)); }
 }
 
 TEST_CASE("veils over one another are blended in their order") {
@@ -110,14 +105,11 @@ TEST_CASE("many veils among triangles have the same bytes on any number of threa
     Sheet sheet;
     const auto somewhere = [&](std::uint64_t width, std::uint64_t height) {
         return glm::vec2(
-            static_cast<float>(below(dice, width)) - 30.0F,
-            static_cast<float>(below(dice, height)) - 30.0F);
+            static_cast<float>(below(dice, width)) - 30.0F, static_cast<float>(below(dice, height)) - 30.0F);
     };
     for (std::uint32_t i = 0; i < 40; ++i) {
         FlatTriangle triangle;
-        for (glm::vec2& at : triangle.at_px) {
-            at = somewhere(250, 200);
-        }
+        for (glm::vec2& at : triangle.at_px) { at = somewhere(250, 200); }
         triangle.colour.fill(0xff000000U | static_cast<std::uint32_t>(below(dice, 0xffffffU)));
         plan.paint({triangle});
         sheet.add(somewhere(180, 130), static_cast<std::uint32_t>(below(dice, 0xffffffffULL)));
@@ -125,7 +117,5 @@ TEST_CASE("many veils among triangles have the same bytes on any number of threa
     }
     plan.plan().overlay = {sheet.vertices, sheet.indices};
     const scene::Picture one = drawn(plan.plan(), size_px, 16, 1);
-    for (const int threads : {2, 5}) {
-        CHECK(drawn(plan.plan(), size_px, 16, threads).rgba == one.rgba);
-    }
+    for (const int threads : {2, 5}) { CHECK(drawn(plan.plan(), size_px, 16, threads).rgba == one.rgba); }
 }

@@ -33,9 +33,7 @@ public:
 
 std::vector<std::uint8_t> with_red_and_blue_swapped(const scene::Picture& picture) {
     std::vector<std::uint8_t> swapped(picture.rgba.begin(), picture.rgba.end());
-    for (std::size_t at = 0; at < swapped.size(); at += 4) {
-        std::swap(swapped[at], swapped[at + 2]);
-    }
+    for (std::size_t at = 0; at < swapped.size(); at += 4) { std::swap(swapped[at], swapped[at + 2]); }
     return swapped;
 }
 
@@ -50,8 +48,7 @@ void paint_some(FlatPlan& plan) {
 /// An orange square, a quarter opaque.
 scene::ModelBuffers pane() {
     scene::ModelBuffers model;
-    for (const glm::vec2 at :
-         {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+    for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
         scene::ModelVertex vertex;
         vertex.position_m = glm::vec3(at, -4.0F);
         vertex.normal = vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
@@ -70,8 +67,7 @@ void add_pane(scene::FramePlan& plan) {
     plan.depth_boxes = {{glm::ivec2(0), window_px}};
     using scene::PaintStep;
     plan.steps.push_back({PaintStep::Content::ClearDepth, 0, 1});
-    plan.steps.push_back(
-        {PaintStep::Content::Aircraft, 0, 1, PaintStep::no_clip, scene::DepthUse::Nearest, 0.25F});
+    plan.steps.push_back({PaintStep::Content::Aircraft, 0, 1, PaintStep::no_clip, scene::DepthUse::Nearest, 0.25F});
 }
 
 } // namespace
@@ -81,10 +77,8 @@ TEST_CASE("a picture in a window's memory is the one that is read, blue first") 
     paint_some(plan);
     FlatPlan second(glm::ivec2(corner.width, corner.height));
     paint_some(second);
-    const std::vector<scene::OverlayVertex> words{
-        {.at_px = {5.0F, 5.0F}, .colour = 0x80ff3000U},
-        {.at_px = {70.0F, 9.0F}, .colour = 0x80ff3000U},
-        {.at_px = {9.0F, 60.0F}, .colour = 0x80ff3000U}};
+    const std::vector<scene::OverlayVertex> words{{.at_px = {5.0F, 5.0F}, .colour = 0x80ff3000U},
+        {.at_px = {70.0F, 9.0F}, .colour = 0x80ff3000U}, {.at_px = {9.0F, 60.0F}, .colour = 0x80ff3000U}};
     const std::vector<std::uint32_t> indices{0, 1, 2};
     plan.plan().overlay = {words, indices};
     const auto window = std::make_shared<KeptPicture>();

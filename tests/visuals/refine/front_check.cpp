@@ -19,9 +19,7 @@ NamedFaces active_faces(const SelectiveRefiner& refiner) {
     NamedFaces faces;
     const auto indices = refiner.indices();
     for (std::size_t place = 0; 3 * place < indices.size(); ++place) {
-        if (refiner.face_at(place) == none) {
-            continue;
-        }
+        if (refiner.face_at(place) == none) { continue; }
         std::array<std::uint32_t, 3> face{};
         for (std::size_t k = 0; k < 3; ++k) {
             face[k] = refiner.mesh().sequence_number(refiner.node_at(indices[3 * place + k]));
@@ -32,8 +30,7 @@ NamedFaces active_faces(const SelectiveRefiner& refiner) {
     return faces;
 }
 
-NamedFaces
-expected_faces(const models::CollapseSequence& sequence, const SelectiveRefiner& refiner) {
+NamedFaces expected_faces(const models::CollapseSequence& sequence, const SelectiveRefiner& refiner) {
     const std::size_t originals = sequence.original.vertices_m.size();
     std::vector<std::uint32_t> ancestors(originals + sequence.collapses.size(), none);
     for (std::uint32_t slot = 0; slot < refiner.vertices().size(); ++slot) {
@@ -43,11 +40,8 @@ expected_faces(const models::CollapseSequence& sequence, const SelectiveRefiner&
         }
     }
     for (std::size_t i = sequence.collapses.size(); i-- > 0;) {
-        for (const std::uint32_t child :
-             {sequence.collapses[i].first, sequence.collapses[i].second}) {
-            if (ancestors[originals + i] != none) {
-                ancestors[child] = ancestors[originals + i];
-            }
+        for (const std::uint32_t child : {sequence.collapses[i].first, sequence.collapses[i].second}) {
+            if (ancestors[originals + i] != none) { ancestors[child] = ancestors[originals + i]; }
         }
     }
     NamedFaces faces;
@@ -69,17 +63,13 @@ std::string manifold_fault(const SelectiveRefiner& refiner) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = face[k];
             const std::uint32_t b = face[(k + 1) % 3];
-            if (!edges.insert({a, b}).second) {
-                return "an edge is used twice in one direction";
-            }
+            if (!edges.insert({a, b}).second) { return "an edge is used twice in one direction"; }
             fans[a][b] = face[(k + 2) % 3];
         }
     }
     for (const auto& [vertex, next] : fans) {
         std::set<std::uint32_t> ends;
-        for (const auto& [from, to] : next) {
-            ends.insert(to);
-        }
+        for (const auto& [from, to] : next) { ends.insert(to); }
         std::uint32_t at = next.begin()->first;
         for (const auto& [from, to] : next) {
             at = ends.count(from) == 0 ? from : at; // where an open fan begins
@@ -89,9 +79,7 @@ std::string manifold_fault(const SelectiveRefiner& refiner) {
             at = next.at(at);
             ++walked;
         }
-        if (walked < next.size()) {
-            return "a vertex has more than one fan";
-        }
+        if (walked < next.size()) { return "a vertex has more than one fan"; }
     }
     return {};
 }
@@ -105,8 +93,7 @@ long euler_characteristic(const NamedFaces& faces) {
             edges.insert(std::minmax(face[k], face[(k + 1) % 3]));
         }
     }
-    return static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) +
-           static_cast<long>(faces.size());
+    return static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) + static_cast<long>(faces.size());
 }
 
 } // namespace octant::visuals::refine::test

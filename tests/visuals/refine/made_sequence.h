@@ -18,8 +18,8 @@ models::TriangleMesh made_grid(std::uint32_t size);
 /// The same with heights up to 1 m, any by `seed`.
 models::TriangleMesh made_ground(std::uint32_t size, std::uint64_t seed);
 
-/// Collapses the shortest edge into its middle until none is left that the link condition allows.
-/// Errors add half the edge's length to the larger one of both ends'.
+/// Collapses the shortest edge into its middle until none is left that the link condition allows. Errors add half the
+/// edge's length to the larger one of both ends'.
 models::CollapseSequence collapsed(models::TriangleMesh mesh);
 
 /// The same for max_collapses at most.

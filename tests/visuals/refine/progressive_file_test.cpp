@@ -17,16 +17,12 @@ using namespace octant::visuals::refine::test;
 
 namespace {
 
-std::filesystem::path file(const std::string& name) {
-    return tests::scratch_folder() / name;
-}
+std::filesystem::path file(const std::string& name) { return tests::scratch_folder() / name; }
 
 std::string fault_of(const std::filesystem::path& path) {
     try {
         read_progressive(path);
-    } catch (const Error& fault) {
-        return fault.what();
-    }
+    } catch (const Error& fault) { return fault.what(); }
     return {};
 }
 
@@ -81,8 +77,7 @@ TEST_CASE("fewer vertices are a coarser model, the one that the sequence went th
         const ProgressiveMesh coarse = read_progressive(file("prefix.pm"), vertices);
         CHECK(coarse.leaf_count() == vertices);
         CHECK(coarse.parts().notes.empty());
-        const models::TriangleMesh expected =
-            models::mesh_after(sequence, mesh.leaf_count() - vertices);
+        const models::TriangleMesh expected = models::mesh_after(sequence, mesh.leaf_count() - vertices);
         CHECK(all_faces(coarse).size() == expected.triangles.size());
         CHECK(coarse.face_count() == expected.triangles.size());
     }
@@ -123,12 +118,8 @@ TEST_CASE("a thousand damaged files are refused in one line or are whole") {
     for (int i = 0; i < 1000; ++i) {
         std::string bytes = good;
         const std::size_t changes = 1 + numbers() % 4;
-        for (std::size_t k = 0; k < changes; ++k) {
-            bytes[numbers() % bytes.size()] = static_cast<char>(numbers());
-        }
-        if (numbers() % 8 == 0) {
-            bytes.insert(numbers() % bytes.size(), 1, '\0');
-        }
+        for (std::size_t k = 0; k < changes; ++k) { bytes[numbers() % bytes.size()] = static_cast<char>(numbers()); }
+        if (numbers() % 8 == 0) { bytes.insert(numbers() % bytes.size(), 1, '\0'); }
         write_file(file("bad.pm"), bytes);
         const std::string fault = fault_of(file("bad.pm"));
         refused += fault.empty() ? 0 : 1;

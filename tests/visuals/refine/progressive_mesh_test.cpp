@@ -19,12 +19,7 @@ TEST_CASE("a strip of two triangles collapses once, and its cut vertices are its
     sequence.original.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     sequence.original.triangles = {{0, 1, 2}, {0, 2, 3}};
     sequence.collapses = {
-        {.first = 0,
-         .second = 2,
-         .position_m = {0.5, 0.5, 0},
-         .left = 1,
-         .right = 0,
-         .error_m = 0.25}};
+        {.first = 0, .second = 2, .position_m = {0.5, 0.5, 0}, .left = 1, .right = 0, .error_m = 0.25}};
     const ProgressiveMesh mesh(sequence);
     REQUIRE(mesh.leaf_count() == 4);
     REQUIRE(mesh.node_count() == 5);
@@ -46,8 +41,7 @@ TEST_CASE("leaves below a node follow one another") {
     const models::CollapseSequence sequence = collapsed(made_sphere(3));
     const ProgressiveMesh mesh(sequence);
     std::vector<std::uint32_t> sizes(mesh.node_count(), 1);
-    for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count();
-         ++node) {
+    for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count(); ++node) {
         const VertexSplit split = mesh.split_of(node);
         sizes[node] = sizes[split.first] + sizes[split.second];
         CHECK(mesh.first_leaf(split.first) == mesh.first_leaf(node));
@@ -61,19 +55,12 @@ TEST_CASE("spheres, cones and errors of parents hold those of their children") {
         const ProgressiveMesh mesh(collapsed(made));
         for (std::uint32_t node = 0; node < mesh.node_count(); ++node) {
             const std::uint32_t parent = mesh.parent(node);
-            if (parent == none) {
-                continue;
-            }
+            if (parent == none) { continue; }
             CHECK(mesh.error_m(parent) >= mesh.error_m(node));
-            CHECK(
-                glm::distance(mesh.position_m(parent), mesh.position_m(node)) +
-                    mesh.radius_m(node) <=
-                mesh.radius_m(parent) * (1.0F + 1e-6F));
-            const float angle = std::acos(
-                glm::clamp(glm::dot(mesh.normal(parent), mesh.normal(node)), -1.0F, 1.0F));
-            CHECK(
-                mesh.cone_rad(parent) >=
-                std::min(angle + mesh.cone_rad(node), std::numbers::pi_v<float>) - 1e-5F);
+            CHECK(glm::distance(mesh.position_m(parent), mesh.position_m(node)) + mesh.radius_m(node) <=
+                  mesh.radius_m(parent) * (1.0F + 1e-6F));
+            const float angle = std::acos(glm::clamp(glm::dot(mesh.normal(parent), mesh.normal(node)), -1.0F, 1.0F));
+            CHECK(mesh.cone_rad(parent) >= std::min(angle + mesh.cone_rad(node), std::numbers::pi_v<float>) - 1e-5F);
         }
     }
 }
@@ -85,10 +72,7 @@ TEST_CASE("a hierarchy of a coloured mesh with materials fits into 140 bytes a v
 
 TEST_CASE("packed normals and colours come back") {
     for (const glm::vec3 vector :
-         {glm::vec3(1, 0, 0),
-          glm::vec3(0, 0, -1),
-          glm::vec3(0.3F, -0.5F, -0.2F),
-          glm::vec3(-0.1F, -0.9F, 0.4F)}) {
+        {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(0.3F, -0.5F, -0.2F), glm::vec3(-0.1F, -0.9F, 0.4F)}) {
         const glm::vec3 unit = glm::normalize(vector);
         CHECK(glm::distance(unpacked(packed(unit)), unit) < 1e-4F);
     }

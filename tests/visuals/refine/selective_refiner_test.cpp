@@ -19,9 +19,7 @@ std::shared_ptr<const ProgressiveMesh> hierarchy(const models::CollapseSequence&
 
 std::uint32_t node_of(const ProgressiveMesh& mesh, std::uint32_t sequence_number) {
     std::uint32_t node = 0;
-    while (mesh.sequence_number(node) != sequence_number) {
-        ++node;
-    }
+    while (mesh.sequence_number(node) != sequence_number) { ++node; }
     return node;
 }
 
@@ -57,12 +55,7 @@ TEST_CASE("a split of an open strip brings both triangles back, a collapse takes
     sequence.original.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
     sequence.original.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}};
     sequence.collapses = {
-        {.first = 0,
-         .second = 3,
-         .position_m = {0, 0.5, 0},
-         .left = none,
-         .right = 1,
-         .error_m = 0.1}};
+        {.first = 0, .second = 3, .position_m = {0, 0.5, 0}, .left = none, .right = 1, .error_m = 0.1}};
     SelectiveRefiner refiner(hierarchy(sequence));
     CHECK(refiner.active_count() == 4);
     CHECK(refiner.face_count() == 2);
@@ -82,8 +75,7 @@ TEST_CASE("a split whose two cut vertices are one active node forces that node, 
     models::CollapseSequence sequence;
     sequence.original.vertices_m = {{0, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 0}, {-2, 1, 0}};
     sequence.original.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}};
-    sequence.collapses = {
-        {.first = 3, .second = 0, .position_m = {0, 1, 0}, .left = 0, .right = 2, .error_m = 0.1},
+    sequence.collapses = {{.first = 3, .second = 0, .position_m = {0, 1, 0}, .left = 0, .right = 2, .error_m = 0.1},
         {.first = 1, .second = 2, .position_m = {-1, -1, 0}, .left = 1, .error_m = 0.2}};
     const auto mesh = hierarchy(sequence);
     const std::uint32_t five = node_of(*mesh, 5);
@@ -107,8 +99,7 @@ TEST_CASE("a split whose two cut vertices are one active node forces that node, 
 }
 
 TEST_CASE("everything split is the original, face for face") {
-    for (const auto& made :
-         {made_sphere(3), made_torus(24, 10), made_grid(12), made_ground(25, 7)}) {
+    for (const auto& made : {made_sphere(3), made_torus(24, 10), made_grid(12), made_ground(25, 7)}) {
         const models::CollapseSequence sequence = collapsed(made);
         for (const bool repair : {false, true}) {
             SelectiveRefiner refiner(hierarchy(sequence), {.repair = repair});
@@ -125,8 +116,7 @@ TEST_CASE("everything split is the original, face for face") {
             CHECK(active_faces(refiner) == original);
             for (std::uint32_t leaf = 0; leaf < refiner.mesh().leaf_count(); ++leaf) {
                 const std::uint32_t number = refiner.mesh().sequence_number(leaf);
-                const glm::dvec3 moved_m =
-                    made.vertices_m[number] - refiner.mesh().parts().origin_m;
+                const glm::dvec3 moved_m = made.vertices_m[number] - refiner.mesh().parts().origin_m;
                 const glm::vec3& drawn_m = refiner.vertices()[refiner.slot(leaf)].position_m;
                 INFO(drawn_m.x << " " << moved_m.x);
                 CHECK(drawn_m == glm::vec3(moved_m));
@@ -172,8 +162,7 @@ TEST_CASE("operations need no memory once everything was split and collapsed") {
     split_all(refiner);
     CHECK(refiner.bytes() <= 60 * refiner.active_count()); // index list included
     const ProgressiveMesh& mesh = refiner.mesh();
-    for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count();
-         ++node) {
+    for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count(); ++node) {
         refiner.collapse(node);
     }
     const std::size_t bytes = refiner.bytes();
@@ -235,35 +224,28 @@ TEST_CASE("only what was written since the last look is dirty") {
     refiner.take_dirty_faces(ranges);
     REQUIRE(!ranges.empty());
     for (std::size_t place = 0; 3 * place < before.size(); ++place) {
-        const bool dirty = std::ranges::any_of(ranges, [&](const SlotRange& range) {
-            return place >= range.first && place < range.end;
-        });
-        CHECK(
-            (dirty || std::equal(
-                          before.begin() + static_cast<std::ptrdiff_t>(3 * place),
-                          before.begin() + static_cast<std::ptrdiff_t>(3 * place + 3),
-                          refiner.indices().begin() + static_cast<std::ptrdiff_t>(3 * place))));
+        const bool dirty = std::ranges::any_of(
+            ranges, [&](const SlotRange& range) { return place >= range.first && place < range.end; });
+        CHECK((dirty || std::equal(before.begin() + static_cast<std::ptrdiff_t>(3 * place),
+                            before.begin() + static_cast<std::ptrdiff_t>(3 * place + 3),
+                            refiner.indices().begin() + static_cast<std::ptrdiff_t>(3 * place))));
     }
 }
 
 TEST_CASE("splits handed over in one call leave the mesh that they leave one by one") {
     const auto mesh = hierarchy(collapsed(made_sphere(4)));
     std::mt19937 numbers(3);
-    for (const std::size_t count :
-         {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{300}}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{300}}) {
         std::vector<std::uint32_t> nodes;
         const std::size_t leaves = mesh->leaf_count();
         for (std::size_t i = 0; i < count; ++i) {
-            nodes.push_back(
-                static_cast<std::uint32_t>(leaves + numbers() % (mesh->node_count() - leaves)));
+            nodes.push_back(static_cast<std::uint32_t>(leaves + numbers() % (mesh->node_count() - leaves)));
         }
         SelectiveRefiner together(mesh);
         SelectiveRefiner apart(mesh);
         SelectiveRefiner once_more(mesh);
         const std::size_t done = together.split_all(nodes);
-        for (const std::uint32_t node : nodes) {
-            apart.split(node);
-        }
+        for (const std::uint32_t node : nodes) { apart.split(node); }
         CHECK(done == apart.counts().splits);
         CHECK(together.counts().splits == done);
         CHECK(together.counts().forced_by_rule <= apart.counts().forced_by_rule);
@@ -282,15 +264,11 @@ TEST_CASE("only splits that were not asked for in a call count as forced") {
         std::vector<bool> wanted(mesh->node_count(), false);
         for (int i = 0; i < 3; ++i) {
             auto node = static_cast<std::uint32_t>(numbers() % mesh->leaf_count());
-            while ((node = mesh->parent(node)) != none) {
-                wanted[node] = true;
-            }
+            while ((node = mesh->parent(node)) != none) { wanted[node] = true; }
         }
         std::vector<std::uint32_t> nodes;
         for (std::uint32_t node = 0; node < wanted.size(); ++node) {
-            if (wanted[node]) {
-                nodes.push_back(node);
-            }
+            if (wanted[node]) { nodes.push_back(node); }
         }
         SelectiveRefiner refiner(mesh, {.repair = false});
         CHECK(refiner.split_all(nodes) == refiner.counts().splits);

@@ -21,8 +21,7 @@ std::shared_ptr<const ProgressiveMesh> sphere(int cuts) {
 }
 
 RefineView view_from(const glm::dvec3& eye_m) {
-    return picture_view(
-        eye_m, glm::dvec3(0.0), {0.0, 0.0, 1.0}, 50.0 * std::numbers::pi / 180.0, 1280.0, 720.0);
+    return picture_view(eye_m, glm::dvec3(0.0), {0.0, 0.0, 1.0}, 50.0 * std::numbers::pi / 180.0, 1280.0, 720.0);
 }
 
 /// Around the sphere, nearer and farther.
@@ -33,8 +32,7 @@ RefineView on_path(double frame) {
 }
 
 void refine_fully(ViewRefiner& refiner, const RefineView& view) {
-    for (int frame = 0; frame < 2000 && !refiner.update(view).settled; ++frame) {
-    }
+    for (int frame = 0; frame < 2000 && !refiner.update(view).settled; ++frame) {}
 }
 
 /// Pixels right of and above the middle of the picture; the point is ahead.
@@ -42,8 +40,7 @@ glm::dvec2 pixel(const RefineView& view, const glm::dvec3& point_m) {
     const glm::dvec3 right = glm::normalize(glm::cross(view.forward, glm::dvec3(0.0, 0.0, 1.0)));
     const glm::dvec3 up = glm::cross(right, view.forward);
     const glm::dvec3 seen_m = point_m - view.eye_m;
-    return glm::dvec2(glm::dot(right, seen_m), glm::dot(up, seen_m)) *
-           (view.focal_px / glm::dot(view.forward, seen_m));
+    return glm::dvec2(glm::dot(right, seen_m), glm::dot(up, seen_m)) * (view.focal_px / glm::dot(view.forward, seen_m));
 }
 
 } // namespace
@@ -71,12 +68,10 @@ TEST_CASE("no node shows a larger error than its parent") {
     const auto mesh = sphere(4);
     for (int frame = 0; frame < 300; frame += 17) {
         const RefineView view = on_path(frame);
-        for (auto node = static_cast<std::uint32_t>(mesh->leaf_count()); node < mesh->node_count();
-             ++node) {
+        for (auto node = static_cast<std::uint32_t>(mesh->leaf_count()); node < mesh->node_count(); ++node) {
             if (mesh->parent(node) != none) {
-                CHECK(
-                    projected_error_px(*mesh, node, view) <=
-                    projected_error_px(*mesh, mesh->parent(node), view) * (1.0 + 1e-9));
+                CHECK(projected_error_px(*mesh, node, view) <=
+                      projected_error_px(*mesh, mesh->parent(node), view) * (1.0 + 1e-9));
             }
         }
     }
@@ -109,9 +104,7 @@ TEST_CASE("settled, every node that shows too large an error is split") {
             const RefineView view = on_path(frame);
             refine_fully(refiner, view);
             const ProgressiveMesh& mesh = refiner.front().mesh();
-            for (auto node = static_cast<std::uint32_t>(mesh.leaf_count());
-                 node < mesh.node_count();
-                 ++node) {
+            for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count(); ++node) {
                 const double error_px = projected_error_px(mesh, node, view);
                 CHECK((error_px <= 6.0 || refiner.front().is_split(node)));
             }
@@ -131,12 +124,8 @@ TEST_CASE("along a path no node is split and merged, or merged and split, within
             int soon = 0;
             for (int frame = 0; frame < 1500; ++frame) {
                 refiner.update(on_path(speed * frame));
-                for (auto node = static_cast<std::uint32_t>(mesh.leaf_count());
-                     node < mesh.node_count();
-                     ++node) {
-                    if (refiner.front().is_split(node) == split[node]) {
-                        continue;
-                    }
+                for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count(); ++node) {
+                    if (refiner.front().is_split(node) == split[node]) { continue; }
                     split[node] = !split[node];
                     merged += split[node] ? 0 : 1;
                     const auto known = last.find(node);
@@ -156,9 +145,7 @@ TEST_CASE("a node that was merged is split at once when the eye jumps near") {
     refine_fully(refiner, near);
     const std::size_t fine = refiner.front().active_count();
     const RefineView far = view_from({60.0, 0.0, 0.0});
-    while (refiner.front().active_count() > fine / 2) {
-        REQUIRE_FALSE(refiner.update(far).settled);
-    }
+    while (refiner.front().active_count() > fine / 2) { REQUIRE_FALSE(refiner.update(far).settled); }
     refiner.update(near);
     CHECK(10 * refiner.front().active_count() > 9 * fine);
 }
@@ -170,17 +157,12 @@ TEST_CASE("settle makes the mesh fit a view at once, and then its frame does not
             const RefineView view = on_path(frame);
             refiner.refine_fully(view);
             const ProgressiveMesh& mesh = refiner.front().mesh();
-            for (auto node = static_cast<std::uint32_t>(mesh.leaf_count());
-                 node < mesh.node_count();
-                 ++node) {
-                CHECK((
-                    projected_error_px(mesh, node, view) <= 6.0 || refiner.front().is_split(node)));
+            for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count(); ++node) {
+                CHECK((projected_error_px(mesh, node, view) <= 6.0 || refiner.front().is_split(node)));
             }
             for (std::uint32_t slot = 0; slot < refiner.front().vertices().size(); ++slot) {
                 const std::uint32_t node = refiner.front().node_at(slot);
-                CHECK(
-                    (node == none ||
-                     refiner.front().vertices()[slot].position_m == mesh.position_m(node)));
+                CHECK((node == none || refiner.front().vertices()[slot].position_m == mesh.position_m(node)));
             }
             const RefinedFrame done = refiner.update(view);
             CHECK(done.splits + done.collapses + done.moving == 0);
@@ -209,8 +191,7 @@ TEST_CASE("with geomorphs no vertex moves by a pixel in one frame, seen from one
             const std::uint32_t node = refiner.front().active_ancestor(leaf);
             const glm::vec3 now = refiner.front().vertices()[refiner.front().slot(node)].position_m;
             largest_px = std::max(
-                largest_px,
-                glm::distance(pixel(view, glm::dvec3(before[leaf])), pixel(view, glm::dvec3(now))));
+                largest_px, glm::distance(pixel(view, glm::dvec3(before[leaf])), pixel(view, glm::dvec3(now))));
         }
     }
     CHECK(largest_px < 1.0);
@@ -219,8 +200,7 @@ TEST_CASE("with geomorphs no vertex moves by a pixel in one frame, seen from one
 }
 
 TEST_CASE("a budget of operations is kept, the worst errors first") {
-    ViewRefiner refiner(
-        sphere(4), {.error_px = 2.0, .operations = 10, .geomorphs = false, .repair = false});
+    ViewRefiner refiner(sphere(4), {.error_px = 2.0, .operations = 10, .geomorphs = false, .repair = false});
     const RefineView view = on_path(0);
     std::size_t before = refiner.front().active_count();
     for (int frame = 0; frame < 20; ++frame) {

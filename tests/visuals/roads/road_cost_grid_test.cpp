@@ -20,8 +20,7 @@ std::size_t cell_at(const RoadCostGrid& ground, const glm::dvec2& place_m) {
     std::size_t best = 0;
     const auto count = static_cast<std::size_t>(ground.columns() * ground.rows());
     for (std::size_t cell = 1; cell < count; ++cell) {
-        if (glm::distance(ground.place_m(cell), place_m) <
-            glm::distance(ground.place_m(best), place_m)) {
+        if (glm::distance(ground.place_m(cell), place_m) < glm::distance(ground.place_m(best), place_m)) {
             best = cell;
         }
     }
@@ -32,8 +31,7 @@ std::size_t cell_at(const RoadCostGrid& ground, const glm::dvec2& place_m) {
 
 TEST_CASE("a ground too small, too coarse or with no samples to spare has no cells") {
     CHECK(RoadCostGrid(GroundSamples(field_of(20, two_basins)), {}).columns() == 0);
-    const models::heights::HeightField coarse(
-        60, 60, 700.0, std::vector<float>(std::size_t{60} * 60, 100.0F));
+    const models::heights::HeightField coarse(60, 60, 700.0, std::vector<float>(std::size_t{60} * 60, 100.0F));
     CHECK(RoadCostGrid(GroundSamples(coarse), {}).columns() == 0);
     const RoadCostGrid usual(GroundSamples(field_of(201, two_basins)), {});
     CHECK(usual.cell_m() == 100.0);
@@ -42,9 +40,8 @@ TEST_CASE("a ground too small, too coarse or with no samples to spare has no cel
 }
 
 TEST_CASE("a cell with a sample of water is not free, nor is a taken one") {
-    const auto field = field_of(201, [](const glm::dvec2& at_m) {
-        return glm::length(at_m - glm::dvec2(510.0, 30.0)) < 20.0 ? -1.0 : 10.0;
-    });
+    const auto field = field_of(
+        201, [](const glm::dvec2& at_m) { return glm::length(at_m - glm::dvec2(510.0, 30.0)) < 20.0 ? -1.0 : 10.0; });
     RoadConstraints constraints;
     constraints.is_blocked = [](const glm::dvec2& at_m) { return at_m.x < -2000.0; };
     const RoadCostGrid ground(GroundSamples(field), constraints);
@@ -63,21 +60,16 @@ TEST_CASE("a cell with a sample of water is not free, nor is a taken one") {
 }
 
 TEST_CASE("a cell with a cliff is not free") {
-    const auto field =
-        field_of(201, [](const glm::dvec2& at_m) { return at_m.x < 1000.0 ? 100.0 : 190.0; });
+    const auto field = field_of(201, [](const glm::dvec2& at_m) { return at_m.x < 1000.0 ? 100.0 : 190.0; });
     const RoadCostGrid ground(GroundSamples(field), {});
     int cliffs = 0;
-    for (std::size_t cell = 0; cell < 2500; ++cell) {
-        cliffs += ground.is_free(cell) ? 0 : 1;
-    }
+    for (std::size_t cell = 0; cell < 2500; ++cell) { cliffs += ground.is_free(cell) ? 0 : 1; }
     CHECK(cliffs == 50);
 }
 
 TEST_CASE("slopes and heights above the valley are those of the ground") {
     const RoadCostGrid tilted(
-        GroundSamples(field_of(
-            201, [](const glm::dvec2& at_m) { return 300.0 + 0.1 * at_m.x - 0.05 * at_m.y; })),
-        {});
+        GroundSamples(field_of(201, [](const glm::dvec2& at_m) { return 300.0 + 0.1 * at_m.x - 0.05 * at_m.y; })), {});
     const std::size_t inner = cell_at(tilted, {450.0, 450.0});
     CHECK(tilted.slope(inner) == Approx(std::hypot(0.1, 0.05)).epsilon(1e-4));
     const RoadCostGrid basins(GroundSamples(field_of(401, two_basins)), {});
@@ -88,8 +80,7 @@ TEST_CASE("slopes and heights above the valley are those of the ground") {
 }
 
 TEST_CASE("a road costs its length in a valley, and more up, across a slope and above it") {
-    const RoadCostGrid level(
-        GroundSamples(field_of(201, [](const glm::dvec2&) { return 50.0; })), {});
+    const RoadCostGrid level(GroundSamples(field_of(201, [](const glm::dvec2&) { return 50.0; })), {});
     const std::size_t here = cell_at(level, {50.0, 50.0});
     CHECK(level.cost_m(here, here + 1) == Approx(100.0));
     CHECK(level.cost_m(here, here + 51) == Approx(std::sqrt(2.0) * 100.0));

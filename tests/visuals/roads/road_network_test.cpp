@@ -21,13 +21,11 @@ using visuals::terrain::GroundSamples;
 namespace {
 
 double lakes(const glm::dvec2& at_m) {
-    return 40.0 + 70.0 * std::sin(at_m.x / 1100.0) * std::cos(at_m.y / 900.0) +
-           9.0 * std::sin(at_m.x / 130.0);
+    return 40.0 + 70.0 * std::sin(at_m.x / 1100.0) * std::cos(at_m.y / 900.0) + 9.0 * std::sin(at_m.x / 130.0);
 }
 
 const RoadNetwork& lake_roads() {
-    static const RoadNetwork roads(
-        GroundSamples(field_of(1001, lakes)), RoadConstraints{0.0, 1500.0, nullptr});
+    static const RoadNetwork roads(GroundSamples(field_of(1001, lakes)), RoadConstraints{0.0, 1500.0, nullptr});
     return roads;
 }
 
@@ -43,8 +41,7 @@ double length_m(const RoadNetwork& roads) {
 
 /// Whether an edge of one of its levels has a place in a box, by places along them.
 bool touches(const RoadSection& section, const glm::dvec2& min_m, const glm::dvec2& max_m) {
-    if (glm::any(glm::greaterThan(section.min_m, max_m)) ||
-        glm::any(glm::lessThan(section.max_m, min_m))) {
+    if (glm::any(glm::greaterThan(section.min_m, max_m)) || glm::any(glm::lessThan(section.max_m, min_m))) {
         return false;
     }
     for (const std::vector<RoadPoint>& level : section.levels) {
@@ -55,8 +52,7 @@ bool touches(const RoadSection& section, const glm::dvec2& min_m, const glm::dve
                     glm::mix(level[i - 1].to_left_edge_m, level[i].to_left_edge_m, step / 8.0);
                 for (const double aside : {-1.0, 0.0, 1.0}) {
                     const glm::dvec2 at_m = on_m + aside * to_left_edge_m;
-                    if (glm::all(glm::greaterThanEqual(at_m, min_m)) &&
-                        glm::all(glm::lessThanEqual(at_m, max_m))) {
+                    if (glm::all(glm::greaterThanEqual(at_m, min_m)) && glm::all(glm::lessThanEqual(at_m, max_m))) {
                         return true;
                     }
                 }
@@ -88,9 +84,7 @@ double nearest_m(const RoadNetwork& roads, const glm::dvec2& place_m) {
 TEST_CASE("no road runs over water") {
     REQUIRE(length_m(lake_roads()) > 30000.0);
     for (const RoadSection& section : lake_roads().sections()) {
-        for (const RoadPoint& point : section.levels[0]) {
-            REQUIRE(lakes(point.at_m) > -0.5);
-        }
+        for (const RoadPoint& point : section.levels[0]) { REQUIRE(lakes(point.at_m) > -0.5); }
     }
 }
 

@@ -24,9 +24,7 @@ using Step = std::pair<std::size_t, std::size_t>;
 std::vector<Step> steps_of(const std::vector<Route>& routes) {
     std::vector<Step> steps;
     for (const Route& route : routes) {
-        for (std::size_t i = 1; i < route.size(); ++i) {
-            steps.emplace_back(std::minmax(route[i - 1], route[i]));
-        }
+        for (std::size_t i = 1; i < route.size(); ++i) { steps.emplace_back(std::minmax(route[i - 1], route[i])); }
     }
     return steps;
 }
@@ -61,8 +59,8 @@ TEST_CASE("a road from one basin to the other goes over the pass") {
     const RoadCostGrid ground(GroundSamples(field_of(401, two_basins)), {});
     std::vector<std::size_t> towns;
     for (const double x_m : {-3050.0, 2950.0}) {
-        towns.push_back(ground.cell(
-            static_cast<int>((x_m + 5000.0) / 100.0), static_cast<int>((5000.0 - 1550.0) / 100.0)));
+        towns.push_back(
+            ground.cell(static_cast<int>((x_m + 5000.0) / 100.0), static_cast<int>((5000.0 - 1550.0) / 100.0)));
     }
     const std::vector<Route> routes = find_routes(ground, towns);
     REQUIRE(routes.size() == 1);
@@ -71,9 +69,7 @@ TEST_CASE("a road from one basin to the other goes over the pass") {
         return glm::distance(ground.place_m(cell), {0.0, 2000.0}) < 300.0;
     });
     CHECK(over_pass);
-    for (const std::size_t cell : routes[0]) {
-        CHECK(ground.height_above_valley_m(cell) < 120.0);
-    }
+    for (const std::size_t cell : routes[0]) { CHECK(ground.height_above_valley_m(cell) < 120.0); }
 }
 
 TEST_CASE("roads join all towns that can be joined, and no step is in two of them") {
@@ -132,15 +128,12 @@ TEST_CASE("nobody lives on steep ground, on water, high above a valley or above 
 }
 
 TEST_CASE("what lies beyond water is not joined") {
-    const auto strait =
-        field_of(801, [](const glm::dvec2& at_m) { return std::abs(at_m.x) < 60.0 ? -5.0 : 20.0; });
+    const auto strait = field_of(801, [](const glm::dvec2& at_m) { return std::abs(at_m.x) < 60.0 ? -5.0 : 20.0; });
     const RoadCostGrid ground(GroundSamples(strait), {});
     const std::vector<Route> routes = find_routes(ground, find_towns(ground, {}));
     REQUIRE_FALSE(routes.empty());
     for (const Route& route : routes) {
         const bool is_west = ground.place_m(route.front()).x < 0.0;
-        for (const std::size_t cell : route) {
-            CHECK((ground.place_m(cell).x < 0.0) == is_west);
-        }
+        for (const std::size_t cell : route) { CHECK((ground.place_m(cell).x < 0.0) == is_west); }
     }
 }

@@ -12,8 +12,7 @@ models::heights::HeightField field_of(int samples, const HeightAt& height_m) {
     std::vector<float> heights;
     for (int row = 0; row < samples; ++row) {
         for (int column = 0; column < samples; ++column) {
-            heights.push_back(static_cast<float>(
-                height_m({column * spacing_m - half_m, row * spacing_m - half_m})));
+            heights.push_back(static_cast<float>(height_m({column * spacing_m - half_m, row * spacing_m - half_m})));
         }
     }
     return {samples, samples, spacing_m, std::move(heights)};

@@ -28,30 +28,18 @@ Camera seen(View view, const sim::AircraftState& state, const GroundHeight& grou
     return camera_of(settings, state, next_rig_state({}, state), fighter, {tower, {}, {}}, ground);
 }
 
-Camera turned(
-    View view,
-    double azimuth_deg,
-    double elevation_deg,
-    double zoom,
-    const sim::AircraftState& state = level_flight(0.0),
-    const GroundHeight& ground = flat_ground) {
+Camera turned(View view, double azimuth_deg, double elevation_deg, double zoom,
+    const sim::AircraftState& state = level_flight(0.0), const GroundHeight& ground = flat_ground) {
     ViewSettings settings;
     settings.kind = view;
     settings.azimuth_deg = azimuth_deg;
     settings.elevation_deg = elevation_deg;
     settings.zoom = zoom;
     return camera_of(
-        settings,
-        state,
-        next_rig_state({}, state),
-        fighter,
-        {tower, {0.0, 0.0, 50.0}, {0.0, 500.0, 60.0}},
-        ground);
+        settings, state, next_rig_state({}, state), fighter, {tower, {0.0, 0.0, 50.0}, {0.0, 500.0, 60.0}}, ground);
 }
 
-glm::dvec3 looking(const Camera& camera) {
-    return camera.view_to_world * glm::dvec3(0, 0, -1);
-}
+glm::dvec3 looking(const Camera& camera) { return camera.view_to_world * glm::dvec3(0, 0, -1); }
 
 } // namespace
 
@@ -68,9 +56,7 @@ TEST_CASE("the chase camera lags behind a turn and catches up") {
     memory = next_rig_state(memory, level_flight(1.0));
     const glm::dvec3 ahead = direction_from_heading(1.0);
     CHECK(glm::dot(memory.lagging_forward, ahead) < 0.6);
-    for (int step = 0; step < 480; ++step) {
-        memory = next_rig_state(memory, level_flight(1.0));
-    }
+    for (int step = 0; step < 480; ++step) { memory = next_rig_state(memory, level_flight(1.0)); }
     CHECK(glm::dot(memory.lagging_forward, ahead) > 0.999);
 }
 
@@ -110,10 +96,8 @@ TEST_CASE("the orbit sees the aircraft from all eight octants") {
         sim::AircraftState state = level_flight(0.3);
         state.time_s = tick / 20.0;
         const Camera camera = seen(View::Orbit, state);
-        const glm::dvec3 in_body =
-            glm::inverse(state.body_to_world) * (camera.eye_m - state.position_m);
-        seen_octants |=
-            1 << ((in_body.x < 0 ? 1 : 0) + (in_body.y < 0 ? 2 : 0) + (in_body.z < 0 ? 4 : 0));
+        const glm::dvec3 in_body = glm::inverse(state.body_to_world) * (camera.eye_m - state.position_m);
+        seen_octants |= 1 << ((in_body.x < 0 ? 1 : 0) + (in_body.y < 0 ? 2 : 0) + (in_body.z < 0 ? 4 : 0));
     }
     CHECK(seen_octants == 255);
 }
@@ -151,8 +135,8 @@ TEST_CASE("chase and orbit come nearer by the zoom, down to the aircraft's spher
 
 TEST_CASE("the orbit's eye is turned on from where it is") {
     const Camera camera = turned(View::Orbit, 90.0, 30.0, 1.0);
-    const glm::dvec3 outward = glm::normalize(
-        camera.eye_m - level_flight(0.0).position_m); // at 0 s it stands north, level
+    const glm::dvec3 outward =
+        glm::normalize(camera.eye_m - level_flight(0.0).position_m); // at 0 s it stands north, level
     CHECK(outward.x == Approx(std::cos(rad_from_deg(30))));
     CHECK(outward.z == Approx(0.5));
 }
@@ -172,16 +156,12 @@ TEST_CASE("the tower's and the free look turn about the vertical and stay uprigh
         const Camera straight = turned(view, 0.0, 0.0, 1.0);
         const Camera aside = turned(view, 50.0, -10.0, 1.0);
         CHECK(std::abs((aside.view_to_world * glm::dvec3(1, 0, 0)).z) < 1e-12);
-        const auto level = [](const Camera& camera) {
-            return glm::normalize(glm::dvec2(looking(camera)));
-        };
+        const auto level = [](const Camera& camera) { return glm::normalize(glm::dvec2(looking(camera))); };
         const glm::dvec2 from = level(straight);
         const glm::dvec2 to = level(aside);
         CHECK(glm::dot(from, to) == Approx(std::cos(rad_from_deg(50))));
         CHECK(from.x * to.y - from.y * to.x < 0.0); // to the right
-        CHECK(
-            std::asin(looking(straight).z) - std::asin(looking(aside).z) ==
-            Approx(rad_from_deg(10)));
+        CHECK(std::asin(looking(straight).z) - std::asin(looking(aside).z) == Approx(rad_from_deg(10)));
         CHECK(looking(turned(view, 0.0, 89.0, 1.0)).z == Approx(std::sin(rad_from_deg(89))));
     }
 }
@@ -207,9 +187,7 @@ TEST_CASE("a view that is not turned is the view itself to the last bit") {
     CHECK(glm::distance(full_turn.eye_m, eye_m) < 1e-9);
     const glm::dquat view_to_body =
         glm::quat_cast(glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)));
-    CHECK(
-        seen(View::Cockpit, state).view_to_world ==
-        glm::normalize(state.body_to_world * view_to_body));
+    CHECK(seen(View::Cockpit, state).view_to_world == glm::normalize(state.body_to_world * view_to_body));
 }
 
 TEST_CASE("no view puts the eye into the ground") {

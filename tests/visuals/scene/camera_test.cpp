@@ -12,9 +12,7 @@ namespace {
 constexpr double quarter_turn_rad = 1.5707963267948966;
 
 void check_near(const glm::dvec3& got, const glm::dvec3& expected) {
-    for (int axis = 0; axis < 3; ++axis) {
-        CHECK(got[axis] == Approx(expected[axis]).margin(1e-12));
-    }
+    for (int axis = 0; axis < 3; ++axis) { CHECK(got[axis] == Approx(expected[axis]).margin(1e-12)); }
 }
 
 const glm::dvec3 right{1, 0, 0};
@@ -33,8 +31,7 @@ TEST_CASE("a camera looking north has east on its right and the sky above") {
 
 TEST_CASE("a camera looking anywhere has its target in the middle and its right side level") {
     const glm::dvec3 eye(100, -200, 900);
-    for (const glm::dvec3& target :
-         {glm::dvec3(0, 0, 0), glm::dvec3(5000, -200, 900), glm::dvec3(99, -201, 2000)}) {
+    for (const glm::dvec3& target : {glm::dvec3(0, 0, 0), glm::dvec3(5000, -200, 900), glm::dvec3(99, -201, 2000)}) {
         const Camera camera = camera_looking_at(eye, target);
         check_near(camera.view_to_world * ahead, glm::normalize(target - eye));
         CHECK((camera.view_to_world * right).z == Approx(0.0).margin(1e-12));
@@ -94,8 +91,7 @@ TEST_CASE("a picture beside the middle shows that part of a larger one, in pixel
     const glm::mat4 large = view_to_clip(whole, 2.0);
     const glm::mat4 small = view_to_clip(part, aspect);
     const auto normals = frustum_normals(part, aspect);
-    for (const glm::vec2& at :
-         {glm::vec2(-2, 1), {-1, 0.5}, {-2, 0.5}, {-1.5, 0.75}, {-1.1, 0.9}}) {
+    for (const glm::vec2& at : {glm::vec2(-2, 1), {-1, 0.5}, {-2, 0.5}, {-1.5, 0.75}, {-1.1, 0.9}}) {
         const glm::vec4 point(5.0F * at, -5.0F, 1.0F);
         const glm::vec4 of_large = large * point;
         const glm::vec4 of_small = small * point;
@@ -128,10 +124,8 @@ TEST_CASE("the frustum's planes hold what the picture shows and nothing else") {
     }
     // Which plane a view direction just beyond one edge is outside of: left, right, bottom, top.
     const double beyond = 1.001;
-    const std::array<glm::dvec3, 4> outside{
-        glm::dvec3(-half_height * aspect * beyond, 0, -1),
-        glm::dvec3(half_height * aspect * beyond, 0, -1),
-        glm::dvec3(0, -half_height * beyond, -1),
+    const std::array<glm::dvec3, 4> outside{glm::dvec3(-half_height * aspect * beyond, 0, -1),
+        glm::dvec3(half_height * aspect * beyond, 0, -1), glm::dvec3(0, -half_height * beyond, -1),
         glm::dvec3(0, half_height * beyond, -1)};
     for (std::size_t edge = 0; edge < 4; ++edge) {
         for (std::size_t plane = 0; plane < 4; ++plane) {

@@ -1,5 +1,5 @@
-#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/detail_pattern.h"
+#include "visuals/scene/land_cover_contrast.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -22,9 +22,7 @@ constexpr LandCover snow{glm::vec3(0.93F, 0.94F, 0.96F), 0.03F};
 std::array<double, LandCoverContrast::pattern_step_count> share_of_patterns() {
     std::array<double, LandCoverContrast::pattern_step_count> shares{};
     const auto& texels = detail_mip_levels()[0].texels;
-    for (const std::uint8_t texel : texels) {
-        shares[texel / 4U] += 1.0 / static_cast<double>(texels.size());
-    }
+    for (const std::uint8_t texel : texels) { shares[texel / 4U] += 1.0 / static_cast<double>(texels.size()); }
     return shares;
 }
 
@@ -49,9 +47,7 @@ TEST_CASE("over the fine pattern colours change by nothing, of whatever covers t
             mean += shares[static_cast<std::size_t>(i)] * glm::dvec3(shares_at(contrast, kind, i));
         }
         CAPTURE(kind);
-        for (glm::length_t part = 0; part < 3; ++part) {
-            CHECK(std::abs(mean[part]) < 0.02);
-        }
+        for (glm::length_t part = 0; part < 3; ++part) { CHECK(std::abs(mean[part]) < 0.02); }
     }
 }
 

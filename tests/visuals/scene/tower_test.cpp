@@ -22,9 +22,7 @@ const GroundHeight no_ground = [](double, double) { return std::optional<double>
 
 /// Hills of 240 m over a map of 16 km.
 std::optional<double> rolling_m(double x_m, double y_m) {
-    if (std::max(std::abs(x_m), std::abs(y_m)) > 8000.0) {
-        return std::nullopt;
-    }
+    if (std::max(std::abs(x_m), std::abs(y_m)) > 8000.0) { return std::nullopt; }
     return 120.0 * (1.0 + std::sin(x_m / 400.0) * std::cos(y_m / 550.0));
 }
 
@@ -43,21 +41,16 @@ std::vector<sim::AircraftState> northward(double x_m, double z_m, double from_m,
 bool in_sight(const glm::dvec3& eye_m, const glm::dvec3& target_m, const GroundHeight& ground) {
     for (int step = 1; step < 2000; ++step) {
         const glm::dvec3 at_m = glm::mix(eye_m, target_m, step / 2000.0);
-        if (const auto height_m = ground(at_m.x, at_m.y); height_m && *height_m > at_m.z) {
-            return false;
-        }
+        if (const auto height_m = ground(at_m.x, at_m.y); height_m && *height_m > at_m.z) { return false; }
     }
     return true;
 }
 
-double elevation_rad(const glm::dvec3& direction) {
-    return std::asin(direction.z / glm::length(direction));
-}
+double elevation_rad(const glm::dvec3& direction) { return std::asin(direction.z / glm::length(direction)); }
 
 /// What the sphere around the aircraft fills of the picture's height.
 double share_of(const Camera& camera, const glm::dvec3& aircraft_m) {
-    return radius_m / glm::distance(camera.eye_m, aircraft_m) /
-           std::tan(0.5 * camera.vertical_fov_rad);
+    return radius_m / glm::distance(camera.eye_m, aircraft_m) / std::tan(0.5 * camera.vertical_fov_rad);
 }
 
 } // namespace
@@ -72,8 +65,8 @@ TEST_CASE("from the tower a flight over hills is large, in sight, and before rel
         const double skyline = skyline_rad(chosen, std::atan2(to_m.x, to_m.y));
         const double off_rad = std::abs(elevation_rad(view_direction(camera)) - skyline);
         const double share = share_of(camera, state.position_m);
-        good += in_sight(chosen.eye_m, state.position_m, rolling_m) && share > 0.139 &&
-                        share < 0.7 && off_rad < 0.5 * camera.vertical_fov_rad
+        good += in_sight(chosen.eye_m, state.position_m, rolling_m) && share > 0.139 && share < 0.7 &&
+                        off_rad < 0.5 * camera.vertical_fov_rad
                     ? 1
                     : 0;
     }

@@ -20,8 +20,7 @@ LinearProgram highest_point_in_ball(int planes) {
     for (int i = 0; i < planes; ++i) {
         const double z = 1.0 - 2.0 * (i + 0.5) / planes;
         const double across = std::sqrt(1.0 - z * z);
-        program.rows.push_back(
-            {.factors = {across * std::cos(2.4 * i), across * std::sin(2.4 * i), z}, .most = 1.0});
+        program.rows.push_back({.factors = {across * std::cos(2.4 * i), across * std::sin(2.4 * i), z}, .most = 1.0});
     }
     return program;
 }
@@ -45,8 +44,7 @@ TEST_CASE("a linear programme is solved, or said to have no solution") {
 
 TEST_CASE("variables without bounds and rows with two are solved as well") {
     LinearProgram program;
-    program.variables = {
-        {.weight = -1.0, .least = -unbounded}, {.weight = 0.0, .least = -2.0, .most = 5.0}};
+    program.variables = {{.weight = -1.0, .least = -unbounded}, {.weight = 0.0, .least = -2.0, .most = 5.0}};
     program.rows = {{.factors = {1.0, 1.0}, .least = 1.0, .most = 1.0}};
     const auto values = optimum(program);
     REQUIRE(values);
@@ -63,15 +61,9 @@ TEST_CASE("threads that solve side by side get what each would get alone") {
     std::vector<std::thread> threads;
     for (auto& values : together) {
         threads.emplace_back([&values] {
-            for (int i = 0; i < 20; ++i) {
-                values = optimum(highest_point_in_ball(300));
-            }
+            for (int i = 0; i < 20; ++i) { values = optimum(highest_point_in_ball(300)); }
         });
     }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    for (const auto& values : together) {
-        CHECK(values == alone);
-    }
+    for (std::thread& thread : threads) { thread.join(); }
+    for (const auto& values : together) { CHECK(values == alone); }
 }

@@ -29,9 +29,7 @@ double worst(const Payoffs& payoffs, const std::vector<double>& shares) {
 
 Payoffs random_payoffs(RandomGenerator& dice, std::size_t choices, std::size_t cases) {
     Payoffs payoffs{choices, {}};
-    for (std::size_t i = 0; i < choices * cases; ++i) {
-        payoffs.values.push_back(dice.between(-1.0, 1.0));
-    }
+    for (std::size_t i = 0; i < choices * cases; ++i) { payoffs.values.push_back(dice.between(-1.0, 1.0)); }
     return payoffs;
 }
 
@@ -39,9 +37,7 @@ Payoffs random_payoffs(RandomGenerator& dice, std::size_t choices, std::size_t c
 
 TEST_CASE("paper, scissors and stone are played alike") {
     const auto shares = best_shares({3, {0, -1, 1, 1, 0, -1, -1, 1, 0}});
-    for (const double share : shares) {
-        CHECK(share == Approx(1.0 / 3.0));
-    }
+    for (const double share : shares) { CHECK(share == Approx(1.0 / 3.0)); }
 }
 
 TEST_CASE("a choice that always gives most is taken alone, also where all lose") {
@@ -50,8 +46,8 @@ TEST_CASE("a choice that always gives most is taken alone, also where all lose")
     CHECK(best_shares({1, {0.0}}) == std::vector<double>{1.0});
 }
 
-// By the minimax theorem shares are best exactly if the other side, who sees them and has shares
-// over the cases, can hold every choice down to the same value.
+// By the minimax theorem shares are best exactly if the other side, who sees them and has shares over the cases, can
+// hold every choice down to the same value.
 TEST_CASE("no shares are better than those found, by the other side's shares") {
     RandomGenerator dice(11);
     for (int round = 0; round < 300; ++round) {
@@ -60,9 +56,7 @@ TEST_CASE("no shares are better than those found, by the other side's shares") {
         const Payoffs payoffs = random_payoffs(dice, choices, cases);
         Payoffs turned{cases, {}};
         for (std::size_t i = 0; i < choices; ++i) {
-            for (std::size_t k = 0; k < cases; ++k) {
-                turned.values.push_back(-payoffs.values[k * choices + i]);
-            }
+            for (std::size_t k = 0; k < cases; ++k) { turned.values.push_back(-payoffs.values[k * choices + i]); }
         }
         const auto shares = best_shares(payoffs);
         CHECK(*std::ranges::min_element(shares) >= 0.0);

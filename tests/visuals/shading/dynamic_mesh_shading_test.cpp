@@ -13,8 +13,7 @@ using namespace octant::visuals::shading;
 
 namespace {
 
-const ShadingLight light{
-    .to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.1F, .diffuse = 0.9F, .specular = 0.0F};
+const ShadingLight light{.to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.1F, .diffuse = 0.9F, .specular = 0.0F};
 const glm::dvec3 eye_m(40.0, 10.0, 30.0);
 
 /// The torus' quads as two triangles each, as a mesh that stays and as one that changes.
@@ -36,14 +35,10 @@ struct Torus {
         std::iota(labels.begin(), labels.end(), 0U);
     }
 
-    DynamicMesh mesh() const {
-        return {shaded.points, shaded.corner_points, labels, labels.size(), shaded.centre_m};
-    }
+    DynamicMesh mesh() const { return {shaded.points, shaded.corner_points, labels, labels.size(), shaded.centre_m}; }
 };
 
-std::vector<std::uint8_t> copied(std::span<const std::uint8_t> marks) {
-    return {marks.begin(), marks.end()};
-}
+std::vector<std::uint8_t> copied(std::span<const std::uint8_t> marks) { return {marks.begin(), marks.end()}; }
 
 } // namespace
 
@@ -58,9 +53,7 @@ TEST_CASE("of a mesh that does not change the same triangles are smooth as of a 
             changing.choose(torus.mesh(), eye_m, light, count, true);
             // Rounding may tell ranks that are equal in truth apart in another way.
             int differ = 0;
-            for (std::size_t i = 0; i < expected.size(); ++i) {
-                differ += expected[i] != changing.smooth()[i] ? 1 : 0;
-            }
+            for (std::size_t i = 0; i < expected.size(); ++i) { differ += expected[i] != changing.smooth()[i] ? 1 : 0; }
             CHECK(differ <= 4);
             CHECK(std::accumulate(changing.smooth().begin(), changing.smooth().end(), 0) == wanted);
         }
@@ -109,13 +102,9 @@ TEST_CASE("a triangle that stays is held, one that takes its place is not") {
     const glm::dvec3 elsewhere_m(38.0, 20.0, 28.0); // all of them still face the eye or nearly
     selector.choose(torus.mesh(), elsewhere_m, light, 50, true);
     int held = 0;
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        held += first[i] != 0 && selector.smooth()[i] != 0 ? 1 : 0;
-    }
+    for (std::size_t i = 0; i < first.size(); ++i) { held += first[i] != 0 && selector.smooth()[i] != 0 ? 1 : 0; }
     CHECK(held >= 45);
-    for (std::uint32_t& label : torus.labels) {
-        label += 1000;
-    }
+    for (std::uint32_t& label : torus.labels) { label += 1000; }
     selector.choose(torus.mesh(), elsewhere_m, light, 50, true);
     DynamicMeshSelector fresh(settings);
     fresh.choose(torus.mesh(), elsewhere_m, light, 50, true);

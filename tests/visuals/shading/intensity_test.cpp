@@ -9,11 +9,7 @@ using namespace octant::visuals::shading;
 namespace {
 
 const ShadingLight from_above{
-    .to_light = {0.0F, 0.0F, 1.0F},
-    .ambient = 0.25F,
-    .diffuse = 0.5F,
-    .specular = 0.125F,
-    .shininess = 2};
+    .to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.25F, .diffuse = 0.5F, .specular = 0.125F, .shininess = 2};
 constexpr glm::vec3 here(0.0F);
 constexpr glm::vec3 up(0.0F, 0.0F, 1.0F);
 

@@ -43,18 +43,13 @@ TEST_CASE("counting finds what sorting finds") {
     for (int trial = 0; trial < 300; ++trial) {
         std::vector<std::uint32_t> keys(dice() % 400 + 1);
         const std::uint32_t range = trial % 3 == 0 ? 10U : 0xffffffffU;
-        for (std::uint32_t& key : keys) {
-            key = static_cast<std::uint32_t>(dice() % range);
-        }
+        for (std::uint32_t& key : keys) { key = static_cast<std::uint32_t>(dice() % range); }
         const std::size_t count = dice() % (keys.size() + 1);
         std::vector<std::uint32_t> sorted(keys.size());
         std::iota(sorted.begin(), sorted.end(), 0U);
-        std::ranges::stable_sort(
-            sorted, [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+        std::ranges::stable_sort(sorted, [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
         std::vector<std::uint8_t> expected(keys.size(), 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            expected[sorted[i]] = 1;
-        }
+        for (std::size_t i = 0; i < count; ++i) { expected[sorted[i]] = 1; }
         std::vector<std::uint8_t> found(keys.size());
         greatest.choose(keys, count, found);
         CHECK(found == expected);

@@ -17,9 +17,8 @@ models::polygons::PolygonModel model_of(
     models::polygons::PolygonModel model;
     model.vertices_m = std::move(vertices_m);
     for (const auto& corners : polygons) {
-        model.polygons.push_back(
-            {.first_corner = static_cast<std::uint32_t>(model.corner_vertices.size()),
-             .corner_count = static_cast<std::uint32_t>(corners.size())});
+        model.polygons.push_back({.first_corner = static_cast<std::uint32_t>(model.corner_vertices.size()),
+            .corner_count = static_cast<std::uint32_t>(corners.size())});
         model.corner_vertices.insert(model.corner_vertices.end(), corners.begin(), corners.end());
     }
     model.materials.emplace_back();
@@ -27,9 +26,7 @@ models::polygons::PolygonModel model_of(
     return model;
 }
 
-bool near(const glm::vec3& one, const glm::vec3& other) {
-    return glm::distance(one, other) < 1e-6F;
-}
+bool near(const glm::vec3& one, const glm::vec3& other) { return glm::distance(one, other) < 1e-6F; }
 
 const std::vector<glm::dvec3> square_m{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
 const glm::vec3 left(-0.6F, 0.0F, 0.8F);
@@ -40,40 +37,34 @@ const glm::vec3 right(0.6F, 0.0F, 0.8F);
 TEST_CASE("the halves of a cut square keep its normals and have the middle one at the cut") {
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
     const std::vector normals{left, right, right, left};
-    models::polygons::PolygonModel pieces = model_of(
-        {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, 2, 0}},
-        {{0, 4, 5, 3}, {4, 1, 2, 5}});
+    models::polygons::PolygonModel pieces =
+        model_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, 2, 0}}, {{0, 4, 5, 3}, {4, 1, 2, 5}});
     pieces.parents = {0, 0};
     const auto made = piece_normals(whole, normals, pieces);
     const glm::vec3 up(0.0F, 0.0F, 1.0F);
     const std::vector expected{left, up, up, left, up, right, right, up};
     REQUIRE(made.size() == expected.size());
-    for (std::size_t corner = 0; corner < made.size(); ++corner) {
-        CHECK(near(made[corner], expected[corner]));
-    }
+    for (std::size_t corner = 0; corner < made.size(); ++corner) { CHECK(near(made[corner], expected[corner])); }
 }
 
 TEST_CASE("a quarter of the way along a side the normal is a quarter of the way too") {
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
-    models::polygons::PolygonModel pieces =
-        model_of({{0.5, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
+    models::polygons::PolygonModel pieces = model_of({{0.5, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
     const auto made = piece_normals(whole, std::vector{left, right, right, left}, pieces);
     CHECK(near(made[0], glm::normalize(0.75F * left + 0.25F * right)));
 }
 
 TEST_CASE("in the middle of a square all corners count the same") {
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
-    const models::polygons::PolygonModel piece =
-        model_of({{1, 1, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
+    const models::polygons::PolygonModel piece = model_of({{1, 1, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
     const auto made = piece_normals(whole, std::vector{left, right, right, left}, piece);
     CHECK(near(made[0], {0.0F, 0.0F, 1.0F}));
     CHECK(near(made[1], right));
 }
 
 TEST_CASE("a piece belongs to the polygon around it where two have the same parent") {
-    models::polygons::PolygonModel whole = model_of(
-        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}},
-        {{0, 1, 2, 3}, {1, 4, 5, 2}});
+    models::polygons::PolygonModel whole =
+        model_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
     whole.parents = {7, 7};
     models::polygons::PolygonModel piece = model_of({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}}, {{0, 1, 2}});
     piece.parents = {7};
@@ -85,7 +76,5 @@ TEST_CASE("a model that was not cut keeps its normals") {
     const models::polygons::PolygonModel torus = models::procedural::torus();
     const auto normals = corner_normals(torus);
     const auto made = piece_normals(torus, normals, torus);
-    for (std::size_t corner = 0; corner < made.size(); ++corner) {
-        CHECK(near(made[corner], normals[corner]));
-    }
+    for (std::size_t corner = 0; corner < made.size(); ++corner) { CHECK(near(made[corner], normals[corner])); }
 }

@@ -16,8 +16,7 @@ models::polygons::PolygonModel two_polygons() {
     models::polygons::PolygonModel model;
     model.vertices_m = {{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {0, 4, 0}, {6, 0, 0}};
     model.corner_vertices = {0, 1, 2, 3, 1, 4, 2};
-    model.polygons = {
-        {.first_corner = 0, .corner_count = 4}, {.first_corner = 4, .corner_count = 3}};
+    model.polygons = {{.first_corner = 0, .corner_count = 4}, {.first_corner = 4, .corner_count = 3}};
     model.materials.push_back({.name = "", .colour = {0.5F, 0.25F, 0.25F}});
     model.parts = {"all"};
     return model;

@@ -32,8 +32,7 @@ struct Course {
 
 class Drive {
 public:
-    Drive(int polygons, double budget_ms)
-        : state_(initial_shading_state(polygons)) {
+    Drive(int polygons, double budget_ms) : state_(initial_shading_state(polygons)) {
         control_.target_frame_ms = budget_ms;
     }
 
@@ -43,12 +42,10 @@ public:
             const int smooth = state_.smooth;
             const double n = state_.polygons;
             const double slow = dice_.next() < machine.slow_share ? 1.6 : 1.0;
-            const double ms =
-                machine.mean_ms(smooth / n) * slow * (1.0 + machine.noise * dice_.normal_deviate());
+            const double ms = machine.mean_ms(smooth / n) * slow * (1.0 + machine.noise * dice_.normal_deviate());
             course.share.push_back(smooth / n);
             course.over += ms > control_.target_frame_ms ? 1 : 0;
-            state_ = update_shading(
-                state_, control_, {ms, state_.polygons - smooth, smooth}, state_.polygons);
+            state_ = update_shading(state_, control_, {ms, state_.polygons - smooth, smooth}, state_.polygons);
             course.changes += std::abs(state_.smooth - smooth) / n;
         }
         course.has_no_gain = state_.has_no_gain;
@@ -67,16 +64,13 @@ private:
 
 /// Where the expected time lies as far below the budget as the control aims.
 double best_share(const Machine& machine, const ShadingControllerSettings& control) {
-    if (machine.smooth_ms <= 0.0) {
-        return 1.0;
-    }
+    if (machine.smooth_ms <= 0.0) { return 1.0; }
     const double flat_ms = machine.mean_ms(0.0);
     const double room_ms = control.target_frame_ms * (1.0 - control.target_margin_sds * machine.noise) - flat_ms;
     return std::clamp(room_ms / machine.smooth_ms, 0.0, 1.0);
 }
 
-/// Frames before the share is near the best one for good: within a tenth, two polygons, or what
-/// the noise hides.
+/// Frames before the share is near the best one for good: within a tenth, two polygons, or what the noise hides.
 int frames_to_settle(
     const Course& course, const Machine& machine, const ShadingControllerSettings& control, int polygons) {
     const double noise_ms = machine.noise * control.target_frame_ms;
@@ -102,9 +96,8 @@ TEST_CASE("a machine without noise gets as many smooth polygons as its time allo
     CHECK(drive.state().fit.ms[2] == Approx(6.0).epsilon(0.01));
 }
 
-TEST_CASE(
-    "the number settles within 30 frames of the start and of every change of load, and at most 5 % "
-    "of the frames of a load that fits are over the budget, slow ones included") {
+TEST_CASE("the number settles within 30 frames of the start and of every change of load, and at most 5 % "
+          "of the frames of a load that fits are over the budget, slow ones included") {
     int cases = 0;
     for (const int polygons : {8, 416, 80000}) {
         for (const double budget_ms : {7.0, 8.0, 10.0, 12.0, 14.0, 16.7, 20.0, 33.3}) {
@@ -114,12 +107,9 @@ TEST_CASE(
                 for (const double rest_ms : {3.0, 5.0, 3.0}) {
                     machine.rest_ms = rest_ms;
                     const Course course = drive.frames(machine, 600);
-                    INFO(
-                        polygons << " polygons, " << budget_ms << " ms, " << smooth_ms
-                                 << " ms, rest " << rest_ms);
+                    INFO(polygons << " polygons, " << budget_ms << " ms, " << smooth_ms << " ms, rest " << rest_ms);
                     CHECK(frames_to_settle(course, machine, drive.control(), polygons) <= 30);
-                    const double fits_ms =
-                        budget_ms * (1.0 - drive.control().target_margin_sds * machine.noise);
+                    const double fits_ms = budget_ms * (1.0 - drive.control().target_margin_sds * machine.noise);
                     CHECK((machine.mean_ms(0.0) > fits_ms || course.over <= 30));
                     ++cases;
                 }

@@ -14,20 +14,18 @@ using namespace octant::visuals::shading;
 
 namespace {
 
-const ShadingLight from_above{
-    .to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.0F, .diffuse = 1.0F, .specular = 0.0F};
+const ShadingLight from_above{.to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.0F, .diffuse = 1.0F, .specular = 0.0F};
 const glm::dvec3 high_m(0.0, 0.0, 1000.0);
 
-/// Level triangles side by side, each with two sides of `size_m[i]` and its first corner's normal
-/// tilted so that its intensity there is 1 - `darker[i]`, of 1 everywhere else.
+/// Level triangles side by side, each with two sides of `size_m[i]` and its first corner's normal tilted so that its
+/// intensity there is 1 - `darker[i]`, of 1 everywhere else.
 ShadedPolygons row(const std::vector<double>& size_m, const std::vector<float>& darker) {
     models::TriangleMesh mesh;
     std::vector<glm::vec3> normals;
     for (std::size_t i = 0; i < size_m.size(); ++i) {
         const auto x = static_cast<double>(i);
         const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-        mesh.vertices_m.insert(
-            mesh.vertices_m.end(), {{x, 0, 0}, {x + size_m[i], 0, 0}, {x, size_m[i], 0}});
+        mesh.vertices_m.insert(mesh.vertices_m.end(), {{x, 0, 0}, {x + size_m[i], 0, 0}, {x, size_m[i], 0}});
         mesh.triangles.push_back({first, first + 1, first + 2});
         const float z = 1.0F - darker[i];
         normals.emplace_back(std::sqrt(1.0F - z * z), 0.0F, z);
@@ -40,9 +38,7 @@ ShadedPolygons row(const std::vector<double>& size_m, const std::vector<float>& 
 std::vector<int> smooth_ones(std::span<const std::uint8_t> smooth) {
     std::vector<int> ones;
     for (std::size_t i = 0; i < smooth.size(); ++i) {
-        if (smooth[i] != 0) {
-            ones.push_back(static_cast<int>(i));
-        }
+        if (smooth[i] != 0) { ones.push_back(static_cast<int>(i)); }
     }
     return ones;
 }
@@ -165,12 +161,8 @@ TEST_CASE("holding on makes fewer changes around the torus") {
         int sum = 0;
         for (int step = 0; step < 200; ++step) {
             const double angle_rad = 0.04 * step;
-            sum += selector
-                       .choose(
-                           {6.0 * std::cos(angle_rad), 6.0 * std::sin(angle_rad), 2.0},
-                           from_above,
-                           104)
-                       .changed;
+            sum +=
+                selector.choose({6.0 * std::cos(angle_rad), 6.0 * std::sin(angle_rad), 2.0}, from_above, 104).changed;
         }
         return sum;
     };

@@ -11,35 +11,28 @@ using namespace octant::visuals::shading;
 
 namespace {
 
-/// Two unit squares that share the edge from (0, 0, 0) to (0, 1, 0): a level one, front upwards,
-/// and one that goes down at `fold_rad` from it, with vertices of its own.
+/// Two unit squares that share the edge from (0, 0, 0) to (0, 1, 0): a level one, front upwards, and one that goes down
+/// at `fold_rad` from it, with vertices of its own.
 models::polygons::PolygonModel folded(double fold_rad) {
     const double x = -std::cos(fold_rad);
     const double z = -std::sin(fold_rad);
     models::polygons::PolygonModel model;
-    model.vertices_m = {
-        {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}, {0, 1, 0}, {x, 1, z}, {x, 0, z}};
+    model.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}, {0, 1, 0}, {x, 1, z}, {x, 0, z}};
     model.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7};
-    model.polygons = {
-        {.first_corner = 0, .corner_count = 4}, {.first_corner = 4, .corner_count = 4}};
+    model.polygons = {{.first_corner = 0, .corner_count = 4}, {.first_corner = 4, .corner_count = 4}};
     model.materials.emplace_back();
     model.parts = {"fixed"};
     return model;
 }
 
-bool near(const glm::vec3& one, const glm::vec3& other) {
-    return glm::distance(one, other) < 1e-6F;
-}
+bool near(const glm::vec3& one, const glm::vec3& other) { return glm::distance(one, other) < 1e-6F; }
 
 } // namespace
 
 TEST_CASE("across a soft edge corners in one place share the mean normal, others keep their own") {
     const double fold_rad = rad_from_deg(30.0);
     const auto normals = corner_normals(folded(fold_rad), rad_from_deg(40.0));
-    const glm::vec3 mean(
-        -static_cast<float>(std::sin(fold_rad / 2)),
-        0.0F,
-        static_cast<float>(std::cos(fold_rad / 2)));
+    const glm::vec3 mean(-static_cast<float>(std::sin(fold_rad / 2)), 0.0F, static_cast<float>(std::cos(fold_rad / 2)));
     REQUIRE(normals.size() == 8);
     CHECK(near(normals[0], mean));
     CHECK(near(normals[3], mean));
@@ -49,9 +42,7 @@ TEST_CASE("across a soft edge corners in one place share the mean normal, others
 
 TEST_CASE("an edge sharper than the crease angle stays") {
     const auto normals = corner_normals(folded(rad_from_deg(50.0)), rad_from_deg(40.0));
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        CHECK(near(normals[corner], {0.0F, 0.0F, 1.0F}));
-    }
+    for (std::size_t corner = 0; corner < 4; ++corner) { CHECK(near(normals[corner], {0.0F, 0.0F, 1.0F})); }
 }
 
 TEST_CASE("a part that turns does not mix with a fixed one") {

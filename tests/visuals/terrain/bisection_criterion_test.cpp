@@ -18,9 +18,7 @@ struct AllCriticals {
         std::vector<VerticalDistances> distances; // of the last level with ranges, in the end
         for (int level = 0; level < ground.levels(); ++level) {
             const GroundLayout::Level& at = layout.level(level);
-            if (level <= layout.range_level()) {
-                distances.clear();
-            }
+            if (level <= layout.range_level()) { distances.clear(); }
             for (int row = 0; row < at.rows; ++row) {
                 for (int column = 0; column < at.columns; ++column) {
                     if (level <= layout.range_level()) {
@@ -33,8 +31,7 @@ struct AllCriticals {
             auto& criticals = of_level.emplace_back();
             for (int row = 0; row < at.rows; ++row) {
                 for (int column = 0; column < at.columns; ++column) {
-                    const auto block =
-                        static_cast<std::size_t>((row >> finer) * blocks + (column >> finer));
+                    const auto block = static_cast<std::size_t>((row >> finer) * blocks + (column >> finer));
                     criticals.push_back(rule.criticals_of({level, column, row, &distances[block]}));
                 }
             }
@@ -53,9 +50,8 @@ struct AllCriticals {
     }
 
     bool has_child(std::size_t level, int column, int row, unsigned quadrant) const {
-        return level + 1 == of_level.size() ||
-               (2 * column + static_cast<int>(quadrant & 1U) < columns[level + 1] &&
-                2 * row + static_cast<int>(quadrant >> 1U) < rows[level + 1]);
+        return level + 1 == of_level.size() || (2 * column + static_cast<int>(quadrant & 1U) < columns[level + 1] &&
+                                                   2 * row + static_cast<int>(quadrant >> 1U) < rows[level + 1]);
     }
 
     std::vector<std::vector<FanCriticalValues>> of_level;
@@ -93,11 +89,8 @@ TEST_CASE("critical values never shrink from a sample to one that needs it, to t
                     const float centre = all.centre(level, column, row);
                     for (std::size_t k = 0; k < 4; ++k) {
                         REQUIRE(own.middle[k] >= centre);
-                        for (const unsigned q :
-                             {fan_edges[k].quadrant_a, fan_edges[k].quadrant_b}) {
-                            REQUIRE(
-                                (own.quadrant[q] >= own.middle[k] ||
-                                 !all.has_child(level, column, row, q)));
+                        for (const unsigned q : {fan_edges[k].quadrant_a, fan_edges[k].quadrant_b}) {
+                            REQUIRE((own.quadrant[q] >= own.middle[k] || !all.has_child(level, column, row, q)));
                         }
                     }
                     if (column + 1 < all.columns[level]) {
@@ -122,10 +115,9 @@ TEST_CASE("a critical value is the squared distance to the region of influence o
     const VerticalDistances distances = rule.vertical_distances_of(0, 0, 0);
     CHECK(distances.squared_m2[0] == 9.0F);
     FanCriticalValues criticals = rule.criticals_of({0, 0, 0, &distances});
-    // 3 m to each side of the middle of the south side, 2 m east and 1 m south of the eye. Beside
-    // the bump the ground lies 4 m below the slope from there up to it.
-    const float middle_m =
-        ground.tiles.codes().metres(ground.tiles.error_code(0, NodePart::South, 0, 0));
+    // 3 m to each side of the middle of the south side, 2 m east and 1 m south of the eye. Beside the bump the ground
+    // lies 4 m below the slope from there up to it.
+    const float middle_m = ground.tiles.codes().metres(ground.tiles.error_code(0, NodePart::South, 0, 0));
     const ErrorCodes& codes = ground.tiles.codes();
     CHECK((middle_m >= 4.0F && middle_m <= codes.metres(codes.code_of(4.9F))));
     CHECK(criticals.middle[0] == Approx(14.0F / (middle_m * middle_m)));

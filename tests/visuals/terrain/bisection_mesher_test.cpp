@@ -16,19 +16,8 @@ using octant::models::heights::HeightField;
 
 namespace {
 
-constexpr std::array<FieldSize, 12> sizes = {
-    {{2, 2},
-     {3, 3},
-     {17, 17},
-     {33, 33},
-     {37, 53},
-     {53, 37},
-     {20, 6},
-     {5, 41},
-     {65, 65},
-     {40, 64},
-     {129, 129},
-     {150, 100}}};
+constexpr std::array<FieldSize, 12> sizes = {{{2, 2}, {3, 3}, {17, 17}, {33, 33}, {37, 53}, {53, 37}, {20, 6}, {5, 41},
+    {65, 65}, {40, 64}, {129, 129}, {150, 100}}};
 
 MeshView everywhere_from(const MeshView& view) {
     MeshView everywhere = view;
@@ -37,9 +26,7 @@ MeshView everywhere_from(const MeshView& view) {
 }
 
 ErrorTarget any_target(Numbers& numbers) {
-    return {
-        any_error_px(numbers),
-        numbers.coin() ? any_triangles : 10 + static_cast<int>(numbers.next() % 500),
+    return {any_error_px(numbers), numbers.coin() ? any_triangles : 10 + static_cast<int>(numbers.next() % 500),
         numbers.coin()};
 }
 
@@ -57,8 +44,7 @@ TEST_CASE("the unculled mesh by screen-space error covers the field once, edge t
             const MeshView view = everywhere_from(any_view(numbers, ground.field));
             const GroundMesh mesh = ground.mesher.mesh(view, any_target(numbers));
             INFO("seed " << seed << ", look " << look << ", " << mesh.counters.triangles);
-            REQUIRE(ground_triangles_conform(
-                origin_triangles(mesh, ground.field, view.eye_m), ground.field));
+            REQUIRE(ground_triangles_conform(origin_triangles(mesh, ground.field, view.eye_m), ground.field));
             mixed += mesh.counters.fans > 1 && mesh.vertices.size() < samples ? 1 : 0;
         }
     }
@@ -78,9 +64,8 @@ TEST_CASE("level ground is four triangles, a bump refines the mesh around itself
     const GroundMesh near = bump.mesher.mesh(view, {1.0, any_triangles, false});
     CHECK(near.counters.triangles > 30);
     CHECK(near.counters.triangles < 100);
-    CHECK(std::any_of(near.vertices.begin(), near.vertices.end(), [](const auto& vertex) {
-        return std::abs(vertex.position_m.z + 8.0F) < 1e-3F;
-    }));
+    CHECK(std::any_of(near.vertices.begin(), near.vertices.end(),
+        [](const auto& vertex) { return std::abs(vertex.position_m.z + 8.0F) < 1e-3F; }));
 }
 
 TEST_CASE("without any error allowed, all samples beside straight lines are vertices") {
@@ -93,8 +78,7 @@ TEST_CASE("without any error allowed, all samples beside straight lines are vert
     const double radius_m = view.earth_radius_m;
     double worst_m = 0.0;
     for (std::size_t k = 0; k < heights_m.size(); ++k) {
-        const glm::dvec3 sample_m =
-            ground.field.sample_m(static_cast<int>(k % 65), static_cast<int>(k / 65));
+        const glm::dvec3 sample_m = ground.field.sample_m(static_cast<int>(k % 65), static_cast<int>(k / 65));
         const glm::dvec2 off_m(sample_m - view.eye_m);
         const double drop_m = radius_m > 0.0 ? 0.5 * glm::dot(off_m, off_m) / radius_m : 0.0;
         worst_m = std::max(worst_m, std::abs(heights_m[k] + drop_m - sample_m.z));
@@ -116,9 +100,7 @@ TEST_CASE("no sample is seen farther from the mesh than the error asked for") {
         for (std::size_t k = 0; k < heights_m.size(); ++k) {
             const auto columns = static_cast<std::size_t>(size.columns);
             const glm::dvec3 off_m =
-                ground.field.sample_m(
-                    static_cast<int>(k % columns), static_cast<int>(k / columns)) -
-                view.eye_m;
+                ground.field.sample_m(static_cast<int>(k % columns), static_cast<int>(k / columns)) - view.eye_m;
             const double drop_m = curvature * glm::dot(glm::dvec2(off_m), glm::dvec2(off_m));
             const double error_m = std::abs(heights_m[k] - (off_m.z + view.eye_m.z - drop_m));
             const double distance_m = std::max(glm::length(off_m), 1.0);
@@ -179,9 +161,7 @@ TEST_CASE("no triangle of a mesh by screen-space error hides one drawn after it"
         triangles_seen += mesh.counters.triangles;
         view.order = PaintOrder::FrontToBack;
         std::reverse(painted.begin(), painted.end());
-        REQUIRE(
-            origin_triangles(ground.mesher.mesh(view, target), ground.field, view.eye_m) ==
-            painted);
+        REQUIRE(origin_triangles(ground.mesher.mesh(view, target), ground.field, view.eye_m) == painted);
     }
     CHECK(triangles_seen > 20000);
 }
@@ -198,13 +178,9 @@ TEST_CASE("the triangles of a mesh by screen-space error in a box are found in d
         const GroundMesh mesh = ground.mesher.mesh(view, any_target(numbers));
         const glm::dvec2 reach = ground.field.half_extent_m();
         const SearchBox box{
-            {numbers.between(-reach.x, reach.x),
-             numbers.between(-reach.y, reach.y),
-             numbers.between(-10.0, 10.0)},
+            {numbers.between(-reach.x, reach.x), numbers.between(-reach.y, reach.y), numbers.between(-10.0, 10.0)},
             {numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 20.0)}};
-        const auto meets = [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
-            return box.meets(min_m, max_m);
-        };
+        const auto meets = [&](const glm::dvec3& min_m, const glm::dvec3& max_m) { return box.meets(min_m, max_m); };
         std::vector<std::uint32_t> found;
         ground.mesher.triangles_in(meets, found);
         INFO("seed " << seed);

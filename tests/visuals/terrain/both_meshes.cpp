@@ -17,21 +17,17 @@ namespace {
 
 template <typename Item>
 bool same_bytes(const std::vector<Item>& a, const std::vector<Item>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
 }
 
 } // namespace
 
 MeshView circling(int frame) {
     const double angle = frame * 0.02;
-    return camera_view(
-        {70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
+    return camera_view({70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
 }
 
-MeshView into_the_sky() {
-    return camera_view({0.0, 0.0, 200.0}, 0.3, 1.2, 0.9);
-}
+MeshView into_the_sky() { return camera_view({0.0, 0.0, 200.0}, 0.3, 1.2, 0.9); }
 
 Corners corners_of(const GroundMesh& mesh, std::size_t triangle) {
     Corners corners{};
@@ -47,9 +43,7 @@ bool reaches_into(const Corners& corners, const MeshView& view) {
         for (int j = 0; i + j <= parts; ++j) {
             const glm::dvec3 point = corners[0] + (corners[1] - corners[0]) * (1.0 * i / parts) +
                                      (corners[2] - corners[0]) * (1.0 * j / parts);
-            if (std::all_of(
-                    view.frustum_normals.begin(),
-                    view.frustum_normals.end(),
+            if (std::all_of(view.frustum_normals.begin(), view.frustum_normals.end(),
                     [&](const glm::dvec3& normal) { return glm::dot(normal, point) >= 0.0; })) {
                 return true;
             }
@@ -65,10 +59,7 @@ bool SearchBox::meets(const glm::dvec3& min_m, const glm::dvec3& max_m) const {
 }
 
 long checked_count_in(
-    const SearchBox& box,
-    const GroundMesh& mesh,
-    const glm::dvec3& eye_m,
-    std::span<const std::uint32_t> found) {
+    const SearchBox& box, const GroundMesh& mesh, const glm::dvec3& eye_m, std::span<const std::uint32_t> found) {
     constexpr double rounding_m = 1e-4; // positions are floats
     REQUIRE(std::adjacent_find(found.begin(), found.end(), std::greater_equal<>()) == found.end());
     REQUIRE((found.empty() || 3 * found.back() < mesh.indices.size()));
@@ -86,18 +77,14 @@ long checked_count_in(
 }
 
 MeshCopy::MeshCopy(const GroundMesh& mesh)
-    : vertices(mesh.vertices.begin(), mesh.vertices.end())
-    , morphs(mesh.morphs.begin(), mesh.morphs.end())
-    , indices(mesh.indices.begin(), mesh.indices.end())
-    , triangles(mesh.counters.triangles)
-    , fans(mesh.counters.fans)
-    , resolution(mesh.resolution)
-    , error_px(mesh.error_px) {}
+    : vertices(mesh.vertices.begin(), mesh.vertices.end()), morphs(mesh.morphs.begin(), mesh.morphs.end()),
+      indices(mesh.indices.begin(), mesh.indices.end()), triangles(mesh.counters.triangles), fans(mesh.counters.fans),
+      resolution(mesh.resolution), error_px(mesh.error_px) {}
 
 bool MeshCopy::operator==(const MeshCopy& other) const {
-    return same_bytes(vertices, other.vertices) && same_bytes(morphs, other.morphs) &&
-           indices == other.indices && triangles == other.triangles && fans == other.fans &&
-           resolution == other.resolution && error_px == other.error_px;
+    return same_bytes(vertices, other.vertices) && same_bytes(morphs, other.morphs) && indices == other.indices &&
+           triangles == other.triangles && fans == other.fans && resolution == other.resolution &&
+           error_px == other.error_px;
 }
 
 } // namespace octant::visuals::terrain::test

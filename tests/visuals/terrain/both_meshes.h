@@ -42,13 +42,10 @@ struct SearchBox {
     bool meets(const glm::dvec3& min_m, const glm::dvec3& max_m) const;
 };
 
-/// How many triangles of a mesh meet the box. Fails the test unless `found` are numbers of the
-/// mesh's triangles, ascending, and those are among them.
+/// How many triangles of a mesh meet the box. Fails the test unless `found` are numbers of the mesh's triangles,
+/// ascending, and those are among them.
 long checked_count_in(
-    const SearchBox& box,
-    const GroundMesh& mesh,
-    const glm::dvec3& eye_m,
-    std::span<const std::uint32_t> found);
+    const SearchBox& box, const GroundMesh& mesh, const glm::dvec3& eye_m, std::span<const std::uint32_t> found);
 
 /// What a copy of a mesh is compared by.
 struct MeshCopy {

@@ -33,13 +33,9 @@ double reach_m2(const ReachBox& box, const glm::dvec3& ahead) {
     const double gap_m = std::max({box.least.z, -box.most.z, 0.0});
     BoxErrorBound reach(reach_spacing_m);
     reach.set_direction(ahead, picture_corner_cos);
-    return static_cast<double>(reach.squared_m2(
-        {samples(box.least.x),
-         samples(box.most.x),
-         samples(box.least.y),
-         samples(box.most.y),
-         splat4(static_cast<float>(gap_m * gap_m)),
-         splat4(static_cast<float>(std::min(box.least.z * ahead.z, box.most.z * ahead.z)))})[0]);
+    return static_cast<double>(reach.squared_m2({samples(box.least.x), samples(box.most.x), samples(box.least.y),
+        samples(box.most.y), splat4(static_cast<float>(gap_m * gap_m)),
+        splat4(static_cast<float>(std::min(box.least.z * ahead.z, box.most.z * ahead.z)))})[0]);
 }
 
 /// The least value at places of a lattice in the box that the picture may show.
@@ -53,9 +49,7 @@ double min_shown_m2(const ReachBox& box, const glm::dvec3& ahead) {
                 const glm::dvec3 share(i / double{steps}, j / double{steps}, k / 4.0);
                 const glm::dvec3 at = box.least + share * (box.most - box.least);
                 const double depth = glm::dot(at, ahead);
-                if (depth < 1.0 || depth < picture_corner_cos * glm::length(at)) {
-                    continue;
-                }
+                if (depth < 1.0 || depth < picture_corner_cos * glm::length(at)) { continue; }
                 const double along = glm::dot(glm::dvec2(at), level);
                 const double aside = level.x * at.y - level.y * at.x;
                 const double n = std::hypot(along, ahead.z * aside);

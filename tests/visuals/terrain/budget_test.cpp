@@ -17,17 +17,15 @@ using namespace octant::visuals::terrain::test;
 namespace {
 
 /// Ground as of a real map, flown over low; steps of N are small against 3000 triangles.
-Ground wide_ground() {
-    return Ground(rough_field(257, 257, 6));
-}
+Ground wide_ground() { return Ground(rough_field(257, 257, 6)); }
 
 constexpr TriangleBudget wide_budget{3000, 500.0};
 
 } // namespace
 
 TEST_CASE("a budget is kept by hand's count on four quadrants") {
-    // Children with an edge of 2 m, their centres 1.41 (once), 3.16 (twice) and 4.24 m from the
-    // corner: 0.5, 1.6 and 2.1 edges. C = 2 has 24 triangles in 4 fans, C above 2.12 has 32.
+    // Children with an edge of 2 m, their centres 1.41 (once), 3.16 (twice) and 4.24 m from the corner: 0.5, 1.6 and
+    // 2.1 edges. C = 2 has 24 triangles in 4 fans, C above 2.12 has 32.
     Ground ground(level_field(5, 5));
     MeshView view;
     view.eye_m = {-2.0, -2.0, 0.0};
@@ -64,16 +62,13 @@ TEST_CASE("the counted steps are those of the meshes, for all grounds, views and
         Numbers numbers(seed);
         const int columns = 20 + static_cast<int>(numbers.next() % 110);
         const int rows = 20 + static_cast<int>(numbers.next() % 110);
-        Ground ground(
-            numbers.coin() ? rough_field(columns, rows, seed) : spiky_field(columns, rows, seed),
+        Ground ground(numbers.coin() ? rough_field(columns, rows, seed) : spiky_field(columns, rows, seed),
             random_options(numbers));
         QuadtreeMesher plain(ground.tree, ground.colours);
         for (int k = 0; k < 20; ++k) {
             const MeshView view = random_view(numbers, ground.field);
-            QuadtreeDetail detail{
-                0.0, numbers.between(0.0, 10.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
-            const TriangleBudget budget{
-                10 + static_cast<int>(numbers.next() % 1500), numbers.coin() ? 500.0 : 20.0};
+            QuadtreeDetail detail{0.0, numbers.between(0.0, 10.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
+            const TriangleBudget budget{10 + static_cast<int>(numbers.next() % 1500), numbers.coin() ? 500.0 : 20.0};
             const MeshCopy got(ground.mesher.mesh_within(view, detail, budget));
             detail.resolution = got.resolution;
             INFO("seed " << seed << ", case " << k);
@@ -81,8 +76,7 @@ TEST_CASE("the counted steps are those of the meshes, for all grounds, views and
             const bool coarsest = got.resolution <= 1.000001 * ground.tree.options().min_resolution;
             REQUIRE((got.triangles <= budget.triangles || coarsest));
             within += coarsest ? 0 : 1;
-            if (got.resolution < 0.999 * budget.max_resolution &&
-                got.triangles <= budget.triangles) {
+            if (got.resolution < 0.999 * budget.max_resolution && got.triangles <= budget.triangles) {
                 detail.resolution *= 1.0 + 2e-7; // beyond the next step, which is too high
                 REQUIRE(plain.mesh(view, detail).counters.triangles > budget.triangles);
                 ++spent;
@@ -98,10 +92,8 @@ TEST_CASE("a mesh within a budget does not depend on the meshes before") {
     Numbers numbers(5);
     for (int frame = 0; frame < 150; ++frame) {
         const MeshView view = random_view(numbers, ground.field);
-        const TriangleBudget budget{
-            200 + static_cast<int>(numbers.next() % 20000), numbers.coin() ? 500.0 : 30.0};
-        const QuadtreeDetail detail{
-            0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
+        const TriangleBudget budget{200 + static_cast<int>(numbers.next() % 20000), numbers.coin() ? 500.0 : 30.0};
+        const QuadtreeDetail detail{0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
         QuadtreeMesher fresh(ground.tree, ground.colours);
         const MeshCopy expected(fresh.mesh_within(view, detail, budget));
         REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
@@ -164,8 +156,7 @@ TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
 
 TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent") {
     const char* const given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path data =
-        given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
+    const std::filesystem::path data = given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
     for (const char* const name : {"gcanyon_1025.tif", "pugetsound_1025.tif"}) {
         const std::filesystem::path file = data / "terrain" / name;
         if (!std::filesystem::exists(file)) {
@@ -178,15 +169,12 @@ TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent")
             int least = triangles;
             for (int frame = 0; frame < 100; ++frame) {
                 const double angle = frame * 0.01;
-                const glm::dvec2 at_m = 0.5 * ground.field.half_extent_m() *
-                                        glm::dvec2(std::cos(angle), std::sin(angle));
+                const glm::dvec2 at_m =
+                    0.5 * ground.field.half_extent_m() * glm::dvec2(std::cos(angle), std::sin(angle));
                 const double ground_m = ground.field.height_at(at_m.x, at_m.y).value_or(0.0);
-                const MeshView view =
-                    camera_view({at_m.x, at_m.y, ground_m + 200.0}, angle + 1.57, -0.1, 0.785);
-                const int got =
-                    ground.mesher
-                        .mesh_within(view, {0.0, 20.0, FanKind::Partial}, {triangles, 500.0})
-                        .counters.triangles;
+                const MeshView view = camera_view({at_m.x, at_m.y, ground_m + 200.0}, angle + 1.57, -0.1, 0.785);
+                const int got = ground.mesher.mesh_within(view, {0.0, 20.0, FanKind::Partial}, {triangles, 500.0})
+                                    .counters.triangles;
                 REQUIRE(got <= triangles);
                 least = std::min(least, got);
                 missing += triangles - got;

@@ -36,28 +36,20 @@ HeightField random_field(const Size& size, std::uint32_t kind, std::uint64_t see
 /// One random field with its tree, and random looks at it.
 struct Scene {
     Scene(const Size& size, RoughnessPropagation propagation, std::uint64_t seed)
-        : numbers(seed)
-        , field(random_field(size, numbers.next(), seed))
-        , colours(numbered_colours(field))
-        , tree(
-              field,
-              {numbers.coin() ? Roughness::Printed : Roughness::Midpoint,
-               propagation,
-               numbers.coin() ? 2.0 : 1.6})
-        , mesher(tree, colours) {}
+        : numbers(seed), field(random_field(size, numbers.next(), seed)), colours(numbered_colours(field)),
+          tree(field,
+              {numbers.coin() ? Roughness::Printed : Roughness::Midpoint, propagation, numbers.coin() ? 2.0 : 1.6}),
+          mesher(tree, colours) {}
 
     glm::dvec3 random_eye() {
         const glm::dvec2 reach = field.half_extent_m() * 1.5;
-        return {
-            numbers.between(-reach.x, reach.x),
-            numbers.between(-reach.y, reach.y),
+        return {numbers.between(-reach.x, reach.x), numbers.between(-reach.y, reach.y),
             numbers.between(-10.0, numbers.coin() ? 10.0 : 80.0)};
     }
 
     QuadtreeDetail random_detail() {
         // Mostly coarse meshes, where levels meet.
-        return {
-            numbers.next() % 4 == 0 ? numbers.between(2.0, 64.0) : numbers.between(2.0, 4.0),
+        return {numbers.next() % 4 == 0 ? numbers.between(2.0, 64.0) : numbers.between(2.0, 4.0),
             5.0 * numbers.between(0.0, 1.0) * numbers.between(0.0, 1.0),
             numbers.coin() ? FanKind::Partial : FanKind::Full};
     }
@@ -76,9 +68,7 @@ Corners corners_of(const SampleTriangle& t, const HeightField& field, const glm:
     for (std::size_t k = 0; k < 3; ++k) {
         const auto columns = static_cast<std::uint32_t>(field.columns());
         corners[k] =
-            field.sample_m(
-                static_cast<int>(samples[k] % columns), static_cast<int>(samples[k] / columns)) -
-            eye_m;
+            field.sample_m(static_cast<int>(samples[k] % columns), static_cast<int>(samples[k] / columns)) - eye_m;
     }
     return corners;
 }
@@ -86,25 +76,15 @@ Corners corners_of(const SampleTriangle& t, const HeightField& field, const glm:
 } // namespace
 
 TEST_CASE("the unculled mesh covers the field once, edge to edge, from any eye at any detail") {
-    constexpr std::array<Size, 9> sizes = {
-        {{17, 17, 1000},
-         {9, 30, 800},
-         {22, 7, 600},
-         {33, 26, 800},
-         {40, 33, 400},
-         {65, 12, 300},
-         {100, 37, 80},
-         {129, 65, 40},
-         {200, 200, 10}}};
+    constexpr std::array<Size, 9> sizes = {{{17, 17, 1000}, {9, 30, 800}, {22, 7, 600}, {33, 26, 800}, {40, 33, 400},
+        {65, 12, 300}, {100, 37, 80}, {129, 65, 40}, {200, 200, 10}}};
     int cases = 0;
     int mixed = 0; // neither one fan nor all samples
     std::uint64_t seed = 1;
     for (const Size& size : sizes) {
         std::unique_ptr<Scene> scene;
         for (int k = 0; k < size.cases; ++k, ++cases) {
-            if (k % 5 == 0) {
-                scene = std::make_unique<Scene>(size, RoughnessPropagation::CrackFree, ++seed);
-            }
+            if (k % 5 == 0) { scene = std::make_unique<Scene>(size, RoughnessPropagation::CrackFree, ++seed); }
             MeshView view;
             view.eye_m = scene->random_eye();
             const GroundMesh mesh = scene->mesher.mesh(view, scene->random_detail());
@@ -126,8 +106,7 @@ TEST_CASE("the printed propagation leaves corners on other triangles' edges") {
         MeshView view;
         view.eye_m = scene.random_eye();
         const GroundMesh mesh = scene.mesher.mesh(view, {4.0, 5.0, FanKind::Partial});
-        const GroundCheck check =
-            checked_ground(sample_triangles(mesh, scene.field, view.eye_m), scene.field);
+        const GroundCheck check = checked_ground(sample_triangles(mesh, scene.field, view.eye_m), scene.field);
         CHECK(check.counter_clockwise);
         with_cracks += check.unmatched_edges > 0 ? 1 : 0;
     }
@@ -142,11 +121,8 @@ TEST_CASE("culling drops only triangles that the frustum does not reach, and cha
         const RoughnessPropagation propagation =
             seed % 8 == 0 ? RoughnessPropagation::Printed : RoughnessPropagation::CrackFree;
         Scene scene(sizes[seed % 4], propagation, seed);
-        const MeshView view = camera_view(
-            scene.random_eye(),
-            scene.numbers.between(0.0, 6.28),
-            scene.numbers.between(-1.2, 0.3),
-            scene.numbers.between(0.1, 1.6));
+        const MeshView view = camera_view(scene.random_eye(), scene.numbers.between(0.0, 6.28),
+            scene.numbers.between(-1.2, 0.3), scene.numbers.between(0.1, 1.6));
         const QuadtreeDetail detail = scene.random_detail();
         MeshView everywhere;
         everywhere.eye_m = view.eye_m;
@@ -157,8 +133,7 @@ TEST_CASE("culling drops only triangles that the frustum does not reach, and cha
         INFO("seed " << seed);
         REQUIRE(std::includes(all.begin(), all.end(), seen.begin(), seen.end()));
         std::vector<SampleTriangle> missing;
-        std::set_difference(
-            all.begin(), all.end(), seen.begin(), seen.end(), std::back_inserter(missing));
+        std::set_difference(all.begin(), all.end(), seen.begin(), seen.end(), std::back_inserter(missing));
         for (const SampleTriangle& triangle : missing) {
             if (reaches_into(corners_of(triangle, scene.field, view.eye_m), view)) {
                 FAIL("a triangle in sight is missing");

@@ -14,9 +14,7 @@ namespace {
 constexpr double target = 20000.0;
 
 /// 1000 triangles per unit of C, in steps of 50.
-double staircase(double resolution) {
-    return 50.0 * std::floor(resolution * 20.0);
-}
+double staircase(double resolution) { return 50.0 * std::floor(resolution * 20.0); }
 
 ControlSettings with_gain(ControlMethod method, double gain) {
     ControlSettings settings;
@@ -42,9 +40,7 @@ std::vector<double> counts(const ControlSettings& settings, double first, int fr
 double ripple(const ControlSettings& settings) {
     const std::vector<double> all = counts(settings, 16.0, 400, staircase);
     double sum = 0.0;
-    for (std::size_t k = all.size() - 50; k < all.size(); ++k) {
-        sum += std::abs(all[k] - all[k - 1]);
-    }
+    for (std::size_t k = all.size() - 50; k < all.size(); ++k) { sum += std::abs(all[k] - all[k - 1]); }
     return sum / 50.0;
 }
 
@@ -66,8 +62,7 @@ TEST_CASE("equation (5) weighs the last five results of (4) with 5, 4, 3, 2, 1")
     CHECK(state.resolution == Approx((5.0 * second + 4.0 * 15.0 + 6.0 * 10.0) / 15.0));
     const double third = state.resolution + 1.0;
     state = next_state(state, settings, 19000.0);
-    CHECK(
-        state.resolution == Approx((5.0 * third + 4.0 * second + 3.0 * 15.0 + 3.0 * 10.0) / 15.0));
+    CHECK(state.resolution == Approx((5.0 * third + 4.0 * second + 3.0 * 15.0 + 3.0 * 10.0) / 15.0));
 }
 
 TEST_CASE("without remembered frames the damped control is the previous one") {
@@ -88,8 +83,7 @@ TEST_CASE("the literal reading follows the change of N and knows no target") {
 }
 
 TEST_CASE("C stays within its limits") {
-    for (const ControlMethod method :
-         {ControlMethod::Previous, ControlMethod::Damped, ControlMethod::Printed}) {
+    for (const ControlMethod method : {ControlMethod::Previous, ControlMethod::Damped, ControlMethod::Printed}) {
         ControlSettings settings = with_gain(method, 1.0);
         settings.max_resolution = 30.0;
         CHECK(initial_state(100.0, settings).resolution == 30.0);
@@ -121,8 +115,7 @@ TEST_CASE("the previous control settles up to a loop gain of 2 and oscillates fo
 }
 
 TEST_CASE("the previous control below a loop gain of 1 approaches from one side") {
-    const std::vector<double> all =
-        counts(with_gain(ControlMethod::Previous, 0.5), 5.0, 50, staircase);
+    const std::vector<double> all = counts(with_gain(ControlMethod::Previous, 0.5), 5.0, 50, staircase);
     CHECK(std::is_sorted(all.begin(), all.end()));
     CHECK(all.back() == Approx(target).epsilon(0.005));
 }
@@ -156,9 +149,7 @@ TEST_CASE("an automatic a reaches the target however N grows with C") {
 
 namespace {
 
-CountedMesh counted(double triangles) {
-    return {.counters = {.triangles = static_cast<int>(triangles)}};
-}
+CountedMesh counted(double triangles) { return {.counters = {.triangles = static_cast<int>(triangles)}}; }
 
 } // namespace
 
@@ -181,8 +172,7 @@ TEST_CASE("with its own gain the control meets the target in every frame, howeve
                 const double smooth = 900.0 * wave * std::pow(resolution, exponent);
                 return counted(std::floor(smooth / 6.0) * 6.0);
             };
-            const double triangles =
-                controlled_mesh(state, settings, false, make).counters.triangles;
+            const double triangles = controlled_mesh(state, settings, false, make).counters.triangles;
             changes += frame >= 20 ? std::abs(triangles - last) : 0.0;
             last = triangles;
             max_meshes = std::max(max_meshes, meshes);

@@ -1,7 +1,7 @@
 #include "models/heights/height_field.h"
 #include "tests/visuals/terrain/pixel_errors.h"
-#include "visuals/terrain/conformity.h"
 #include "visuals/terrain/bisection_mesher.h"
+#include "visuals/terrain/conformity.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -26,8 +26,7 @@ double wave_sum(int column, int row, double roughness, unsigned seed) {
         const double turn = 1.7 * octave + 0.9 * seed;
         const double along = column * std::cos(turn) + row * std::sin(turn);
         const double across = row * std::cos(turn) - column * std::sin(turn);
-        sum += amplitude * std::sin(6.283 * frequency * along + turn) *
-               std::cos(5.1 * frequency * across + 2.0 * turn);
+        sum += amplitude * std::sin(6.283 * frequency * along + turn) * std::cos(5.1 * frequency * across + 2.0 * turn);
         amplitude *= roughness;
         frequency *= 2.03;
     }
@@ -48,23 +47,19 @@ models::heights::HeightField field_of(int columns, int rows, const Height& heigh
 
 /// Sums of waves: the lower the roughness, the faster fine ones fade.
 models::heights::HeightField waves(double height_m, double roughness, unsigned seed) {
-    return field_of(side, side, [=](int column, int row) {
-        return height_m * wave_sum(column, row, roughness, seed);
-    });
+    return field_of(side, side, [=](int column, int row) { return height_m * wave_sum(column, row, roughness, seed); });
 }
 
 /// Mud flats and channels in whole metres, at most a few high.
 models::heights::HeightField estuary() {
-    return field_of(side, 150, [](int column, int row) {
-        return std::round(3.0 * std::max(0.0, wave_sum(column, row, 0.6, 5)));
-    });
+    return field_of(
+        side, 150, [](int column, int row) { return std::round(3.0 * std::max(0.0, wave_sum(column, row, 0.6, 5))); });
 }
 
 /// Mesas: level ground at a few heights, with cliffs between.
 models::heights::HeightField mesas() {
-    return field_of(side, side, [](int column, int row) {
-        return 150.0 * std::round(1.5 * wave_sum(column, row, 0.5, 6));
-    });
+    return field_of(
+        side, side, [](int column, int row) { return 150.0 * std::round(1.5 * wave_sum(column, row, 0.5, 6)); });
 }
 
 /// Steep slopes of all sizes, and needles of one sample.
@@ -77,14 +72,10 @@ models::heights::HeightField peaks() {
 
 const std::array<test::TestPicture, 8>& pictures() {
     static const std::array<test::TestPicture, 8> views = {
-        {{{0.0, -3500.0, 900.0}, {300.0, 2000.0, 200.0}},
-         {{-3000.0, -3000.0, 700.0}, {0.0, 0.0, 0.0}},
-         {{500.0, 200.0, 2500.0}, {900.0, 900.0, 0.0}},
-         {{2500.0, 100.0, 650.0}, {-3000.0, 300.0, 650.0}},
-         {{0.0, 0.0, 1200.0}, {3000.0, -3000.0, 900.0}},
-         {{-3700.0, 3500.0, 1500.0}, {0.0, 0.0, -500.0}},
-         {{1000.0, -6000.0, 800.0}, {1000.0, 0.0, 1600.0}},
-         {{100.0, 1500.0, 560.0}, {-2500.0, -1500.0, 300.0}}}};
+        {{{0.0, -3500.0, 900.0}, {300.0, 2000.0, 200.0}}, {{-3000.0, -3000.0, 700.0}, {0.0, 0.0, 0.0}},
+            {{500.0, 200.0, 2500.0}, {900.0, 900.0, 0.0}}, {{2500.0, 100.0, 650.0}, {-3000.0, 300.0, 650.0}},
+            {{0.0, 0.0, 1200.0}, {3000.0, -3000.0, 900.0}}, {{-3700.0, 3500.0, 1500.0}, {0.0, 0.0, -500.0}},
+            {{1000.0, -6000.0, 800.0}, {1000.0, 0.0, 1600.0}}, {{100.0, 1500.0, 560.0}, {-2500.0, -1500.0, 300.0}}}};
     return views;
 }
 
@@ -92,13 +83,9 @@ const std::array<test::TestPicture, 8>& pictures() {
 
 TEST_CASE("no sample in the picture is farther from the mesh than the error asked for, nor are "
           "there cracks") {
-    const std::array<GroundTiles, 6> grounds = {
-        make_ground_tiles(waves(60.0, 0.45, 1)),
-        make_ground_tiles(waves(250.0, 0.6, 2)),
-        make_ground_tiles(waves(180.0, 0.75, 3)),
-        make_ground_tiles(estuary()),
-        make_ground_tiles(mesas()),
-        make_ground_tiles(peaks())};
+    const std::array<GroundTiles, 6> grounds = {make_ground_tiles(waves(60.0, 0.45, 1)),
+        make_ground_tiles(waves(250.0, 0.6, 2)), make_ground_tiles(waves(180.0, 0.75, 3)), make_ground_tiles(estuary()),
+        make_ground_tiles(mesas()), make_ground_tiles(peaks())};
     for (std::size_t g = 0; g < grounds.size(); ++g) {
         BisectionMesher mesher(grounds[g]);
         ConformityCheck conformity{GroundSamples(grounds[g])};
@@ -109,11 +96,9 @@ TEST_CASE("no sample in the picture is farther from the mesh than the error aske
                 for (const bool geomorphs : {false, true}) {
                     const MeshView view = picture.view(earth_radius_m);
                     const GroundMesh mesh = mesher.mesh(view, {error_px, any_triangles, geomorphs});
-                    const test::PixelErrors found =
-                        test::pixel_errors(mesh, grounds[g], picture, earth_radius_m);
-                    INFO(
-                        "ground " << g << ", view " << v << ", " << error_px << " px, geomorphs "
-                                  << geomorphs << ", " << found.samples << " samples");
+                    const test::PixelErrors found = test::pixel_errors(mesh, grounds[g], picture, earth_radius_m);
+                    INFO("ground " << g << ", view " << v << ", " << error_px << " px, geomorphs " << geomorphs << ", "
+                                   << found.samples << " samples");
                     CHECK(found.samples > 500);
                     CHECK(conformity.check(mesh, view).is_conforming());
                     CHECK(found.worst_px <= error_px);

@@ -18,9 +18,7 @@ TEST_CASE("the steps counted by error are those of the meshes, for all grounds a
         for (int k = 0; k < 15; ++k) {
             const MeshView view = any_view(numbers, ground.field);
             const ErrorTarget target{
-                numbers.coin() ? 0.01 : 2.0,
-                10 + static_cast<int>(numbers.next() % 1500),
-                numbers.coin()};
+                numbers.coin() ? 0.01 : 2.0, 10 + static_cast<int>(numbers.next() % 1500), numbers.coin()};
             const MeshCopy got(ground.mesher.mesh(view, target));
             INFO("seed " << seed << ", case " << k << ", error " << got.error_px);
             REQUIRE(got.triangles <= target.max_triangles);
@@ -28,9 +26,7 @@ TEST_CASE("the steps counted by error are those of the meshes, for all grounds a
             ++within;
             if (got.error_px > 1.001 * target.error_px) {
                 const double less_px = got.error_px * (1.0 - 2e-7); // beyond the next step
-                REQUIRE(
-                    plain.mesh(view, {less_px, ample, target.geomorphs}).counters.triangles >
-                    target.max_triangles);
+                REQUIRE(plain.mesh(view, {less_px, ample, target.geomorphs}).counters.triangles > target.max_triangles);
                 ++spent;
             }
         }
@@ -44,8 +40,7 @@ TEST_CASE("a mesh within a budget by error does not depend on the meshes before"
     Numbers numbers(5);
     for (int frame = 0; frame < 150; ++frame) {
         const MeshView view = any_view(numbers, ground.field);
-        const ErrorTarget target{
-            numbers.coin() ? 0.01 : 3.0, 200 + static_cast<int>(numbers.next() % 20000), true};
+        const ErrorTarget target{numbers.coin() ? 0.01 : 3.0, 200 + static_cast<int>(numbers.next() % 20000), true};
         BisectionMesher fresh(ground.tiles);
         const MeshCopy expected(fresh.mesh(view, target));
         REQUIRE(MeshCopy(ground.mesher.mesh(view, target)) == expected);

@@ -1,5 +1,5 @@
-#include "visuals/terrain/error_encoder.h"
 #include "visuals/terrain/error_codes.h"
+#include "visuals/terrain/error_encoder.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,15 +11,14 @@ namespace octant::visuals::terrain {
 namespace {
 
 float step_to(const ErrorCodes& codes, int code) {
-    return codes.metres(static_cast<std::uint8_t>(code)) /
-           codes.metres(static_cast<std::uint8_t>(code - 1));
+    return codes.metres(static_cast<std::uint8_t>(code)) / codes.metres(static_cast<std::uint8_t>(code - 1));
 }
 
 } // namespace
 
 TEST_CASE("an error's code is the smallest that is not below it") {
     for (const ErrorCodes& codes :
-         {ErrorCodes::legacy(), ErrorCodes::for_height_unit(0x1p-4), ErrorCodes::for_height_unit(0x1p-12)}) {
+        {ErrorCodes::legacy(), ErrorCodes::for_height_unit(0x1p-4), ErrorCodes::for_height_unit(0x1p-12)}) {
         CHECK(codes.metres(0) == 0.0F);
         CHECK(codes.code_of(0.0F) == 0);
         CHECK(codes.code_of(std::numeric_limits<float>::min()) == 1);
@@ -38,9 +37,7 @@ TEST_CASE("the codes of all grounds are those of files of versions 1 to 4") {
     const ErrorCodes codes = ErrorCodes::legacy();
     CHECK(codes.metres(1) == 0.01F);
     CHECK(codes.metres(255) == Approx(12'126.45));
-    for (int code = 2; code < 256; ++code) {
-        CHECK(step_to(codes, code) == Approx(1.0567));
-    }
+    for (int code = 2; code < 256; ++code) { CHECK(step_to(codes, code) == Approx(1.0567)); }
 }
 
 TEST_CASE("a ground's own codes reach beyond what it spans, in fine steps but at the ends") {

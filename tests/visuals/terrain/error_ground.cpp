@@ -21,9 +21,7 @@ double signed_area2(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
 models::heights::HeightField ErrorGround::stored_field(const GroundTiles& tiles) {
     std::vector<float> heights_m;
     for (int row = 0; row < tiles.rows(); ++row) {
-        for (int column = 0; column < tiles.columns(); ++column) {
-            heights_m.push_back(tiles.height_m(column, row));
-        }
+        for (int column = 0; column < tiles.columns(); ++column) { heights_m.push_back(tiles.height_m(column, row)); }
     }
     return {tiles.columns(), tiles.rows(), tiles.spacing_m(), std::move(heights_m)};
 }
@@ -47,17 +45,13 @@ MeshView any_view(Numbers& numbers, const models::heights::HeightField& field) {
     return view;
 }
 
-double any_error_px(Numbers& numbers) {
-    return std::exp(numbers.between(std::log(0.5), std::log(300.0)));
-}
+double any_error_px(Numbers& numbers) { return std::exp(numbers.between(std::log(0.5), std::log(300.0))); }
 
 std::vector<SampleTriangle> origin_triangles(
     const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
     REQUIRE(mesh.morphs.size() == mesh.vertices.size());
     std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
-    for (const std::uint32_t vertex : mesh.indices) {
-        used[vertex] = 1;
-    }
+    for (const std::uint32_t vertex : mesh.indices) { used[vertex] = 1; }
     std::vector<std::uint32_t> samples;
     std::vector<std::uint32_t> used_samples;
     bool in_place = true;
@@ -75,8 +69,8 @@ std::vector<SampleTriangle> origin_triangles(
     REQUIRE(in_place);
     std::vector<SampleTriangle> triangles;
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-        triangles.push_back(smallest_first(
-            samples[mesh.indices[k]], samples[mesh.indices[k + 1]], samples[mesh.indices[k + 2]]));
+        triangles.push_back(
+            smallest_first(samples[mesh.indices[k]], samples[mesh.indices[k + 1]], samples[mesh.indices[k + 2]]));
     }
     std::sort(used_samples.begin(), used_samples.end());
     REQUIRE(std::adjacent_find(used_samples.begin(), used_samples.end()) == used_samples.end());
@@ -85,27 +79,19 @@ std::vector<SampleTriangle> origin_triangles(
 
 std::vector<double> drawn_heights_m(
     const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
-    std::vector<double> heights_m(
-        static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()),
+    std::vector<double> heights_m(static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()),
         std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
         std::array<glm::dvec3, 3> corners{};
         for (std::size_t j = 0; j < 3; ++j) {
             const std::uint32_t vertex = mesh.indices[k + j];
             const VertexMorph& origin = mesh.morphs[vertex];
-            corners[j] = {
-                origin.column,
-                origin.row,
-                static_cast<double>(mesh.vertices[vertex].position_m.z) + eye_m.z};
+            corners[j] = {origin.column, origin.row, static_cast<double>(mesh.vertices[vertex].position_m.z) + eye_m.z};
         }
         const auto [a, b, c] = corners;
         const double whole = signed_area2(a, b, c);
-        const auto least = [](double p, double q, double r) {
-            return static_cast<int>(std::min({p, q, r}));
-        };
-        const auto most = [](double p, double q, double r) {
-            return static_cast<int>(std::max({p, q, r}));
-        };
+        const auto least = [](double p, double q, double r) { return static_cast<int>(std::min({p, q, r})); };
+        const auto most = [](double p, double q, double r) { return static_cast<int>(std::max({p, q, r})); };
         for (int row = least(a.y, b.y, c.y); row <= most(a.y, b.y, c.y); ++row) {
             for (int column = least(a.x, b.x, c.x); column <= most(a.x, b.x, c.x); ++column) {
                 const glm::dvec3 at(column, row, 0.0);

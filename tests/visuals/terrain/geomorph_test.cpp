@@ -27,8 +27,7 @@ Moves moves_of(ErrorGround& ground, const ErrorTarget& wanted) {
     std::vector<double> before_m;
     std::size_t vertices = 0;
     for (int frame = 0; frame < 200; ++frame) {
-        view.eye_m = {
-            -20.0 + move_m * frame, 13.0 - 0.5 * move_m * frame, 8.0 + 0.3 * move_m * frame};
+        view.eye_m = {-20.0 + move_m * frame, 13.0 - 0.5 * move_m * frame, 8.0 + 0.3 * move_m * frame};
         const GroundMesh mesh = ground.mesher.mesh(view, wanted);
         const auto after_m = drawn_heights_m(mesh, ground.field, {0.0, 0.0, view.eye_m.z});
         for (std::size_t k = 0; k < before_m.size(); ++k) {
@@ -41,8 +40,7 @@ Moves moves_of(ErrorGround& ground, const ErrorTarget& wanted) {
     return moves;
 }
 
-octant::models::heights::HeightField
-stretched(const octant::models::heights::HeightField& field, float times) {
+octant::models::heights::HeightField stretched(const octant::models::heights::HeightField& field, float times) {
     std::vector<float> heights_m;
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
@@ -54,8 +52,7 @@ stretched(const octant::models::heights::HeightField& field, float times) {
 
 } // namespace
 
-TEST_CASE(
-    "with geomorphs the ground moves no faster than the eye lets it, least on rugged ground") {
+TEST_CASE("with geomorphs the ground moves no faster than the eye lets it, least on rugged ground") {
     struct Ground {
         float height;   ///< times that of rough_field
         double fastest; ///< in wanted errors for a move by the whole distance
@@ -67,9 +64,7 @@ TEST_CASE(
             INFO(size << " samples, " << height << " times as high");
             ErrorGround ground(stretched(rough_field(size, size, 4), of.height));
             const double error_px = 4.0 * height;
-            const auto max_m = [&](double px) {
-                return of.fastest * 0.01 * px / 869.1 + 2e-5 * height;
-            };
+            const auto max_m = [&](double px) { return of.fastest * 0.01 * px / 869.1 + 2e-5 * height; };
             const Moves smooth = moves_of(ground, {error_px, 1'000'000, true});
             CHECK(smooth.vertices > 30);
             CHECK(smooth.largest_m < max_m(error_px));
@@ -107,8 +102,7 @@ TEST_CASE("vertices are between the middle of their ends and their samples by th
                 return static_cast<double>(mesh.vertices[vertex].position_m.z) + view.eye_m.z;
             };
             const double middle_m = 0.5 * (z_m(origin.parent_a) + z_m(origin.parent_b));
-            const double sample_m =
-                static_cast<double>(ground.field.height_m(origin.column, origin.row));
+            const double sample_m = static_cast<double>(ground.field.height_m(origin.column, origin.row));
             const double weight = static_cast<double>(origin.weight);
             CHECK(z_m(k) == Approx(middle_m + weight * (sample_m - middle_m)).margin(1e-4));
             between += origin.weight > 0.0F && origin.weight < 1.0F ? 1 : 0;
@@ -122,9 +116,8 @@ TEST_CASE("without geomorphs all vertices are at their samples, with them the me
     ErrorGround ground(rough_field(100, 70, 3));
     const MeshView view = any_view(numbers, ground.field);
     const MeshCopy rigid(ground.mesher.mesh(view, {3.0, any_triangles, false}));
-    CHECK(std::all_of(rigid.morphs.begin(), rigid.morphs.end(), [](const VertexMorph& origin) {
-        return origin.weight == 1.0F;
-    }));
+    CHECK(std::all_of(
+        rigid.morphs.begin(), rigid.morphs.end(), [](const VertexMorph& origin) { return origin.weight == 1.0F; }));
     MeshView whole = view;
     whole.frustum_normals.fill(glm::dvec3(0.0));
     const MeshCopy all_rigid(ground.mesher.mesh(whole, {3.0, any_triangles, false}));
@@ -133,12 +126,11 @@ TEST_CASE("without geomorphs all vertices are at their samples, with them the me
 }
 
 TEST_CASE("the ground at the border of fields of any size moves as slowly as within") {
-    // The wanted error grows by a share a frame. A vertex that bends the ground when it comes or
-    // goes moves it 18 to 38 times as far in metres per pixel of that error.
+    // The wanted error grows by a share a frame. A vertex that bends the ground when it comes or goes moves it 18 to 38
+    // times as far in metres per pixel of that error.
     constexpr double growth = 1.002;
     constexpr double max_m_for_a_pixel = 0.002;
-    for (const auto& [columns, rows] :
-         {std::pair{52, 37}, {65, 50}, {40, 65}, {100, 70}, {65, 65}}) {
+    for (const auto& [columns, rows] : {std::pair{52, 37}, {65, 50}, {40, 65}, {100, 70}, {65, 65}}) {
         INFO(columns << " x " << rows);
         ErrorGround ground(stretched(rough_field(columns, rows, 4), 3.0F));
         MeshView view;
@@ -154,8 +146,7 @@ TEST_CASE("the ground at the border of fields of any size moves as slowly as wit
             const GroundMesh mesh = ground.mesher.mesh(view, {error_px, 1'000'000, true});
             const auto after_m = drawn_heights_m(mesh, ground.field, {0.0, 0.0, view.eye_m.z});
             for (std::size_t k = 0; k < before_m.size(); ++k) {
-                largest_m_for_a_pixel =
-                    std::max(largest_m_for_a_pixel, std::abs(after_m[k] - before_m[k]) / error_px);
+                largest_m_for_a_pixel = std::max(largest_m_for_a_pixel, std::abs(after_m[k] - before_m[k]) / error_px);
             }
             came_or_went += frame > 0 && mesh.vertices.size() != vertices ? 1 : 0;
             vertices = mesh.vertices.size();

@@ -29,9 +29,7 @@ TEST_CASE("a single peak is an error of its own height for whatever leaves it ou
 TEST_CASE("a plane has no errors") {
     std::vector<float> heights_m;
     for (int row = 0; row < 33; ++row) {
-        for (int column = 0; column < 33; ++column) {
-            heights_m.push_back(static_cast<float>(3 * column - 2 * row));
-        }
+        for (int column = 0; column < 33; ++column) { heights_m.push_back(static_cast<float>(3 * column - 2 * row)); }
     }
     const GroundTiles ground = make_ground_tiles({33, 33, 10.0, heights_m});
     CHECK(ground.error_code(0, NodePart::Centre, 0, 0) == 0);
@@ -58,11 +56,8 @@ TEST_CASE("ranges contain the samples of their nodes and nothing else") {
                 for (int x = 0; x < at.columns; ++x) {
                     float lowest_m = 1e9F;
                     float highest_m = -1e9F;
-                    for (int row = y * at.edge; row <= std::min((y + 1) * at.edge, rows - 1);
-                         ++row) {
-                        for (int column = x * at.edge;
-                             column <= std::min((x + 1) * at.edge, columns - 1);
-                             ++column) {
+                    for (int row = y * at.edge; row <= std::min((y + 1) * at.edge, rows - 1); ++row) {
+                        for (int column = x * at.edge; column <= std::min((x + 1) * at.edge, columns - 1); ++column) {
                             lowest_m = std::min(lowest_m, field.height_m(column, row));
                             highest_m = std::max(highest_m, field.height_m(column, row));
                         }
@@ -79,9 +74,7 @@ TEST_CASE("ranges contain the samples of their nodes and nothing else") {
 
 TEST_CASE("fractions of a metre are kept to half a unit") {
     std::vector<float> heights_m;
-    for (int i = 0; i < 400; ++i) {
-        heights_m.push_back(1000.0F + 700.0F * std::sin(static_cast<float>(i)));
-    }
+    for (int i = 0; i < 400; ++i) { heights_m.push_back(1000.0F + 700.0F * std::sin(static_cast<float>(i))); }
     const models::heights::HeightField field(20, 20, 5.0, heights_m);
     const GroundTiles ground = make_ground_tiles(field);
     CHECK(ground.shape().height_unit_m == 0x1p-5);

@@ -24,8 +24,7 @@ struct Place {
 };
 
 Place place_of(std::uint32_t sample, const models::heights::HeightField& field) {
-    return {
-        static_cast<long>(sample) % field.columns(), static_cast<long>(sample) / field.columns()};
+    return {static_cast<long>(sample) % field.columns(), static_cast<long>(sample) / field.columns()};
 }
 
 long twice_plan_area(const SampleTriangle& t, const models::heights::HeightField& field) {
@@ -48,10 +47,8 @@ struct Passage {
     double last = std::numeric_limits<double>::infinity();
 };
 
-/// Where a ray from the origin is inside a counter-clockwise triangle, if it is for more than a
-/// moment.
-std::optional<Passage>
-passage_through(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& direction) {
+/// Where a ray from the origin is inside a counter-clockwise triangle, if it is for more than a moment.
+std::optional<Passage> passage_through(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& direction) {
     Passage inside;
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec2 edge = corners[(k + 1) % 3] - corners[k];
@@ -71,18 +68,13 @@ passage_through(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& dire
 }
 
 /// Directions between each two neighbouring ones of those to the corners.
-std::vector<glm::dvec2>
-directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
+std::vector<glm::dvec2> directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
     std::vector<double> angles_rad;
     for (const auto& corners : triangles) {
-        for (const glm::dvec2& corner : corners) {
-            angles_rad.push_back(std::atan2(corner.y, corner.x));
-        }
+        for (const glm::dvec2& corner : corners) { angles_rad.push_back(std::atan2(corner.y, corner.x)); }
     }
     std::sort(angles_rad.begin(), angles_rad.end());
-    if (!angles_rad.empty()) {
-        angles_rad.push_back(angles_rad.front() + 2.0 * std::numbers::pi);
-    }
+    if (!angles_rad.empty()) { angles_rad.push_back(angles_rad.front() + 2.0 * std::numbers::pi); }
     std::vector<glm::dvec2> directions;
     constexpr double min_gap_rad = 1e-7;
     for (std::size_t k = 1; k < angles_rad.size(); ++k) {
@@ -97,9 +89,7 @@ directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
 } // namespace
 
 SampleTriangle smallest_first(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (a < b && a < c) {
-        return {a, b, c};
-    }
+    if (a < b && a < c) { return {a, b, c}; }
     return b < c ? SampleTriangle{b, c, a} : SampleTriangle{c, a, b};
 }
 
@@ -123,8 +113,7 @@ models::heights::HeightField rough_field(int columns, int rows, std::uint64_t se
         for (int column = 0; column < columns; ++column) {
             const double hills = 6.0 * std::sin(column * wave) * std::cos(row * wave * 0.7);
             const double patch = std::max(std::sin(column * 0.11 + row * 0.07), 0.0);
-            heights.push_back(static_cast<float>(
-                high * high * (hills + noise * patch * numbers.between(-1.0, 1.0))));
+            heights.push_back(static_cast<float>(high * high * (hills + noise * patch * numbers.between(-1.0, 1.0))));
         }
     }
     return {columns, rows, 1.0, std::move(heights)};
@@ -143,9 +132,7 @@ models::heights::HeightField spiky_field(int columns, int rows, std::uint64_t se
 
 std::vector<std::uint32_t> numbered_colours(const models::heights::HeightField& field) {
     std::vector<std::uint32_t> colours(sample_count(field.columns(), field.rows()));
-    for (std::size_t k = 0; k < colours.size(); ++k) {
-        colours[k] = static_cast<std::uint32_t>(k) * 7U + 3U;
-    }
+    for (std::size_t k = 0; k < colours.size(); ++k) { colours[k] = static_cast<std::uint32_t>(k) * 7U + 3U; }
     return colours;
 }
 
@@ -170,16 +157,13 @@ std::vector<SampleTriangle> sample_triangles(
     REQUIRE(all_found);
     std::vector<SampleTriangle> triangles;
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-        triangles.push_back(smallest_first(
-            sample_of[mesh.indices[k]],
-            sample_of[mesh.indices[k + 1]],
-            sample_of[mesh.indices[k + 2]]));
+        triangles.push_back(
+            smallest_first(sample_of[mesh.indices[k]], sample_of[mesh.indices[k + 1]], sample_of[mesh.indices[k + 2]]));
     }
     return triangles;
 }
 
-GroundCheck checked_ground(
-    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
+GroundCheck checked_ground(const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
     GroundCheck check;
     std::vector<std::uint64_t> edges; // smaller sample, larger sample, direction
     edges.reserve(3 * triangles.size());
@@ -197,67 +181,50 @@ GroundCheck checked_ground(
     std::sort(edges.begin(), edges.end());
     for (std::size_t k = 0; k < edges.size();) {
         std::size_t next = k + 1;
-        while (next < edges.size() && edges[next] >> 1U == edges[k] >> 1U) {
-            ++next;
-        }
+        while (next < edges.size() && edges[next] >> 1U == edges[k] >> 1U) { ++next; }
         const bool once_each_way = next == k + 2 && edges[k] != edges[k + 1];
         const auto a = static_cast<std::uint32_t>(edges[k] >> 32U);
         const auto b = static_cast<std::uint32_t>(edges[k] >> 1U & 0x7fffffffU);
-        if (!once_each_way && !(next == k + 1 && on_border(a, b, field))) {
-            ++check.unmatched_edges;
-        }
+        if (!once_each_way && !(next == k + 1 && on_border(a, b, field))) { ++check.unmatched_edges; }
         k = next;
     }
     return check;
 }
 
-bool ground_triangles_conform(
-    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
+bool ground_triangles_conform(const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
     const GroundCheck check = checked_ground(triangles, field);
     return check.counter_clockwise && check.unmatched_edges == 0 &&
            check.signed_area2 == 2L * (field.columns() - 1) * (field.rows() - 1);
 }
 
 QuadtreeOptions random_options(Numbers& numbers) {
-    return {
-        numbers.coin() ? Roughness::Printed : Roughness::Midpoint,
+    return {numbers.coin() ? Roughness::Printed : Roughness::Midpoint,
         numbers.next() % 4 == 0 ? RoughnessPropagation::Printed : RoughnessPropagation::CrackFree,
         numbers.coin() ? 2.0 : 1.6};
 }
 
 MeshView random_view(Numbers& numbers, const models::heights::HeightField& field) {
     const glm::dvec2 reach = field.half_extent_m() * 1.3;
-    const glm::dvec3 eye_m(
-        numbers.between(-reach.x, reach.x),
-        numbers.between(-reach.y, reach.y),
+    const glm::dvec3 eye_m(numbers.between(-reach.x, reach.x), numbers.between(-reach.y, reach.y),
         numbers.between(-5.0, numbers.coin() ? 10.0 : 80.0));
     MeshView view;
     view.eye_m = eye_m;
     if (numbers.next() % 4 != 0) {
-        view = camera_view(
-            eye_m,
-            numbers.between(0.0, 6.28),
-            numbers.between(-1.2, 0.4),
-            numbers.between(0.1, 1.6));
+        view = camera_view(eye_m, numbers.between(0.0, 6.28), numbers.between(-1.2, 0.4), numbers.between(0.1, 1.6));
     }
     view.magnification = numbers.coin() ? 1.0 : numbers.between(1.0, 8.0);
     return view;
 }
 
 long wrongly_ordered_rays(
-    const std::vector<SampleTriangle>& triangles,
-    const models::heights::HeightField& field,
-    const glm::dvec3& eye_m) {
+    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
     std::vector<std::array<glm::dvec2, 3>> corners;
     const auto seen_m = [&](std::uint32_t sample) {
         const Place at = place_of(sample, field);
-        const glm::dvec3 world_m =
-            field.sample_m(static_cast<int>(at.column), static_cast<int>(at.row));
+        const glm::dvec3 world_m = field.sample_m(static_cast<int>(at.column), static_cast<int>(at.row));
         return glm::dvec2(world_m - eye_m);
     };
-    for (const SampleTriangle& t : triangles) {
-        corners.push_back({seen_m(t.a), seen_m(t.b), seen_m(t.c)});
-    }
+    for (const SampleTriangle& t : triangles) { corners.push_back({seen_m(t.a), seen_m(t.b), seen_m(t.c)}); }
     long wrong = 0;
     constexpr double tolerance_m = 1e-6;
     for (const glm::dvec2& direction : directions_between(corners)) {
@@ -276,20 +243,15 @@ long wrongly_ordered_rays(
 
 MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, double fov_rad) {
     const glm::dvec3 ahead(
-        std::cos(yaw_rad) * std::cos(pitch_rad),
-        std::sin(yaw_rad) * std::cos(pitch_rad),
-        std::sin(pitch_rad));
+        std::cos(yaw_rad) * std::cos(pitch_rad), std::sin(yaw_rad) * std::cos(pitch_rad), std::sin(pitch_rad));
     const glm::dvec3 right(std::sin(yaw_rad), -std::cos(yaw_rad), 0.0);
     const glm::dvec3 up = glm::cross(right, ahead);
     const double tall = std::tan(0.5 * fov_rad);
     const double wide = tall * 1.5;
     MeshView view;
     view.eye_m = eye_m;
-    view.frustum_normals = {
-        glm::normalize(ahead * wide + right),
-        glm::normalize(ahead * wide - right),
-        glm::normalize(ahead * tall + up),
-        glm::normalize(ahead * tall - up)};
+    view.frustum_normals = {glm::normalize(ahead * wide + right), glm::normalize(ahead * wide - right),
+        glm::normalize(ahead * tall + up), glm::normalize(ahead * tall - up)};
     return view;
 }
 

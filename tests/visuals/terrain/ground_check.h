@@ -12,8 +12,7 @@ namespace octant::visuals::terrain::test {
 /// Small generator of numbers that are the same everywhere.
 class Numbers {
 public:
-    explicit Numbers(std::uint64_t seed)
-        : state_(seed * 0x9e3779b97f4a7c15ULL + 1) {}
+    explicit Numbers(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ULL + 1) {}
 
     std::uint32_t next() {
         state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -47,10 +46,7 @@ std::vector<std::uint32_t> numbered_colours(const models::heights::HeightField& 
 /// A tree and a mesher over a field that stays where it is.
 struct Ground {
     explicit Ground(models::heights::HeightField made, const QuadtreeOptions& options = {})
-        : field(std::move(made))
-        , colours(numbered_colours(field))
-        , tree(field, options)
-        , mesher(tree, colours) {}
+        : field(std::move(made)), colours(numbered_colours(field)), tree(field, options), mesher(tree, colours) {}
 
     models::heights::HeightField field;
     std::vector<std::uint32_t> colours;
@@ -69,23 +65,21 @@ struct SampleTriangle {
 /// A triangle with its corners turned round.
 SampleTriangle smallest_first(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-/// The mesh in whole samples, in drawing order. Finds the sample of a vertex by its position and
-/// fails the test where there is none.
+/// The mesh in whole samples, in drawing order. Finds the sample of a vertex by its position and fails the test where
+/// there is none.
 std::vector<SampleTriangle> sample_triangles(
     const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 
 struct GroundCheck {
     bool counter_clockwise = true; ///< every triangle, seen from above, with an area
-    long signed_area2 = 0;           ///< sum over the triangles in plan, spacings^2
+    long signed_area2 = 0;         ///< sum over the triangles in plan, spacings^2
     long unmatched_edges = 0;      ///< inside the field, not between exactly two triangles
 };
 
-GroundCheck checked_ground(
-    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field);
+GroundCheck checked_ground(const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field);
 
 /// The triangles cover the whole field once, without a corner on another's edge.
-bool ground_triangles_conform(
-    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field);
+bool ground_triangles_conform(const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field);
 
 /// Any of the options under which trees are built.
 QuadtreeOptions random_options(Numbers& numbers);
@@ -93,13 +87,11 @@ QuadtreeOptions random_options(Numbers& numbers);
 /// An eye in, beside, above or below the field; every fourth view is not culled.
 MeshView random_view(Numbers& numbers, const models::heights::HeightField& field);
 
-/// How many plan rays from the eye pass two of the triangles, given in drawing order, in the wrong
-/// one: the earlier nearer to the eye. One ray between each two neighbouring corners as seen from
-/// the eye, so that every triangle that can be seen through another in plan is.
+/// How many plan rays from the eye pass two of the triangles, given in drawing order, in the wrong one: the earlier
+/// nearer to the eye. One ray between each two neighbouring corners as seen from the eye, so that every triangle that
+/// can be seen through another in plan is.
 long wrongly_ordered_rays(
-    const std::vector<SampleTriangle>& triangles,
-    const models::heights::HeightField& field,
-    const glm::dvec3& eye_m);
+    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 
 /// Frustum of a camera: yaw counter-clockwise from east, pitch upward.
 MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, double fov_rad);

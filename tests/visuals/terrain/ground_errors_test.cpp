@@ -23,15 +23,13 @@ struct Point {
 
 enum class Look { AsBuilt, AtAll };
 
-/// The codes of every sample's error in the padded square, straight from their definition. Errors
-/// are multiplied by a factor beside 1 before they are coded.
+/// The codes of every sample's error in the padded square, straight from their definition. Errors are multiplied by a
+/// factor beside 1 before they are coded.
 class PlainErrors {
 public:
     PlainErrors(const models::heights::HeightField& field, const ErrorCodes& meaning, double factor)
-        : field_(field)
-        , meaning_(meaning)
-        , factor_(factor)
-        , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge) {
+        : field_(field), meaning_(meaning), factor_(factor),
+          root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge) {
         codes_.fill(std::vector<std::uint8_t>(index(root_edge_, root_edge_) + 1));
         for (int half = 1; half < root_edge_; half *= 2) {
             for_each(half, false);
@@ -43,20 +41,16 @@ public:
         return codes_[static_cast<std::size_t>(morph_margin)][index(x, y)];
     }
 
-    /// The largest deviation of samples from the triangles whose longest edge a sample halves;
-    /// `half`: from the middle to a corner or a side of the square around them.
+    /// The largest deviation of samples from the triangles whose longest edge a sample halves; `half`: from the middle
+    /// to a corner or a side of the square around them.
     double own(Point middle, int half, Look look) const {
         const Point end = end_of(middle, half);
         const Point apex{-end.y, end.x};
         double error = 0.0;
         for (const int side : {1, -1}) {
-            const std::array<Point, 3> corners = {
-                {{middle.x + end.x, middle.y + end.y},
-                 {middle.x - end.x, middle.y - end.y},
-                 {middle.x + side * apex.x, middle.y + side * apex.y}}};
-            if (!padded(corners[2].x, corners[2].y)) {
-                continue;
-            }
+            const std::array<Point, 3> corners = {{{middle.x + end.x, middle.y + end.y},
+                {middle.x - end.x, middle.y - end.y}, {middle.x + side * apex.x, middle.y + side * apex.y}}};
+            if (!padded(corners[2].x, corners[2].y)) { continue; }
             const int stride = look == Look::AtAll ? 1 : std::max(1, half / 16);
             error = std::max(error, of_triangle(corners, stride));
         }
@@ -64,31 +58,21 @@ public:
     }
 
 private:
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y * (root_edge_ + 1) + x);
-    }
+    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * (root_edge_ + 1) + x); }
 
-    bool padded(int x, int y) const {
-        return x >= 0 && y >= 0 && x <= root_edge_ && y <= root_edge_;
-    }
+    bool padded(int x, int y) const { return x >= 0 && y >= 0 && x <= root_edge_ && y <= root_edge_; }
 
     static bool is_odd(int x, int half) { return (x / half) % 2 != 0; }
 
     /// From the middle to one end of the edge that a sample halves.
     static Point end_of(Point middle, int half) {
         const bool odd_x = is_odd(middle.x, half);
-        if (!odd_x || !is_odd(middle.y, half)) {
-            return odd_x ? Point{half, 0} : Point{0, half};
-        }
+        if (!odd_x || !is_odd(middle.y, half)) { return odd_x ? Point{half, 0} : Point{0, half}; }
         // The parent's centre has the coordinates that are odd multiples of two halves.
-        return {
-            is_odd(middle.x + half, 2 * half) ? half : -half,
-            is_odd(middle.y + half, 2 * half) ? half : -half};
+        return {is_odd(middle.x + half, 2 * half) ? half : -half, is_odd(middle.y + half, 2 * half) ? half : -half};
     }
 
-    std::uint8_t coded(double error_m) const {
-        return meaning_.code_of(static_cast<float>(error_m * factor_));
-    }
+    std::uint8_t coded(double error_m) const { return meaning_.code_of(static_cast<float>(error_m * factor_)); }
 
     /// All middles of edges that are two halves long, or all centres of such nodes.
     void for_each(int half, bool centres) {
@@ -124,25 +108,20 @@ private:
 
     std::uint8_t with_margin(Point at, int half, std::uint8_t below) const {
         const Point end = end_of(at, half);
-        const double ends_m =
-            height({at.x + end.x, at.y + end.y}) + height({at.x - end.x, at.y - end.y});
+        const double ends_m = height({at.x + end.x, at.y + end.y}) + height({at.x - end.x, at.y - end.y});
         const double move_m = std::abs(height(at) - 0.5 * ends_m);
         const double below_m = static_cast<double>(meaning_.metres(below));
         const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
         const double ease = std::clamp(1200.0 / relief_m, 1.0, 1.8);
         const double min_m = below_m + move_m / (4.7 * ease);
         const double fastest = ease * std::clamp(2.0 * 512.0 * min_m / relief_m, 1.2, 4.7);
-        return below == 0 || move_m == 0.0 ? below
-                                           : std::max(below, coded(below_m + move_m / fastest));
+        return below == 0 || move_m == 0.0 ? below : std::max(below, coded(below_m + move_m / fastest));
     }
 
-    /// The largest error of the nodes with an edge of one stride in the large nodes that a sample's
-    /// triangles touch.
+    /// The largest error of the nodes with an edge of one stride in the large nodes that a sample's triangles touch.
     double unseen(Point at, int half) const {
         const int stride = half / 16;
-        if (stride < 2) {
-            return 0.0;
-        }
+        if (stride < 2) { return 0.0; }
         const int node = 2 * half;
         const int min_x = (at.x - half / 2) / node * node;
         const int min_y = (at.y - half / 2) / node * node;
@@ -164,13 +143,11 @@ private:
         return x - half < field_.columns() - 1 && y - half < field_.rows() - 1;
     }
 
-    static double cross(Point a, Point b, Point c) {
-        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    }
+    static double cross(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
     double plane(const std::array<Point, 3>& at, Point p) const {
         return (cross(at[1], at[2], p) * height(at[0]) + cross(at[2], at[0], p) * height(at[1]) +
-                cross(at[0], at[1], p) * height(at[2])) /
+                   cross(at[0], at[1], p) * height(at[2])) /
                cross(at[0], at[1], at[2]);
     }
 
@@ -184,9 +161,7 @@ private:
                 const double a = cross(at[1], at[2], p) / area;
                 const double b = cross(at[2], at[0], p) / area;
                 const double c = cross(at[0], at[1], p) / area;
-                if (a >= 0.0 && b >= 0.0 && c >= 0.0) {
-                    error = std::max(error, std::abs(height(p) - plane(at, p)));
-                }
+                if (a >= 0.0 && b >= 0.0 && c >= 0.0) { error = std::max(error, std::abs(height(p) - plane(at, p))); }
             }
         }
         return error;
@@ -215,15 +190,9 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
                         check(ground.error_code(level, part, x, y, morph_margin), morph_margin, sample, half);
                     }
                 };
-                if (x < at.columns) {
-                    check_part(NodePart::South, {corner.x + half, corner.y});
-                }
-                if (y < at.rows) {
-                    check_part(NodePart::West, {corner.x, corner.y + half});
-                }
-                if (x < at.columns && y < at.rows) {
-                    check_part(NodePart::Centre, {corner.x + half, corner.y + half});
-                }
+                if (x < at.columns) { check_part(NodePart::South, {corner.x + half, corner.y}); }
+                if (y < at.rows) { check_part(NodePart::West, {corner.x, corner.y + half}); }
+                if (x < at.columns && y < at.rows) { check_part(NodePart::Centre, {corner.x + half, corner.y + half}); }
             }
         }
     }
@@ -236,8 +205,8 @@ int wrong_errors(const models::heights::HeightField& field) {
     const PlainErrors most(field, ground.codes(), 1.0 + 1e-6);
     int wrong = 0;
     for_each_error(ground, [&](std::uint8_t code, MorphMargin morph_margin, Point sample, int /*half*/) {
-        wrong += code < least.code(sample.x, sample.y, morph_margin) ||
-                 code > most.code(sample.x, sample.y, morph_margin);
+        wrong +=
+            code < least.code(sample.x, sample.y, morph_margin) || code > most.code(sample.x, sample.y, morph_margin);
     });
     return wrong;
 }
@@ -256,8 +225,7 @@ int errors_too_small(const models::heights::HeightField& field) {
 
 } // namespace
 
-TEST_CASE(
-    "errors are the largest deviations in the diamonds, saturated with room to move and without") {
+TEST_CASE("errors are the largest deviations in the diamonds, saturated with room to move and without") {
     for (const int size : {3, 5, 9, 17, 33, 65, 129}) {
         INFO(size);
         CHECK(wrong_errors(rough_field(size, size, static_cast<unsigned>(size))) == 0);

@@ -18,10 +18,7 @@ namespace {
 
 /// Least height of a line above the ground at many places along it.
 double sampled_clearance_m(
-    const GroundSamples& ground,
-    const glm::dvec3& from_m,
-    const glm::dvec3& to_m,
-    double radius_m) {
+    const GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m) {
     double min_m = std::numeric_limits<double>::infinity();
     constexpr int steps = 20000;
     const double length_m = glm::distance(glm::dvec2(from_m), glm::dvec2(to_m));
@@ -29,11 +26,10 @@ double sampled_clearance_m(
         const double share = static_cast<double>(k) / steps;
         const glm::dvec3 at_m = glm::mix(from_m, to_m, share);
         if (const auto height_m = ground_height_m(ground, at_m.x, at_m.y)) {
-            // Both ground and target sink: the line rises by the difference between its chord and
-            // the ground's curve.
+            // Both ground and target sink: the line rises by the difference between its chord and the ground's curve.
             const double way_m = share * length_m;
-            const double rise_m = curvature_drop_m(way_m * way_m, radius_m) -
-                                  share * curvature_drop_m(length_m * length_m, radius_m);
+            const double rise_m =
+                curvature_drop_m(way_m * way_m, radius_m) - share * curvature_drop_m(length_m * length_m, radius_m);
             min_m = std::min(min_m, at_m.z + rise_m - *height_m);
         }
     }
@@ -52,9 +48,7 @@ TEST_CASE("height between samples is bilinear, and nothing outside") {
         const auto own = ground_height_m(ground, x_m, y_m);
         const auto fields = field.height_at(x_m, y_m);
         REQUIRE(own.has_value() == fields.has_value());
-        if (own) {
-            CHECK(*own == Approx(*fields).margin(1e-9));
-        }
+        if (own) { CHECK(*own == Approx(*fields).margin(1e-9)); }
     }
 }
 
@@ -93,19 +87,14 @@ TEST_CASE("clearances agree with sampling, on flat and curved earths, from insid
     int hidden = 0;
     for (int k = 0; k < 200; ++k) {
         const auto point = [&] {
-            return glm::dvec3(
-                numbers.between(-25.0, 25.0),
-                numbers.between(-20.0, 20.0),
-                numbers.between(0.0, 12.0));
+            return glm::dvec3(numbers.between(-25.0, 25.0), numbers.between(-20.0, 20.0), numbers.between(0.0, 12.0));
         };
         const glm::dvec3 from_m = point();
         const glm::dvec3 to_m = point();
         const double radius_m = numbers.coin() ? 0.0 : 200.0;
         const LineOfSight line = line_of_sight(ground, from_m, to_m, radius_m);
         const double sampled_m = sampled_clearance_m(ground, from_m, to_m, radius_m);
-        if (std::isinf(sampled_m)) {
-            continue;
-        }
+        if (std::isinf(sampled_m)) { continue; }
         CHECK(line.clearance_m <= sampled_m + 1e-9);
         CHECK(line.clearance_m == Approx(sampled_m).margin(0.01));
         hidden += line.visible ? 0 : 1;
@@ -120,8 +109,8 @@ TEST_CASE("a ray meets the ground where nothing before it hides that place") {
     int hits = 0;
     for (int k = 0; k < 200; ++k) {
         const glm::dvec3 from_m(numbers.between(-25.0, 25.0), numbers.between(-20.0, 20.0), 15.0);
-        const glm::dvec3 direction = glm::normalize(glm::dvec3(
-            numbers.between(-1.0, 1.0), numbers.between(-1.0, 1.0), numbers.between(-1.0, 0.2)));
+        const glm::dvec3 direction = glm::normalize(
+            glm::dvec3(numbers.between(-1.0, 1.0), numbers.between(-1.0, 1.0), numbers.between(-1.0, 0.2)));
         const auto hit_m = intersect_ground(ground, from_m, direction, 100.0, 0.0);
         if (!hit_m) {
             const glm::dvec3 end_m = from_m + direction * 100.0;

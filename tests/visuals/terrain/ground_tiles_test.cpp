@@ -39,9 +39,8 @@ TEST_CASE("corners and nodes hold the samples of their places, beyond the field 
     for (const auto& [columns, rows] : sizes) {
         const models::heights::HeightField field = rough_field(columns, rows);
         const GroundTiles ground = make_ground_tiles(field);
-        const auto at = [&field](int column, int row) {
-            return static_cast<float>(padded_height_m(field, column, row));
-        };
+        const auto at = [&field](
+                            int column, int row) { return static_cast<float>(padded_height_m(field, column, row)); };
         INFO(columns << " x " << rows);
         CHECK(ground.corner_m(0) == at(0, 0));
         const int end = ground.layout().level(0).edge;
@@ -58,16 +57,13 @@ TEST_CASE("corners and nodes hold the samples of their places, beyond the field 
                     const int x = column * edge;
                     const int y = row * edge;
                     if (column < layout.columns) {
-                        wrong +=
-                            ground.height_m(level, NodePart::South, column, row) != at(x + half, y);
+                        wrong += ground.height_m(level, NodePart::South, column, row) != at(x + half, y);
                     }
                     if (row < layout.rows) {
-                        wrong +=
-                            ground.height_m(level, NodePart::West, column, row) != at(x, y + half);
+                        wrong += ground.height_m(level, NodePart::West, column, row) != at(x, y + half);
                     }
                     if (column < layout.columns && row < layout.rows) {
-                        wrong += ground.height_m(level, NodePart::Centre, column, row) !=
-                                 at(x + half, y + half);
+                        wrong += ground.height_m(level, NodePart::Centre, column, row) != at(x + half, y + half);
                     }
                 }
             }

@@ -24,8 +24,7 @@ namespace {
 MeshView pitched(double pitch_deg, double roll_deg = 0.0) {
     const double pitch = glm::radians(pitch_deg);
     const glm::dvec3 eye_m(0.0, -120.0, 40.0);
-    MeshView view =
-        TestPicture(eye_m, eye_m + glm::dvec3(0.0, std::cos(pitch), std::sin(pitch))).view();
+    MeshView view = TestPicture(eye_m, eye_m + glm::dvec3(0.0, std::cos(pitch), std::sin(pitch))).view();
     for (glm::dvec3& normal : view.frustum_normals) {
         normal = glm::angleAxis(glm::radians(roll_deg), view.ahead) * normal;
     }
@@ -35,9 +34,7 @@ MeshView pitched(double pitch_deg, double roll_deg = 0.0) {
 /// How deep inside the frustum a direction is, in degrees; below zero outside.
 double inside_deg(const MeshView& view, const glm::dvec3& direction) {
     double least = 1.0;
-    for (const glm::dvec3& normal : view.frustum_normals) {
-        least = std::min(least, glm::dot(normal, direction));
-    }
+    for (const glm::dvec3& normal : view.frustum_normals) { least = std::min(least, glm::dot(normal, direction)); }
     return glm::degrees(std::asin(least));
 }
 
@@ -48,18 +45,15 @@ glm::dvec3 direction(double elevation_deg) {
 }
 
 /// Upwards in a picture to the north that is not rolled.
-glm::dvec3 up_of(const MeshView& view) {
-    return {0.0, -view.ahead.z, view.ahead.y};
-}
+glm::dvec3 up_of(const MeshView& view) { return {0.0, -view.ahead.z, view.ahead.y}; }
 
-/// Ground as real ground is, rougher the larger the step, with one mountain in its south-west that
-/// no view to the north shows.
+/// Ground as real ground is, rougher the larger the step, with one mountain in its south-west that no view to the north
+/// shows.
 models::heights::HeightField field_with_mountain(int size) {
     std::vector<double> heights_m(static_cast<std::size_t>(size * size), 0.0);
     for (int step = 1; step < size; step *= 2) {
         const int across = (size - 1) / step + 2;
-        const auto noise_m =
-            tests::rough_heights(across, across, static_cast<unsigned>(step), 1000);
+        const auto noise_m = tests::rough_heights(across, across, static_cast<unsigned>(step), 1000);
         const auto at = [&](int column, int row) {
             return static_cast<double>(noise_m[static_cast<std::size_t>(row * across + column)]);
         };
@@ -69,16 +63,14 @@ models::heights::HeightField field_with_mountain(int size) {
             const glm::dvec2 share = place - glm::dvec2(low);
             const double south = glm::mix(at(low.x, low.y), at(low.x + 1, low.y), share.x);
             const double north = glm::mix(at(low.x, low.y + 1), at(low.x + 1, low.y + 1), share.x);
-            heights_m[static_cast<std::size_t>(k)] +=
-                0.002 * step * glm::mix(south, north, share.y);
+            heights_m[static_cast<std::size_t>(k)] += 0.002 * step * glm::mix(south, north, share.y);
         }
     }
     std::vector<float> whole_m;
     for (int k = 0; k < size * size; ++k) {
         const int off = std::max(std::abs(k % size - size / 5), std::abs(k / size - size / 5));
         const double mountain_m = 300.0 * std::max(5 - off, 0);
-        whole_m.push_back(
-            static_cast<float>(std::round(heights_m[static_cast<std::size_t>(k)]) + mountain_m));
+        whole_m.push_back(static_cast<float>(std::round(heights_m[static_cast<std::size_t>(k)]) + mountain_m));
     }
     return {size, size, 30.0, whole_m};
 }
@@ -106,8 +98,7 @@ PullOut pull_out(BisectionMesher& mesher, bool geomorphs) {
             found.first_px = mesh.error_px;
             found.first_triangles = mesh.counters.triangles;
         } else {
-            found.max_change_px =
-                std::max(found.max_change_px, std::abs(mesh.error_px - before_px));
+            found.max_change_px = std::max(found.max_change_px, std::abs(mesh.error_px - before_px));
         }
         before_px = mesh.error_px;
     }
@@ -118,8 +109,7 @@ PullOut pull_out(BisectionMesher& mesher, bool geomorphs) {
 
 constexpr ElevationBand far_band{glm::radians(-3.0), glm::radians(1.0)};
 
-TEST_CASE(
-    "a view is turned until its border reaches a band and widened until it contains the band") {
+TEST_CASE("a view is turned until its border reaches a band and widened until it contains the band") {
     for (const double roll_deg : {0.0, 30.0, 90.0, 147.0, 180.0}) {
         for (const double pitch_deg : {-80.0, -50.0, 42.0, 75.0}) {
             INFO("roll " << roll_deg << ", pitch " << pitch_deg);
@@ -130,12 +120,10 @@ TEST_CASE(
             // Looking above the band, 4 degrees below it belong to it.
             const double near_deg = pitch_deg < 0.0 ? -3.0 : 1.0;
             const double end_deg = pitch_deg < 0.0 ? 1.0 : -7.0;
-            const double turned_deg =
-                pitch_deg + std::copysign(glm::degrees(there->turned_rad), near_deg - pitch_deg);
+            const double turned_deg = pitch_deg + std::copysign(glm::degrees(there->turned_rad), near_deg - pitch_deg);
             const MeshView own = pitched(turned_deg, roll_deg);
             CHECK(inside_deg(own, direction(near_deg)) == Approx(0.0).margin(0.01));
-            for (double up_deg = turned_deg; up_deg != end_deg;
-                 up_deg += std::clamp(end_deg - up_deg, -1.0, 1.0)) {
+            for (double up_deg = turned_deg; up_deg != end_deg; up_deg += std::clamp(end_deg - up_deg, -1.0, 1.0)) {
                 CHECK(inside_deg(there->view, direction(up_deg)) > 0.0);
             }
             CHECK(inside_deg(there->view, direction(end_deg)) > 0.7);
@@ -153,8 +141,7 @@ TEST_CASE("a view whose border is in the band is widened and not turned") {
         CHECK(there->view.ahead == view.ahead);
         for (const double across_deg : {-36.0, 36.0}) {
             for (const double up_deg : {-22.4, 22.4}) {
-                const glm::dvec3 corner = view.ahead +
-                                          std::tan(glm::radians(up_deg)) * up_of(view) +
+                const glm::dvec3 corner = view.ahead + std::tan(glm::radians(up_deg)) * up_of(view) +
                                           std::tan(glm::radians(across_deg)) * glm::dvec3(1, 0, 0);
                 CHECK(inside_deg(there->view, glm::normalize(corner)) > 0.0);
             }
@@ -163,9 +150,7 @@ TEST_CASE("a view whose border is in the band is widened and not turned") {
 }
 
 TEST_CASE("a view with the band in the picture is not turned, nor is one without a direction") {
-    for (const double pitch_deg : {-20.0, -5.0, 12.0}) {
-        CHECK_FALSE(turned_to_band(pitched(pitch_deg), far_band));
-    }
+    for (const double pitch_deg : {-20.0, -5.0, 12.0}) { CHECK_FALSE(turned_to_band(pitched(pitch_deg), far_band)); }
     CHECK(turned_to_band(pitched(-23.0), far_band));
     CHECK_FALSE(turned_to_band(pitched(-90.0), far_band));
     MeshView everywhere = pitched(-60.0);
@@ -180,11 +165,10 @@ TEST_CASE("while a view is pulled out of a dive, the error within a budget chang
     ErrorGround ground(test::spiky_field(257, 257, 6));
     const PullOut exact = pull_out(ground.mesher, false);
     const PullOut raise_to_horizon_error = pull_out(ground.mesher, true);
-    INFO(
-        "exact: " << exact.first_px << " to " << exact.last_px << ", by at most "
-                  << exact.max_change_px << "; eased: " << raise_to_horizon_error.first_px << " to "
-                  << raise_to_horizon_error.last_px << ", by at most " << raise_to_horizon_error.max_change_px << ", "
-                  << raise_to_horizon_error.first_triangles << " to " << raise_to_horizon_error.last_triangles << " triangles");
+    INFO("exact: " << exact.first_px << " to " << exact.last_px << ", by at most " << exact.max_change_px << "; eased: "
+                   << raise_to_horizon_error.first_px << " to " << raise_to_horizon_error.last_px << ", by at most "
+                   << raise_to_horizon_error.max_change_px << ", " << raise_to_horizon_error.first_triangles << " to "
+                   << raise_to_horizon_error.last_triangles << " triangles");
     CHECK(raise_to_horizon_error.max_change_px < 0.5 * exact.max_change_px);
     CHECK(raise_to_horizon_error.first_px > exact.first_px);
     CHECK(raise_to_horizon_error.max_triangles <= 3000);

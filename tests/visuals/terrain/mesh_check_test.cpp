@@ -12,8 +12,7 @@ namespace {
 
 struct Changed {
     explicit Changed(const GroundMesh& mesh)
-        : vertices(mesh.vertices.begin(), mesh.vertices.end())
-        , indices(mesh.indices.begin(), mesh.indices.end()) {}
+        : vertices(mesh.vertices.begin(), mesh.vertices.end()), indices(mesh.indices.begin(), mesh.indices.end()) {}
 
     GroundMesh mesh() const {
         GroundMesh mesh;
@@ -34,8 +33,8 @@ TEST_CASE("edge matching finds nothing wrong with meshes of the quadtree") {
     Numbers numbers(11);
     for (int k = 0; k < 300; ++k) {
         const MeshView view = random_view(numbers, ground.field);
-        const GroundMesh mesh = ground.mesher.mesh(
-            view, {numbers.between(2.0, 20.0), numbers.between(0.0, 5.0), FanKind::Partial});
+        const GroundMesh mesh =
+            ground.mesher.mesh(view, {numbers.between(2.0, 20.0), numbers.between(0.0, 5.0), FanKind::Partial});
         const Conformity found = check.check(mesh, view);
         INFO(k << ": " << found.text());
         REQUIRE(found.is_conforming());
@@ -59,8 +58,7 @@ TEST_CASE("edge matching sees each fault by its name") {
     }
     SECTION("a triangle twice crowds its edges") {
         Changed changed(whole);
-        changed.indices.insert(
-            changed.indices.end(), changed.indices.begin() + 30, changed.indices.begin() + 33);
+        changed.indices.insert(changed.indices.end(), changed.indices.begin() + 30, changed.indices.begin() + 33);
         CHECK(check.check(changed.mesh(), view).overlapping_edges == 3);
     }
     SECTION("a turned triangle") {
@@ -88,8 +86,7 @@ TEST_CASE("the printed propagation is caught with corners on edges") {
         view.eye_m = {5.0, 3.0, 2.0};
         const GroundMesh mesh = ground.mesher.mesh(view, {4.0, 5.0, FanKind::Partial});
         const Conformity found = ConformityCheck(GroundSamples(ground.field)).check(mesh, view);
-        const GroundCheck other =
-            checked_ground(sample_triangles(mesh, ground.field, view.eye_m), ground.field);
+        const GroundCheck other = checked_ground(sample_triangles(mesh, ground.field, view.eye_m), ground.field);
         CHECK(found.is_conforming() == (other.unmatched_edges == 0));
         CHECK((found.t_junctions > 0) == (found.open_edges > 0));
         caught += found.t_junctions > 0 ? 1 : 0;

@@ -33,9 +33,7 @@ HeightField random_field(const FieldSize& size, Numbers& numbers) {
 glm::dvec3 random_eye(Numbers& numbers, const HeightField& field) {
     const glm::dvec2 reach = field.half_extent_m() * 1.5;
     const glm::dvec3 anywhere(
-        numbers.between(-reach.x, reach.x),
-        numbers.between(-reach.y, reach.y),
-        numbers.between(-20.0, 60.0));
+        numbers.between(-reach.x, reach.x), numbers.between(-reach.y, reach.y), numbers.between(-20.0, 60.0));
     const int column = static_cast<int>(numbers.next() % static_cast<unsigned>(field.columns()));
     const int row = static_cast<int>(numbers.next() % static_cast<unsigned>(field.rows()));
     const glm::dvec3 sample = field.sample_m(column, row);
@@ -56,21 +54,15 @@ glm::dvec3 random_eye(Numbers& numbers, const HeightField& field) {
 }
 
 QuadtreeDetail random_detail(Numbers& numbers) {
-    return {
-        numbers.between(2.0, 6.0),
-        numbers.between(0.0, 5.0),
-        numbers.coin() ? FanKind::Partial : FanKind::Full};
+    return {numbers.between(2.0, 6.0), numbers.between(0.0, 5.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
 }
 
 MeshView random_look(Numbers& numbers, const HeightField& field) {
     MeshView view;
     view.eye_m = random_eye(numbers, field);
     if (numbers.coin()) {
-        view = camera_view(
-            view.eye_m,
-            numbers.between(0.0, 6.28),
-            numbers.between(-1.2, 0.4),
-            numbers.between(0.3, 1.6));
+        view =
+            camera_view(view.eye_m, numbers.between(0.0, 6.28), numbers.between(-1.2, 0.4), numbers.between(0.3, 1.6));
     }
     return view;
 }
@@ -157,12 +149,9 @@ TEST_CASE("the triangles in a box are found in drawing order, few others with th
         MeshView view = random_look(numbers, ground.field);
         view.order = numbers.coin() ? PaintOrder::BackToFront : PaintOrder::FrontToBack;
         const GroundMesh mesh = random_mesh(ground.mesher, view, numbers);
-        const SearchBox box{
-            random_eye(numbers, ground.field),
+        const SearchBox box{random_eye(numbers, ground.field),
             {numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 30.0)}};
-        const auto meets = [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
-            return box.meets(min_m, max_m);
-        };
+        const auto meets = [&](const glm::dvec3& min_m, const glm::dvec3& max_m) { return box.meets(min_m, max_m); };
         std::vector<std::uint32_t> found = {7};
         ground.mesher.triangles_in(meets, found);
         REQUIRE(found.front() == 7);
@@ -196,7 +185,5 @@ TEST_CASE("all triangles are in all boxes, none in none, and none before the fir
     CHECK(asked == 1); // the root's box stands for all
     ground.mesher.triangles_in(everywhere, found);
     REQUIRE(found.size() == mesh.indices.size() / 3);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-        REQUIRE(found[k] == k);
-    }
+    for (std::size_t k = 0; k < found.size(); ++k) { REQUIRE(found[k] == k); }
 }

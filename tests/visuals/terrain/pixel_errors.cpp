@@ -19,10 +19,8 @@ double area2(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
 class SamplesInPicture {
 public:
     SamplesInPicture(const GroundTiles& ground, const TestPicture& picture, double earth_radius_m)
-        : ground_(ground)
-        , picture_(picture)
-        , curvature_(earth_radius_m > 0.0 ? 0.5 / earth_radius_m : 0.0)
-        , first_m_(-ground.half_extent_m() - glm::dvec2(picture.eye_m)) {}
+        : ground_(ground), picture_(picture), curvature_(earth_radius_m > 0.0 ? 0.5 / earth_radius_m : 0.0),
+          first_m_(-ground.half_extent_m() - glm::dvec2(picture.eye_m)) {}
 
     /// Adds the errors of the samples that lie in one triangle, rim included.
     void measure(const std::array<glm::dvec3, 3>& t, std::vector<float>& errors_px) const {
@@ -46,8 +44,7 @@ public:
                 if (std::min({a, b, c}) >= -1e-5 && picture_.shows(there)) {
                     const double drawn_m = a * t[0].z + b * t[1].z + c * t[2].z;
                     const glm::dvec3 here = picture_.seen({sample.x, sample.y, drawn_m});
-                    errors_px.push_back(
-                        static_cast<float>(std::hypot(here.x - there.x, here.y - there.y)));
+                    errors_px.push_back(static_cast<float>(std::hypot(here.x - there.x, here.y - there.y)));
                 }
             }
         }
@@ -70,10 +67,8 @@ private:
 } // namespace
 
 TestPicture::TestPicture(const glm::dvec3& eye, const glm::dvec3& look)
-    : eye_m(eye)
-    , ahead(glm::normalize(look - eye))
-    , right(glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0))))
-    , up(glm::cross(right, ahead)) {}
+    : eye_m(eye), ahead(glm::normalize(look - eye)),
+      right(glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0)))), up(glm::cross(right, ahead)) {}
 
 MeshView TestPicture::view(double earth_radius_m) const {
     MeshView view;
@@ -82,8 +77,7 @@ MeshView TestPicture::view(double earth_radius_m) const {
     view.ahead = ahead;
     view.corner_cos = focal_px / std::hypot(focal_px, half_width_px, half_height_px);
     view.earth_radius_m = earth_radius_m;
-    view.frustum_normals = {
-        glm::normalize(focal_px * right + half_width_px * ahead),
+    view.frustum_normals = {glm::normalize(focal_px * right + half_width_px * ahead),
         glm::normalize(-focal_px * right + half_width_px * ahead),
         glm::normalize(focal_px * up + half_height_px * ahead),
         glm::normalize(-focal_px * up + half_height_px * ahead)};
@@ -92,38 +86,26 @@ MeshView TestPicture::view(double earth_radius_m) const {
 
 glm::dvec3 TestPicture::seen(const glm::dvec3& at_m) const {
     const double depth_m = glm::dot(at_m, ahead);
-    return {
-        focal_px * glm::dot(at_m, right) / depth_m,
-        focal_px * glm::dot(at_m, up) / depth_m,
-        depth_m};
+    return {focal_px * glm::dot(at_m, right) / depth_m, focal_px * glm::dot(at_m, up) / depth_m, depth_m};
 }
 
 bool TestPicture::shows(const glm::dvec3& seen_px) const {
-    return seen_px.z > 10.0 && std::abs(seen_px.x) <= half_width_px &&
-           std::abs(seen_px.y) <= half_height_px;
+    return seen_px.z > 10.0 && std::abs(seen_px.x) <= half_width_px && std::abs(seen_px.y) <= half_height_px;
 }
 
 PixelErrors pixel_errors(
-    const GroundMesh& mesh,
-    const GroundTiles& ground,
-    const TestPicture& picture,
-    double earth_radius_m) {
+    const GroundMesh& mesh, const GroundTiles& ground, const TestPicture& picture, double earth_radius_m) {
     const SamplesInPicture samples(ground, picture, earth_radius_m);
     std::vector<float> errors_px;
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-        samples.measure(
-            {glm::dvec3(mesh.vertices[mesh.indices[k]].position_m),
-             glm::dvec3(mesh.vertices[mesh.indices[k + 1]].position_m),
-             glm::dvec3(mesh.vertices[mesh.indices[k + 2]].position_m)},
+        samples.measure({glm::dvec3(mesh.vertices[mesh.indices[k]].position_m),
+                            glm::dvec3(mesh.vertices[mesh.indices[k + 1]].position_m),
+                            glm::dvec3(mesh.vertices[mesh.indices[k + 2]].position_m)},
             errors_px);
     }
-    if (errors_px.empty()) {
-        return {};
-    }
+    if (errors_px.empty()) { return {}; }
     std::ranges::sort(errors_px);
-    return {
-        static_cast<double>(errors_px.back()),
-        static_cast<double>(errors_px[(errors_px.size() - 1) * 999 / 1000]),
+    return {static_cast<double>(errors_px.back()), static_cast<double>(errors_px[(errors_px.size() - 1) * 999 / 1000]),
         static_cast<int>(errors_px.size())};
 }
 

@@ -34,13 +34,10 @@ struct PixelErrors {
     int samples = 0;
 };
 
-/// How far the triangles of a mesh lie from the samples of a ground in a picture, by brute force:
-/// every sample that the picture shows against the triangle above or below it, rim included. It
-/// shares nothing with the meshers but the mesh and the numbers.
+/// How far the triangles of a mesh lie from the samples of a ground in a picture, by brute force: every sample that the
+/// picture shows against the triangle above or below it, rim included. It shares nothing with the meshers but the mesh
+/// and the numbers.
 PixelErrors pixel_errors(
-    const GroundMesh& mesh,
-    const GroundTiles& ground,
-    const TestPicture& picture,
-    double earth_radius_m = 0.0);
+    const GroundMesh& mesh, const GroundTiles& ground, const TestPicture& picture, double earth_radius_m = 0.0);
 
 } // namespace octant::visuals::terrain::test

@@ -36,7 +36,7 @@ struct FlatMesh {
         const int north = field.rows() - 1;
         std::size_t k = 0;
         for (const auto& [column, row] :
-             {std::pair{0, 0}, std::pair{east, 0}, std::pair{0, north}, std::pair{east, north}}) {
+            {std::pair{0, 0}, std::pair{east, 0}, std::pair{0, north}, std::pair{east, north}}) {
             vertices[k++].position_m = glm::vec3(field.sample_m(column, row) - eye_m);
         }
         mesh.vertices = vertices;
@@ -89,8 +89,7 @@ TEST_CASE("a hole in the mesh is counted") {
     CHECK(error.uncovered == 36);
 }
 
-TEST_CASE(
-    "a mesh of every sample has no error, every sample counts once, in any number of threads") {
+TEST_CASE("a mesh of every sample has no error, every sample counts once, in any number of threads") {
     Ground ground(rough_field(70, 131, 3));
     MeshView everywhere;
     everywhere.eye_m = {3.0, -7.0, 90.0};
@@ -117,8 +116,7 @@ TEST_CASE("on a curved earth samples sink as far as the mesh does") {
     for (ColourVertex& vertex : flat.vertices) {
         vertex.position_m.z -= 32.0F / (2.0F * 50.0F); // 4 m east and north
     }
-    const ProjectedError error =
-        ProjectedErrorMeter(GroundSamples(field)).measure(flat.mesh, view, radius_m);
+    const ProjectedError error = ProjectedErrorMeter(GroundSamples(field)).measure(flat.mesh, view, radius_m);
     double max_px = 0.0;
     for (int column = -4; column <= 4; ++column) {
         for (int row = -4; row <= 4; ++row) {

@@ -31,9 +31,7 @@ std::vector<int> levels_of_cells(const Ground& ground) {
     for (const GroundFan& fan : ground.mesher.fans()) {
         const int half = ground.tree.edge_samples(fan.level) / 2;
         for (int q = 0; q < 4; ++q) {
-            if (((fan.split | fan.hidden) >> q & 1) != 0) {
-                continue;
-            }
+            if (((fan.split | fan.hidden) >> q & 1) != 0) { continue; }
             const int west = (2 * fan.column + q % 2) * half;
             const int south = (2 * fan.row + q / 2) * half;
             for (int row = south; row < std::min(south + half, rows); ++row) {
@@ -53,8 +51,7 @@ TEST_CASE("two by two samples are two triangles") {
     const GroundMesh mesh = ground.mesher.mesh(from(0.0, 0.0, 1.0), coarsest);
     CHECK(mesh.counters.triangles == 2);
     CHECK(mesh.vertices.size() == 4);
-    CHECK(ground_triangles_conform(
-        sample_triangles(mesh, ground.field, {0.0, 0.0, 1.0}), ground.field));
+    CHECK(ground_triangles_conform(sample_triangles(mesh, ground.field, {0.0, 0.0, 1.0}), ground.field));
 }
 
 TEST_CASE("level ground far below is one fan with the middles of the field's sides") {
@@ -115,13 +112,10 @@ TEST_CASE("neighbouring fans differ by one level at most") {
         const QuadtreeOptions options{
             numbers.coin() ? Roughness::Printed : Roughness::Midpoint, RoughnessPropagation::CrackFree, 2.0};
         Ground ground(rough_field(64, 41, numbers.next()), options);
-        const MeshView view = from(
-            numbers.between(-40.0, 40.0), numbers.between(-30.0, 30.0), numbers.between(0.0, 60.0));
-        ground.mesher.mesh(
-            view,
-            {numbers.between(2.0, 8.0),
-             numbers.between(0.0, 5.0),
-             numbers.coin() ? FanKind::Partial : FanKind::Full});
+        const MeshView view =
+            from(numbers.between(-40.0, 40.0), numbers.between(-30.0, 30.0), numbers.between(0.0, 60.0));
+        ground.mesher.mesh(view,
+            {numbers.between(2.0, 8.0), numbers.between(0.0, 5.0), numbers.coin() ? FanKind::Partial : FanKind::Full});
         const std::vector<int> levels = levels_of_cells(ground);
         REQUIRE(*std::min_element(levels.begin(), levels.end()) >= 0);
         for (std::size_t cell = 0; cell < levels.size(); ++cell) {
@@ -129,9 +123,7 @@ TEST_CASE("neighbouring fans differ by one level at most") {
             const int east = last_column ? 0 : levels[cell + 1] - levels[cell];
             const int north = cell + 63 < levels.size() ? levels[cell + 63] - levels[cell] : 0;
             steps_seen += std::max(std::abs(east), std::abs(north));
-            if (std::max(std::abs(east), std::abs(north)) > 1) {
-                FAIL("run " << run << ", cell " << cell);
-            }
+            if (std::max(std::abs(east), std::abs(north)) > 1) { FAIL("run " << run << ", cell " << cell); }
         }
     }
     CHECK(steps_seen > 1000);
@@ -146,8 +138,7 @@ TEST_CASE("vertices are the samples with the eye subtracted, each once, in their
     std::vector<bool> seen(20 * 13, false);
     for (const ColourVertex& vertex : mesh.vertices) {
         const std::uint32_t sample = (vertex.colour - 3U) / 7U;
-        const glm::dvec3 world =
-            ground.field.sample_m(static_cast<int>(sample % 20), static_cast<int>(sample / 20));
+        const glm::dvec3 world = ground.field.sample_m(static_cast<int>(sample % 20), static_cast<int>(sample / 20));
         CHECK(vertex.position_m == glm::vec3(world - view.eye_m));
         CHECK_FALSE(seen[sample]);
         seen[sample] = true;
@@ -167,25 +158,16 @@ TEST_CASE("a mesher used before makes the same mesh as a new one") {
     Ground used(rough_field(50, 33, 5));
     Numbers numbers(17);
     for (int frame = 0; frame < 30; ++frame) {
-        const glm::dvec3 eye(
-            numbers.between(-30.0, 30.0), numbers.between(-20.0, 20.0), numbers.between(0.0, 40.0));
+        const glm::dvec3 eye(numbers.between(-30.0, 30.0), numbers.between(-20.0, 20.0), numbers.between(0.0, 40.0));
         const MeshView view = camera_view(eye, numbers.between(0.0, 6.3), -0.4, 1.0);
         const QuadtreeDetail detail{
-            numbers.between(2.0, 10.0),
-            numbers.between(0.0, 5.0),
-            numbers.coin() ? FanKind::Partial : FanKind::Full};
+            numbers.between(2.0, 10.0), numbers.between(0.0, 5.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
         QuadtreeMesher fresh(used.tree, used.colours);
         const GroundMesh expected = fresh.mesh(view, detail);
         const GroundMesh got = used.mesher.mesh(view, detail);
-        REQUIRE(std::equal(
-            got.indices.begin(),
-            got.indices.end(),
-            expected.indices.begin(),
-            expected.indices.end()));
+        REQUIRE(std::equal(got.indices.begin(), got.indices.end(), expected.indices.begin(), expected.indices.end()));
         REQUIRE(got.vertices.size() == expected.vertices.size());
-        REQUIRE(
-            std::memcmp(got.vertices.data(), expected.vertices.data(), got.vertices.size_bytes()) ==
-            0);
+        REQUIRE(std::memcmp(got.vertices.data(), expected.vertices.data(), got.vertices.size_bytes()) == 0);
     }
 }
 
@@ -204,14 +186,12 @@ TEST_CASE("a mesh is counted as it is then made, at a given resolution and withi
             CHECK(std::ranges::equal(after.indices, expected.indices));
         };
         for (int k = 0; k < 12; ++k) {
-            const MeshView view =
-                camera_view({20.0 * k - 110.0, 9.0 * k - 70.0, 15.0}, 0.6 * k, -0.2, 0.9);
+            const MeshView view = camera_view({20.0 * k - 110.0, 9.0 * k - 70.0, 15.0}, 0.6 * k, -0.2, 0.9);
             const QuadtreeDetail detail{4.0 + 3.0 * k, 3.0, FanKind::Partial};
             check_counted(ground.mesher.count(view, detail), made.mesher.mesh(view, detail));
             const TriangleBudget budget{200 + 300 * k, 1000.0};
             check_counted(
-                ground.mesher.count_within(view, detail, budget),
-                made.mesher.mesh_within(view, detail, budget));
+                ground.mesher.count_within(view, detail, budget), made.mesher.mesh_within(view, detail, budget));
         }
     }
 }

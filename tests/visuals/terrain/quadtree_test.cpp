@@ -15,9 +15,7 @@ namespace {
 const float share = static_cast<float>(0.5 + std::sqrt(2.5) / 4.0); // K for C_min = 2
 
 /// Packing raises a roughness by at most 0.05 %.
-bool about(float packed, float exact) {
-    return packed >= exact * 0.9999F && packed <= exact * 1.002F;
-}
+bool about(float packed, float exact) { return packed >= exact * 0.9999F && packed <= exact * 1.002F; }
 
 } // namespace
 

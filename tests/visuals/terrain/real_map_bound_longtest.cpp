@@ -24,14 +24,10 @@ struct ViewOnMap {
 };
 
 constexpr std::array<ViewOnMap, 8> views_on_map = {
-    {{{0.0, -0.9}, 300.0, {0.1, 0.6}, 0.0},
-     {{-0.8, -0.8}, 100.0, {0.0, 0.0}, 100.0},
-     {{0.1, 0.05}, 2500.0, {0.2, 0.2}, 0.0},
-     {{0.6, 0.03}, 30.0, {-0.8, 0.1}, 300.0},
-     {{0.02, -0.01}, 800.0, {0.7, -0.9}, 0.0},
-     {{-0.9, 0.9}, 1500.0, {-0.7, 0.7}, 0.0},
-     {{0.3, 0.4}, 60.0, {0.31, 0.5}, 500.0},
-     {{0.0, 0.3}, 10000.0, {0.3, -0.1}, 0.0}}};
+    {{{0.0, -0.9}, 300.0, {0.1, 0.6}, 0.0}, {{-0.8, -0.8}, 100.0, {0.0, 0.0}, 100.0},
+        {{0.1, 0.05}, 2500.0, {0.2, 0.2}, 0.0}, {{0.6, 0.03}, 30.0, {-0.8, 0.1}, 300.0},
+        {{0.02, -0.01}, 800.0, {0.7, -0.9}, 0.0}, {{-0.9, 0.9}, 1500.0, {-0.7, 0.7}, 0.0},
+        {{0.3, 0.4}, 60.0, {0.31, 0.5}, 500.0}, {{0.0, 0.3}, 10000.0, {0.3, -0.1}, 0.0}}};
 
 test::TestPicture picture_on(const models::heights::HeightField& map, const ViewOnMap& view) {
     const auto above = [&map](const glm::dvec2& share, double above_m) {
@@ -52,8 +48,7 @@ void check_map(const models::heights::HeightField& map) {
         for (const double error_px : {0.5, 1.0, 2.0}) {
             const MeshView view = picture.view(earth_radius_m);
             const GroundMesh mesh = mesher.mesh(view, {error_px, any_triangles, true});
-            const test::PixelErrors found =
-                test::pixel_errors(mesh, ground, picture, earth_radius_m);
+            const test::PixelErrors found = test::pixel_errors(mesh, ground, picture, earth_radius_m);
             INFO(map.name << ", view " << v << ", " << error_px << " px");
             CHECK(found.samples > 500);
             CHECK(found.worst_px <= error_px);
@@ -67,15 +62,9 @@ void check_map(const models::heights::HeightField& map) {
 
 TEST_CASE("over real maps no sample in the picture is farther off than the error asked for") {
     const char* const given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path data =
-        given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
-    for (const char* const name :
-         {"gcanyon_1025.tif",
-          "gcanyon_1025_smooth.tif",
-          "pugetsound_1025.tif",
-          "vancouver_2049.tif",
-          "N51E000.hgt",
-          "srtm3_N49W123.tif"}) {
+    const std::filesystem::path data = given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
+    for (const char* const name : {"gcanyon_1025.tif", "gcanyon_1025_smooth.tif", "pugetsound_1025.tif",
+             "vancouver_2049.tif", "N51E000.hgt", "srtm3_N49W123.tif"}) {
         const std::filesystem::path file = data / "terrain" / name;
         if (!std::filesystem::exists(file)) {
             std::cout << "SKIPPED: no " << file << '\n';

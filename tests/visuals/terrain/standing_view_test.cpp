@@ -21,8 +21,7 @@ constexpr double weight = 5.0;
 
 /// N of each frame of a standing view with N(C) = `count`.
 template <typename Count>
-std::vector<int>
-standing(const ControlSettings& settings, double first, int frames, const Count& count) {
+std::vector<int> standing(const ControlSettings& settings, double first, int frames, const Count& count) {
     ControlState state = initial_state(first, settings);
     std::vector<int> all;
     for (int frame = 0; frame < frames; ++frame) {
@@ -32,8 +31,8 @@ standing(const ControlSettings& settings, double first, int frames, const Count&
     return all;
 }
 
-/// From any C_0, at any gain, dn = 0 after at most 15 of 100 frames, `max_missing` from the
-/// target. `gained`: N'(C) at the target; 0: by the automatic a.
+/// From any C_0, at any gain, dn = 0 after at most 15 of 100 frames, `max_missing` from the target. `gained`: N'(C) at
+/// the target; 0: by the automatic a.
 template <typename Count>
 void check_rest(int target, double gained, double max_missing, const Count& count) {
     for (const double gain : gains) {
@@ -55,8 +54,7 @@ Ground make_ground_tiles(octant::models::heights::HeightField field) {
 }
 
 MeshView over(double angle) {
-    return camera_view(
-        {70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
+    return camera_view({70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
 }
 
 double gained_from(Ground& ground, const MeshView& view, int target) {
@@ -103,8 +101,7 @@ TEST_CASE("at a standing view the damped control rests within 15 frames over any
             INFO((rugged ? "rugged" : "gentle") << ", view " << angle);
             const MeshView view = over(angle);
             const auto count = [&](double resolution) {
-                return ground.mesher.mesh(view, {resolution, weight, FanKind::Partial})
-                    .counters.triangles;
+                return ground.mesher.mesh(view, {resolution, weight, FanKind::Partial}).counters.triangles;
             };
             const double band = 0.01 * target; // steps of these fields stay below
             check_rest(target, gained_from(ground, view, target), band, count);
@@ -117,8 +114,7 @@ TEST_CASE("at a standing view the exact budget rests from the first frame on") {
     std::vector<int> all;
     for (int frame = 0; frame < 10; ++frame) {
         all.push_back(
-            ground.mesher.mesh_within(over(2.0), {0.0, weight, FanKind::Partial}, {3000, 500.0})
-                .counters.triangles);
+            ground.mesher.mesh_within(over(2.0), {0.0, weight, FanKind::Partial}, {3000, 500.0}).counters.triangles);
     }
     CHECK(frames_until_constant(all, 10) == 0);
 }

@@ -41,9 +41,7 @@ TEST_CASE("a vertex that comes in jumps by its height above the edge it halves")
     kept.vertices = all;
     kept.indices = triangles;
     std::vector<octant::models::ColourVertex> level = all;
-    for (auto& vertex : level) {
-        vertex.position_m.z = -1.0F;
-    }
+    for (auto& vertex : level) { vertex.position_m.z = -1.0F; }
     GroundMesh flat = kept;
     flat.vertices = level;
     for (const bool coming : {true, false}) {
@@ -65,8 +63,7 @@ TEST_CASE("what one of the two frames does not show is no jump") {
     away.right = {-1.0, 0.0, 0.0};
     PoppingMeter meter;
     meter.next(ground.mesher.mesh(view, {1000.0, 20.0, FanKind::Partial}), away);
-    const auto jump = meter.next(
-        ground.mesher.mesh(view, {2.0, 0.0, FanKind::Partial}), looking_north(view.eye_m));
+    const auto jump = meter.next(ground.mesher.mesh(view, {2.0, 0.0, FanKind::Partial}), looking_north(view.eye_m));
     REQUIRE(jump);
     CHECK(jump->popping_px == 0.0);
 }

@@ -57,8 +57,7 @@ VerificationResult verdict_of(const std::string& text) {
 /// The line and the text of the first false claim; empty if there is none.
 std::string refusal_of(const std::string& text) {
     const VerificationResult result = verdict_of(text);
-    return result.failure ? fmt::format("{}: {}", result.failure->line, result.failure->what)
-                           : "";
+    return result.failure ? fmt::format("{}: {}", result.failure->line, result.failure->what) : "";
 }
 
 std::string error_of(const std::string& text) {
@@ -87,12 +86,10 @@ TEST_CASE("the point from which a certificate measures changes nothing") {
 }
 
 TEST_CASE("the nearer one painted first is refused, whatever the witness") {
-    CHECK(
-        refusal_of(model + "list 1 0\npairs list 0 0 1l\n") ==
-        "14: expected polygon 1 behind the plane of polygon 0, got a corner before it");
-    CHECK(
-        refusal_of(model + "list 1 0\npairs list 0 0 1e\n") ==
-        "14: expected polygon 0 before the plane of polygon 1, got a corner behind it");
+    CHECK(refusal_of(model + "list 1 0\npairs list 0 0 1l\n") ==
+          "14: expected polygon 1 behind the plane of polygon 0, got a corner before it");
+    CHECK(refusal_of(model + "list 1 0\npairs list 0 0 1e\n") ==
+          "14: expected polygon 0 before the plane of polygon 1, got a corner behind it");
     CHECK_FALSE(refusal_of(model + "list 1 0\nsum list 0 1 0 1 0 0\n").empty());
     CHECK_FALSE(refusal_of(model + "list 1 0\nsum list 0 1 0 0 0 0\n").empty());
     CHECK_FALSE(refusal_of(model + "list 1 0\nnever list 0 1 0 1 0 0\n").empty());
@@ -100,8 +97,7 @@ TEST_CASE("the nearer one painted first is refused, whatever the witness") {
 
 TEST_CASE("a pair without a proof is refused, one that says so is counted") {
     CHECK(
-        refusal_of(model + "list 0 1\n") ==
-        "13: expected a proof that polygon 0 hides nothing of polygon 1, got none");
+        refusal_of(model + "list 0 1\n") == "13: expected a proof that polygon 0 hides nothing of polygon 1, got none");
     const VerificationResult result = verdict_of(model + "list 0 1\nunproved list 0 0 1\n");
     CHECK_FALSE(result.failure);
     CHECK(result.unproved == 1);
@@ -109,9 +105,7 @@ TEST_CASE("a pair without a proof is refused, one that says so is counted") {
 }
 
 TEST_CASE("a polygon that is not painted has to face away") {
-    CHECK(
-        refusal_of(model + "list 0\n") ==
-        "13: expected polygon 1 painted or proved to face away, got neither");
+    CHECK(refusal_of(model + "list 0\n") == "13: expected polygon 1 painted or proved to face away, got neither");
     const std::string two_cells = model + "list 0 1\nlist 0 1\nlist 0\n"
                                           "node choice 0 0 1 -1 list 0 node 1\n"
                                           "node choice 0 0 1 -0.5 list 1 list 2\n"
@@ -124,8 +118,7 @@ TEST_CASE("a polygon that is not painted has to face away") {
 }
 
 TEST_CASE("a wall decides all pairs that it parts") {
-    const std::string halves =
-        corner + "list 1 0\nlist 0 1\nnode choice 1 0 0 -1.5 list 1 list 0\n";
+    const std::string halves = corner + "list 1 0\nlist 0 1\nnode choice 1 0 0 -1.5 list 1 list 0\n";
     CHECK(verdict_of(halves).proved());
     CHECK(refusal_of(corner + "list 0 1\nlist 1 0\nnode choice 1 0 0 -1.5 list 1 list 0\n") != "");
 }
@@ -148,12 +141,10 @@ TEST_CASE("a parting decides all pairs across it") {
     const std::string lists = model + "list 1\nlist 0\n";
     CHECK(verdict_of(lists + "node parting 0 0 1 -0.5 list 0 list 1 nothing nothing\n").proved());
     CHECK(verdict_of(lists + "node parting 0 0 1 0 list 0 nothing list 1 nothing\n").proved());
-    CHECK(
-        refusal_of(lists + "node parting 0 0 1 -0.5 list 1 list 0 nothing nothing\n") ==
-        "15: expected polygon 0 before the plane, got a corner elsewhere");
-    CHECK(
-        refusal_of(lists + "node parting 0 0 1 0 list 0 nothing nothing list 1\n") ==
-        "15: expected polygon 0 facing as the plane, got a corner elsewhere");
+    CHECK(refusal_of(lists + "node parting 0 0 1 -0.5 list 1 list 0 nothing nothing\n") ==
+          "15: expected polygon 0 before the plane, got a corner elsewhere");
+    CHECK(refusal_of(lists + "node parting 0 0 1 0 list 0 nothing nothing list 1\n") ==
+          "15: expected polygon 0 facing as the plane, got a corner elsewhere");
     CHECK(refusal_of(lists + "node parting 1 0 0 -0.5 list 0 list 1 nothing nothing\n") != "");
 }
 
@@ -162,9 +153,8 @@ TEST_CASE("of a sequence the first part hides nothing of the other one") {
     CHECK(verdict_of(lists + "node sequence list 0 list 1\npairs node 0 1 1l\n").proved());
     CHECK_FALSE(verdict_of(lists + "node sequence list 0 list 1\n").proved());
     CHECK_FALSE(verdict_of(lists + "node sequence list 1 list 0\npairs node 0 0 1l\n").proved());
-    CHECK(
-        refusal_of(model + "list 0 1\nlist 1\nnode sequence list 0 list 1\n") ==
-        "15: expected each polygon painted once, got 1 again");
+    CHECK(refusal_of(model + "list 0 1\nlist 1\nnode sequence list 0 list 1\n") ==
+          "15: expected each polygon painted once, got 1 again");
 }
 
 TEST_CASE("a decal is painted over what it lies on, whatever its file says of planes") {
@@ -201,9 +191,8 @@ turning 0 0 0 0 1 0  0 1 2
 polygon 1 1 0 0 -1.5  3 4 5
 )";
     CHECK(verdict_of(rotor + "list 1 0\npairs list 0 0 1l\n").proved());
-    CHECK(
-        refusal_of(rotor + "list 0 1\npairs list 0 1 1l\n") ==
-        "13: expected polygon 0 behind the plane of polygon 1, got a corner before it");
+    CHECK(refusal_of(rotor + "list 0 1\npairs list 0 1 1l\n") ==
+          "13: expected polygon 0 behind the plane of polygon 1, got a corner before it");
 }
 
 TEST_CASE("polygons lie in their planes and face to the front of them") {
@@ -221,35 +210,26 @@ TEST_CASE("a tolerance that would prove anything is no tolerance") {
 
 TEST_CASE("what is no certificate is refused with its line") {
     CHECK(error_of("") == ": expected 'octant-certificate 1' first, got an empty file");
-    CHECK(
-        error_of("draworder 1\n") == ":1: expected 'octant-certificate 1' first, got 'draworder'");
+    CHECK(error_of("draworder 1\n") == ":1: expected 'octant-certificate 1' first, got 'draworder'");
     CHECK(error_of(model + "vortex\n").starts_with(":13: expected tolerance, about, vertex"));
     CHECK(error_of(model + "vertex 1 2\n").ends_with("got none"));
     CHECK(error_of(model + "about 1 2 3\n").starts_with(":13: expected 'about' before all places"));
     CHECK(error_of(model + "vertex 1 2 inf\n").ends_with("got 'inf'"));
-    CHECK(
-        error_of(model + "polygon 2 0 0 9 0  0 1 2\n") ==
-        ":13: expected a normal of length 1, got '9'");
-    CHECK(
-        error_of(model + "polygon 2 0 0 1 0  0 1 8\n") ==
-        ":13: expected a vertex (0 to 7), got '8'");
+    CHECK(error_of(model + "polygon 2 0 0 9 0  0 1 2\n") == ":13: expected a normal of length 1, got '9'");
+    CHECK(error_of(model + "polygon 2 0 0 1 0  0 1 8\n") == ":13: expected a vertex (0 to 7), got '8'");
     CHECK(error_of(model + "list 0 1 0\n") == ":13: expected each polygon once, got '0'");
     CHECK(error_of(model) == ": expected at least one list, got none");
     const std::string two = model + "list 0\nlist 1\n";
     CHECK(error_of(two) == ":14: expected list 1 to be the child of an earlier node, got none");
-    CHECK(
-        error_of(two + "node sequence list 0 list 0\n") ==
-        ":15: expected children that are there, each of one node, got list 0");
-    CHECK(error_of(two + "node choice 0 0 1 0 nothing list 0\n")
-              .starts_with(":15: expected node K, list K"));
+    CHECK(error_of(two + "node sequence list 0 list 0\n") ==
+          ":15: expected children that are there, each of one node, got list 0");
+    CHECK(error_of(two + "node choice 0 0 1 0 nothing list 0\n").starts_with(":15: expected node K, list K"));
     CHECK(error_of(two + "node sequence node 0 list 0\n") == ":15: expected a later node, got '0'");
     const std::string one = model + "list 0 1\n";
-    CHECK(
-        error_of(one + "pairs list 0 1 1x\n") == ":14: expected a count with e, l or -, got '1x'");
+    CHECK(error_of(one + "pairs list 0 1 1x\n") == ":14: expected a count with e, l or -, got '1x'");
     CHECK(error_of(one + "sum list 0 0 1 -1 0 0\n").starts_with(":14: expected a factor"));
-    CHECK(
-        error_of(one + "sum list 0 0 1 1 0 0 0\n") == ":14: expected the end of the line, got '0'");
+    CHECK(error_of(one + "sum list 0 0 1 1 0 0 0\n") == ":14: expected the end of the line, got '0'");
     CHECK(error_of(one + "away list 1 0 0\n") == ":14: expected a list (0 to 0), got '1'");
-    CHECK(error_of(one + "pairs list 0 1 1l\nlist 0\n")
-              .starts_with(":15: expected pairs, sum, never, away or unproved"));
+    CHECK(
+        error_of(one + "pairs list 0 1 1l\nlist 0\n").starts_with(":15: expected pairs, sum, never, away or unproved"));
 }

@@ -1,4 +1,5 @@
 #include "ui/studies/draw_order/study_draw_order.h"
+
 #include "sim/base/output_file.h"
 #include "sim/base/random_generator.h"
 #include "ui/base/progress.h"
@@ -55,21 +56,15 @@ struct PrintedRow {
     List later;
 };
 
-const std::array printed_rows = {
-    PrintedRow{"+++", {1, 7, 2, 8, 3, 4}, 0, {}},
-    PrintedRow{"++-", {1, 9, 2, 10, 3, 4}, 0, {}},
-    PrintedRow{"+-+", {2, 7, 8, 6, 4}, 2, {4, 6, 8}},
-    PrintedRow{"+--", {2, 9, 10, 6, 4}, 2, {4, 6, 10}},
-    PrintedRow{"-++", {8, 3, 7, 1, 5}, 3, {1, 5, 7}},
-    PrintedRow{"-+-", {10, 3, 9, 1, 5}, 3, {1, 5, 9}},
-    PrintedRow{"--+", {8, 7, 6, 5}, 0, {}},
+const std::array printed_rows = {PrintedRow{"+++", {1, 7, 2, 8, 3, 4}, 0, {}},
+    PrintedRow{"++-", {1, 9, 2, 10, 3, 4}, 0, {}}, PrintedRow{"+-+", {2, 7, 8, 6, 4}, 2, {4, 6, 8}},
+    PrintedRow{"+--", {2, 9, 10, 6, 4}, 2, {4, 6, 10}}, PrintedRow{"-++", {8, 3, 7, 1, 5}, 3, {1, 5, 7}},
+    PrintedRow{"-+-", {10, 3, 9, 1, 5}, 3, {1, 5, 9}}, PrintedRow{"--+", {8, 7, 6, 5}, 0, {}},
     PrintedRow{"---", {10, 9, 6, 5}, 0, {}}};
 
 /// Polygons of the printed rows counted from 0.
 List zero_based(List list) {
-    for (std::uint32_t& polygon : list) {
-        --polygon;
-    }
+    for (std::uint32_t& polygon : list) { --polygon; }
     return list;
 }
 
@@ -82,8 +77,7 @@ bool same_polygons(List a, List b) {
 std::string precedences_in_words(const PrintedRow& row) {
     return row.later.empty()
                ? "none"
-               : fmt::format(
-                     "P{} before {}", row.first, orderfile::list_description(zero_based(row.later)));
+               : fmt::format("P{} before {}", row.first, orderfile::list_description(zero_based(row.later)));
 }
 
 bool keeps_precedences(const List& list, const PrintedRow& row) {
@@ -92,9 +86,7 @@ bool keeps_precedences(const List& list, const PrintedRow& row) {
     });
 }
 
-const char* yes_or_no(bool yes) {
-    return yes ? "yes" : "no";
-}
+const char* yes_or_no(bool yes) { return yes ? "yes" : "no"; }
 
 struct Distances {
     const char* name;
@@ -103,26 +95,20 @@ struct Distances {
 };
 
 constexpr std::array distances = {
-    Distances{"2 to 20 R", 2.0, 20.0},
-    Distances{"1 to 2 R", 1.0, 2.0},
-    Distances{"0.05 to 1 R", 0.05, 1.0}};
+    Distances{"2 to 20 R", 2.0, 20.0}, Distances{"1 to 2 R", 1.0, 2.0}, Distances{"0.05 to 1 R", 0.05, 1.0}};
 
 /// Rays from these distances, shared out over angles of the turning parts.
 orderfile::RayTestCounts ray_count_of(
-    const models::polygons::PolygonModel& model,
-    const draworder::DrawOrder& order,
-    const Distances& range) {
+    const models::polygons::PolygonModel& model, const draworder::DrawOrder& order, const Distances& range) {
     constexpr std::array angles_rad = {0.0, 0.7, 2.1, 4.4};
     orderfile::RayTestCounts count;
     for (const double angle_rad : angles_rad) {
-        count += orderfile::count_wrong_rays(
-            model,
-            order,
+        count += orderfile::count_wrong_rays(model, order,
             {.eyes = 2000,
-             .rays_per_eye = 25,
-             .min_distance_radii = range.min_radii,
-             .max_distance_radii = range.max_radii,
-             .turn_rad = angle_rad});
+                .rays_per_eye = 25,
+                .min_distance_radii = range.min_radii,
+                .max_distance_radii = range.max_radii,
+                .turn_rad = angle_rad});
     }
     return count;
 }
@@ -152,9 +138,7 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
     RandomGenerator dice(1989);
     const double radius_m = models::polygons::radius_m(ordered.model);
     std::vector<glm::dvec3> eyes_m;
-    for (int i = 0; i < eyes; ++i) {
-        eyes_m.push_back(dice.direction() * (radius_m * dice.between(0.5, 10.0)));
-    }
+    for (int i = 0; i < eyes; ++i) { eyes_m.push_back(dice.direction() * (radius_m * dice.between(0.5, 10.0))); }
     List painted;
     std::vector<int> to_do;
     draworder::DrawOrder::Walk walk;
@@ -171,18 +155,12 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
         }
         bsp_ns.push_back(watch.lap_ms() * 1e6 / eyes);
         for (const glm::dvec3& eye_m : eyes_m) {
-            for (const auto& range : ordered.order.ranges_of(eye_m, walk)) {
-                by_cell += range.count;
-            }
+            for (const auto& range : ordered.order.ranges_of(eye_m, walk)) { by_cell += range.count; }
         }
         cell_ns.push_back(watch.lap_ms() * 1e6 / eyes);
     }
     constexpr double looks = static_cast<double>(batches) * eyes;
-    return {
-        median(bsp_ns),
-        median(cell_ns),
-        static_cast<double>(by_bsp) / looks,
-        static_cast<double>(by_cell) / looks};
+    return {median(bsp_ns), median(cell_ns), static_cast<double>(by_bsp) / looks, static_cast<double>(by_cell) / looks};
 }
 
 OrderedByEachMethod order_by_each_method(const std::string& name) {
@@ -196,11 +174,7 @@ OrderedByEachMethod order_by_each_method(const std::string& name) {
         return ordered;
     };
     std::array<double, 3> build_ms{};
-    return {
-        name,
-        input.model.polygons.size(),
-        {by(0, build_ms[0]), by(1, build_ms[1]), by(2, build_ms[2])},
-        build_ms};
+    return {name, input.model.polygons.size(), {by(0, build_ms[0]), by(1, build_ms[1]), by(2, build_ms[2])}, build_ms};
 }
 
 /// The eight orders that the paper prints for its example object, ours beside, and whether the
@@ -212,28 +186,16 @@ report::HtmlTable paper_order_table() {
     const auto orders = orderfile::cell_orders(draworder::ordered(input.model, options));
     report::HtmlTable table;
     table.title = "Table 4: painting orders of the paper's example object";
-    table.header = {
-        "viewing direction",
-        "paper",
-        "ours",
-        "same polygons",
-        "precedences that the object needs",
-        "ours keeps them",
-        "paper keeps them"};
+    table.header = {"viewing direction", "paper", "ours", "same polygons", "precedences that the object needs",
+        "ours keeps them", "paper keeps them"};
     for (const PrintedRow& row : printed_rows) {
         for (const orderfile::ListedCell& cell : orders.cells) {
-            if (draworder::path_in_file(cell.path, input.axes) != row.octant) {
-                continue;
-            }
+            if (draworder::path_in_file(cell.path, input.axes) != row.octant) { continue; }
             const List printed = zero_based(row.list);
             table.rows.push_back(
-                {row.octant,
-                 orderfile::list_description(printed),
-                 orderfile::list_description(cell.list),
-                 yes_or_no(same_polygons(cell.list, printed)),
-                 precedences_in_words(row),
-                 yes_or_no(keeps_precedences(cell.list, row)),
-                 yes_or_no(keeps_precedences(printed, row))});
+                {row.octant, orderfile::list_description(printed), orderfile::list_description(cell.list),
+                    yes_or_no(same_polygons(cell.list, printed)), precedences_in_words(row),
+                    yes_or_no(keeps_precedences(cell.list, row)), yes_or_no(keeps_precedences(printed, row))});
         }
     }
     table.note = "Ours by the paper's steps as printed. Where no precedence is needed any sequence "
@@ -247,36 +209,19 @@ report::HtmlTable paper_order_table() {
 report::HtmlTable method_table(std::span<const OrderedByEachMethod> models) {
     report::HtmlTable table;
     table.title = "What each way of ordering needs";
-    table.header = {
-        "model",
-        "method",
-        "polygons",
-        "splits",
-        "cells",
-        "lists",
-        "plane tests a frame, most",
-        "plane tests a frame, mean",
-        "building, ms",
-        "pairs",
-        "pairs not certified"};
+    table.header = {"model", "method", "polygons", "splits", "cells", "lists", "plane tests a frame, most",
+        "plane tests a frame, mean", "building, ms", "pairs", "pairs not certified"};
     for (const OrderedByEachMethod& model : models) {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
-            const auto check =
-                orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
+            const auto check = orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
             table.rows.push_back(
-                {model.name,
-                 settings::text_of(methods[i]),
-                 fmt::format("{}", ordered.model.polygons.size()),
-                 fmt::format("{}", ordered.splits),
-                 fmt::format("{}", ordered.order.cell_count()),
-                 fmt::format("{}", ordered.order.list_count()),
-                 fmt::format("{}", tests.most),
-                 fmt::format("{:.2f}", tests.mean),
-                 fmt::format("{:.1f}", model.build_ms[i]),
-                 fmt::format("{}", check.pairs),
-                 fmt::format("{}", check.pairs_unproved + check.unlisted_unproved)});
+                {model.name, settings::text_of(methods[i]), fmt::format("{}", ordered.model.polygons.size()),
+                    fmt::format("{}", ordered.splits), fmt::format("{}", ordered.order.cell_count()),
+                    fmt::format("{}", ordered.order.list_count()), fmt::format("{}", tests.most),
+                    fmt::format("{:.2f}", tests.mean), fmt::format("{:.1f}", model.build_ms[i]),
+                    fmt::format("{}", check.pairs), fmt::format("{}", check.pairs_unproved + check.unlisted_unproved)});
         }
     }
     table.note = "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
@@ -317,38 +262,19 @@ report::HtmlTable wrong_pixel_table(std::span<const OrderedByEachMethod> models)
 report::HtmlTable bsp_table(std::span<const OrderedByEachMethod> models) {
     report::HtmlTable table;
     table.title = "A BSP tree against the tree of planes over eye space";
-    table.header = {
-        "model",
-        "polygons",
-        "BSP splits",
-        "polygons after splitting",
-        "BSP nodes = plane tests a frame",
-        "BSP depth",
-        "tree plane tests a frame, mean",
-        "tree splits",
-        "BSP walk, ns",
-        "cell lookup, ns",
-        "BSP / lookup",
-        "BSP polygons painted",
-        "tree polygons listed"};
+    table.header = {"model", "polygons", "BSP splits", "polygons after splitting", "BSP nodes = plane tests a frame",
+        "BSP depth", "tree plane tests a frame, mean", "tree splits", "BSP walk, ns", "cell lookup, ns", "BSP / lookup",
+        "BSP polygons painted", "tree polygons listed"};
     for (const OrderedByEachMethod& model : models) {
         const draworder::OrderedModel& ordered = model.by_method[tree_method];
         const orderfile::BspTree bsp = orderfile::bsp_tree(model.by_method[0].model);
         const FrameCost cost = frame_cost(bsp, ordered);
-        table.rows.push_back(
-            {model.name,
-             fmt::format("{}", model.polygons),
-             fmt::format("{}", bsp.splits),
-             fmt::format("{}", bsp.model.polygons.size()),
-             fmt::format("{}", bsp.nodes.size()),
-             fmt::format("{}", bsp.depth),
-             fmt::format("{:.2f}", world::plane_tests(ordered).mean),
-             fmt::format("{}", ordered.splits),
-             fmt::format("{:.0f}", cost.bsp_ns),
-             fmt::format("{:.1f}", cost.cell_ns),
-             fmt::format("{:.1f}", cost.bsp_ns / cost.cell_ns),
-             fmt::format("{:.1f}", cost.bsp_painted),
-             fmt::format("{:.1f}", cost.cell_painted)});
+        table.rows.push_back({model.name, fmt::format("{}", model.polygons), fmt::format("{}", bsp.splits),
+            fmt::format("{}", bsp.model.polygons.size()), fmt::format("{}", bsp.nodes.size()),
+            fmt::format("{}", bsp.depth), fmt::format("{:.2f}", world::plane_tests(ordered).mean),
+            fmt::format("{}", ordered.splits), fmt::format("{:.0f}", cost.bsp_ns), fmt::format("{:.1f}", cost.cell_ns),
+            fmt::format("{:.1f}", cost.bsp_ns / cost.cell_ns), fmt::format("{:.1f}", cost.bsp_painted),
+            fmt::format("{:.1f}", cost.cell_painted)});
     }
     table.note = "The BSP tree takes the planes of the polygons, those first that split fewest; it "
                  "holds turning parts at one angle only and leaves out back faces on its walk. The "
@@ -369,8 +295,7 @@ struct PaperRow {
 
 // E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
 // Animation", 1989: table 1; octant order: section IV and table 5.
-constexpr std::array paper_rows = {
-    PaperRow{"f15", 30.0, 5.0, 100.0 / 3.3}, PaperRow{"500md", 29.0, 4.0, 100.0 / 3.5}};
+constexpr std::array paper_rows = {PaperRow{"f15", 30.0, 5.0, 100.0 / 3.3}, PaperRow{"500md", 29.0, 4.0, 100.0 / 3.5}};
 
 /// An aircraft on an orbit around it, without sky and ground.
 Race race_alone(const char* aircraft, bool quiet) {
@@ -387,31 +312,17 @@ Race race_alone(const char* aircraft, bool quiet) {
 report::HtmlTable speed_table(bool quiet) {
     report::HtmlTable table;
     table.title = "Table 1: frames a second, the aircraft alone";
-    table.header = {
-        "aircraft",
-        "paper: back faces only",
-        "paper: z-buffer",
-        "paper: octant order",
-        "ours: back faces only",
-        "ours: depth buffer",
-        "ours: octant order",
-        "octant / back faces",
+    table.header = {"aircraft", "paper: back faces only", "paper: z-buffer", "paper: octant order",
+        "ours: back faces only", "ours: depth buffer", "ours: octant order", "octant / back faces",
         "octant / depth buffer"};
     for (const PaperRow& row : paper_rows) {
         const Race raced = race_alone(row.aircraft, quiet);
         const auto fps = [&](std::size_t mode) {
             return fmt::format("{:.0f}", 1000.0 / raced.gl_times[mode].median_ms);
         };
-        table.rows.push_back(
-            {row.aircraft,
-             fmt::format("{:.0f}", row.back_face_fps),
-             fmt::format("{:.0f}", row.depth_buffer_fps),
-             fmt::format("{:.0f}", row.octant_fps),
-             fps(1),
-             fps(2),
-             fps(0),
-             fmt::format("{:.2f}", raced.against(1)),
-             fmt::format("{:.2f}", raced.against(2))});
+        table.rows.push_back({row.aircraft, fmt::format("{:.0f}", row.back_face_fps),
+            fmt::format("{:.0f}", row.depth_buffer_fps), fmt::format("{:.0f}", row.octant_fps), fps(1), fps(2), fps(0),
+            fmt::format("{:.2f}", raced.against(1)), fmt::format("{:.2f}", raced.against(2))});
     }
     table.note = "Ours: an orbit at 1280x720, medians of whole frames; the three ways draw every "
                  "frame in turn. More aircraft and ground: octant study hidden-surface.";
@@ -446,9 +357,7 @@ void study_draw_order(const DrawOrderStudyOptions& options) {
     }
     write_file(options.out / "draw-order.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::print_note(
-        options.quiet,
-        fmt::format("tables: {0}/draw-order.md and one .csv each", options.out.string()));
+    base::print_note(options.quiet, fmt::format("tables: {0}/draw-order.md and one .csv each", options.out.string()));
 }
 
 } // namespace octant::ui::studies::draw_order

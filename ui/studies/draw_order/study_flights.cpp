@@ -31,9 +31,7 @@ namespace {
 
 constexpr int frames_left_out = 10; ///< first frames that the figures leave out
 constexpr std::array compared_methods = {
-    scene::HiddenSurface::Octant,
-    scene::HiddenSurface::DepthBuffer,
-    scene::HiddenSurface::BackFace};
+    scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer, scene::HiddenSurface::BackFace};
 constexpr std::array method_names = {"octant order", "depth buffer", "back faces only"};
 
 /// Seconds that the paper printed; 0 where it printed frames a second or nothing.
@@ -46,18 +44,13 @@ struct PrintedTime {
     double back_face_fps;
 };
 
-// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
-// Animation", 1989: section IV (frames a second by back-face removal and z-buffer), tables 5 and 6.
-constexpr std::array printed_times = {
-    PrintedTime{"f15", "alone", 100, 3.3, 5.0, 30.0},
-    PrintedTime{"500md", "alone", 100, 3.5, 4.0, 29.0},
-    PrintedTime{"f15", "straight", 800, 27.5, 0, 0},
-    PrintedTime{"f15", "jinking", 700, 24.0, 0, 0},
-    PrintedTime{"f15", "pop-up", 730, 25.0, 0, 0},
-    PrintedTime{"f15", "turn", 580, 19.5, 0, 0},
-    PrintedTime{"500md", "straight", 800, 29.0, 0, 0},
-    PrintedTime{"500md", "jinking", 700, 25.5, 0, 0},
-    PrintedTime{"500md", "pop-up", 730, 27.0, 0, 0},
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989:
+// section IV (frames a second by back-face removal and z-buffer), tables 5 and 6.
+constexpr std::array printed_times = {PrintedTime{"f15", "alone", 100, 3.3, 5.0, 30.0},
+    PrintedTime{"500md", "alone", 100, 3.5, 4.0, 29.0}, PrintedTime{"f15", "straight", 800, 27.5, 0, 0},
+    PrintedTime{"f15", "jinking", 700, 24.0, 0, 0}, PrintedTime{"f15", "pop-up", 730, 25.0, 0, 0},
+    PrintedTime{"f15", "turn", 580, 19.5, 0, 0}, PrintedTime{"500md", "straight", 800, 29.0, 0, 0},
+    PrintedTime{"500md", "jinking", 700, 25.5, 0, 0}, PrintedTime{"500md", "pop-up", 730, 27.0, 0, 0},
     PrintedTime{"500md", "turn", 580, 20.5, 0, 0}};
 
 struct MeasuredRow {
@@ -69,8 +62,8 @@ struct MeasuredRow {
     RasterTimes raster;
 };
 
-settings::RunSettings
-settings_of(const PrintedTime& row, const FlightStudyOptions& options, scene::HiddenSurface method) {
+settings::RunSettings settings_of(
+    const PrintedTime& row, const FlightStudyOptions& options, scene::HiddenSurface method) {
     settings::RunSettings settings;
     settings.view.size_px = options.settings.view.size_px;
     settings.view.samples = options.settings.view.samples;
@@ -95,20 +88,17 @@ settings_of(const PrintedTime& row, const FlightStudyOptions& options, scene::Hi
     return settings;
 }
 
-/// Flies a row and records it. A stop signal ends the recording in order, and the row is measured
-/// in part or not at all.
+/// Flies a row and records it. A stop signal ends the recording in order, and the row is measured in part or not at
+/// all.
 MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
-    if (base::StopSignals::received()) {
-        return {};
-    }
+    if (base::StopSignals::received()) { return {}; }
     std::array<std::unique_ptr<flight::Session>, compared_methods.size()> sessions;
     for (std::size_t m = 0; m < compared_methods.size(); ++m) {
         sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, compared_methods[m]));
     }
     std::vector<std::unique_ptr<flight::Session>> raster_sessions;
     for (const RasterMode& mode : raster_modes) {
-        raster_sessions.push_back(
-            raster_session(settings_of(row, options, scene::HiddenSurface::Octant), mode));
+        raster_sessions.push_back(raster_session(settings_of(row, options, scene::HiddenSurface::Octant), mode));
     }
     flight::Session& octant = *sessions.front();
     flight::RecordOptions record;
@@ -120,8 +110,7 @@ MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
     measured.polygons = model.polygons.size();
     measured.frames = octant.frames();
     std::array<std::vector<double>, compared_methods.size()> frame_ms;
-    base::Progress progress(
-        fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
+    base::Progress progress(fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
     int frame = 0;
     for (; frame < measured.frames && !(base::StopSignals::received() && frame > 0); ++frame) {
         report::FrameRecord octant_record;
@@ -129,16 +118,12 @@ MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
             const std::size_t m = (turn + static_cast<std::size_t>(frame)) % compared_methods.size();
             const report::FrameRecord drawn = sessions[m]->draw(frame);
             frame_ms[m].push_back(drawn.frame_ms);
-            if (m == 0) {
-                octant_record = drawn;
-            }
+            if (m == 0) { octant_record = drawn; }
         }
         for (std::size_t turn = 0; turn < raster_modes.size(); ++turn) {
             const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % raster_modes.size();
             const report::FrameRecord drawn = raster_sessions[mode]->draw(frame);
-            if (frame >= frames_left_out) {
-                measured.raster.add(mode, drawn);
-            }
+            if (frame >= frames_left_out) { measured.raster.add(mode, drawn); }
         }
         // After all of them, so that no method draws next to the work of recording.
         recorder.add(octant_record, octant);
@@ -147,16 +132,14 @@ MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
     progress.finish();
     if (frame < measured.frames) {
         recorder.finish(
-            octant,
-            fmt::format(
-                "{} after {} of {} frames", base::StopSignals::name(), frame, measured.frames));
+            octant, fmt::format("{} after {} of {} frames", base::StopSignals::name(), frame, measured.frames));
         return measured;
     }
     recorder.finish(octant);
     for (std::size_t m = 0; m < compared_methods.size(); ++m) {
         frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + frames_left_out);
-        const double mean_ms = std::accumulate(frame_ms[m].begin(), frame_ms[m].end(), 0.0) /
-                               static_cast<double>(frame_ms[m].size());
+        const double mean_ms =
+            std::accumulate(frame_ms[m].begin(), frame_ms[m].end(), 0.0) / static_cast<double>(frame_ms[m].size());
         measured.seconds[m] = mean_ms * measured.frames / 1000.0;
         measured.median_ms[m] = report::statistics_of_times(frame_ms[m]).p50_ms;
     }
@@ -165,13 +148,9 @@ MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
 
 constexpr std::size_t table_5_rows = 2;
 
-std::string seconds_text(double seconds) {
-    return fmt::format("{:.2f}", seconds);
-}
+std::string seconds_text(double seconds) { return fmt::format("{:.2f}", seconds); }
 
-std::string fps_text(int frames, double seconds) {
-    return fmt::format("{:.0f}", frames / seconds);
-}
+std::string fps_text(int frames, double seconds) { return fmt::format("{:.0f}", frames / seconds); }
 
 report::HtmlTable table_5(const std::vector<MeasuredRow>& measured) {
     report::HtmlTable table;
@@ -184,18 +163,11 @@ report::HtmlTable table_5(const std::vector<MeasuredRow>& measured) {
     for (std::size_t i = 0; i < table_5_rows; ++i) {
         const PrintedTime& row = printed_times[i];
         const MeasuredRow& m = measured[i];
-        table.rows.push_back(
-            {row.aircraft,
-             fmt::format("{}", m.vertices),
-             fmt::format("{}", m.polygons),
-             fmt::format("{:.1f}", row.octant_s),
-             seconds_text(m.seconds[0]),
-             fmt::format("{:.0f}", row.frames / row.octant_s),
-             fps_text(m.frames, m.seconds[0]),
-             fmt::format("{:.0f}", row.depth_buffer_fps),
-             fps_text(m.frames, m.seconds[1]),
-             fmt::format("{:.0f}", row.back_face_fps),
-             fps_text(m.frames, m.seconds[2])});
+        table.rows.push_back({row.aircraft, fmt::format("{}", m.vertices), fmt::format("{}", m.polygons),
+            fmt::format("{:.1f}", row.octant_s), seconds_text(m.seconds[0]),
+            fmt::format("{:.0f}", row.frames / row.octant_s), fps_text(m.frames, m.seconds[0]),
+            fmt::format("{:.0f}", row.depth_buffer_fps), fps_text(m.frames, m.seconds[1]),
+            fmt::format("{:.0f}", row.back_face_fps), fps_text(m.frames, m.seconds[2])});
     }
     table.note = "An orbit without background. The paper's machine was an IRIS workstation with 12 "
                  "geometry engines.";
@@ -204,8 +176,7 @@ report::HtmlTable table_5(const std::vector<MeasuredRow>& measured) {
 
 report::HtmlTable table_6(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
     report::HtmlTable table;
-    table.title =
-        "Table 6: four paths over a background of 60 polygons, one frame a path sample, by OpenGL";
+    table.title = "Table 6: four paths over a background of 60 polygons, one frame a path sample, by OpenGL";
     table.header = {"aircraft", "path", "frames", "paper, s", "paper, frames/s"};
     for (const char* method : method_names) {
         table.header.push_back(fmt::format("ours, s, {}", method));
@@ -216,12 +187,8 @@ report::HtmlTable table_6(const std::vector<MeasuredRow>& measured, const Flight
     for (std::size_t i = table_5_rows; i < printed_times.size(); ++i) {
         const PrintedTime& row = printed_times[i];
         const MeasuredRow& m = measured[i];
-        std::vector<std::string> cells = {
-            row.aircraft,
-            row.path,
-            fmt::format("{}", m.frames),
-            fmt::format("{:.1f}", row.octant_s),
-            fmt::format("{:.1f}", row.frames / row.octant_s)};
+        std::vector<std::string> cells = {row.aircraft, row.path, fmt::format("{}", m.frames),
+            fmt::format("{:.1f}", row.octant_s), fmt::format("{:.1f}", row.frames / row.octant_s)};
         for (const double seconds : m.seconds) {
             cells.push_back(seconds_text(seconds));
             cells.push_back(fps_text(m.frames, seconds));
@@ -230,16 +197,14 @@ report::HtmlTable table_6(const std::vector<MeasuredRow>& measured, const Flight
         cells.push_back(fmt::format("{:.2f}", m.median_ms[2] / m.median_ms[0]));
         table.rows.push_back(cells);
     }
-    table.note = fmt::format(
-        "Ours at {}x{}, mean frame times after a warm-up of 10 frames, times the frames; the three "
-        "methods draw every frame in turn, so that "
-        "they see the same machine.",
-        options.settings.view.size_px.x,
-        options.settings.view.size_px.y);
+    table.note =
+        fmt::format("Ours at {}x{}, mean frame times after a warm-up of 10 frames, times the frames; the three "
+                    "methods draw every frame in turn, so that "
+                    "they see the same machine.",
+            options.settings.view.size_px.x, options.settings.view.size_px.y);
     if (options.jobs > 1) {
-        table.note += fmt::format(
-            " {} flights at once shared the cores: compare no times between rows, nor with those "
-            "of flights alone.",
+        table.note += fmt::format(" {} flights at once shared the cores: compare no times between rows, nor with those "
+                                  "of flights alone.",
             options.jobs);
     }
     return table;
@@ -276,8 +241,7 @@ report::HtmlTable raster_times(const std::vector<MeasuredRow>& measured) {
 }
 
 void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
-    const std::array tables = {
-        table_5(measured), table_6(measured, options), raster_times(measured)};
+    const std::array tables = {table_5(measured), table_6(measured, options), raster_times(measured)};
     std::string markdown;
     for (const report::HtmlTable& table : tables) {
         markdown += (markdown.empty() ? "" : "\n") + report::markdown_of(table);
@@ -293,17 +257,14 @@ void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOp
     }
     std::vector<report::LoadedRecording> recordings;
     for (const PrintedTime& row : printed_times) {
-        recordings.push_back(
-            report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
+        recordings.push_back(report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
     }
     write_file(options.out / "report.html", report::html_report(recordings, tables));
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
     base::print_note(
-        options.quiet,
-        fmt::format(
-            "tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv, {0}/raster.csv; report: "
-            "{0}/report.html",
-            options.out.string()));
+        options.quiet, fmt::format("tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv, {0}/raster.csv; report: "
+                                   "{0}/report.html",
+                           options.out.string()));
 }
 
 } // namespace
@@ -314,12 +275,9 @@ void study_flights(const FlightStudyOptions& options) {
     of_row.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     std::vector<MeasuredRow> measured(printed_times.size());
     const base::StopSignals stop_signals;
-    parallel_for(printed_times.size(), options.jobs, [&](std::size_t row, std::size_t /*worker*/) {
-        measured[row] = measure(printed_times[row], of_row);
-    });
-    if (base::StopSignals::received()) {
-        throw base::StoppedBySignal();
-    }
+    parallel_for(printed_times.size(), options.jobs,
+        [&](std::size_t row, std::size_t /*worker*/) { measured[row] = measure(printed_times[row], of_row); });
+    if (base::StopSignals::received()) { throw base::StoppedBySignal(); }
     write_results(measured, options);
 }
 

@@ -6,17 +6,15 @@
 namespace octant::ui::studies::draw_order {
 
 struct FlightStudyOptions : base::StudyOutput {
-    settings::RunSettings settings =
-        settings::measurement_settings(); ///< size, samples and context are taken from it
-    int jobs = 1;                    ///< flights at once; above 1 their times depend on each other
+    settings::RunSettings settings = settings::measurement_settings(); ///< size, samples and context are taken from it
+    int jobs = 1; ///< flights at once; above 1 their times depend on each other
 };
 
-/// Tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit) and the four paths
-/// over the 60-polygon background, one frame a path sample, for octant order, depth buffer and
-/// removal of back faces, by OpenGL and in all ways of the raster renderer. All of them draw every
-/// frame in turn, so that they see the same machine. Prints the tables with the paper's figures
-/// beside and writes them to `out` as CSV, Markdown and plot, with the recordings of the octant
-/// flights and a report. Throws Error.
+/// Tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit) and the four paths over the 60-polygon
+/// background, one frame a path sample, for octant order, depth buffer and removal of back faces, by OpenGL and in all
+/// ways of the raster renderer. All of them draw every frame in turn, so that they see the same machine. Prints the
+/// tables with the paper's figures beside and writes them to `out` as CSV, Markdown and plot, with the recordings of
+/// the octant flights and a report. Throws Error.
 void study_flights(const FlightStudyOptions& options);
 
 } // namespace octant::ui::studies::draw_order

@@ -1,4 +1,5 @@
 #include "ui/studies/draw_order/study_hidden_surface.h"
+
 #include "sim/base/output_file.h"
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
@@ -42,15 +43,12 @@ bool is_hidden(const world::World& world, const glm::dvec3& eye_m, const glm::dv
     for (double at_m = step_m; at_m < distance_m; at_m += step_m) {
         const glm::dvec3 point_m = glm::mix(eye_m, target_m, at_m / distance_m);
         const auto ground_m = world.scene.ground->height_at(point_m.x, point_m.y);
-        if (ground_m && *ground_m > point_m.z) {
-            return true;
-        }
+        if (ground_m && *ground_m > point_m.z) { return true; }
     }
     return false;
 }
 
-int visibility_changes(
-    const world::World& world, const glm::dvec3& eye_m, const std::vector<glm::dvec3>& flight_m) {
+int visibility_changes(const world::World& world, const glm::dvec3& eye_m, const std::vector<glm::dvec3>& flight_m) {
     int changes = 0;
     bool hidden = is_hidden(world, eye_m, flight_m.front());
     for (const glm::dvec3& place_m : flight_m) {
@@ -78,12 +76,9 @@ glm::dvec3 ridge_tower(const world::World& world) {
     for (const double distance_m : distances_m) {
         for (int i = 0; i < directions; ++i) {
             const double angle_rad = 2.0 * pi * i / directions;
-            glm::dvec3 eye_m =
-                middle_m + distance_m * glm::dvec3(std::sin(angle_rad), std::cos(angle_rad), 0.0);
+            glm::dvec3 eye_m = middle_m + distance_m * glm::dvec3(std::sin(angle_rad), std::cos(angle_rad), 0.0);
             const auto ground_m = world.scene.ground->height_at(eye_m.x, eye_m.y);
-            if (!ground_m) {
-                continue;
-            }
+            if (!ground_m) { continue; }
             eye_m.z = *ground_m + eye_height_m;
             const int changes = visibility_changes(world, eye_m, flight_m);
             if (changes > most) {
@@ -103,8 +98,7 @@ constexpr std::uint32_t without_alpha = 0xffffffU;
 constexpr double nearer_share = 1e-6; ///< by which one of two depths must be nearer to count
 
 std::size_t index_of(const glm::ivec2& pixel, const glm::ivec2& size_px) {
-    return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size_px.x) +
-           static_cast<std::size_t>(pixel.x);
+    return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size_px.x) + static_cast<std::size_t>(pixel.x);
 }
 
 std::uint32_t number_radius(const scene::Picture& picture, std::size_t pixel) {
@@ -116,8 +110,7 @@ std::uint32_t number_radius(const scene::Picture& picture, std::size_t pixel) {
 double distance_to_segment(const glm::dvec2& at, const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 mode = to - from;
     const double length2 = glm::dot(mode, mode);
-    const double share =
-        length2 > 0.0 ? std::clamp(glm::dot(at - from, mode) / length2, 0.0, 1.0) : 0.0;
+    const double share = length2 > 0.0 ? std::clamp(glm::dot(at - from, mode) / length2, 0.0, 1.0) : 0.0;
     return glm::distance(at, from + share * mode);
 }
 
@@ -141,9 +134,7 @@ std::array<glm::dvec2, 2> box_of(const glm::dmat3& corners, double near_m) {
     for (glm::length_t i = 0; i < 3; ++i) {
         const glm::dvec3& here = corners[i];
         const glm::dvec3& next = corners[(i + 1) % 3];
-        if (here.z >= near_m) {
-            add(here);
-        }
+        if (here.z >= near_m) { add(here); }
         if ((here.z >= near_m) != (next.z >= near_m)) {
             add(glm::mix(here, next, (near_m - here.z) / (next.z - here.z)));
         }
@@ -159,18 +150,14 @@ double RayRenderer::Target::inside_px(const glm::dvec3& at) const {
 
 double RayRenderer::Target::distance_px(const glm::dvec2& at) const {
     const double inside = inside_px({at, 1.0});
-    if (inside >= 0.0) {
-        return 0.0;
-    }
-    return is_placed ? std::min(
-                           {distance_to_segment(at, corners_px[0], corners_px[1]),
-                            distance_to_segment(at, corners_px[1], corners_px[2]),
-                            distance_to_segment(at, corners_px[2], corners_px[0])})
+    if (inside >= 0.0) { return 0.0; }
+    return is_placed ? std::min({distance_to_segment(at, corners_px[0], corners_px[1]),
+                           distance_to_segment(at, corners_px[1], corners_px[2]),
+                           distance_to_segment(at, corners_px[2], corners_px[0])})
                      : -inside;
 }
 
-RayRenderer::RayRenderer(const glm::ivec2& size_px)
-    : size_px_(size_px) {
+RayRenderer::RayRenderer(const glm::ivec2& size_px) : size_px_(size_px) {
     info_.description = "rays";
     info_.device = "processor";
     info_.is_software = true;
@@ -185,8 +172,7 @@ void RayRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
     size_px_ = size_px;
     picture_.width = size_px.x;
     picture_.height = size_px.y;
-    const std::size_t pixels =
-        static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
+    const std::size_t pixels = static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
     picture_.rgba.assign(4 * pixels, 0);
     inverse_depths_.assign(pixels, 0.0);
 }
@@ -203,16 +189,13 @@ void RayRenderer::draw(const scene::FramePlan& plan) {
     add_ground(plan);
     for (const scene::PaintStep& step : plan.steps) {
         for (std::uint32_t i = step.first;
-             step.content == scene::PaintStep::Content::Aircraft && i < step.first + step.count;
-             ++i) {
+             step.content == scene::PaintStep::Content::Aircraft && i < step.first + step.count; ++i) {
             add_aircraft(plan, plan.aircraft[i]);
         }
     }
     std::ranges::fill(picture_.rgba, std::uint8_t{0});
     std::ranges::fill(inverse_depths_, 0.0);
-    for (const Target& target : targets_) {
-        draw_target(target);
-    }
+    for (const Target& target : targets_) { draw_target(target); }
 }
 
 void RayRenderer::add_ground(const scene::FramePlan& plan) {
@@ -220,11 +203,8 @@ void RayRenderer::add_ground(const scene::FramePlan& plan) {
     const auto& vertices = plan.ground.vertices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         ++pieces_;
-        add({vertices[indices[i]].position_m,
-             vertices[indices[i + 1]].position_m,
-             vertices[indices[i + 2]].position_m},
-            vertices[indices[i]].colour,
-            false);
+        add({vertices[indices[i]].position_m, vertices[indices[i + 1]].position_m, vertices[indices[i + 2]].position_m},
+            vertices[indices[i]].colour, false);
     }
 }
 
@@ -234,9 +214,7 @@ void RayRenderer::add_aircraft(const scene::FramePlan& plan, const scene::Aircra
         std::optional<std::uint32_t> polygon;
         for (std::size_t i = first; i + 2 < first + count; i += 3) {
             const std::uint32_t next = model.vertices[model.indices[i]].polygon;
-            if (polygon != next) {
-                ++pieces_;
-            }
+            if (polygon != next) { ++pieces_; }
             polygon = next;
             std::array<glm::vec3, 3> corners_m;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -247,37 +225,24 @@ void RayRenderer::add_aircraft(const scene::FramePlan& plan, const scene::Aircra
             add(corners_m, model.vertices[model.indices[i]].face_colour, true);
         }
     };
-    if (draw.ranges.empty()) {
-        add_range(draw.first_index, draw.index_count);
-    }
-    for (const scene::IndexRange& range : draw.ranges) {
-        add_range(range.first_index, range.index_count);
-    }
+    if (draw.ranges.empty()) { add_range(draw.first_index, draw.index_count); }
+    for (const scene::IndexRange& range : draw.ranges) { add_range(range.first_index, range.index_count); }
 }
 
 void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t number, bool culls) {
     glm::dmat3 corners; // homogeneous places, pixels from the middle of the upper left one
     for (glm::length_t k = 0; k < 3; ++k) {
-        const glm::dvec4 clip =
-            world_to_clip_ * glm::dvec4(glm::dvec3(corners_m[static_cast<std::size_t>(k)]), 1.0);
-        corners[k] = {
-            (clip.x + clip.w) * 0.5 * size_px_.x - 0.5 * clip.w,
-            (clip.w - clip.y) * 0.5 * size_px_.y - 0.5 * clip.w,
-            clip.w};
+        const glm::dvec4 clip = world_to_clip_ * glm::dvec4(glm::dvec3(corners_m[static_cast<std::size_t>(k)]), 1.0);
+        corners[k] = {(clip.x + clip.w) * 0.5 * size_px_.x - 0.5 * clip.w,
+            (clip.w - clip.y) * 0.5 * size_px_.y - 0.5 * clip.w, clip.w};
     }
     const double doubled_area = glm::determinant(corners);
-    if (doubled_area == 0.0 || (culls && doubled_area > 0.0)) {
-        return;
-    }
+    if (doubled_area == 0.0 || (culls && doubled_area > 0.0)) { return; }
     const auto [least, most] = box_of(corners, near_m_);
     Target target;
-    target.least =
-        glm::max(glm::ivec2(glm::max(glm::floor(least) - 1.0, glm::dvec2(-1.0))), glm::ivec2(0));
-    target.most =
-        glm::min(glm::ivec2(glm::min(glm::ceil(most) + 1.0, glm::dvec2(size_px_))), size_px_ - 1);
-    if (target.least.x > target.most.x || target.least.y > target.most.y) {
-        return;
-    }
+    target.least = glm::max(glm::ivec2(glm::max(glm::floor(least) - 1.0, glm::dvec2(-1.0))), glm::ivec2(0));
+    target.most = glm::min(glm::ivec2(glm::min(glm::ceil(most) + 1.0, glm::dvec2(size_px_))), size_px_ - 1);
+    if (target.least.x > target.most.x || target.least.y > target.most.y) { return; }
     const glm::dmat3 rows = glm::transpose(glm::inverse(corners));
     for (glm::length_t k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -286,8 +251,7 @@ void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t n
         target.max_over_w = std::max(target.max_over_w, 1.0 / std::max(corners[k].z, near_m_));
         target.corners_px[i] = glm::dvec2(corners[k]) / corners[k].z;
     }
-    target.is_placed =
-        corners[0].z >= near_m_ && corners[1].z >= near_m_ && corners[2].z >= near_m_;
+    target.is_placed = corners[0].z >= near_m_ && corners[1].z >= near_m_ && corners[2].z >= near_m_;
     target.number = number & without_alpha;
     target.piece = pieces_;
     targets_.push_back(target);
@@ -297,9 +261,7 @@ void RayRenderer::draw_target(const Target& target) {
     for (int row = target.least.y; row <= target.most.y; ++row) {
         for (int column = target.least.x; column <= target.most.x; ++column) {
             const glm::dvec3 at(column, row, 1.0);
-            if (target.inside_px(at) < 0.0) {
-                continue;
-            }
+            if (target.inside_px(at) < 0.0) { continue; }
             const double inverse_depth = glm::dot(target.inverse_depth, at);
             const std::size_t pixel = index_of({column, row}, size_px_);
             if (inverse_depth > inverse_depths_[pixel] && inverse_depth * near_m_ <= 1.0) {
@@ -321,9 +283,7 @@ RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, doub
         for (int column = 0; column < size_px_.x; ++column) {
             const std::size_t pixel = index_of({column, row}, size_px_);
             const std::uint32_t number = number_radius(picture, pixel);
-            if (number == number_radius(picture_, pixel)) {
-                continue;
-            }
+            if (number == number_radius(picture_, pixel)) { continue; }
             ++difference.differing;
             if (const auto fault = wrong_pixel_at({column, row}, number, reach_px)) {
                 difference.wrong.push_back(*fault);
@@ -338,16 +298,14 @@ bool RayRenderer::may_reach(const Target& target, const glm::ivec2& pixel, doubl
            pixel.y <= target.most.y && target.inside_px({pixel, 1.0}) >= -reach_px;
 }
 
-std::optional<RayRenderer::WrongPixel>
-RayRenderer::wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
+std::optional<RayRenderer::WrongPixel> RayRenderer::wrong_pixel_at(
+    const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
     const glm::dvec2 middle(pixel);
     const glm::dvec3 at(middle, 1.0);
     std::vector<const Target*> others;
     double shown_by_w = number == 0 ? 0.0 : -1.0; // 0: nothing, infinitely far
     for (const Target& target : targets_) {
-        if (!may_reach(target, pixel, reach_px)) {
-            continue;
-        }
+        if (!may_reach(target, pixel, reach_px)) { continue; }
         if (target.number != number) {
             others.push_back(&target);
         } else if (target.distance_px(middle) <= reach_px) {
@@ -356,9 +314,7 @@ RayRenderer::wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, doubl
             shown_by_w = std::max(shown_by_w, std::min(inverse_depth, target.max_over_w));
         }
     }
-    if (shown_by_w < 0.0) {
-        return WrongPixel{pixel, number, std::nullopt};
-    }
+    if (shown_by_w < 0.0) { return WrongPixel{pixel, number, std::nullopt}; }
     const auto hides = [&](const glm::dvec3& place) {
         return std::ranges::any_of(others, [&](const Target* other) {
             const double inverse_depth = glm::dot(other->inverse_depth, place);
@@ -366,9 +322,7 @@ RayRenderer::wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, doubl
                    inverse_depth > shown_by_w * (1.0 + nearer_share);
         });
     };
-    if (!std::ranges::all_of(places_around(pixel, reach_px), hides)) {
-        return std::nullopt;
-    }
+    if (!std::ranges::all_of(places_around(pixel, reach_px), hides)) { return std::nullopt; }
     const double found_by_w = inverse_depths_[index_of(pixel, size_px_)];
     return WrongPixel{pixel, number, found_by_w / shown_by_w - 1.0};
 }
@@ -380,8 +334,8 @@ bool RayRenderer::is_rounding(
     std::uint32_t last = 0; // painted without rounding
     bool may_be_shown = false;
     for (auto first = targets_.begin(); first != targets_.end();) {
-        const auto end = std::find_if(
-            first, targets_.end(), [&](const Target& one) { return one.piece != first->piece; });
+        const auto end =
+            std::find_if(first, targets_.end(), [&](const Target& one) { return one.piece != first->piece; });
         const std::span piece(first, end);
         first = end;
         if (std::ranges::none_of(piece, [&](const Target& one) {
@@ -390,8 +344,7 @@ bool RayRenderer::is_rounding(
             continue;
         }
         const auto covers = [&](const glm::dvec3& place) {
-            return std::ranges::any_of(
-                piece, [&](const Target& one) { return one.inside_px(place) >= 0.0; });
+            return std::ranges::any_of(piece, [&](const Target& one) { return one.inside_px(place) >= 0.0; });
         };
         const bool is_certain = std::ranges::all_of(places, covers);
         last = covers({middle, 1.0}) ? piece.front().number : last;
@@ -403,9 +356,7 @@ bool RayRenderer::is_rounding(
 namespace scene = visuals::scene;
 
 RendererComparer::RendererComparer(const settings::RunSettings& settings, const RayRenderer& rays)
-    : settings_(settings)
-    , rays_(rays)
-    , unrounded_(settings.view.size_px) {
+    : settings_(settings), rays_(rays), unrounded_(settings.view.size_px) {
     for (std::size_t i = 0; i < renderers_.size(); ++i) {
         settings::RunSettings own = settings;
         own.drawing.renderer = compared_renderers[i];
@@ -421,29 +372,21 @@ std::unique_ptr<scene::Renderer> RendererComparer::sibling(const glm::ivec2& siz
 
 void RendererComparer::resize(const glm::ivec2& size_px, std::optional<int> samples) {
     settings_.view.size_px = size_px;
-    for (const auto& renderer : renderers_) {
-        renderer->resize(size_px, samples);
-    }
+    for (const auto& renderer : renderers_) { renderer->resize(size_px, samples); }
     unrounded_.resize(size_px, samples);
 }
 
 void RendererComparer::load_models(std::span<const scene::ModelBuffers> models) {
-    for (const auto& renderer : renderers_) {
-        renderer->load_models(models);
-    }
+    for (const auto& renderer : renderers_) { renderer->load_models(models); }
     unrounded_.load_models(models);
 }
 
 void RendererComparer::load_ground_texture(const scene::GroundTexture& texture) {
-    for (const auto& renderer : renderers_) {
-        renderer->load_ground_texture(texture);
-    }
+    for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
 }
 
 void RendererComparer::warm_up() {
-    for (const auto& renderer : renderers_) {
-        renderer->warm_up();
-    }
+    for (const auto& renderer : renderers_) { renderer->warm_up(); }
 }
 
 void RendererComparer::draw(const scene::FramePlan& plan) {
@@ -455,31 +398,24 @@ void RendererComparer::draw(const scene::FramePlan& plan) {
     }
 }
 
-RayRenderer::Difference
-RendererComparer::difference_to_rays(const scene::FramePlan& plan, const scene::Picture& picture) {
+RayRenderer::Difference RendererComparer::difference_to_rays(
+    const scene::FramePlan& plan, const scene::Picture& picture) {
     RayRenderer::Difference difference = rays_.compare(picture, rounding_reach_px);
-    if (!difference.wrong.empty() && !std::exchange(is_unrounded_drawn_, true)) {
-        unrounded_.draw(plan);
-    }
+    if (!difference.wrong.empty() && !std::exchange(is_unrounded_drawn_, true)) { unrounded_.draw(plan); }
     std::erase_if(difference.wrong, [&](const RayRenderer::WrongPixel& pixel) {
-        return unrounded_.is_rounding(
-            pixel.at, pixel.number, rays_.number_of(pixel.at), rounding_reach_px);
+        return unrounded_.is_rounding(pixel.at, pixel.number, rays_.number_of(pixel.at), rounding_reach_px);
     });
     return difference;
 }
 
 namespace scene = visuals::scene;
-using flight::Session;
 using flight::PictureContent;
+using flight::Session;
 
 namespace {
 
 std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
-    return fmt::format(
-        "frame {} at {},{}: {}",
-        frame,
-        wrong.at.x,
-        wrong.at.y,
+    return fmt::format("frame {} at {},{}: {}", frame, wrong.at.x, wrong.at.y,
         wrong.nearer ? fmt::format("the ray's is nearer by {:.1e} of the depth", *wrong.nearer)
                      : "what is shown is not there");
 }
@@ -488,9 +424,7 @@ std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
 
 long RayComparison::wrong() const {
     long sum = 0;
-    for (const OfRenderer& one : renderers) {
-        sum += one.wrong;
-    }
+    for (const OfRenderer& one : renderers) { sum += one.wrong; }
     return sum;
 }
 
@@ -503,11 +437,8 @@ void RayComparison::add(const RayComparison& other) {
     }
 }
 
-RayComparison compare_with_rays(
-    const settings::RunSettings& settings,
-    const flight::ComparisonWorlds& worlds,
-    int every,
-    const std::function<void(int compared, int frames)>& on_frame) {
+RayComparison compare_with_rays(const settings::RunSettings& settings, const flight::ComparisonWorlds& worlds,
+    int every, const std::function<void(int compared, int frames)>& on_frame) {
     const auto [painted, depth_buffered] = flight::comparison_settings(settings);
     auto renderer = std::make_unique<RayRenderer>(settings.view.size_px);
     auto renderers = std::make_unique<RendererComparer>(painted, *renderer);
@@ -538,28 +469,20 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr std::array views = {
-    StudiedView{scene::View::Chase, "chase"},
-    StudiedView{scene::View::Tower, "tower"},
-    StudiedView{scene::View::Tower, "behind ridges", true},
-    StudiedView{scene::View::Orbit, "orbit"}};
+constexpr std::array views = {StudiedView{scene::View::Chase, "chase"}, StudiedView{scene::View::Tower, "tower"},
+    StudiedView{scene::View::Tower, "behind ridges", true}, StudiedView{scene::View::Orbit, "orbit"}};
 constexpr StudiedView cockpit{scene::View::Cockpit, "cockpit"};
 
 ComparisonFlights aircraft_shown_by(const HiddenSurfaceStudyOptions& study) {
-    return {
-        study.settings,
-        study.aircraft.empty() ? std::vector<std::string>{"f15", "500md"}
-                               : std::vector<std::string>{study.aircraft},
-        study.every,
-        study.jobs,
-        study.quiet};
+    return {study.settings,
+        study.aircraft.empty() ? std::vector<std::string>{"f15", "500md"} : std::vector<std::string>{study.aircraft},
+        study.every, study.jobs, study.quiet};
 }
 
 std::vector<Race> run_races(const HiddenSurfaceStudyOptions& study) {
     std::vector<Race> races;
     for (const glm::ivec2 size_px : {glm::ivec2(640, 480), glm::ivec2(1280, 720)}) {
-        for (const std::string& terrain :
-             {std::string("background60"), study.settings.path.terrain}) {
+        for (const std::string& terrain : {std::string("background60"), study.settings.path.terrain}) {
             for (const std::size_t aircraft : {1U, 16U, 100U, 1000U}) {
                 settings::RunSettings settings = study.settings;
                 settings.path.name = "straight";
@@ -575,39 +498,18 @@ std::vector<Race> run_races(const HiddenSurfaceStudyOptions& study) {
 
 report::HtmlTable race_table(const std::vector<Race>& races) {
     report::HtmlTable table;
-    table.title =
-        "Frames a second by OpenGL: octant order, removal of back faces only, depth buffer";
-    table.header = {
-        "scene",
-        "aircraft",
-        "size",
-        "octant, frames/s",
-        "back faces, frames/s",
-        "depth buffer, frames/s",
-        "octant / back faces",
-        "octant / depth buffer",
-        "p99 ms octant",
-        "p99 ms back faces",
-        "p99 ms depth buffer",
-        "draw calls octant",
-        "draw calls back faces",
-        "draw calls depth buffer"};
+    table.title = "Frames a second by OpenGL: octant order, removal of back faces only, depth buffer";
+    table.header = {"scene", "aircraft", "size", "octant, frames/s", "back faces, frames/s", "depth buffer, frames/s",
+        "octant / back faces", "octant / depth buffer", "p99 ms octant", "p99 ms back faces", "p99 ms depth buffer",
+        "draw calls octant", "draw calls back faces", "draw calls depth buffer"};
     for (const Race& r : races) {
         std::vector<std::string> cells = {
-            short_name(r.scene),
-            fmt::format("{}", r.aircraft),
-            fmt::format("{}x{}", r.width_px, r.height_px)};
-        for (const RaceTimes& mode : r.gl_times) {
-            cells.push_back(fmt::format("{:.0f}", 1000.0 / mode.median_ms));
-        }
+            short_name(r.scene), fmt::format("{}", r.aircraft), fmt::format("{}x{}", r.width_px, r.height_px)};
+        for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{:.0f}", 1000.0 / mode.median_ms)); }
         cells.push_back(fmt::format("{:.2f}", r.against(1)));
         cells.push_back(fmt::format("{:.2f}", r.against(2)));
-        for (const RaceTimes& mode : r.gl_times) {
-            cells.push_back(fmt::format("{:.2f}", mode.p99_ms));
-        }
-        for (const RaceTimes& mode : r.gl_times) {
-            cells.push_back(fmt::format("{}", mode.draw_calls));
-        }
+        for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{:.2f}", mode.p99_ms)); }
+        for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{}", mode.draw_calls)); }
         table.rows.push_back(std::move(cells));
     }
     table.note = "Whole frames from simulation to pixels read, medians; the three ways draw every "
@@ -620,16 +522,13 @@ report::HtmlTable raster_times(const std::vector<Race>& races) {
     std::vector<RasterTimes> times;
     for (const Race& r : races) {
         names.push_back(
-            {short_name(r.scene),
-             fmt::format("{}", r.aircraft),
-             fmt::format("{}x{}", r.width_px, r.height_px)});
+            {short_name(r.scene), fmt::format("{}", r.aircraft), fmt::format("{}x{}", r.width_px, r.height_px)});
         times.push_back(r.raster);
     }
     return raster_table({"scene", "aircraft", "size"}, names, times);
 }
 
-std::vector<std::string>
-cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
+std::vector<std::string> cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
     name.push_back(fmt::format("{}", result.frames));
     name.push_back(fmt::format("{}", result.frames_with_cuts));
     name.push_back(fmt::format("{}", result.cuts));
@@ -645,18 +544,8 @@ report::HtmlTable picture_table(
     const std::vector<NamedResult<flight::IdComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
     report::HtmlTable table;
     table.title = "Polygon numbers: octant order against the depth buffer";
-    table.header = {
-        "path",
-        "aircraft",
-        "view",
-        "frames",
-        "frames with cuts",
-        "cuts",
-        "unordered",
-        "pixels",
-        "differing",
-        "apart",
-        "wrong"};
+    table.header = {"path", "aircraft", "view", "frames", "frames with cuts", "cuts", "unordered", "pixels",
+        "differing", "apart", "wrong"};
     flight::IdComparison sum;
     for (const NamedResult<flight::IdComparison>& run : compared) {
         table.rows.push_back(cells_of(run.name, run.result));
@@ -670,17 +559,14 @@ report::HtmlTable picture_table(
         sum.wrong += run.result.wrong;
     }
     table.rows.push_back(cells_of({"all", "", ""}, sum));
-    table.note = fmt::format(
-        "Every frame number {} of each flight over {}, {}x{}. Apart: the pixel's polygon does not "
-        "occur in the 3 x 3 pixels around it in the picture by depth buffer. Wrong: nor in the "
-        "same "
-        "place of one three times as large, which shows what the rounding of corners to 1/256 "
-        "pixel "
-        "lost in the first. Cuts: ground triangles and aircraft polygons painted once more in "
-        "front of an aircraft, cut to its outline.",
-        study.every,
-        short_name(study.settings.path.terrain),
-        study.settings.view.size_px.x,
+    table.note = fmt::format("Every frame number {} of each flight over {}, {}x{}. Apart: the pixel's polygon does not "
+                             "occur in the 3 x 3 pixels around it in the picture by depth buffer. Wrong: nor in the "
+                             "same "
+                             "place of one three times as large, which shows what the rounding of corners to 1/256 "
+                             "pixel "
+                             "lost in the first. Cuts: ground triangles and aircraft polygons painted once more in "
+                             "front of an aircraft, cut to its outline.",
+        study.every, short_name(study.settings.path.terrain), study.settings.view.size_px.x,
         study.settings.view.size_px.y);
     return table;
 }
@@ -688,40 +574,26 @@ report::HtmlTable picture_table(
 std::vector<NamedResult<RayComparison>> run_ray_comparisons(const HiddenSurfaceStudyOptions& study) {
     std::vector<StudiedView> all(views.begin(), views.end());
     all.push_back(cockpit);
-    return run_comparisons(
-        aircraft_shown_by(study),
-        all,
-        [&](const settings::RunSettings& settings,
-            const flight::ComparisonWorlds& worlds,
-            int every,
+    return run_comparisons(aircraft_shown_by(study), all,
+        [&](const settings::RunSettings& settings, const flight::ComparisonWorlds& worlds, int every,
             const auto& on_frame) {
             RayComparison result = compare_with_rays(settings, worlds, every, on_frame);
             for (const RayComparison::OfRenderer& one : result.renderers) {
                 if (one.wrong > 0) {
                     base::print_note(
-                        study.quiet,
-                        fmt::format("{} wrong pixels, the first: {}", one.wrong, one.first_wrong));
+                        study.quiet, fmt::format("{} wrong pixels, the first: {}", one.wrong, one.first_wrong));
                 }
             }
             return result;
         });
 }
 
-report::HtmlTable
-ray_table(const std::vector<NamedResult<RayComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
+report::HtmlTable ray_table(
+    const std::vector<NamedResult<RayComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
     report::HtmlTable table;
     table.title = "Polygon numbers: octant order against a ray through each pixel's middle";
-    table.header = {
-        "path",
-        "aircraft",
-        "view",
-        "pictures",
-        "pixels of a renderer",
-        "raster: differing",
-        "raster: wrong",
-        "OpenGL: differing",
-        "OpenGL: wrong",
-        "first wrong"};
+    table.header = {"path", "aircraft", "view", "pictures", "pixels of a renderer", "raster: differing",
+        "raster: wrong", "OpenGL: differing", "OpenGL: wrong", "first wrong"};
     const auto add_row = [&](std::vector<std::string> cells, const RayComparison& result) {
         cells.push_back(fmt::format("{}", result.frames));
         cells.push_back(fmt::format("{}", result.pixels));
@@ -740,18 +612,15 @@ ray_table(const std::vector<NamedResult<RayComparison>>& compared, const HiddenS
         sum.add(run.result);
     }
     add_row({"all", "", ""}, sum);
-    table.note = fmt::format(
-        "Every frame number {} of each flight over {}, {}x{}, one sample a pixel. Rays meet all "
-        "triangles in double precision, without order. Wrong: no rounding explains what is shown: "
-        "nothing of that number comes within {:.3f} pixel of the pixel's middle, or all of that "
-        "neighbourhood lies behind nearer triangles. Rounding is also what it is where the pieces, "
-        "painted in their order without it, show what the ray finds, and sides of the piece shown "
-        "and of all painted over it there pass within that distance.",
-        study.every,
-        short_name(study.settings.path.terrain),
-        study.settings.view.size_px.x,
-        study.settings.view.size_px.y,
-        rounding_reach_px);
+    table.note =
+        fmt::format("Every frame number {} of each flight over {}, {}x{}, one sample a pixel. Rays meet all "
+                    "triangles in double precision, without order. Wrong: no rounding explains what is shown: "
+                    "nothing of that number comes within {:.3f} pixel of the pixel's middle, or all of that "
+                    "neighbourhood lies behind nearer triangles. Rounding is also what it is where the pieces, "
+                    "painted in their order without it, show what the ray finds, and sides of the piece shown "
+                    "and of all painted over it there pass within that distance.",
+            study.every, short_name(study.settings.path.terrain), study.settings.view.size_px.x,
+            study.settings.view.size_px.y, rounding_reach_px);
     return table;
 }
 
@@ -770,19 +639,14 @@ bool study_hidden_surface(const HiddenSurfaceStudyOptions& study) {
         write_file(study.out / "raster.csv", report::csv_of(tables.back()));
     }
     if (study.pictures) {
-        const auto compared =
-            run_comparisons(aircraft_shown_by(study), views, flight::compare_with_depth_buffer);
-        for (const auto& run : compared) {
-            right = right && run.result.wrong == 0;
-        }
+        const auto compared = run_comparisons(aircraft_shown_by(study), views, flight::compare_with_depth_buffer);
+        for (const auto& run : compared) { right = right && run.result.wrong == 0; }
         tables.push_back(picture_table(compared, study));
         write_file(study.out / "pictures.csv", report::csv_of(tables.back()));
     }
     if (study.rays) {
         const auto compared = run_ray_comparisons(study);
-        for (const auto& run : compared) {
-            right = right && run.result.wrong() == 0;
-        }
+        for (const auto& run : compared) { right = right && run.result.wrong() == 0; }
         tables.push_back(ray_table(compared, study));
         write_file(study.out / "rays.csv", report::csv_of(tables.back()));
     }

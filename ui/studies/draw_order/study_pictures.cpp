@@ -1,4 +1,5 @@
 #include "ui/studies/draw_order/study_pictures.h"
+
 #include "sim/base/output_file.h"
 #include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"
@@ -37,24 +38,21 @@ namespace octant::ui::studies::draw_order {
 
 namespace {
 
-/// A copy of a plan whose picture, of `size_px` pixels, lies `by_px` further right and down, and
-/// has nothing drawn over it.
-visuals::scene::FramePlan
-shifted_plan(const visuals::scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px);
+/// A copy of a plan whose picture, of `size_px` pixels, lies `by_px` further right and down, and has nothing drawn over
+/// it.
+visuals::scene::FramePlan shifted_plan(
+    const visuals::scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px);
 
-/// A picture of 8 x 8 samples a pixel: drawn eight times as large in both directions, in 64 parts,
-/// so that textures are filtered for the small pixels, too. The sum of all 64, red, green and blue
-/// of each pixel, rows from the top. For plans that use no depth.
+/// A picture of 8 x 8 samples a pixel: drawn eight times as large in both directions, in 64 parts, so that textures are
+/// filtered for the small pixels, too. The sum of all 64, red, green and blue of each pixel, rows from the top. For
+/// plans that use no depth.
 class Supersampled {
 public:
     static constexpr int side = 8;
     static constexpr int samples_per_pixel = side * side;
 
     /// `renderer` draws one sample a pixel at pictures of that size.
-    void draw(
-        visuals::scene::Renderer& renderer,
-        const visuals::scene::FramePlan& plan,
-        const glm::dvec2& by_px,
+    void draw(visuals::scene::Renderer& renderer, const visuals::scene::FramePlan& plan, const glm::dvec2& by_px,
         const glm::ivec2& size_px);
 
     /// A part of a pixel's colour in levels; `part` counts on from three for each pixel.
@@ -76,8 +74,7 @@ struct RenderMode {
 };
 
 /// Whose pictures are measured, in this order everywhere.
-constexpr std::array render_modes{
-    RenderMode{"OpenGL, 1 sample", "gl-1", settings::RendererKind::Gl, 1},
+constexpr std::array render_modes{RenderMode{"OpenGL, 1 sample", "gl-1", settings::RendererKind::Gl, 1},
     RenderMode{"OpenGL, 4 samples", "gl-4", settings::RendererKind::Gl, 4},
     RenderMode{"raster, 1 sample", "raster-1", settings::RendererKind::Raster, 1},
     RenderMode{"raster, 4 samples", "raster-4", settings::RendererKind::Raster, 4},
@@ -94,8 +91,8 @@ struct PictureQuality {
     double squares_to_own = 0.0;
     double parts = 0.0;         ///< red, green and blue of each pixel
     double largest_error = 0.0; ///< levels, from its own
-    /// Pixels that change by more than 16 levels too much or too little when the picture moves by
-    /// half a pixel, once right and once down.
+    /// Pixels that change by more than 16 levels too much or too little when the picture moves by half a pixel, once
+    /// right and once down.
     long false_changes = 0;
 
     double db_to_gl() const;
@@ -103,8 +100,8 @@ struct PictureQuality {
     void add(const PictureQuality& other);
 };
 
-/// In place of a session's renderer: draws each plan in all ways and measures their pictures; the
-/// session's own picture is that of the last way. Whatever is drawn over the picture is left out.
+/// In place of a session's renderer: draws each plan in all ways and measures their pictures; the session's own picture
+/// is that of the last way. Whatever is drawn over the picture is left out.
 class QualityRenderer final : public StudyRenderer {
 public:
     /// Throws Error.
@@ -121,8 +118,7 @@ public:
 
     const visuals::scene::RendererInfo& info() const override { return info_; }
 
-    std::unique_ptr<visuals::scene::Renderer>
-    sibling(const glm::ivec2& size_px, int samples) const override;
+    std::unique_ptr<visuals::scene::Renderer> sibling(const glm::ivec2& size_px, int samples) const override;
     void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
     void load_ground_texture(const visuals::scene::GroundTexture& texture) override;
@@ -152,8 +148,7 @@ private:
 
 namespace scene = visuals::scene;
 
-scene::FramePlan
-shifted_plan(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
+scene::FramePlan shifted_plan(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
     scene::FramePlan result = plan;
     const glm::vec2 by(2.0 * by_px / glm::dvec2(size_px));
     for (glm::length_t column = 0; column < 4; ++column) {
@@ -161,14 +156,12 @@ shifted_plan(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::i
         clip.x += by.x * clip.w;
         clip.y -= by.y * clip.w;
     }
-    std::erase_if(result.steps, [](const scene::PaintStep& step) {
-        return step.content == scene::PaintStep::Content::Overlay;
-    });
+    std::erase_if(
+        result.steps, [](const scene::PaintStep& step) { return step.content == scene::PaintStep::Content::Overlay; });
     return result;
 }
 
-/// A copy of a plan that shows one of side x side equal parts of its picture, as large as the
-/// whole.
+/// A copy of a plan that shows one of side x side equal parts of its picture, as large as the whole.
 scene::FramePlan part_of(const scene::FramePlan& plan, const glm::ivec2& part, int side) {
     scene::FramePlan result = plan;
     const glm::vec2 across = (2.0F * glm::vec2(part) + 1.0F) / static_cast<float>(side);
@@ -182,10 +175,7 @@ scene::FramePlan part_of(const scene::FramePlan& plan, const glm::ivec2& part, i
 }
 
 void Supersampled::draw(
-    scene::Renderer& renderer,
-    const scene::FramePlan& plan,
-    const glm::dvec2& by_px,
-    const glm::ivec2& size_px) {
+    scene::Renderer& renderer, const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
     const auto width = static_cast<std::size_t>(size_px.x);
     const auto height = static_cast<std::size_t>(size_px.y);
     sums_.assign(3 * width * height, 0);
@@ -218,15 +208,10 @@ double decibels(double squares, double parts) {
                          : std::numeric_limits<double>::infinity();
 }
 
-double level(const scene::Picture& picture, std::size_t part) {
-    return picture.rgba[4 * (part / 3) + part % 3];
-}
+double level(const scene::Picture& picture, std::size_t part) { return picture.rgba[4 * (part / 3) + part % 3]; }
 
 /// Pixels whose change from one picture to the other differs from that of the references.
-long false_changes(
-    const scene::Picture& before,
-    const scene::Picture& after,
-    const Supersampled& true_before,
+long false_changes(const scene::Picture& before, const scene::Picture& after, const Supersampled& true_before,
     const Supersampled& true_after) {
     long count = 0;
     for (std::size_t pixel = 0; pixel < true_before.parts() / 3; ++pixel) {
@@ -241,13 +226,9 @@ long false_changes(
     return count;
 }
 
-double PictureQuality::db_to_gl() const {
-    return decibels(squares_to_gl, parts);
-}
+double PictureQuality::db_to_gl() const { return decibels(squares_to_gl, parts); }
 
-double PictureQuality::db_to_own() const {
-    return decibels(squares_to_own, parts);
-}
+double PictureQuality::db_to_own() const { return decibels(squares_to_own, parts); }
 
 void PictureQuality::add(const PictureQuality& other) {
     squares_to_gl += other.squares_to_gl;
@@ -257,8 +238,7 @@ void PictureQuality::add(const PictureQuality& other) {
     false_changes += other.false_changes;
 }
 
-QualityRenderer::QualityRenderer(const settings::RunSettings& settings)
-    : settings_(settings) {
+QualityRenderer::QualityRenderer(const settings::RunSettings& settings) : settings_(settings) {
     for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         settings::RunSettings own = settings;
         own.drawing.renderer = render_modes[mode].renderer;
@@ -283,36 +263,25 @@ void QualityRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
 
 void QualityRenderer::load_models(std::span<const scene::ModelBuffers> models) {
     models_.assign(models.begin(), models.end());
-    for (const auto& renderer : renderers_) {
-        renderer->load_models(models);
-    }
+    for (const auto& renderer : renderers_) { renderer->load_models(models); }
 }
 
 void QualityRenderer::load_ground_texture(const scene::GroundTexture& texture) {
-    for (const auto& renderer : renderers_) {
-        renderer->load_ground_texture(texture);
-    }
+    for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
 }
 
 void QualityRenderer::warm_up() {
-    for (const auto& renderer : renderers_) {
-        renderer->warm_up();
-    }
+    for (const auto& renderer : renderers_) { renderer->warm_up(); }
 }
 
 void QualityRenderer::draw(const scene::FramePlan& plan) {
     const glm::ivec2& size_px = settings_.view.size_px;
     for (std::size_t position = 0; position < positions; ++position) {
         by_gl_[position].draw(*renderers_[gl_one_sample], plan, shifts_px[position], size_px);
-        by_raster_[position].draw(
-            *renderers_[raster_one_sample], plan, shifts_px[position], size_px);
+        by_raster_[position].draw(*renderers_[raster_one_sample], plan, shifts_px[position], size_px);
     }
-    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
-        measure(mode, plan);
-    }
-    if (!plan.ground_texture) {
-        masks_ = visuals::raster::mask_picture(plan, models_, size_px, workers_);
-    }
+    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) { measure(mode, plan); }
+    if (!plan.ground_texture) { masks_ = visuals::raster::mask_picture(plan, models_, size_px, workers_); }
 }
 
 const QualityRenderer::References& QualityRenderer::own_references(std::size_t mode) const {
@@ -359,8 +328,7 @@ struct StudiedScene {
 };
 
 // The last one stands apart: both renderers light and filter a texture each in its own way.
-constexpr std::array studied_scenes{
-    StudiedScene{"pop-up", "f15", "canyon", scene::View::Chase, "chase"},
+constexpr std::array studied_scenes{StudiedScene{"pop-up", "f15", "canyon", scene::View::Chase, "chase"},
     StudiedScene{"jinking", "f15", "hills", scene::View::Cockpit, "cockpit"},
     StudiedScene{"turn", "500md", "canyon", scene::View::Orbit, "orbit"},
     StudiedScene{"straight", "f15", "hills", scene::View::Tower, "tower"},
@@ -370,12 +338,7 @@ constexpr std::array studied_scenes{
 using Qualities = std::array<PictureQuality, render_modes.size()>;
 
 std::string name_of(const StudiedScene& studied) {
-    return fmt::format(
-        "{}-{}-{}-{}{}",
-        studied.path,
-        studied.aircraft,
-        studied.terrain,
-        studied.view_name,
+    return fmt::format("{}-{}-{}-{}{}", studied.path, studied.aircraft, studied.terrain, studied.view_name,
         studied.textured ? "-textured" : "");
 }
 
@@ -385,26 +348,19 @@ settings::RunSettings settings_of(const StudiedScene& studied, const PictureStud
     settings.path.aircraft = {studied.aircraft};
     settings.path.terrain = studied.terrain;
     settings.view.kind = studied.view;
-    if (studied.textured) {
-        settings.air.ground_shading = scene::GroundShading::Texture;
-    }
+    if (studied.textured) { settings.air.ground_shading = scene::GroundShading::Texture; }
     return settings;
 }
 
 void write_picture(const scene::Picture& picture, const std::filesystem::path& file) {
-    report::write_png(
-        file, {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba))});
+    report::write_png(file, {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba))});
 }
 
-void write_pictures(
-    const std::string& name, const QualityRenderer& renderer, const std::filesystem::path& out) {
+void write_pictures(const std::string& name, const QualityRenderer& renderer, const std::filesystem::path& out) {
     for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
-        write_picture(
-            renderer.picture(mode), out / fmt::format("{}-{}.png", name, render_modes[mode].file_part));
+        write_picture(renderer.picture(mode), out / fmt::format("{}-{}.png", name, render_modes[mode].file_part));
     }
-    if (renderer.masks().width > 0) {
-        write_picture(renderer.masks(), out / fmt::format("{}-masks.png", name));
-    }
+    if (renderer.masks().width > 0) { write_picture(renderer.masks(), out / fmt::format("{}-masks.png", name)); }
 }
 
 Qualities measured(const StudiedScene& studied, const PictureStudyOptions& options) {
@@ -424,33 +380,24 @@ Qualities measured(const StudiedScene& studied, const PictureStudyOptions& optio
 
 std::vector<std::string> noise_cells(const std::string& name, const Qualities& qualities) {
     std::vector<std::string> cells{name};
-    for (const PictureQuality& one : qualities) {
-        cells.push_back(fmt::format("{:.1f}", one.db_to_own()));
-    }
-    cells.push_back(fmt::format(
-        "{:+.1f}",
-        qualities[raster_sixteen_samples].db_to_own() - qualities[gl_four_samples].db_to_own()));
+    for (const PictureQuality& one : qualities) { cells.push_back(fmt::format("{:.1f}", one.db_to_own())); }
+    cells.push_back(
+        fmt::format("{:+.1f}", qualities[raster_sixteen_samples].db_to_own() - qualities[gl_four_samples].db_to_own()));
     return cells;
 }
 
-report::HtmlTable
-scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& options) {
+report::HtmlTable scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& options) {
     report::HtmlTable table;
     table.title = "Peak signal to noise against 8 x 8 samples a pixel, dB";
     table.header = {"scene"};
-    for (const RenderMode& mode : render_modes) {
-        table.header.emplace_back(mode.name);
-    }
+    for (const RenderMode& mode : render_modes) { table.header.emplace_back(mode.name); }
     table.header.emplace_back("raster 16 over OpenGL 4");
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
         table.rows.push_back(noise_cells(name_of(studied_scenes[i]), of_scenes[i]));
     }
-    table.note = fmt::format(
-        "{} frames of each path, {}x{}. Against a picture by the same renderer with one sample a "
-        "pixel, eight times as large in both directions. Head-up displays are left out.",
-        options.frames,
-        options.settings.view.size_px.x,
-        options.settings.view.size_px.y);
+    table.note = fmt::format("{} frames of each path, {}x{}. Against a picture by the same renderer with one sample a "
+                             "pixel, eight times as large in both directions. Head-up displays are left out.",
+        options.frames, options.settings.view.size_px.x, options.settings.view.size_px.y);
     return table;
 }
 
@@ -464,23 +411,15 @@ report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
     }
     report::HtmlTable table;
     table.title = "All scenes without a texture";
-    table.header = {
-        "way",
-        "PSNR to its own 8 x 8, dB",
-        "PSNR to OpenGL's 8 x 8, dB",
-        "largest error, levels",
-        "pixels that change falsely",
-        "against OpenGL 4"};
+    table.header = {"way", "PSNR to its own 8 x 8, dB", "PSNR to OpenGL's 8 x 8, dB", "largest error, levels",
+        "pixels that change falsely", "against OpenGL 4"};
     const auto of_four = static_cast<double>(sums[gl_four_samples].false_changes);
     for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         const PictureQuality& one = sums[mode];
-        table.rows.push_back(
-            {std::string(render_modes[mode].name),
-             fmt::format("{:.1f}", one.db_to_own()),
-             fmt::format("{:.1f}", one.db_to_gl()),
-             fmt::format("{:.0f}", one.largest_error),
-             fmt::format("{}", one.false_changes),
-             fmt::format("{:.3f}", static_cast<double>(one.false_changes) / of_four)});
+        table.rows.push_back({std::string(render_modes[mode].name), fmt::format("{:.1f}", one.db_to_own()),
+            fmt::format("{:.1f}", one.db_to_gl()), fmt::format("{:.0f}", one.largest_error),
+            fmt::format("{}", one.false_changes),
+            fmt::format("{:.3f}", static_cast<double>(one.false_changes) / of_four)});
     }
     table.note = "Falsely: by more than 16 levels more or less than 8 x 8 samples change, when the "
                  "picture moves half a pixel to the right, and when it moves half a pixel down.";
@@ -494,19 +433,15 @@ void study_pictures(const PictureStudyOptions& options) {
     std::vector<Qualities> of_scenes(studied_scenes.size());
     PictureStudyOptions of_scene = options;
     of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    parallel_for(of_scenes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-        of_scenes[i] = measured(studied_scenes[i], of_scene);
-    });
+    parallel_for(of_scenes.size(), options.jobs,
+        [&](std::size_t i, std::size_t /*worker*/) { of_scenes[i] = measured(studied_scenes[i], of_scene); });
     const std::array tables{scene_table(of_scenes, options), mode_table(of_scenes)};
-    const std::string markdown =
-        report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
+    const std::string markdown = report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
     write_file(options.out / "scenes.csv", report::csv_of(tables[0]));
     write_file(options.out / "ways.csv", report::csv_of(tables[1]));
     write_file(options.out / "pictures.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::print_note(
-        options.quiet,
-        fmt::format("tables: {0}/pictures.md; pictures: {0}/*.png", options.out.string()));
+    base::print_note(options.quiet, fmt::format("tables: {0}/pictures.md; pictures: {0}/*.png", options.out.string()));
 }
 
 } // namespace octant::ui::studies::draw_order

@@ -4,8 +4,7 @@
 
 namespace octant::ui::studies::draw_order {
 
-/// A renderer that looks at plans in place of a session's own: it has no window, shows no inset and
-/// waits for nothing.
+/// A renderer that looks at plans in place of a session's own: it has no window, shows no inset and waits for nothing.
 class StudyRenderer : public visuals::scene::Renderer {
 public:
     void draw_inset(const visuals::scene::FramePlan&, const visuals::scene::PixelRect&) final {}

@@ -18,9 +18,7 @@ constexpr int warm_up_frames = 20;
 RaceTimes figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_calls) {
     const report::Statistics times = report::statistics_of_times(frame_ms);
     std::nth_element(
-        draw_calls.begin(),
-        draw_calls.begin() + static_cast<std::ptrdiff_t>(draw_calls.size() / 2),
-        draw_calls.end());
+        draw_calls.begin(), draw_calls.begin() + static_cast<std::ptrdiff_t>(draw_calls.size() / 2), draw_calls.end());
     return {times.p50_ms, times.p99_ms, draw_calls[draw_calls.size() / 2]};
 }
 
@@ -49,10 +47,8 @@ Race race(const settings::RunSettings& settings, int frames, bool quiet) {
     raced.width_px = settings.view.size_px.x;
     raced.height_px = settings.view.size_px.y;
     base::Progress progress(
-        fmt::format(
-            "{}, {} aircraft, {}x{}", raced.scene, raced.aircraft, raced.width_px, raced.height_px),
-        sessions[0]->frames(),
-        quiet);
+        fmt::format("{}, {} aircraft, {}x{}", raced.scene, raced.aircraft, raced.width_px, raced.height_px),
+        sessions[0]->frames(), quiet);
     for (int frame = 0; frame < sessions[0]->frames(); ++frame) {
         for (std::size_t turn = 0; turn < raced_methods.size(); ++turn) {
             const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % raced_methods.size();
@@ -65,9 +61,7 @@ Race race(const settings::RunSettings& settings, int frames, bool quiet) {
         for (std::size_t turn = 0; turn < raster_modes.size(); ++turn) {
             const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % raster_modes.size();
             const report::FrameRecord record = raster_sessions[mode]->draw(frame);
-            if (frame >= warm_up_frames) {
-                raced.raster.add(mode, record);
-            }
+            if (frame >= warm_up_frames) { raced.raster.add(mode, record); }
         }
         progress.show(frame + 1);
     }

@@ -10,10 +10,8 @@
 namespace octant::ui::studies::draw_order {
 
 /// The three ways of removing hidden surfaces that are raced, in this order everywhere.
-inline constexpr std::array raced_methods = {
-    visuals::scene::HiddenSurface::Octant,
-    visuals::scene::HiddenSurface::BackFace,
-    visuals::scene::HiddenSurface::DepthBuffer};
+inline constexpr std::array raced_methods = {visuals::scene::HiddenSurface::Octant,
+    visuals::scene::HiddenSurface::BackFace, visuals::scene::HiddenSurface::DepthBuffer};
 
 /// Frame times of one way.
 struct RaceTimes {
@@ -32,8 +30,7 @@ struct Race {
     std::array<RaceTimes, raced_methods.size()> gl_times; ///< by OpenGL
     RasterTimes raster;
 
-    /// Frames a second of octant order over those of another way, by medians; above 1: octant is
-    /// faster.
+    /// Frames a second of octant order over those of another way, by medians; above 1: octant is faster.
     double against(std::size_t mode) const { return gl_times[mode].median_ms / gl_times[0].median_ms; }
 };
 

@@ -1,9 +1,8 @@
 // Runs of the terrain's triangle control for `octant study flicker`.
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// section 4: fixed view and 1000 frames along a path.
-// Deviations: the paper gives neither eye points nor a target; both are chosen here by rules that
-// fit any field. A frame at a fixed view with the C of the frame before is not made again.
+// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect", section 4: fixed view
+// and 1000 frames along a path. Deviations: the paper gives neither eye points nor a target; both are chosen here by
+// rules that fit any field. A frame at a fixed view with the C of the frame before is not made again.
 #include "ui/studies/flicker/flicker_runs.h"
 
 #include "visuals/scene/camera.h"
@@ -27,8 +26,7 @@ constexpr double height_m = 300.0; ///< over the ground
 constexpr double looking_down = 0.1;
 constexpr double max_resolution = 1000.0;
 
-terrain::MeshView
-view_at(const models::heights::HeightField& field, double x_m, double y_m, double yaw_rad) {
+terrain::MeshView view_at(const models::heights::HeightField& field, double x_m, double y_m, double yaw_rad) {
     const double ground_m = field.height_at(x_m, y_m).value_or(0.0);
     const glm::dvec3 eye_m(x_m, y_m, ground_m + height_m);
     const glm::dvec3 ahead(std::cos(yaw_rad), std::sin(yaw_rad), -looking_down);
@@ -45,10 +43,7 @@ bool same(const terrain::MeshView& a, const terrain::MeshView& b) {
 
 /// The way of a control by C; `dead_band` as in ControlSettings.
 CountNextFrame controlled(
-    FlickerGround& ground,
-    const FlickerSettings& settings,
-    terrain::ControlMethod method,
-    double dead_band) {
+    FlickerGround& ground, const FlickerSettings& settings, terrain::ControlMethod method, double dead_band) {
     terrain::ControlSettings control;
     control.method = method;
     control.target_triangles = settings.target_triangles;
@@ -57,28 +52,24 @@ CountNextFrame controlled(
     control.dead_band = dead_band;
     control.max_resolution = max_resolution;
     const terrain::QuadtreeDetail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
-    return [&ground,
-            control,
-            detail,
-            state = terrain::initial_state(settings.first_resolution, control),
-            last_view = std::optional<terrain::MeshView>(),
-            last = CountedFrame()](const terrain::MeshView& view) mutable {
+    return [&ground, control, detail, state = terrain::initial_state(settings.first_resolution, control),
+               last_view = std::optional<terrain::MeshView>(),
+               last = CountedFrame()](const terrain::MeshView& view) mutable {
         const bool same_view = last_view && same(*last_view, view);
         last_view = view;
         if (same_view && last.resolution == state.resolution) {
             state = terrain::next_state(state, control, last.triangles, same_view);
             return last;
         }
-        const terrain::CountedMesh mesh =
-            terrain::controlled_mesh(state, control, same_view, [&](double resolution) {
-                terrain::QuadtreeDetail with_resolution = detail;
-                with_resolution.resolution = resolution;
-                return ground.mesher.count(view, with_resolution);
-            });
+        const terrain::CountedMesh mesh = terrain::controlled_mesh(state, control, same_view, [&](double resolution) {
+            terrain::QuadtreeDetail with_resolution = detail;
+            with_resolution.resolution = resolution;
+            return ground.mesher.count(view, with_resolution);
+        });
         last = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
         last.estimated_gain = control.method == terrain::ControlMethod::Tuned
-                                 ? state.exponent * mesh.counters.triangles / mesh.resolution
-                                 : control.triangles_per_resolution;
+                                  ? state.exponent * mesh.counters.triangles / mesh.resolution
+                                  : control.triangles_per_resolution;
         return last;
     };
 }
@@ -92,8 +83,7 @@ CountNextFrame damped_as_printed(FlickerGround& ground, const FlickerSettings& s
 }
 
 CountNextFrame damped(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(
-        ground, settings, terrain::ControlMethod::Damped, terrain::ControlSettings().dead_band);
+    return controlled(ground, settings, terrain::ControlMethod::Damped, terrain::ControlSettings().dead_band);
 }
 
 CountNextFrame tuned(FlickerGround& ground, const FlickerSettings& settings) {
@@ -115,42 +105,29 @@ CountNextFrame exact(FlickerGround& ground, const FlickerSettings& settings) {
 
 /// As flights are drawn by default, but for the error below which they leave triangles unused.
 CountNextFrame by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
-    const terrain::ErrorTarget target{
-        .error_px = 0.0, .max_triangles = settings.target_triangles, .geomorphs = true};
+    const terrain::ErrorTarget target{.error_px = 0.0, .max_triangles = settings.target_triangles, .geomorphs = true};
     return [&ground, target](const terrain::MeshView& view) {
         const terrain::GroundMesh mesh = ground.error_mesher.mesh(view, target);
         return CountedFrame{mesh.counters.triangles, mesh.counters.fans, 0.0};
     };
 }
 
-constexpr std::array all_controls = {
-    TriangleControl{"previous (4)", true, previous},
+constexpr std::array all_controls = {TriangleControl{"previous (4)", true, previous},
     TriangleControl{"damped (5), as printed", true, damped_as_printed},
-    TriangleControl{"damped, dead band", true, damped},
-    TriangleControl{"damped, own gain", true, tuned},
-    TriangleControl{"literal (4)", false, literal},
-    TriangleControl{"exact", true, exact},
+    TriangleControl{"damped, dead band", true, damped}, TriangleControl{"damped, own gain", true, tuned},
+    TriangleControl{"literal (4)", false, literal}, TriangleControl{"exact", true, exact},
     TriangleControl{"screen error (default)", true, by_screen_error}};
 
 } // namespace
 
 FlickerGround::FlickerGround(models::heights::HeightField made)
-    : field(std::move(made))
-    , tree(field, {.roughness = terrain::Roughness::Printed})
-    , colours(
-          static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()), 0U)
-    , mesher(tree, colours)
-    , tiles(terrain::make_ground_tiles(field))
-    , error_mesher(tiles) {}
+    : field(std::move(made)), tree(field, {.roughness = terrain::Roughness::Printed}),
+      colours(static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()), 0U),
+      mesher(tree, colours), tiles(terrain::make_ground_tiles(field)), error_mesher(tiles) {}
 
-std::span<const TriangleControl> triangle_controls() {
-    return all_controls;
-}
+std::span<const TriangleControl> triangle_controls() { return all_controls; }
 
-FlickerRun run_along(
-    const TriangleControl& triangle_control,
-    FlickerGround& ground,
-    const FlickerSettings& settings,
+FlickerRun run_along(const TriangleControl& triangle_control, FlickerGround& ground, const FlickerSettings& settings,
     std::span<const terrain::MeshView> views) {
     FlickerRun run;
     const CountNextFrame next = triangle_control.start(ground, settings);
@@ -170,14 +147,10 @@ terrain::MeshView roughest_view(FlickerGround& ground) {
     int most = -1;
     for (int place = 0; place < 25; ++place) {
         for (int heading = 0; heading < 8; ++heading) {
-            const terrain::MeshView view = view_at(
-                ground.field,
-                (place % 5 - 2) * quarter_m.x,
-                (place / 5 - 2) * quarter_m.y,
-                heading * std::numbers::pi / 4.0);
+            const terrain::MeshView view = view_at(ground.field, (place % 5 - 2) * quarter_m.x,
+                (place / 5 - 2) * quarter_m.y, heading * std::numbers::pi / 4.0);
             const int triangles =
-                ground.mesher.count(view, {.resolution = 16.0, .roughness_weight = 5.0})
-                    .counters.triangles;
+                ground.mesher.count(view, {.resolution = 16.0, .roughness_weight = 5.0}).counters.triangles;
             if (triangles > most) {
                 most = triangles;
                 roughest = view;
@@ -192,10 +165,7 @@ std::vector<terrain::MeshView> ellipse_views(const FlickerGround& ground, int fr
     std::vector<terrain::MeshView> views;
     for (int frame = 0; frame < frames; ++frame) {
         const double angle = 2.0 * std::numbers::pi * frame / frames;
-        views.push_back(view_at(
-            ground.field,
-            radius_m.x * std::cos(angle),
-            radius_m.y * std::sin(angle),
+        views.push_back(view_at(ground.field, radius_m.x * std::cos(angle), radius_m.y * std::sin(angle),
             std::atan2(radius_m.y * std::cos(angle), -radius_m.x * std::sin(angle))));
     }
     return views;

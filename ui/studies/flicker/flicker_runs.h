@@ -12,8 +12,8 @@
 
 namespace octant::ui::studies::flicker {
 
-/// A height field under the paper's quadtree with literal roughness and crack-free propagation, K =
-/// 0.5 + 0.79 / C_min, and under the default mesh. Stays where it is.
+/// A height field under the paper's quadtree with literal roughness and crack-free propagation, K = 0.5 + 0.79 / C_min,
+/// and under the default mesh. Stays where it is.
 struct FlickerGround {
     explicit FlickerGround(models::heights::HeightField made);
 
@@ -31,7 +31,7 @@ struct FlickerSettings {
     int target_triangles = 32000;             ///< N_target
     double first_resolution = 16.0;           ///< C_0
     double triangles_per_resolution = 1000.0; ///< a
-    int averaged_frames = 4;                ///< r
+    int averaged_frames = 4;                  ///< r
 };
 
 /// What was counted in a frame.
@@ -62,8 +62,8 @@ inline constexpr std::size_t literal_control = 4;
 inline constexpr std::size_t exact_control = 5;
 inline constexpr std::size_t screen_error_control = 6;
 
-/// Previous, damped as printed, damped with dead band, damped with its own gain, literal and exact,
-/// all with the paper's mesh, and the default mesh: the numbers above.
+/// Previous, damped as printed, damped with dead band, damped with its own gain, literal and exact, all with the
+/// paper's mesh, and the default mesh: the numbers above.
 std::span<const TriangleControl> triangle_controls();
 
 /// A run: each frame's count.
@@ -74,14 +74,11 @@ struct FlickerRun {
     std::vector<double> estimated_gain;
 };
 
-FlickerRun run_along(
-    const TriangleControl& triangle_control,
-    FlickerGround& ground,
-    const FlickerSettings& settings,
+FlickerRun run_along(const TriangleControl& triangle_control, FlickerGround& ground, const FlickerSettings& settings,
     std::span<const visuals::terrain::MeshView> views);
 
-/// 300 m over the ground, level but for 6 degrees down: that view of 25 places and eight headings
-/// in which the paper's rule makes most triangles at c = 5 and C = 16. 16:9, 45 degrees.
+/// 300 m over the ground, level but for 6 degrees down: that view of 25 places and eight headings in which the paper's
+/// rule makes most triangles at c = 5 and C = 16. 16:9, 45 degrees.
 visuals::terrain::MeshView roughest_view(FlickerGround& ground);
 
 /// Once round an ellipse over the field, 300 m over the ground, looking ahead as above.

@@ -1,4 +1,5 @@
 #include "ui/studies/flicker/study_flicker.h"
+
 #include "models/procedural/procedural_terrain.h"
 #include "sim/base/output_file.h"
 #include "sim/base/parallel_for.h"
@@ -33,13 +34,12 @@ namespace {
 
 // The paper's figures with our data.
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// figures 3, 5, 6, 8 and 9.
-// Deviations: figures 8 and 9 are called 7 and 8 in the paper's text. Figure 3 is a pair of
-// pictures there; what it counts is plotted here.
+// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect", figures 3, 5, 6, 8
+// and 9. Deviations: figures 8 and 9 are called 7 and 8 in the paper's text. Figure 3 is a pair of pictures there; what
+// it counts is plotted here.
 
 constexpr std::array flicker_weights = {1.0, 2.0, 3.0, 5.0}; ///< c of the fixed views
-constexpr std::array damping_frame_counts = {0, 2, 4, 6, 8};     ///< r
+constexpr std::array damping_frame_counts = {0, 2, 4, 6, 8}; ///< r
 constexpr std::array flicker_gains = {0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr std::array flicker_first = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}; ///< C_0
 
@@ -85,8 +85,7 @@ report::Plot frame_plot(std::string title, const char* y_label) {
     return plot;
 }
 
-report::PlotSeries
-series_of(std::string name, const char* colour, std::span<const int> values, std::size_t first) {
+report::PlotSeries series_of(std::string name, const char* colour, std::span<const int> values, std::size_t first) {
     report::PlotSeries series;
     series.name = std::move(name);
     series.colour = colour;
@@ -98,8 +97,7 @@ series_of(std::string name, const char* colour, std::span<const int> values, std
 }
 
 /// dn of the first `frames` frames, from the second on.
-report::PlotSeries
-changes_of(std::string name, const char* colour, const FlickerRun& run, std::size_t frames) {
+report::PlotSeries changes_of(std::string name, const char* colour, const FlickerRun& run, std::size_t frames) {
     std::vector<int> changes;
     for (std::size_t k = 1; k < std::min(run.triangles.size(), frames); ++k) {
         changes.push_back(run.triangles[k] - run.triangles[k - 1]);
@@ -118,9 +116,7 @@ double largest(std::span<const report::Plot> plots, std::size_t first) {
     double most = 1.0;
     for (const report::Plot& plot : plots) {
         for (const report::PlotSeries& series : plot.series) {
-            for (std::size_t k = first; k < series.y.size(); ++k) {
-                most = std::max(most, std::abs(series.y[k]));
-            }
+            for (std::size_t k = first; k < series.y.size(); ++k) { most = std::max(most, std::abs(series.y[k])); }
         }
     }
     return most;
@@ -139,64 +135,45 @@ FlickerFigure figure(std::string file, std::string caption, std::span<const repo
 
 FlickerFigure figure_3(const FieldRuns& rugged) {
     report::Plot plot = frame_plot(
-        fmt::format(
-            "Figure 3: fans of consecutive frames, fixed view of {}, previous control",
-            rugged.name),
-        "fans");
+        fmt::format("Figure 3: fans of consecutive frames, fixed view of {}, previous control", rugged.name), "fans");
     for (const std::size_t weight : {std::size_t{2}, std::size_t{0}}) {
         const FlickerRun& run = rugged.fixed[weight][previous_control];
-        plot.series.push_back(series_of(
-            fmt::format("c = {:g}", flicker_weights[weight]),
-            weight == 0 ? blue : red,
-            std::span(run.fans).first(std::min(run.fans.size(), shown_frames)),
-            0));
+        plot.series.push_back(series_of(fmt::format("c = {:g}", flicker_weights[weight]), weight == 0 ? blue : red,
+            std::span(run.fans).first(std::min(run.fans.size(), shown_frames)), 0));
     }
     plot.levels = {{"paper, 5256", 5256.0}, {"paper, 2745", 2745.0}};
     plot.y_min = 0.0;
-    return figure(
-        "figure-3.png",
+    return figure("figure-3.png",
         "Fixed view of rugged ground: at large c the count of fans alternates from frame to frame "
         "for ever, at c = 1 it stands. The paper shows two such frames, of 5256 and 2745 fans.",
         std::span(&plot, 1));
 }
 
 FlickerFigure figure_5(const FlickerRuns& runs) {
-    std::array plots = {
-        path_plot(
-            fmt::format("Figure 5 (a): previous control, c = 5, {}", runs.gentle.name),
-            runs.gentle.path[previous_control],
-            blue),
-        path_plot(
-            fmt::format("Figure 5 (b): previous control, c = 5, {}", runs.rugged.name),
-            runs.rugged.path[previous_control],
-            red)};
+    std::array plots = {path_plot(fmt::format("Figure 5 (a): previous control, c = 5, {}", runs.gentle.name),
+                            runs.gentle.path[previous_control], blue),
+        path_plot(fmt::format("Figure 5 (b): previous control, c = 5, {}", runs.rugged.name),
+            runs.rugged.path[previous_control], red)};
     set_range(plots, largest(plots, 0));
-    return figure(
-        "figure-5.png",
+    return figure("figure-5.png",
         "dn along the path under the previous control, on one scale. The paper: calm all the way "
         "over Puget Sound (a), violent over the Grand Canyon (b).",
         plots);
 }
 
 FlickerFigure figure_6(const FieldRuns& rugged) {
-    std::array plots = {
-        frame_plot(
-            fmt::format("Figure 6: dn at a fixed view of {}, C + (target - N) / a", rugged.name),
-            "dn, triangles"),
+    std::array plots = {frame_plot(fmt::format("Figure 6: dn at a fixed view of {}, C + (target - N) / a", rugged.name),
+                            "dn, triangles"),
         frame_plot("The same with C - (N - N of the frame before) / a", "dn, triangles")};
     const std::array ways = {previous_control, literal_control};
     for (std::size_t i = 0; i < plots.size(); ++i) {
         for (std::size_t weight = flicker_weights.size(); weight-- > 0;) {
-            plots[i].series.push_back(changes_of(
-                fmt::format("c = {:g}", flicker_weights[weight]),
-                colours[weight],
-                rugged.fixed[weight][ways[i]],
-                shown_frames));
+            plots[i].series.push_back(changes_of(fmt::format("c = {:g}", flicker_weights[weight]), colours[weight],
+                rugged.fixed[weight][ways[i]], shown_frames));
         }
     }
     set_range(plots, largest(std::span(plots).first(1), 0));
-    return figure(
-        "figure-6.png",
+    return figure("figure-6.png",
         "dn at a fixed view of rugged ground for c = 1, 2, 3, 5, both readings of equation (4). "
         "The "
         "paper: c = 1 is best, c = 2 comes to rest after a weak oscillation, from c = 3 on it "
@@ -206,40 +183,30 @@ FlickerFigure figure_6(const FieldRuns& rugged) {
 
 FlickerFigure figure_8(const FieldRuns& rugged) {
     const report::Plot plot = path_plot(
-        fmt::format("Figure 8: previous control, c = 5, {}", rugged.name),
-        rugged.path[previous_control],
-        red);
-    return figure(
-        "figure-8.png",
+        fmt::format("Figure 8: previous control, c = 5, {}", rugged.name), rugged.path[previous_control], red);
+    return figure("figure-8.png",
         "dn along the path before the damping. The paper: an oscillation everywhere, wide in some "
         "places.",
         std::span(&plot, 1));
 }
 
 FlickerFigure figure_9(const FieldRuns& rugged) {
-    std::array plots = {
-        path_plot(
-            fmt::format("Figure 9: damped control, c = 5, {}, scale of figure 8", rugged.name),
-            rugged.path[damped_control],
-            blue),
+    std::array plots = {path_plot(fmt::format("Figure 9: damped control, c = 5, {}, scale of figure 8", rugged.name),
+                            rugged.path[damped_control], blue),
         path_plot("The same, enlarged", rugged.path[damped_control], blue),
         path_plot("Exact budget, scale as enlarged", rugged.path[exact_control], colours[1]),
-        path_plot(
-            "Screen-error mesh (default), scale as enlarged", rugged.path[screen_error_control], colours[1])};
+        path_plot("Screen-error mesh (default), scale as enlarged", rugged.path[screen_error_control], colours[1])};
     const report::Plot before = path_plot("", rugged.path[previous_control], red);
     set_range(std::span(plots).first(1), largest(std::span(&before, 1), 0));
     const auto enlarged = std::span(plots).subspan(1);
-    set_range(
-        enlarged, largest(enlarged, first_measured(rugged.path[damped_control].triangles.size())));
+    set_range(enlarged, largest(enlarged, first_measured(rugged.path[damped_control].triangles.size())));
     return figure(
-        "figure-9.png",
-        "dn along the path with the damping. The paper: a small ripple only, level everywhere.",
-        plots);
+        "figure-9.png", "dn along the path with the damping. The paper: a small ripple only, level everywhere.", plots);
 }
 
 FlickerFigure damping(const FlickerRuns& runs) {
-    report::Plot plot = frame_plot(
-        fmt::format("Damping: dn along the path over {}, c = 5", runs.rugged.name), "mean |dn|");
+    report::Plot plot =
+        frame_plot(fmt::format("Damping: dn along the path over {}, c = 5", runs.rugged.name), "mean |dn|");
     plot.x_label = "r, earlier frames averaged";
     plot.y_logarithmic = true;
     report::PlotSeries mean;
@@ -257,30 +224,22 @@ FlickerFigure damping(const FlickerRuns& runs) {
         flicker_triangles.y.push_back(std::max(figures.flicker_triangles, 0.1));
     }
     plot.series = {mean, flicker_triangles};
-    return figure(
-        "damping.png",
+    return figure("damping.png",
         "Mean |dn| and alternation over the number r of earlier frames that are averaged, equation "
         "(5) as printed; r = 0 is the previous control. The paper: r = 4 is best.",
         std::span(&plot, 1));
 }
 
-std::size_t first_measured(std::size_t frames) {
-    return std::min<std::size_t>(20, frames / 2) + 1;
-}
+std::size_t first_measured(std::size_t frames) { return std::min<std::size_t>(20, frames / 2) + 1; }
 
 /// Figures 3, 5, 6, 8 and 9 and the damping over r. Throws Error when gnuplot fails.
 std::vector<FlickerFigure> flicker_figures(const FlickerRuns& runs) {
-    return {
-        figure_3(runs.rugged),
-        figure_5(runs),
-        figure_6(runs.rugged),
-        figure_8(runs.rugged),
-        figure_9(runs.rugged),
+    return {figure_3(runs.rugged), figure_5(runs), figure_6(runs.rugged), figure_8(runs.rugged), figure_9(runs.rugged),
         damping(runs)};
 }
 
-// The paper shows two grounds, for which a is chosen by hand. Here one a meets five of them, and so
-// does the control that needs none.
+// The paper shows two grounds, for which a is chosen by hand. Here one a meets five of them, and so does the control
+// that needs none.
 
 namespace terrain = visuals::terrain;
 using models::heights::HeightField;
@@ -291,20 +250,13 @@ constexpr std::size_t gain_every = 25;   ///< frames
 
 /// Hills whose heights above the lowest are multiplied, and then taken in whole steps above a sea.
 HeightField terraced_hills(
-    const HeightField& hills,
-    std::string name,
-    double factor,
-    double step_m,
-    double sea_m,
-    double spacing_m) {
+    const HeightField& hills, std::string name, double factor, double step_m, double sea_m, double spacing_m) {
     const double lowest_m = static_cast<double>(hills.lowest_m());
     std::vector<float> heights_m;
     for (int row = 0; row < hills.rows(); ++row) {
         for (int column = 0; column < hills.columns(); ++column) {
-            const double above_sea_m =
-                (static_cast<double>(hills.height_m(column, row)) - lowest_m) * factor - sea_m;
-            heights_m.push_back(
-                static_cast<float>(std::max(0.0, step_m * std::round(above_sea_m / step_m))));
+            const double above_sea_m = (static_cast<double>(hills.height_m(column, row)) - lowest_m) * factor - sea_m;
+            heights_m.push_back(static_cast<float>(std::max(0.0, step_m * std::round(above_sea_m / step_m))));
         }
     }
     HeightField made(hills.columns(), hills.rows(), spacing_m, heights_m);
@@ -313,13 +265,9 @@ HeightField terraced_hills(
 }
 
 /// Channels and flats in whole metres, half of it sea.
-HeightField estuary(const HeightField& hills) {
-    return terraced_hills(hills, "estuary", 0.03, 1.0, 4.0, 30.0);
-}
+HeightField estuary(const HeightField& hills) { return terraced_hills(hills, "estuary", 0.03, 1.0, 4.0, 30.0); }
 
-HeightField plain(const HeightField& hills) {
-    return terraced_hills(hills, "plain", 0.2, 0.1, 0.0, 30.0);
-}
+HeightField plain(const HeightField& hills) { return terraced_hills(hills, "plain", 0.2, 0.1, 0.0, 30.0); }
 
 HeightField high_mountains(const HeightField& hills) {
     return terraced_hills(hills, "mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
@@ -334,19 +282,13 @@ struct ControlStatistics {
 };
 
 /// The loop gain along the path: N'(C) as two meshes around C tell it, over the one believed.
-void measure_gain(
-    FlickerGround& ground,
-    const std::vector<terrain::MeshView>& views,
-    const FlickerRun& run,
+void measure_gain(FlickerGround& ground, const std::vector<terrain::MeshView>& views, const FlickerRun& run,
     ControlStatistics& control_statistics) {
     std::vector<double> gains;
     for (std::size_t k = gain_every; k < views.size(); k += gain_every) {
         if (run.estimated_gain[k] > 0.0) {
-            const double gained = terrain::triangle_count_slope(
-                ground.mesher,
-                views[k],
-                {.resolution = run.resolution[k],
-                 .roughness_weight = FlickerSettings().roughness_weight});
+            const double gained = terrain::triangle_count_slope(ground.mesher, views[k],
+                {.resolution = run.resolution[k], .roughness_weight = FlickerSettings().roughness_weight});
             gains.push_back(gained / run.estimated_gain[k]);
         }
     }
@@ -371,15 +313,12 @@ ControlStatistics statistics_of_control(FlickerGround& ground, const TriangleCon
     return control_statistics;
 }
 
-std::string gain_text(double gain) {
-    return gain > 0.0 ? fmt::format("{:.2f}", gain) : "";
-}
+std::string gain_text(double gain) { return gain > 0.0 ? fmt::format("{:.2f}", gain) : ""; }
 
-/// How quietly the damped control as printed, the one that finds its own gain and the exact budget
-/// hold the count over grounds of all reliefs: two made ones flatter than `options.gentle`, that
-/// and `options.rugged`, and a made one as high as the Himalaya. A row for each ground and control:
-/// loop gain, mean change of N over the last frames of a fixed view and along the path. Throws
-/// Error.
+/// How quietly the damped control as printed, the one that finds its own gain and the exact budget hold the count over
+/// grounds of all reliefs: two made ones flatter than `options.gentle`, that and `options.rugged`, and a made one as
+/// high as the Himalaya. A row for each ground and control: loop gain, mean change of N over the last frames of a fixed
+/// view and along the path. Throws Error.
 report::HtmlTable relief_table(const FlickerStudyOptions& options) {
     const HeightField hills = models::procedural::procedural_hills();
     std::vector<HeightField> fields;
@@ -390,15 +329,8 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
     fields.push_back(high_mountains(hills));
     report::HtmlTable table;
     table.title = "Controls from flats to high mountains, c = 5";
-    table.header = {
-        "ground",
-        "relief m",
-        "control",
-        "g, mean",
-        "g, largest",
-        "fixed view, mean abs dn",
-        "path, mean abs dn",
-        "path, % of N"};
+    table.header = {"ground", "relief m", "control", "g, mean", "g, largest", "fixed view, mean abs dn",
+        "path, mean abs dn", "path, % of N"};
     const FlickerSettings as_asked;
     std::vector<std::array<ControlStatistics, shown_controls.size()>> found(fields.size());
     std::vector<double> relief_m;
@@ -408,31 +340,25 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
     parallel_for(fields.size(), 2, [&](std::size_t k, std::size_t /*worker*/) {
         FlickerGround ground(fields[k]);
         for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
-            found[k][triangle_control] = statistics_of_control(ground, triangle_controls()[shown_controls[triangle_control]], options.frames);
+            found[k][triangle_control] =
+                statistics_of_control(ground, triangle_controls()[shown_controls[triangle_control]], options.frames);
         }
     });
     for (std::size_t k = 0; k < fields.size(); ++k) {
         for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
             const ControlStatistics& control_statistics = found[k][triangle_control];
-            table.rows.push_back(
-                {fields[k].name,
-                 fmt::format("{:.0f}", relief_m[k]),
-                 triangle_controls()[shown_controls[triangle_control]].name,
-                 gain_text(control_statistics.mean_gain),
-                 gain_text(control_statistics.max_gain),
-                 fmt::format("{:.1f}", control_statistics.fixed_change),
-                 fmt::format("{:.1f}", control_statistics.path_change),
-                 fmt::format("{:.3f}", 100.0 * control_statistics.path_change / as_asked.target_triangles)});
+            table.rows.push_back({fields[k].name, fmt::format("{:.0f}", relief_m[k]),
+                triangle_controls()[shown_controls[triangle_control]].name, gain_text(control_statistics.mean_gain),
+                gain_text(control_statistics.max_gain), fmt::format("{:.1f}", control_statistics.fixed_change),
+                fmt::format("{:.1f}", control_statistics.path_change),
+                fmt::format("{:.3f}", 100.0 * control_statistics.path_change / as_asked.target_triangles)});
         }
     }
-    table.note = fmt::format(
-        "Settings as at the fixed view and the path above, a = {:g} for the control as printed. "
-        "Fixed view: the last {} of {} frames. g: N'(C) over 4 % of C, by the one that the control "
-        "goes by, here and there along the path. Own gain makes up to {} meshes a frame.",
-        as_asked.triangles_per_resolution,
-        last_frames,
-        2 * last_frames,
-        terrain::max_tuned_meshes);
+    table.note =
+        fmt::format("Settings as at the fixed view and the path above, a = {:g} for the control as printed. "
+                    "Fixed view: the last {} of {} frames. g: N'(C) over 4 % of C, by the one that the control "
+                    "goes by, here and there along the path. Own gain makes up to {} meshes a frame.",
+            as_asked.triangles_per_resolution, last_frames, 2 * last_frames, terrain::max_tuned_meshes);
     return table;
 }
 
@@ -445,9 +371,7 @@ namespace terrain = visuals::terrain;
 
 const FlickerSettings standard;
 
-std::string frames_text(const std::optional<int>& frames) {
-    return frames ? fmt::format("{}", *frames) : "never";
-}
+std::string frames_text(const std::optional<int>& frames) { return frames ? fmt::format("{}", *frames) : "never"; }
 
 /// N, or the two between which it alternates.
 std::string last_two(const std::vector<int>& counts) {
@@ -461,46 +385,33 @@ report::HtmlTable fixed_table(const FieldRuns& runs, const char* kind) {
     constexpr std::size_t last = 50;
     report::HtmlTable table;
     table.title = fmt::format("Fixed view over {} ground: {}", kind, runs.name);
-    table.header = {
-        "c",
-        "loop gain g",
-        "control",
-        "mean abs dn, last 50",
-        "fans, last two frames",
-        "dn = 0 for ever after, frames",
-        "within 0.5 % after, frames"};
+    table.header = {"c", "loop gain g", "control", "mean abs dn, last 50", "fans, last two frames",
+        "dn = 0 for ever after, frames", "within 0.5 % after, frames"};
     for (std::size_t weight = 0; weight < runs.fixed.size(); ++weight) {
         for (std::size_t triangle_control = 0; triangle_control < runs.fixed[weight].size(); ++triangle_control) {
             const FlickerRun& run = runs.fixed[weight][triangle_control];
-            const auto changes = terrain::change_statistics(
-                run.triangles, std::max(run.triangles.size(), last + 1) - last);
+            const auto changes =
+                terrain::change_statistics(run.triangles, std::max(run.triangles.size(), last + 1) - last);
             table.rows.push_back(
-                {fmt::format("{:g}", flicker_weights[weight]),
-                 fmt::format("{:.2f}", runs.fixed_gains[weight]),
-                 triangle_controls()[triangle_control].name,
-                 fmt::format("{:.0f}", changes.mean),
-                 last_two(run.fans),
-                 frames_text(terrain::frames_until_constant(run.triangles, 10)),
-                 frames_text(terrain::frames_until_within(
-                     run.triangles, standard.target_triangles, 0.005, 10))});
+                {fmt::format("{:g}", flicker_weights[weight]), fmt::format("{:.2f}", runs.fixed_gains[weight]),
+                    triangle_controls()[triangle_control].name, fmt::format("{:.0f}", changes.mean), last_two(run.fans),
+                    frames_text(terrain::frames_until_constant(run.triangles, 10)),
+                    frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.005, 10))});
         }
     }
-    table.note = fmt::format(
-        "{} frames of one view, 300 m over the ground: the one of 25 places and eight headings "
-        "that is refined most. Literal roughness, partial fans, C_min = 2, K = 0.5 + 0.79 / C_min "
-        "= "
-        "0.895, N_target = {}, a = {:g}, C_0 = {:g}, r = {}. g = N'(C) / a where N = N_target, "
-        "over "
-        "4 % of C. Within 0.5 %: of N_target, first of ten such frames in a row; for ever: at "
-        "least the last ten frames. The paper (Grand "
-        "Canyon, numbers not given): c = 1 best, c = 2 settles, c = 3 and more oscillate for ever, "
-        "its pair of frames has 5256 / 2745 fans. Screen error: the default mesh, with geomorphs, "
-        "at the error in pixels that gives N_target; it has neither c nor C.",
-        runs.fixed.front().front().triangles.size(),
-        standard.target_triangles,
-        standard.triangles_per_resolution,
-        standard.first_resolution,
-        standard.averaged_frames);
+    table.note =
+        fmt::format("{} frames of one view, 300 m over the ground: the one of 25 places and eight headings "
+                    "that is refined most. Literal roughness, partial fans, C_min = 2, K = 0.5 + 0.79 / C_min "
+                    "= "
+                    "0.895, N_target = {}, a = {:g}, C_0 = {:g}, r = {}. g = N'(C) / a where N = N_target, "
+                    "over "
+                    "4 % of C. Within 0.5 %: of N_target, first of ten such frames in a row; for ever: at "
+                    "least the last ten frames. The paper (Grand "
+                    "Canyon, numbers not given): c = 1 best, c = 2 settles, c = 3 and more oscillate for ever, "
+                    "its pair of frames has 5256 / 2745 fans. Screen error: the default mesh, with geomorphs, "
+                    "at the error in pixels that gives N_target; it has neither c nor C.",
+            runs.fixed.front().front().triangles.size(), standard.target_triangles, standard.triangles_per_resolution,
+            standard.first_resolution, standard.averaged_frames);
     return table;
 }
 
@@ -514,47 +425,29 @@ void add_path_rows(const FieldRuns& runs, report::HtmlTable& table) {
     const double before = changes_of(runs.path[previous_control]).mean;
     for (std::size_t triangle_control = 0; triangle_control < runs.path.size(); ++triangle_control) {
         const FlickerRun& run = runs.path[triangle_control];
-        if (run.triangles.empty()) {
-            continue;
-        }
+        if (run.triangles.empty()) { continue; }
         const terrain::ChangeStatistics changes = changes_of(run);
-        table.rows.push_back(
-            {runs.name,
-             fmt::format("{:.2f}", gain),
-             fmt::format("{:.2f}", most),
-             triangle_controls()[triangle_control].name,
-             fmt::format("{:.1f}", changes.mean),
-             fmt::format("{}", changes.largest),
-             fmt::format("{:.1f}", changes.flicker_triangles),
-             frames_text(
-                 terrain::frames_until_within(run.triangles, standard.target_triangles, 0.02, 10)),
-             changes.mean > 0.0 ? fmt::format("{:.1f}", before / changes.mean) : ""});
+        table.rows.push_back({runs.name, fmt::format("{:.2f}", gain), fmt::format("{:.2f}", most),
+            triangle_controls()[triangle_control].name, fmt::format("{:.1f}", changes.mean),
+            fmt::format("{}", changes.largest), fmt::format("{:.1f}", changes.flicker_triangles),
+            frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.02, 10)),
+            changes.mean > 0.0 ? fmt::format("{:.1f}", before / changes.mean) : ""});
     }
 }
 
 report::HtmlTable path_table(const FlickerRuns& runs) {
     report::HtmlTable table;
-    table.title =
-        fmt::format("Path of {} frames, c = 5", runs.rugged.path[previous_control].triangles.size());
-    table.header = {
-        "ground",
-        "g, mean",
-        "g, largest",
-        "control",
-        "mean abs dn",
-        "largest abs dn",
-        "alternation",
-        "within 2 % after, frames",
-        "previous / this"};
+    table.title = fmt::format("Path of {} frames, c = 5", runs.rugged.path[previous_control].triangles.size());
+    table.header = {"ground", "g, mean", "g, largest", "control", "mean abs dn", "largest abs dn", "alternation",
+        "within 2 % after, frames", "previous / this"};
     add_path_rows(runs.gentle, table);
     add_path_rows(runs.rugged, table);
-    table.note =
-        "Once round an ellipse of 0.6 by 0.4 of the field, 300 m over the ground, looking ahead; "
-        "settings as at the fixed view. The first 20 changes are left out. Alternation: sum of "
-        "min(|dn_k|, |dn_k-1|) over the frames in which dn changes its sign, divided by all "
-        "frames: "
-        "triangles that come and go again. Within 2 %: of N_target, first of ten such frames in a "
-        "row. Screen error has neither c nor g.";
+    table.note = "Once round an ellipse of 0.6 by 0.4 of the field, 300 m over the ground, looking ahead; "
+                 "settings as at the fixed view. The first 20 changes are left out. Alternation: sum of "
+                 "min(|dn_k|, |dn_k-1|) over the frames in which dn changes its sign, divided by all "
+                 "frames: "
+                 "triangles that come and go again. Within 2 %: of N_target, first of ten such frames in a "
+                 "row. Screen error has neither c nor g.";
     return table;
 }
 
@@ -565,15 +458,11 @@ report::HtmlTable damping_table(const FlickerRuns& runs) {
     for (std::size_t k = 0; k < runs.damping_lengths.size(); ++k) {
         const auto changes = terrain::change_statistics(
             runs.damping_lengths[k].triangles, first_measured(runs.damping_lengths[k].triangles.size()));
-        table.rows.push_back(
-            {fmt::format("{}", damping_frame_counts[k]),
-             fmt::format("{:.1f}", changes.mean),
-             fmt::format("{}", changes.largest),
-             fmt::format("{:.1f}", changes.flicker_triangles)});
+        table.rows.push_back({fmt::format("{}", damping_frame_counts[k]), fmt::format("{:.1f}", changes.mean),
+            fmt::format("{}", changes.largest), fmt::format("{:.1f}", changes.flicker_triangles)});
     }
-    table.note =
-        "Equation (5) as printed, weights r + 1, ..., 2, 1; r = 0 is the previous control. The "
-        "paper: r = 4 is best.";
+    table.note = "Equation (5) as printed, weights r + 1, ..., 2, 1; r = 0 is the previous control. The "
+                 "paper: r = 4 is best.";
     return table;
 }
 
@@ -581,9 +470,7 @@ void add_stability_rows(const FieldRuns& runs, report::HtmlTable& table) {
     for (std::size_t k = 0; k < runs.settling_frames.size(); ++k) {
         std::vector<std::string> row = {
             runs.name, triangle_controls()[dead_band_control].name, fmt::format("{:g}", flicker_gains[k])};
-        for (const auto& frames : runs.settling_frames[k]) {
-            row.push_back(frames_text(frames));
-        }
+        for (const auto& frames : runs.settling_frames[k]) { row.push_back(frames_text(frames)); }
         table.rows.push_back(row);
     }
     std::vector<std::string> row = {runs.name, triangle_controls()[exact_control].name, "any"};
@@ -595,9 +482,7 @@ report::HtmlTable stability_table(const FlickerRuns& runs) {
     report::HtmlTable table;
     table.title = "Frames before dn = 0 for ever at the fixed view, c = 5";
     table.header = {"ground", "control", "g"};
-    for (const double first : flicker_first) {
-        table.header.push_back(fmt::format("C_0 = {:g}", first));
-    }
+    for (const double first : flicker_first) { table.header.push_back(fmt::format("C_0 = {:g}", first)); }
     add_stability_rows(runs.gentle, table);
     add_stability_rows(runs.rugged, table);
     table.note = "a = N'(C) / g, with N' measured where N = N_target. The dead band is 0.5 % of "
@@ -608,12 +493,8 @@ report::HtmlTable stability_table(const FlickerRuns& runs) {
 
 /// Fixed views, the path, damping over r and settling times.
 std::vector<NamedTable> flicker_tables(const FlickerRuns& runs) {
-    return {
-        {"fixed-rugged", fixed_table(runs.rugged, "rugged")},
-        {"fixed-gentle", fixed_table(runs.gentle, "gentle")},
-        {"path", path_table(runs)},
-        {"damping", damping_table(runs)},
-        {"stability", stability_table(runs)}};
+    return {{"fixed-rugged", fixed_table(runs.rugged, "rugged")}, {"fixed-gentle", fixed_table(runs.gentle, "gentle")},
+        {"path", path_table(runs)}, {"damping", damping_table(runs)}, {"stability", stability_table(runs)}};
 }
 
 namespace terrain = visuals::terrain;
@@ -621,15 +502,11 @@ namespace terrain = visuals::terrain;
 /// Called after each run.
 using Tick = std::function<void()>;
 
-int fixed_frames(const FlickerStudyOptions& options) {
-    return std::max(options.frames / 5, 60);
-}
+int fixed_frames(const FlickerStudyOptions& options) { return std::max(options.frames / 5, 60); }
 
 /// N'(C) where the exact way settles.
-double
-gain_at(FlickerGround& ground, const terrain::MeshView& view, double weight, double resolution) {
-    return terrain::triangle_count_slope(
-        ground.mesher, view, {.resolution = resolution, .roughness_weight = weight});
+double gain_at(FlickerGround& ground, const terrain::MeshView& view, double weight, double resolution) {
+    return terrain::triangle_count_slope(ground.mesher, view, {.resolution = resolution, .roughness_weight = weight});
 }
 
 void run_fixed(FlickerGround& ground, int frames, FieldRuns& runs, const Tick& tick) {
@@ -643,17 +520,12 @@ void run_fixed(FlickerGround& ground, int frames, FieldRuns& runs, const Tick& t
             of_weight.push_back(run_along(triangle_control, ground, settings, views));
             tick();
         }
-        runs.fixed_gains.push_back(
-            gain_at(ground, view, weight, of_weight[exact_control].resolution.back()) /
-            settings.triangles_per_resolution);
+        runs.fixed_gains.push_back(gain_at(ground, view, weight, of_weight[exact_control].resolution.back()) /
+                                   settings.triangles_per_resolution);
     }
 }
 
-void run_path(
-    FlickerGround& ground,
-    std::span<const terrain::MeshView> views,
-    FieldRuns& runs,
-    const Tick& tick) {
+void run_path(FlickerGround& ground, std::span<const terrain::MeshView> views, FieldRuns& runs, const Tick& tick) {
     const FlickerSettings settings;
     for (const TriangleControl& triangle_control : triangle_controls()) {
         runs.path.push_back(
@@ -663,8 +535,7 @@ void run_path(
     constexpr std::size_t every = 25;
     for (std::size_t k = 0; k < views.size(); k += every) {
         runs.path_gains.push_back(
-            gain_at(
-                ground, views[k], settings.roughness_weight, runs.path[exact_control].resolution[k]) /
+            gain_at(ground, views[k], settings.roughness_weight, runs.path[exact_control].resolution[k]) /
             settings.triangles_per_resolution);
     }
 }
@@ -676,8 +547,7 @@ void run_stability(FlickerGround& ground, FieldRuns& runs, const Tick& tick) {
     FlickerSettings settings;
     const FlickerRun exact = run_along(triangle_controls()[exact_control], ground, settings, views);
     runs.settling_frames_exact = terrain::frames_until_constant(exact.triangles, 10);
-    const double gained =
-        gain_at(ground, view, settings.roughness_weight, exact.resolution.back());
+    const double gained = gain_at(ground, view, settings.roughness_weight, exact.resolution.back());
     for (const double gain : flicker_gains) {
         settings.triangles_per_resolution = gained / gain;
         auto& of_gain = runs.settling_frames.emplace_back();
@@ -690,8 +560,7 @@ void run_stability(FlickerGround& ground, FieldRuns& runs, const Tick& tick) {
     }
 }
 
-FieldRuns
-run_field(FlickerGround& ground, std::string name, int frames, int still_frames, const Tick& tick) {
+FieldRuns run_field(FlickerGround& ground, std::string name, int frames, int still_frames, const Tick& tick) {
     FieldRuns runs;
     runs.name = std::move(name);
     run_fixed(ground, still_frames, runs, tick);
@@ -725,20 +594,16 @@ FlickerRuns run_all(const FlickerStudyOptions& options) {
     FlickerGround gentle(world::load_height_field(options.gentle, options.files));
     FlickerGround rugged(world::load_height_field(options.rugged, options.files));
     for (const FlickerGround* const ground : {&gentle, &rugged}) {
-        const auto few = world::few_samples_note(
-            ground->field.name,
-            {ground->field.columns(), ground->field.rows()},
-            FlickerSettings{}.target_triangles,
-            "--gentle and --rugged with larger maps");
+        const auto few = world::few_samples_note(ground->field.name, {ground->field.columns(), ground->field.rows()},
+            FlickerSettings{}.target_triangles, "--gentle and --rugged with larger maps");
         base::print_note(options.quiet || !few, few.value_or(""));
     }
     const int ways = static_cast<int>(triangle_controls().size());
     const int runs_of_field = (static_cast<int>(flicker_weights.size()) + 1) * ways +
                               static_cast<int>(flicker_gains.size() + damping_frame_counts.size());
     const int settling_frames = fixed_frames(options);
-    auto gentle_runs = std::async(std::launch::async, [&] {
-        return run_field(gentle, gentle.field.name, options.frames, settling_frames, [] {});
-    });
+    auto gentle_runs = std::async(std::launch::async,
+        [&] { return run_field(gentle, gentle.field.name, options.frames, settling_frames, [] {}); });
     base::Progress progress(rugged.field.name, runs_of_field, options.quiet, "runs");
     int done = 0;
     const Tick tick = [&] { progress.show(++done); };
@@ -763,9 +628,7 @@ std::string changes_csv(const FieldRuns& runs) {
     text += "\n";
     for (std::size_t k = 1; k < shown.front()->triangles.size(); ++k) {
         text += fmt::format("{}", k);
-        for (const FlickerRun* run : shown) {
-            text += fmt::format(",{}", run->triangles[k] - run->triangles[k - 1]);
-        }
+        for (const FlickerRun* run : shown) { text += fmt::format(",{}", run->triangles[k] - run->triangles[k - 1]); }
         text += "\n";
     }
     return text;
@@ -800,11 +663,9 @@ void study_flicker(const FlickerStudyOptions& options) {
     write_file(options.out / "flicker.md", with_figures);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
     base::print_note(
-        options.quiet,
-        fmt::format(
-            "tables and figures: {0}/flicker.md; each table and dn of the paths as .csv, each "
-            "figure as .png",
-            options.out.string()));
+        options.quiet, fmt::format("tables and figures: {0}/flicker.md; each table and dn of the paths as .csv, each "
+                                   "figure as .png",
+                           options.out.string()));
 }
 
 } // namespace octant::ui::studies::flicker

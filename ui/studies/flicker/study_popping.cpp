@@ -1,4 +1,5 @@
 #include "ui/studies/flicker/study_popping.h"
+
 #include "sim/base/output_file.h"
 #include "sim/base/parallel_for.h"
 #include "ui/base/data_files.h"
@@ -47,9 +48,7 @@ constexpr int pixel_step = 4;
 constexpr double reach_m = 100000.0;
 
 /// Two hits this near to each other, with distance, are the same ground.
-double same_ground_tolerance_m(double distance_m) {
-    return 0.5 + 0.002 * distance_m;
-}
+double same_ground_tolerance_m(double distance_m) { return 0.5 + 0.002 * distance_m; }
 
 glm::dvec3 lowered(glm::dvec3 place_m, const glm::dvec3& eye_m, double radius_m) {
     const glm::dvec2 level_m = glm::dvec2(place_m) - glm::dvec2(eye_m);
@@ -58,29 +57,20 @@ glm::dvec3 lowered(glm::dvec3 place_m, const glm::dvec3& eye_m, double radius_m)
 }
 
 /// Whether a pixel, from the middle, lies near the aircraft's.
-bool near_aircraft(
-    const flight::FlightCamera& frame, const terrain::PerspectiveView& view, const glm::dvec2& pixel) {
+bool near_aircraft(const flight::FlightCamera& frame, const terrain::PerspectiveView& view, const glm::dvec2& pixel) {
     const glm::dvec3 seen = view.seen_m(frame.aircraft_m - view.eye_m);
-    if (seen.z <= frame.aircraft_radius_m) {
-        return seen.z > -frame.aircraft_radius_m;
-    }
+    if (seen.z <= frame.aircraft_radius_m) { return seen.z > -frame.aircraft_radius_m; }
     const double radius_px = 1.5 * view.focal_px * frame.aircraft_radius_m / seen.z;
     return glm::distance(view.pixel(seen), pixel) < radius_px;
 }
 
 /// Where the frame shows a place of the ground, from the middle of the picture.
-std::optional<glm::dvec2> pixel_of(
-    const terrain::GroundSamples& ground,
-    const terrain::PerspectiveView& view,
-    const glm::dvec3& place_m,
-    double radius_m) {
+std::optional<glm::dvec2> pixel_of(const terrain::GroundSamples& ground, const terrain::PerspectiveView& view,
+    const glm::dvec3& place_m, double radius_m) {
     const glm::dvec3 from_eye_m = lowered(place_m, view.eye_m, radius_m) - view.eye_m;
     const glm::dvec3 seen = view.seen_m(from_eye_m);
-    if (!view.shows(seen)) {
-        return std::nullopt;
-    }
-    const auto hit_m =
-        terrain::intersect_ground(ground, view.eye_m, glm::normalize(from_eye_m), reach_m, radius_m);
+    if (!view.shows(seen)) { return std::nullopt; }
+    const auto hit_m = terrain::intersect_ground(ground, view.eye_m, glm::normalize(from_eye_m), reach_m, radius_m);
     if (!hit_m || glm::distance(*hit_m, place_m) > same_ground_tolerance_m(glm::length(from_eye_m))) {
         return std::nullopt;
     }
@@ -89,10 +79,8 @@ std::optional<glm::dvec2> pixel_of(
 
 double luminance(const visuals::scene::Picture& picture, int x, int y) {
     const std::size_t at =
-        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-             static_cast<std::size_t>(x));
-    return 0.2126 * picture.rgba[at] + 0.7152 * picture.rgba[at + 1] +
-           0.0722 * picture.rgba[at + 2];
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+    return 0.2126 * picture.rgba[at] + 0.7152 * picture.rgba[at + 1] + 0.0722 * picture.rgba[at + 2];
 }
 
 double luminance_between(const visuals::scene::Picture& picture, const glm::dvec2& at) {
@@ -100,19 +88,14 @@ double luminance_between(const visuals::scene::Picture& picture, const glm::dvec
     const int y = static_cast<int>(at.y);
     const double east = at.x - x;
     const double south = at.y - y;
-    return (1.0 - south) *
-               ((1.0 - east) * luminance(picture, x, y) + east * luminance(picture, x + 1, y)) +
-           south * ((1.0 - east) * luminance(picture, x, y + 1) +
-                    east * luminance(picture, x + 1, y + 1));
+    return (1.0 - south) * ((1.0 - east) * luminance(picture, x, y) + east * luminance(picture, x + 1, y)) +
+           south * ((1.0 - east) * luminance(picture, x, y + 1) + east * luminance(picture, x + 1, y + 1));
 }
 
 } // namespace
 
-std::vector<ReprojectedPixel> reprojected_pixels(
-    const terrain::GroundSamples& ground,
-    const flight::FlightCamera& earlier,
-    const flight::FlightCamera& later,
-    const glm::ivec2& size_px,
+std::vector<ReprojectedPixel> reprojected_pixels(const terrain::GroundSamples& ground,
+    const flight::FlightCamera& earlier, const flight::FlightCamera& later, const glm::ivec2& size_px,
     double radius_m) {
     const terrain::PerspectiveView before = ui::terrain::picture_view(earlier.camera, size_px);
     const terrain::PerspectiveView now = ui::terrain::picture_view(later.camera, size_px);
@@ -121,17 +104,11 @@ std::vector<ReprojectedPixel> reprojected_pixels(
     for (int y = 0; y < size_px.y; y += pixel_step) {
         for (int x = 0; x < size_px.x; x += pixel_step) {
             const glm::dvec2 pixel = corner + glm::dvec2(x, -y);
-            if (near_aircraft(later, now, pixel)) {
-                continue;
-            }
-            const glm::dvec3 ray =
-                glm::normalize(now.ahead + (now.right * pixel.x + now.up * pixel.y) / now.focal_px);
+            if (near_aircraft(later, now, pixel)) { continue; }
+            const glm::dvec3 ray = glm::normalize(now.ahead + (now.right * pixel.x + now.up * pixel.y) / now.focal_px);
             const auto hit_m = terrain::intersect_ground(ground, now.eye_m, ray, reach_m, radius_m);
-            const auto was =
-                hit_m ? pixel_of(ground, before, *hit_m, radius_m) : std::optional<glm::dvec2>();
-            if (!was || near_aircraft(earlier, before, *was)) {
-                continue;
-            }
+            const auto was = hit_m ? pixel_of(ground, before, *hit_m, radius_m) : std::optional<glm::dvec2>();
+            if (!was || near_aircraft(earlier, before, *was)) { continue; }
             const glm::dvec2 at(was->x - corner.x, corner.y - was->y);
             if (at.x >= 0.0 && at.y >= 0.0 && at.x < size_px.x - 1 && at.y < size_px.y - 1) {
                 matches.push_back({{x, y}, at});
@@ -141,15 +118,11 @@ std::vector<ReprojectedPixel> reprojected_pixels(
     return matches;
 }
 
-double mean_change(
-    const visuals::scene::Picture& earlier,
-    const visuals::scene::Picture& later,
+double mean_change(const visuals::scene::Picture& earlier, const visuals::scene::Picture& later,
     const std::vector<ReprojectedPixel>& matches) {
     double sum = 0.0;
     for (const ReprojectedPixel& place : matches) {
-        sum += std::abs(
-            luminance(later, place.pixel.x, place.pixel.y) -
-            luminance_between(earlier, place.before));
+        sum += std::abs(luminance(later, place.pixel.x, place.pixel.y) - luminance_between(earlier, place.before));
     }
     return matches.empty() ? 0.0 : sum / static_cast<double>(matches.size());
 }
@@ -164,8 +137,7 @@ struct RaySampler {
     bool geomorphs;
 };
 
-constexpr std::array samplings = {
-    RaySampler{1, false}, RaySampler{1, true}, RaySampler{4, false}, RaySampler{4, true}};
+constexpr std::array samplings = {RaySampler{1, false}, RaySampler{1, true}, RaySampler{4, false}, RaySampler{4, true}};
 
 /// Sums over pairs of frames.
 struct Change {
@@ -175,8 +147,7 @@ struct Change {
 };
 
 void add_change(report::HtmlTable& table, const std::string& path, const Change& change) {
-    std::vector<std::string> row = {
-        path, fmt::format("{}", change.pairs), fmt::format("{}", change.pixels)};
+    std::vector<std::string> row = {path, fmt::format("{}", change.pairs), fmt::format("{}", change.pixels)};
     for (const double sum : change.sum) {
         row.push_back(fmt::format("{:.3f}", sum / static_cast<double>(change.pairs)));
     }
@@ -184,9 +155,7 @@ void add_change(report::HtmlTable& table, const std::string& path, const Change&
 }
 
 Change shimmer_along(
-    const ShimmerOptions& options,
-    const settings::RunSettings& flown,
-    const ui::terrain::LoadedGround& ground) {
+    const ShimmerOptions& options, const settings::RunSettings& flown, const ui::terrain::LoadedGround& ground) {
     const terrain::GroundSamples samples = ground.samples();
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
     std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
@@ -220,20 +189,13 @@ Change shimmer_along(
 } // namespace
 
 report::HtmlTable shimmer_table(const ShimmerOptions& options) {
-    const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
-        options.settings.path.terrain,
-        world::import_options(options.settings.path),
-        true); // popping said the notes
+    const ui::terrain::LoadedGround ground =
+        ui::terrain::load_ground(options.settings.path.terrain, world::import_options(options.settings.path),
+            true); // popping said the notes
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
-    table.header = {
-        "path",
-        "pairs of frames",
-        "pixels",
-        "1 sample, no geomorphs",
-        "1 sample, geomorphs",
-        "4 samples, no geomorphs",
-        "4 samples, geomorphs"};
+    table.header = {"path", "pairs of frames", "pixels", "1 sample, no geomorphs", "1 sample, geomorphs",
+        "4 samples, no geomorphs", "4 samples, geomorphs"};
     std::vector<Change> changes(base::built_in_paths.size());
     ShimmerOptions of_path = options;
     of_path.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
@@ -247,9 +209,7 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
     Change all;
     for (std::size_t i = 0; i < changes.size(); ++i) {
         add_change(table, std::string(base::built_in_paths[i]), changes[i]);
-        for (std::size_t k = 0; k < samplings.size(); ++k) {
-            all.sum[k] += changes[i].sum[k];
-        }
+        for (std::size_t k = 0; k < samplings.size(); ++k) { all.sum[k] += changes[i].sum[k]; }
         all.pairs += changes[i].pairs;
         all.pixels += changes[i].pixels;
     }
@@ -273,8 +233,7 @@ struct Meshing {
 };
 
 /// The last one is measured where near detail is asked for.
-constexpr std::array meshings = {
-    Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false, false},
+constexpr std::array meshings = {Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false, false},
     Meshing{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false, false},
     Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true, false},
     Meshing{"screen-error, geomorphs, near detail", scene::GroundMetric::ScreenError, true, true}};
@@ -293,8 +252,7 @@ struct Jumps {
     std::size_t largest_frame = 0;
 };
 
-ui::terrain::GroundMeshOptions
-mesh_options(const settings::RunSettings& settings, const Meshing& way) {
+ui::terrain::GroundMeshOptions mesh_options(const settings::RunSettings& settings, const Meshing& way) {
     constexpr double default_error_px = 0.25; // as Settings::error_px
     ui::terrain::GroundMeshOptions options;
     options.mesh = way.mesh;
@@ -306,28 +264,23 @@ mesh_options(const settings::RunSettings& settings, const Meshing& way) {
 
 /// Meshes of the ground alone, within the budget.
 MeshOfFrame given_ground(
-    const ui::terrain::LoadedGround& ground,
-    const settings::RunSettings& settings,
-    const Meshing& way) {
+    const ui::terrain::LoadedGround& ground, const settings::RunSettings& settings, const Meshing& way) {
     ui::terrain::GroundViewOptions seen;
     seen.size_px = settings.view.size_px;
     seen.earth_radius_m = settings.ground.earth_curvature ? ground.mean_radius_m() : 0.0;
     const std::shared_ptr<ui::terrain::MeshMaker> maker =
         ui::terrain::make_mesh_maker(ground, mesh_options(settings, way));
-    return
-        [maker, seen, triangles = scene::triangle_target(settings)](const scene::Camera& camera) {
-            return maker->mesh_within(ui::terrain::mesh_view(camera, seen), triangles);
-        };
+    return [maker, seen, triangles = scene::triangle_target(settings)](const scene::Camera& camera) {
+        return maker->mesh_within(ui::terrain::mesh_view(camera, seen), triangles);
+    };
 }
 
-/// The ground of a flight as it is drawn, with detail near the eye in the same budget, but nothing
-/// that stands on it.
+/// The ground of a flight as it is drawn, with detail near the eye in the same budget, but nothing that stands on it.
 MeshOfFrame ground_with_detail(settings::RunSettings settings) {
     settings.ground.mesh = scene::GroundMetric::ScreenError;
     settings.ground.scenery = false;
     const std::shared_ptr<visuals::landscape::GroundMesher> mesher =
-        world::load_world(settings).scene.ground->mesher(
-            visuals::landscape::mesh_settings(settings, false));
+        world::load_world(settings).scene.ground->mesher(visuals::landscape::mesh_settings(settings, false));
     const glm::dvec2 size_px(settings.view.size_px);
     return [mesher, aspect = size_px.x / size_px.y, triangles = scene::triangle_target(settings)](
                const scene::Camera& camera) {
@@ -340,19 +293,14 @@ MeshOfFrame ground_with_detail(settings::RunSettings settings) {
     };
 }
 
-Jumps jumps_along(
-    const MeshOfFrame& mesh_of,
-    const settings::RunSettings& settings,
+Jumps jumps_along(const MeshOfFrame& mesh_of, const settings::RunSettings& settings,
     const std::vector<flight::FlightCamera>& cameras) {
     terrain::PoppingMeter meter;
     Jumps found;
     for (std::size_t frame = 0; frame < cameras.size(); ++frame) {
         const scene::Camera& camera = cameras[frame].camera;
-        const auto jump =
-            meter.next(mesh_of(camera), ui::terrain::picture_view(camera, settings.view.size_px));
-        if (!jump) {
-            continue;
-        }
+        const auto jump = meter.next(mesh_of(camera), ui::terrain::picture_view(camera, settings.view.size_px));
+        if (!jump) { continue; }
         found.jumps_px.push_back(jump->popping_px);
         if (jump->popping_px > found.largest_px) {
             found.largest_px = jump->popping_px;
@@ -367,16 +315,11 @@ double percentile_px(std::vector<double> jumps_px, int permille) {
     return report::nearest_rank(jumps_px, permille);
 }
 
-void add_popping(
-    report::HtmlTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
+void add_popping(report::HtmlTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
     table.rows.push_back(
-        {path,
-         way.name,
-         fmt::format("{}", found.jumps_px.size()),
-         fmt::format("{:.3f}", found.largest_px),
-         fmt::format("{}", found.largest_frame),
-         fmt::format("{:.3f}", percentile_px(found.jumps_px, 999)),
-         fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
+        {path, way.name, fmt::format("{}", found.jumps_px.size()), fmt::format("{:.3f}", found.largest_px),
+            fmt::format("{}", found.largest_frame), fmt::format("{:.3f}", percentile_px(found.jumps_px, 999)),
+            fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
 }
 
 using JumpsByMeshing = std::array<Jumps, meshings.size()>;
@@ -387,10 +330,7 @@ std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
         options.settings.path.terrain, world::import_options(options.settings.path), options.quiet);
     const terrain::GroundSamples samples = ground.samples();
     const int asked = scene::triangle_target(options.settings);
-    const auto few = world::few_samples_note(
-        options.settings.path.terrain,
-        {samples.columns(), samples.rows()},
-        asked,
+    const auto few = world::few_samples_note(options.settings.path.terrain, {samples.columns(), samples.rows()}, asked,
         "--triangles with fewer, or --terrain with a larger map");
     base::print_note(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
@@ -401,18 +341,15 @@ std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
     }
     const std::size_t ways = meshings_of(options.settings).size();
     std::vector<JumpsByMeshing> found(cameras.size());
-    base::Progress progress(
-        "popping", static_cast<int>(found.size() * ways), options.quiet, "flights");
+    base::Progress progress("popping", static_cast<int>(found.size() * ways), options.quiet, "flights");
     int done = 0;
     std::mutex telling;
     parallel_for(found.size() * ways, options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         const std::size_t path = i / ways;
         const Meshing& way = meshings[i % ways];
-        found[path][i % ways] = jumps_along(
-            way.near_detail ? ground_with_detail(flown[path])
-                            : given_ground(ground, options.settings, way),
-            options.settings,
-            cameras[path]);
+        found[path][i % ways] =
+            jumps_along(way.near_detail ? ground_with_detail(flown[path]) : given_ground(ground, options.settings, way),
+                options.settings, cameras[path]);
         const std::scoped_lock lock(telling);
         progress.show(++done, std::string(base::built_in_paths[path]));
     });
@@ -431,26 +368,20 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
         for (std::size_t k = 0; k < ways; ++k) {
             const Jumps& jumps = found[path][k];
             add_popping(table, std::string(base::built_in_paths[path]), meshings[k], jumps);
-            all[k].jumps_px.insert(
-                all[k].jumps_px.end(), jumps.jumps_px.begin(), jumps.jumps_px.end());
+            all[k].jumps_px.insert(all[k].jumps_px.end(), jumps.jumps_px.begin(), jumps.jumps_px.end());
             if (jumps.largest_px > all[k].largest_px) {
                 all[k].largest_px = jumps.largest_px;
                 all[k].largest_frame = jumps.largest_frame;
             }
         }
     }
-    for (std::size_t k = 0; k < ways; ++k) {
-        add_popping(table, "all", meshings[k], all[k]);
-    }
-    table.note = fmt::format(
-        "Each frame: the two meshes' surfaces at every vertex of either that both frames show "
-        "(from 10 m on), apart on the screen as the later frame sees it. {}, {} triangles at most, "
-        "{}x{}, {:.4g} frames a second.",
-        options.settings.path.terrain,
-        scene::triangle_target(options.settings),
-        options.settings.view.size_px.x,
-        options.settings.view.size_px.y,
-        options.settings.time.rate_hz);
+    for (std::size_t k = 0; k < ways; ++k) { add_popping(table, "all", meshings[k], all[k]); }
+    table.note =
+        fmt::format("Each frame: the two meshes' surfaces at every vertex of either that both frames show "
+                    "(from 10 m on), apart on the screen as the later frame sees it. {}, {} triangles at most, "
+                    "{}x{}, {:.4g} frames a second.",
+            options.settings.path.terrain, scene::triangle_target(options.settings), options.settings.view.size_px.x,
+            options.settings.view.size_px.y, options.settings.time.rate_hz);
     return table;
 }
 
@@ -461,8 +392,7 @@ void study_popping(const PoppingStudyOptions& options) {
     std::vector<report::HtmlTable> tables = {popping_table(options)};
     std::vector<std::string> files = {"popping"};
     if (options.shimmer) {
-        tables.push_back(
-            shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
+        tables.push_back(shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
         files.emplace_back("shimmer");
     }
     std::string markdown;

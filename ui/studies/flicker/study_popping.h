@@ -19,32 +19,26 @@ struct ReprojectedPixel {
     glm::dvec2 before{0.0}; ///< the same in the frame before, between pixels; whole = a centre
 };
 
-/// Every fourth pixel, both ways, of the later frame that shows ground which the earlier one
-/// shows too, at full resolution; not those near the aircraft. `radius_m`: of the earth, 0 = flat.
-std::vector<ReprojectedPixel> reprojected_pixels(
-    const visuals::terrain::GroundSamples& ground,
-    const flight::FlightCamera& earlier,
-    const flight::FlightCamera& later,
-    const glm::ivec2& size_px,
-    double radius_m);
+/// Every fourth pixel, both ways, of the later frame that shows ground which the earlier one shows too, at full
+/// resolution; not those near the aircraft. `radius_m`: of the earth, 0 = flat.
+std::vector<ReprojectedPixel> reprojected_pixels(const visuals::terrain::GroundSamples& ground,
+    const flight::FlightCamera& earlier, const flight::FlightCamera& later, const glm::ivec2& size_px, double radius_m);
 
 /// Mean absolute change of luminance (0 to 255) over the places; 0 without any.
-double mean_change(
-    const visuals::scene::Picture& earlier,
-    const visuals::scene::Picture& later,
+double mean_change(const visuals::scene::Picture& earlier, const visuals::scene::Picture& later,
     const std::vector<ReprojectedPixel>& matches);
 
 /// How shimmer is measured.
 struct ShimmerOptions {
     settings::RunSettings settings =
         settings::measurement_settings(); ///< terrain, size, triangles, error_px, rate, frames, ...
-    int every = 60;                  ///< a pair of consecutive frames in so many
-    int jobs = 1;                    ///< paths at once
+    int every = 60;                       ///< a pair of consecutive frames in so many
+    int jobs = 1;                         ///< paths at once
     bool quiet = false;
 };
 
-/// A row a path and one for all: mean change of reprojected pixels for one and four samples a
-/// pixel, geomorphs off and on. Draws. Throws Error.
+/// A row a path and one for all: mean change of reprojected pixels for one and four samples a pixel, geomorphs off and
+/// on. Draws. Throws Error.
 report::HtmlTable shimmer_table(const ShimmerOptions& options);
 
 struct PoppingStudyOptions : base::StudyOutput {
@@ -55,13 +49,11 @@ struct PoppingStudyOptions : base::StudyOutput {
     int jobs = 1;   ///< flights at once
 };
 
-/// Along the four paths of the F-15, frame by frame: the largest jump of a vertex by change of
-/// level of detail, pixels, for the mid-point mesh with an exact budget and for the mesh by
-/// screen-space error without and with geomorphs; with near detail also for that with the detail
-/// that is drawn near the eye. With `shimmer` also how much the ground's pixels change between
-/// consecutive frames once the motion is taken out, for one and four samples a pixel, geomorphs off
-/// and on. Prints the tables and writes them to `out` as CSV and together as Markdown. Throws
-/// Error.
+/// Along the four paths of the F-15, frame by frame: the largest jump of a vertex by change of level of detail, pixels,
+/// for the mid-point mesh with an exact budget and for the mesh by screen-space error without and with geomorphs; with
+/// near detail also for that with the detail that is drawn near the eye. With `shimmer` also how much the ground's
+/// pixels change between consecutive frames once the motion is taken out, for one and four samples a pixel, geomorphs
+/// off and on. Prints the tables and writes them to `out` as CSV and together as Markdown. Throws Error.
 void study_popping(const PoppingStudyOptions& options);
 
 } // namespace octant::ui::studies::flicker

@@ -29,16 +29,11 @@ struct ShadingMode {
     scene::HybridRule rule = scene::HybridRule::Error;
 };
 
-constexpr std::array shading_modes{
-    ShadingMode{"flat", scene::AircraftShading::Flat},
+constexpr std::array shading_modes{ShadingMode{"flat", scene::AircraftShading::Flat},
     ShadingMode{"hybrid, 20 %", scene::AircraftShading::Hybrid, 0.2},
-    ShadingMode{"hybrid, 20 %, paper's rule",
-        scene::AircraftShading::Hybrid,
-        0.2,
-        scene::HybridRule::Paper},
+    ShadingMode{"hybrid, 20 %, paper's rule", scene::AircraftShading::Hybrid, 0.2, scene::HybridRule::Paper},
     ShadingMode{"hybrid, 50 %", scene::AircraftShading::Hybrid, 0.5},
-    ShadingMode{"Gouraud", scene::AircraftShading::Gouraud},
-    ShadingMode{"Phong", scene::AircraftShading::Phong}};
+    ShadingMode{"Gouraud", scene::AircraftShading::Gouraud}, ShadingMode{"Phong", scene::AircraftShading::Phong}};
 constexpr std::size_t flat_way = 0; ///< index into ways
 
 using PaintDirection = visuals::raster::Renderer::PaintDirection;
@@ -51,22 +46,16 @@ struct RendererMode {
     scene::HiddenSurface hidden_surface = scene::HiddenSurface::Octant;
 };
 
-constexpr std::array renderer_modes{
-    RendererMode{"OpenGL", settings::RendererKind::Gl},
+constexpr std::array renderer_modes{RendererMode{"OpenGL", settings::RendererKind::Gl},
     RendererMode{"raster, far to near", settings::RendererKind::Raster, 1, PaintDirection::FarToNear},
     RendererMode{"raster, near to far", settings::RendererKind::Raster},
-    RendererMode{
-        "raster, depth buffer",
-        settings::RendererKind::Raster,
-        1,
-        PaintDirection::NearToFar,
+    RendererMode{"raster, depth buffer", settings::RendererKind::Raster, 1, PaintDirection::NearToFar,
         scene::HiddenSurface::DepthBuffer},
     RendererMode{"raster, 16 samples", settings::RendererKind::Raster, 16}};
 constexpr std::size_t near_to_far_drawer = 2; ///< indices into drawers
 constexpr std::size_t depth_drawer = 3;
 
-settings::RunSettings
-settings_of(const std::string& aircraft, const ShadingMode& way, const RendererMode& drawer) {
+settings::RunSettings settings_of(const std::string& aircraft, const ShadingMode& way, const RendererMode& drawer) {
     settings::RunSettings settings;
     settings.path.name = "turn";
     settings.view.kind = scene::View::Orbit; // so that the choice changes
@@ -84,20 +73,16 @@ settings_of(const std::string& aircraft, const ShadingMode& way, const RendererM
     return settings;
 }
 
-std::unique_ptr<flight::Session>
-session_of(const std::string& aircraft, const ShadingMode& way, const RendererMode& drawer) {
+std::unique_ptr<flight::Session> session_of(
+    const std::string& aircraft, const ShadingMode& way, const RendererMode& drawer) {
     const settings::RunSettings settings = settings_of(aircraft, way, drawer);
-    if (drawer.renderer == settings::RendererKind::Gl) {
-        return std::make_unique<flight::Session>(settings);
-    }
+    if (drawer.renderer == settings::RendererKind::Gl) { return std::make_unique<flight::Session>(settings); }
     auto renderer = flight::make_raster_renderer(settings);
     renderer->set_paint_direction(drawer.paint_direction);
     return std::make_unique<flight::Session>(settings, flight::PictureContent::World, std::move(renderer));
 }
 
-double median_of(const std::vector<double>& times_ms) {
-    return report::statistics_of_times(times_ms).p50_ms;
-}
+double median_of(const std::vector<double>& times_ms) { return report::statistics_of_times(times_ms).p50_ms; }
 
 /// One way of shading by all drawers.
 struct ShadingTimes {
@@ -118,7 +103,8 @@ std::array<ShadingTimes, shading_modes.size()> measured(const std::string& aircr
     constexpr std::size_t all = shading_modes.size() * renderer_modes.size();
     std::array<std::unique_ptr<flight::Session>, all> sessions;
     for (std::size_t i = 0; i < all; ++i) {
-        sessions[i] = session_of(aircraft, shading_modes[i / renderer_modes.size()], renderer_modes[i % renderer_modes.size()]);
+        sessions[i] =
+            session_of(aircraft, shading_modes[i / renderer_modes.size()], renderer_modes[i % renderer_modes.size()]);
     }
     std::array<ShadingTimes, shading_modes.size()> result;
     base::Progress progress(fmt::format("{} flown", aircraft), timed_frames, quiet);
@@ -126,9 +112,7 @@ std::array<ShadingTimes, shading_modes.size()> measured(const std::string& aircr
         for (std::size_t turn = 0; turn < all; ++turn) {
             const std::size_t i = (turn + static_cast<std::size_t>(frame)) % all;
             const report::FrameRecord record = sessions[i]->draw(frame);
-            if (frame >= warm_up_frames) {
-                result[i / renderer_modes.size()].add(record, i % renderer_modes.size());
-            }
+            if (frame >= warm_up_frames) { result[i / renderer_modes.size()].add(record, i % renderer_modes.size()); }
         }
         progress.show(frame + 1);
     }
@@ -151,11 +135,8 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
         const auto times = measured(each, quiet);
         for (std::size_t way = 0; way < shading_modes.size(); ++way) {
             const ShadingTimes& own = times[way];
-            std::vector<std::string> cells{
-                std::filesystem::path(each).stem().string(),
-                shading_modes[way].name,
-                fmt::format("{}", own.polygons),
-                fmt::format("{}", own.smooth),
+            std::vector<std::string> cells{std::filesystem::path(each).stem().string(), shading_modes[way].name,
+                fmt::format("{}", own.polygons), fmt::format("{}", own.smooth),
                 fmt::format("{:.3f}", median_of(own.plan_ms))};
             for (std::size_t drawer = 0; drawer < renderer_modes.size(); ++drawer) {
                 const double ms = median_of(own.draw_ms[drawer]);
@@ -164,23 +145,22 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
                 cells.push_back(fmt::format("{:.2f}", ms / flat_ms));
             }
             cells.push_back(fmt::format(
-                "{:.2f}",
-                median_of(own.draw_ms[depth_drawer]) / median_of(own.draw_ms[near_to_far_drawer])));
+                "{:.2f}", median_of(own.draw_ms[depth_drawer]) / median_of(own.draw_ms[near_to_far_drawer])));
             table.rows.push_back(std::move(cells));
         }
     }
-    table.note = fmt::format(
-        "Medians of {} frames of the path turn without ground, orbit view, 1280 x 720, one sample "
-        "a pixel where none are named, all frame by frame beside each other. Drawing: from the "
-        "plan to pixels in memory, sky included. Counts are the last frame's: of polygon models "
-        "those in view of the eye's cell and the smooth ones of the whole model, of meshes "
-        "triangles as they are refined. Planning: without refining; the choice of smooth polygons "
-        "and the writing of refined meshes included. Times are the machine's, not the same twice. "
-        "In the paper's count of operations Gouraud costs 1.3 times as much as flat, on devices "
-        "that divided for each pixel; the columns say what it costs here, and what light in each "
-        "pixel (Phong) does. The last columns paint by a depth buffer, which asks for depth in each "
-        "sample of the aircraft and is not tuned as the painter is.",
-        timed_frames - warm_up_frames);
+    table.note =
+        fmt::format("Medians of {} frames of the path turn without ground, orbit view, 1280 x 720, one sample "
+                    "a pixel where none are named, all frame by frame beside each other. Drawing: from the "
+                    "plan to pixels in memory, sky included. Counts are the last frame's: of polygon models "
+                    "those in view of the eye's cell and the smooth ones of the whole model, of meshes "
+                    "triangles as they are refined. Planning: without refining; the choice of smooth polygons "
+                    "and the writing of refined meshes included. Times are the machine's, not the same twice. "
+                    "In the paper's count of operations Gouraud costs 1.3 times as much as flat, on devices "
+                    "that divided for each pixel; the columns say what it costs here, and what light in each "
+                    "pixel (Phong) does. The last columns paint by a depth buffer, which asks for depth in each "
+                    "sample of the aircraft and is not tuned as the painter is.",
+            timed_frames - warm_up_frames);
     return table;
 }
 

@@ -1,4 +1,5 @@
 #include "ui/studies/hybrid_shading/study_shading.h"
+
 #include "models/polygons/obj_reader.h"
 #include "models/procedural/background60.h"
 #include "sim/base/output_file.h"
@@ -55,11 +56,8 @@ namespace shading = visuals::shading;
 /// The angle between the torus' quads along the inner side is more than the usual crease.
 constexpr double round_crease_rad = rad_from_deg(60.0);
 
-ShadedModel
-shaded_model(std::string name, const auto& model, double crease_rad = shading::default_crease_rad) {
-    return {
-        std::move(name),
-        shading::shaded_polygons(model, shading::corner_normals(model, crease_rad))};
+ShadedModel shaded_model(std::string name, const auto& model, double crease_rad = shading::default_crease_rad) {
+    return {std::move(name), shading::shaded_polygons(model, shading::corner_normals(model, crease_rad))};
 }
 
 /// Each polygon as the fan of its first corner.
@@ -78,22 +76,17 @@ models::TriangleMesh triangles_of(const models::polygons::PolygonModel& model) {
 }
 
 /// Bunches numbers from 0 to 1 together around 0.
-double concentrated(double part) {
-    return 0.12 * part + 0.88 * part * part;
-}
+double concentrated(double part) { return 0.12 * part + 0.88 * part * part; }
 
 glm::dvec3 ball_point(double polar_rad, double azimuth_rad) {
     const glm::dvec3 unit{
-        std::sin(polar_rad) * std::cos(azimuth_rad),
-        std::sin(polar_rad) * std::sin(azimuth_rad),
-        std::cos(polar_rad)};
-    const double dents = std::sin(4.0 * unit.x + 1.0) * std::sin(5.0 * unit.y) +
-                         0.5 * std::sin(9.0 * unit.z + 2.0 * unit.x);
+        std::sin(polar_rad) * std::cos(azimuth_rad), std::sin(polar_rad) * std::sin(azimuth_rad), std::cos(polar_rad)};
+    const double dents =
+        std::sin(4.0 * unit.x + 1.0) * std::sin(5.0 * unit.y) + 0.5 * std::sin(9.0 * unit.z + 2.0 * unit.x);
     return (1.0 + 0.12 * dents) * unit;
 }
 
-/// As fine as an eye three radii from its middle, to its side and above, needs it in a picture of
-/// 720 rows.
+/// As fine as an eye three radii from its middle, to its side and above, needs it in a picture of 720 rows.
 models::TriangleMesh refined_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
     const double radius_m = hierarchy->half_diagonal_m();
     refine::RefineView view;
@@ -137,21 +130,18 @@ models::TriangleMesh uneven_ball(int rings, int slices) {
 
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more) {
     std::vector<ShadedModel> all;
-    all.push_back(shaded_model(
-        "torus of 416 triangles", triangles_of(models::procedural::torus(26, 8)), round_crease_rad));
+    all.push_back(
+        shaded_model("torus of 416 triangles", triangles_of(models::procedural::torus(26, 8)), round_crease_rad));
     all.push_back(shaded_model("torus of 416 quads", models::procedural::torus(), round_crease_rad));
     for (const char* aircraft : {"f15", "500md"}) {
         all.push_back(shaded_model(aircraft, models::polygons::read_obj(base::aircraft_file(aircraft))));
     }
     all.push_back(shaded_model("uneven ball", uneven_ball(48, 97), round_crease_rad));
     for (const std::filesystem::path& file : more) {
-        const auto hierarchy =
-            world::read_refine_mesh({.file = file.string(), .base = 0, .quiet = true}).mesh;
+        const auto hierarchy = world::read_refine_mesh({.file = file.string(), .base = 0, .quiet = true}).mesh;
         refine::SelectiveRefiner whole(hierarchy);
         for (std::uint32_t node = 0; node < hierarchy->node_count(); ++node) {
-            if (!hierarchy->is_leaf(node)) {
-                whole.split(node);
-            }
+            if (!hierarchy->is_leaf(node)) { whole.split(node); }
         }
         const std::string name = file.stem().string();
         all.push_back(shaded_model(name, refine::active_mesh(whole).mesh, round_crease_rad));
@@ -174,33 +164,21 @@ struct References {
     LightPicture per_pixel;
 };
 
-void compare(
-    const LightPicture& picture,
-    const LightPicture& reference,
-    const ShadingPictures& pictures,
-    double weight,
+void compare(const LightPicture& picture, const LightPicture& reference, const ShadingPictures& pictures, double weight,
     ShareQuality& quality) {
-    quality.mean_square.back() +=
-        weight * mean_square_error(picture, reference, pictures.covered());
-    quality.similarity +=
-        weight / views * structural_similarity(picture, reference, pictures.covered());
+    quality.mean_square.back() += weight * mean_square_error(picture, reference, pictures.covered());
+    quality.similarity += weight / views * structural_similarity(picture, reference, pictures.covered());
 }
 
-void run_rule(
-    const ShadedModel& model,
-    const StudiedRule& rule,
-    const glm::dvec3& eye_m,
-    const ShadingPictures& pictures,
-    const References& references,
-    RuleQuality& quality) {
+void run_rule(const ShadedModel& model, const StudiedRule& rule, const glm::dvec3& eye_m,
+    const ShadingPictures& pictures, const References& references, RuleQuality& quality) {
     const std::uint64_t seeds = rule.rule == shading::ShadingRule::Random ? random_seeds : 1;
     for (std::size_t step = 0; step < share_steps; ++step) {
         quality.to_gouraud[step].mean_square.push_back(0.0);
         quality.to_per_pixel[step].mean_square.push_back(0.0);
         for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
             const double share = static_cast<double>(step) / (share_steps - 1);
-            const LightPicture picture =
-                pictures.hybrid(smooth_polygons(model.polygons, rule, eye_m, share, seed));
+            const LightPicture picture = pictures.hybrid(smooth_polygons(model.polygons, rule, eye_m, share, seed));
             const double weight = 1.0 / static_cast<double>(seeds);
             compare(picture, references.gouraud, pictures, weight, quality.to_gouraud[step]);
             compare(picture, references.per_pixel, pictures, weight, quality.to_per_pixel[step]);
@@ -208,8 +186,7 @@ void run_rule(
     }
 }
 
-std::vector<std::uint8_t>
-facing_polygons(const shading::ShadedPolygons& polygons, const glm::dvec3& eye_m) {
+std::vector<std::uint8_t> facing_polygons(const shading::ShadedPolygons& polygons, const glm::dvec3& eye_m) {
     std::vector<std::uint8_t> facing;
     for (const shading::ShadedPolygon& polygon : polygons.polygons) {
         const glm::vec3 to_eye_m = glm::vec3(eye_m) - polygon.centre_m;
@@ -218,13 +195,10 @@ facing_polygons(const shading::ShadedPolygons& polygons, const glm::dvec3& eye_m
     return facing;
 }
 
-/// How many must be smooth so that `count` of them face the eye; all where fewer do. More smooth
-/// ones keep those that fewer have.
+/// How many must be smooth so that `count` of them face the eye; all where fewer do. More smooth ones keep those that
+/// fewer have.
 int count_with_facing(
-    shading::ShadingSelector& selector,
-    const std::vector<std::uint8_t>& facing,
-    const glm::dvec3& eye_m,
-    int count) {
+    shading::ShadingSelector& selector, const std::vector<std::uint8_t>& facing, const glm::dvec3& eye_m, int count) {
     int least = count;
     int most = static_cast<int>(facing.size());
     while (least < most) {
@@ -260,29 +234,21 @@ std::vector<glm::dvec3> study_eyes(const shading::ShadedPolygons& polygons) {
     for (std::size_t i = 0; i < views; ++i) {
         const double azimuth_rad = 2.0 * pi * (static_cast<double>(i) + 0.3) / views;
         const double elevation_rad = rad_from_deg(elevations_deg[i % elevations_deg.size()]);
-        eyes_m.push_back(
-            glm::dvec3(polygons.centre_m) + distance_radii * polygons.radius_m *
-                                                glm::dvec3(
-                                                    std::cos(elevation_rad) * std::cos(azimuth_rad),
-                                                    std::cos(elevation_rad) * std::sin(azimuth_rad),
-                                                    -std::sin(elevation_rad)));
+        eyes_m.push_back(glm::dvec3(polygons.centre_m) + distance_radii * polygons.radius_m *
+                                                             glm::dvec3(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                                                                 std::cos(elevation_rad) * std::sin(azimuth_rad),
+                                                                 -std::sin(elevation_rad)));
     }
     return eyes_m;
 }
 
-std::vector<std::uint8_t> smooth_polygons(
-    const shading::ShadedPolygons& polygons,
-    const StudiedRule& rule,
-    const glm::dvec3& eye_m,
-    double share,
-    std::uint64_t seed) {
+std::vector<std::uint8_t> smooth_polygons(const shading::ShadedPolygons& polygons, const StudiedRule& rule,
+    const glm::dvec3& eye_m, double share, std::uint64_t seed) {
     shading::ShadingRuleSettings settings = shading::without_hysteresis(rule.rule);
     settings.seed = seed;
     shading::ShadingSelector selector(polygons, settings);
     auto count = static_cast<int>(std::lround(share * static_cast<double>(polygons.size())));
-    if (rule.facing_only) {
-        count = count_with_facing(selector, facing_polygons(polygons, eye_m), eye_m, count);
-    }
+    if (rule.facing_only) { count = count_with_facing(selector, facing_polygons(polygons, eye_m), eye_m, count); }
     const auto smooth = selector.choose(eye_m, study_light(), count).smooth;
     return {smooth.begin(), smooth.end()};
 }
@@ -296,8 +262,8 @@ ShadingRun run_shading(const ShadedModel& model, int size_px, const std::functio
         const std::vector<std::uint8_t> all(model.polygons.size(), 1);
         const References references{pictures.hybrid(all), pictures.per_pixel()};
         const auto facing = facing_polygons(model.polygons, eye_m);
-        run.facing_share += std::accumulate(facing.begin(), facing.end(), 0.0) /
-                            static_cast<double>(facing.size()) / views;
+        run.facing_share +=
+            std::accumulate(facing.begin(), facing.end(), 0.0) / static_cast<double>(facing.size()) / views;
         for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
             run_rule(model, studied_rules[rule], eye_m, pictures, references, run.rules[rule]);
         }
@@ -308,8 +274,8 @@ ShadingRun run_shading(const ShadedModel& model, int size_px, const std::functio
 
 namespace {
 
-/// A made machine that draws frames in made times: t = a + bf f + bg g, with noise and now and then
-/// a slow frame. All polygons flat take `flat_ms`, all smooth `smooth_ms` more.
+/// A made machine that draws frames in made times: t = a + bf f + bg g, with noise and now and then a slow frame. All
+/// polygons flat take `flat_ms`, all smooth `smooth_ms` more.
 struct SimulatedMachine {
     double fixed_ms = 3.0; ///< a
     double flat_ms = 3.0;
@@ -322,13 +288,13 @@ struct SimulatedMachine {
 struct ControlRun {
     SimulatedMachine machine;
     double target_frame_ms = 0.0; ///< T
-    /// From the start, and after a rises and falls again: frames before the share is within 0.1 of
-    /// the best one, or within 2.5 deviations of the noise, for good.
+    /// From the start, and after a rises and falls again: frames before the share is within 0.1 of the best one, or
+    /// within 2.5 deviations of the noise, for good.
     std::array<int, 3> settled_frames{};
     std::array<double, 3> best_share{};
     double over_share = 0.0;         ///< frames longer than T
     double changes_per_second = 0.0; ///< per polygon at 60 frames a second, once settled
-    bool has_no_gain = false;            ///< at the end
+    bool has_no_gain = false;        ///< at the end
 };
 
 namespace shading = visuals::shading;
@@ -340,9 +306,7 @@ constexpr double added_fixed_ms = 2.0;
 constexpr int torus_polygons = 416;
 
 double best_share(const SimulatedMachine& machine, const shading::ShadingControllerSettings& control) {
-    if (machine.smooth_ms <= 0.0) {
-        return 1.0;
-    }
+    if (machine.smooth_ms <= 0.0) { return 1.0; }
     const double aim_ms = control.target_frame_ms * (1.0 - control.target_margin_sds * machine.noise);
     return std::clamp((aim_ms - machine.fixed_ms - machine.flat_ms) / machine.smooth_ms, 0.0, 1.0);
 }
@@ -384,8 +348,7 @@ ControlRun run_control(const SimulatedMachine& machine, double target_frame_ms, 
     }
     const auto loads = static_cast<double>(run.settled_frames.size());
     run.over_share /= loads * frames_per_load;
-    run.changes_per_second =
-        changes / polygons / (loads * (frames_per_load - settling_frames)) * frames_per_second;
+    run.changes_per_second = changes / polygons / (loads * (frames_per_load - settling_frames)) * frames_per_second;
     run.has_no_gain = state.has_no_gain;
     return run;
 }
@@ -406,9 +369,7 @@ namespace shading = visuals::shading;
 constexpr int printed_polygons = 415;
 constexpr double printed_device_ratio = 0.028;
 
-std::string decibels(double db) {
-    return db < exact_db ? fmt::format("{:.2f}", db) : "exact";
-}
+std::string decibels(double db) { return db < exact_db ? fmt::format("{:.2f}", db) : "exact"; }
 
 std::string gain_text(double ours_db, double gain_db) {
     return ours_db < exact_db ? fmt::format("{:.2f}", gain_db) : "exact";
@@ -419,8 +380,7 @@ double min_gain_db(const ShareQuality& ours, const ShareQuality& theirs) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t view = 0; view < ours.mean_square.size(); ++view) {
         if (ours.mean_square[view] > 0.0) {
-            least = std::min(
-                least, psnr_db(ours.mean_square[view]) - psnr_db(theirs.mean_square[view]));
+            least = std::min(least, psnr_db(ours.mean_square[view]) - psnr_db(theirs.mean_square[view]));
         }
     }
     return least;
@@ -436,25 +396,19 @@ report::HtmlTable operation_table() {
     table.title = fmt::format("Operations for a torus, table 2 ({} smooth)", smooth);
     table.header = {"what", "formula", "printed, n = 415", "computed, n = 415", "n = 416"};
     const auto add = [&](const char* what, const char* formula, int shown, int here, int all) {
-        table.rows.push_back(
-            {what,
-             formula,
-             fmt::format("{}{}", shown, shown == here ? "" : " (slip)"),
-             fmt::format("{}", here),
-             fmt::format("{}", all)});
+        table.rows.push_back({what, formula, fmt::format("{}{}", shown, shown == here ? "" : " (slip)"),
+            fmt::format("{}", here), fmt::format("{}", all)});
     };
     add("deciding", "9 n", printed.selection, counts.selection, whole.selection);
     add("all flat", "9 n + n", printed.all_flat, counts.all_flat, whole.all_flat);
     add("all Gouraud", "9 n + 4 n", printed.all_smooth, counts.all_smooth, whole.all_smooth);
     add("hybrid", "9 n + f + 4 g", printed.hybrid, counts.hybrid, whole.hybrid);
-    table.note = fmt::format(
-        "The torus has 416 triangles (26 x 8 quads in two each; 26 x 9 = 234 vertices with one "
-        "seam "
-        "doubled); 5408 is 13 x 416, the other rows are of 415. g = {} of 415 is what the mapping "
-        "here, round(r n (10 + 3 r) / 13), gives for the paper's relative speed r = {}: the paper "
-        "says 8 or 9 and not why.",
-        smooth,
-        printed_device_ratio);
+    table.note = fmt::format("The torus has 416 triangles (26 x 8 quads in two each; 26 x 9 = 234 vertices with one "
+                             "seam "
+                             "doubled); 5408 is 13 x 416, the other rows are of 415. g = {} of 415 is what the mapping "
+                             "here, round(r n (10 + 3 r) / 13), gives for the paper's relative speed r = {}: the paper "
+                             "says 8 or 9 and not why.",
+        smooth, printed_device_ratio);
     return table;
 }
 
@@ -462,19 +416,9 @@ report::HtmlTable operation_table() {
 report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
     report::HtmlTable table;
     table.title = "Gain of the error rule over the paper's, PSNR against all Gouraud";
-    table.header = {
-        "model",
-        "polygons",
-        "facing the eye",
-        "smooth",
-        "random, dB",
-        "paper, dB",
-        "paper, facing only, dB",
-        "error (ours), dB",
-        "gain over paper, dB",
-        "least of a view, dB",
-        "over facing only, dB",
-        "at least 2 dB"};
+    table.header = {"model", "polygons", "facing the eye", "smooth", "random, dB", "paper, dB",
+        "paper, facing only, dB", "error (ours), dB", "gain over paper, dB", "least of a view, dB",
+        "over facing only, dB", "at least 2 dB"};
     for (const ShadingRun& run : runs) {
         for (std::size_t step = 1; step <= 3; ++step) {
             const auto& random = run.rules[random_rule].to_gouraud[step];
@@ -483,26 +427,18 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
             const auto& ours = run.rules[error_rule].to_gouraud[step];
             const double gain_db = ours.psnr_db() - theirs.psnr_db();
             table.rows.push_back(
-                {run.name,
-                 fmt::format("{}", run.polygons),
-                 fmt::format("{:.1f} %", 100.0 * run.facing_share),
-                 fmt::format("{} %", step * share_step_percent),
-                 decibels(random.psnr_db()),
-                 decibels(theirs.psnr_db()),
-                 decibels(facing.psnr_db()),
-                 decibels(ours.psnr_db()),
-                 gain_text(ours.psnr_db(), gain_db),
-                 gain_text(ours.psnr_db(), min_gain_db(ours, theirs)),
-                 gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db()),
-                 gain_db >= 2.0 ? "yes" : "no"});
+                {run.name, fmt::format("{}", run.polygons), fmt::format("{:.1f} %", 100.0 * run.facing_share),
+                    fmt::format("{} %", step * share_step_percent), decibels(random.psnr_db()),
+                    decibels(theirs.psnr_db()), decibels(facing.psnr_db()), decibels(ours.psnr_db()),
+                    gain_text(ours.psnr_db(), gain_db), gain_text(ours.psnr_db(), min_gain_db(ours, theirs)),
+                    gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db()), gain_db >= 2.0 ? "yes" : "no"});
         }
     }
-    table.note =
-        "Share of all polygons of the model, those that face away included. Eight eyes around the "
-        "model, three radii from its middle; PSNR of the mean square error over all covered pixels "
-        "of all eyes, white = R + G + B = 3 in display values. Facing only: the paper's "
-        "rule as if polygons that face away were not there. Exact: beyond 100 dB, a hundred "
-        "thousandth of white. Random: mean square of four seeds.";
+    table.note = "Share of all polygons of the model, those that face away included. Eight eyes around the "
+                 "model, three radii from its middle; PSNR of the mean square error over all covered pixels "
+                 "of all eyes, white = R + G + B = 3 in display values. Facing only: the paper's "
+                 "rule as if polygons that face away were not there. Exact: beyond 100 dB, a hundred "
+                 "thousandth of white. Random: mean square of four seeds.";
     return table;
 }
 
@@ -514,28 +450,23 @@ report::HtmlTable quality_table(const ShadingRun& run) {
     for (const char* reference : {"Gouraud", "per pixel"}) {
         for (const char* measure : {"PSNR, dB", "SSIM"}) {
             for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
-                table.header.push_back(
-                    fmt::format("{} to {}, {}", measure, reference, studied_rules[rule].name));
+                table.header.push_back(fmt::format("{} to {}, {}", measure, reference, studied_rules[rule].name));
             }
         }
     }
     for (std::size_t step = 0; step < share_steps; ++step) {
         std::vector<std::string> row{fmt::format("{} %", step * share_step_percent)};
         for (const auto reference : {&RuleQuality::to_gouraud, &RuleQuality::to_per_pixel}) {
-            for (const RuleQuality& rule : run.rules) {
-                row.push_back(decibels((rule.*reference)[step].psnr_db()));
-            }
+            for (const RuleQuality& rule : run.rules) { row.push_back(decibels((rule.*reference)[step].psnr_db())); }
             for (const RuleQuality& rule : run.rules) {
                 row.push_back(fmt::format("{:.4f}", (rule.*reference)[step].similarity));
             }
         }
         table.rows.push_back(row);
     }
-    table.note = fmt::format(
-        "{} polygons, {:.1f} % of them face the eye. Exact: beyond 100 dB. To Gouraud: all "
-        "polygons smooth; per pixel: normals between corners (Phong's shading).",
-        run.polygons,
-        100.0 * run.facing_share);
+    table.note = fmt::format("{} polygons, {:.1f} % of them face the eye. Exact: beyond 100 dB. To Gouraud: all "
+                             "polygons smooth; per pixel: normals between corners (Phong's shading).",
+        run.polygons, 100.0 * run.facing_share);
     return table;
 }
 
@@ -543,44 +474,24 @@ report::HtmlTable quality_table(const ShadingRun& run) {
 report::HtmlTable control_table(std::span<const ControlRun> runs) {
     report::HtmlTable table;
     table.title = "The share of smooth polygons found from frame times";
-    table.header = {
-        "all smooth cost more, ms",
-        "T, ms",
-        "best share, a = 3 / 5 / 3 ms",
-        "settled after, frames",
-        "frames over T",
-        "class changes per polygon and second",
-        "flat gains"};
+    table.header = {"all smooth cost more, ms", "T, ms", "best share, a = 3 / 5 / 3 ms", "settled after, frames",
+        "frames over T", "class changes per polygon and second", "flat gains"};
     for (const ControlRun& run : runs) {
-        table.rows.push_back(
-            {fmt::format("{:g}", run.machine.smooth_ms),
-             fmt::format("{:g}", run.target_frame_ms),
-             fmt::format(
-                 "{:.2f} / {:.2f} / {:.2f}",
-                 run.best_share[0],
-                 run.best_share[1],
-                 run.best_share[2]),
-             fmt::format(
-                 "{} / {} / {}",
-                 run.settled_frames[0],
-                 run.settled_frames[1],
-                 run.settled_frames[2]),
-             fmt::format("{:.1f} %", 100.0 * run.over_share),
-             fmt::format("{:.3f}", run.changes_per_second),
-             run.has_no_gain ? "nothing: all smooth" : "time"});
+        table.rows.push_back({fmt::format("{:g}", run.machine.smooth_ms), fmt::format("{:g}", run.target_frame_ms),
+            fmt::format("{:.2f} / {:.2f} / {:.2f}", run.best_share[0], run.best_share[1], run.best_share[2]),
+            fmt::format("{} / {} / {}", run.settled_frames[0], run.settled_frames[1], run.settled_frames[2]),
+            fmt::format("{:.1f} %", 100.0 * run.over_share), fmt::format("{:.3f}", run.changes_per_second),
+            run.has_no_gain ? "nothing: all smooth" : "time"});
     }
     const SimulatedMachine machine;
-    table.note = fmt::format(
-        "A made clock, 416 polygons: all flat take {:g} ms and a; noise of {:g} % (deviation), "
-        "{:g} % of the frames 1.6 times as long; 600 frames each of three loads. Best share: the "
-        "expected time is 2.6 deviations below T. Settled: within 0.1 of it, or 2.5 deviations of "
-        "the noise, for good. Changes: from the 31st frame of each load on, 60 frames a second, "
-        "still camera. Where smooth ones gain nothing, and where even all flat takes longer than "
-        "T, "
-        "frames over T are nobody's fault.",
-        machine.flat_ms,
-        100.0 * machine.noise,
-        100.0 * machine.slow_share);
+    table.note = fmt::format("A made clock, 416 polygons: all flat take {:g} ms and a; noise of {:g} % (deviation), "
+                             "{:g} % of the frames 1.6 times as long; 600 frames each of three loads. Best share: the "
+                             "expected time is 2.6 deviations below T. Settled: within 0.1 of it, or 2.5 deviations of "
+                             "the noise, for good. Changes: from the 31st frame of each load on, 60 frames a second, "
+                             "still camera. Where smooth ones gain nothing, and where even all flat takes longer than "
+                             "T, "
+                             "frames over T are nobody's fault.",
+        machine.flat_ms, 100.0 * machine.noise, 100.0 * machine.slow_share);
     return table;
 }
 
@@ -606,13 +517,11 @@ struct BudgetFlights {
     std::vector<double> smooth_share; ///< of the flight that is held
     bool has_no_gain = false;
 
-    double median_ms(std::size_t mode) const {
-        return report::statistics_of_times(frame_ms[mode]).p50_ms;
-    }
+    double median_ms(std::size_t mode) const { return report::statistics_of_times(frame_ms[mode]).p50_ms; }
 };
 
-std::unique_ptr<flight::Session>
-budget_session(const std::string& aircraft, std::size_t mode, double rate_hz, int frames) {
+std::unique_ptr<flight::Session> budget_session(
+    const std::string& aircraft, std::size_t mode, double rate_hz, int frames) {
     settings::RunSettings settings;
     settings.path.name = "turn";
     settings.view.kind = scene::View::Orbit;
@@ -628,8 +537,7 @@ budget_session(const std::string& aircraft, std::size_t mode, double rate_hz, in
 }
 
 /// Flies the first `ways` of budget_modes in turn; the first frames do not count.
-BudgetFlights
-fly_all(const std::string& aircraft, std::size_t ways, double rate_hz, int frames, int left_out) {
+BudgetFlights fly_all(const std::string& aircraft, std::size_t ways, double rate_hz, int frames, int left_out) {
     std::vector<std::unique_ptr<flight::Session>> sessions;
     for (std::size_t mode = 0; mode < ways; ++mode) {
         sessions.push_back(budget_session(aircraft, mode, rate_hz, frames));
@@ -639,20 +547,15 @@ fly_all(const std::string& aircraft, std::size_t ways, double rate_hz, int frame
         for (std::size_t turn = 0; turn < ways; ++turn) {
             const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % ways;
             const report::FrameRecord record = sessions[mode]->draw(frame);
-            if (frame < left_out) {
-                continue;
-            }
+            if (frame < left_out) { continue; }
             flights.frame_ms[mode].push_back(record.frame_ms);
             if (mode == budget_flight) {
                 flights.smooth_share.push_back(
-                    static_cast<double>(record.smooth_polygons) /
-                    std::max(sessions[mode]->shading()->polygons, 1));
+                    static_cast<double>(record.smooth_polygons) / std::max(sessions[mode]->shading()->polygons, 1));
             }
         }
     }
-    if (ways > budget_flight) {
-        flights.has_no_gain = sessions[budget_flight]->shading()->has_no_gain;
-    }
+    if (ways > budget_flight) { flights.has_no_gain = sessions[budget_flight]->shading()->has_no_gain; }
     return flights;
 }
 
@@ -661,13 +564,11 @@ double share_over(const std::vector<double>& times_ms, double budget_ms) {
     return static_cast<double>(over) / static_cast<double>(times_ms.size());
 }
 
-std::vector<std::string>
-cells_of(const std::string& aircraft, double budget_ms, const BudgetFlights& flights) {
+std::vector<std::string> cells_of(const std::string& aircraft, double budget_ms, const BudgetFlights& flights) {
     std::vector<std::string> cells{aircraft, fmt::format("{:.2f}", budget_ms)};
     for (std::size_t mode = 0; mode < budget_modes.size(); ++mode) {
         cells.push_back(fmt::format("{:.2f}", flights.median_ms(mode)));
-        cells.push_back(
-            fmt::format("{:.0f} %", 100.0 * share_over(flights.frame_ms[mode], budget_ms)));
+        cells.push_back(fmt::format("{:.0f} %", 100.0 * share_over(flights.frame_ms[mode], budget_ms)));
     }
     const double smooth = report::statistics_of_times(flights.smooth_share).p50_ms;
     cells.push_back(fmt::format("{:.0f} %", 100.0 * (1.0 - smooth)));
@@ -675,52 +576,38 @@ cells_of(const std::string& aircraft, double budget_ms, const BudgetFlights& fli
     return cells;
 }
 
-/// What `--adapt shading` makes of budgets below, between and above the times that all flat and all
-/// Gouraud take, by the raster renderer: three flights draw every frame in turn, so that they see
-/// the same machine. These times are the machine's, not the same twice. `aircraft`: as --aircraft.
-/// Throws Error.
+/// What `--adapt shading` makes of budgets below, between and above the times that all flat and all Gouraud take, by
+/// the raster renderer: three flights draw every frame in turn, so that they see the same machine. These times are the
+/// machine's, not the same twice. `aircraft`: as --aircraft. Throws Error.
 report::HtmlTable budget_times_table(std::span<const std::string> aircraft, bool quiet) {
     report::HtmlTable table;
     table.title = "Adaptation flown: what a budget makes of the share of flat polygons, raster, 16 "
                   "samples";
-    table.header = {
-        "aircraft",
-        "budget T, ms",
-        "all flat, ms",
-        "over T",
-        "all Gouraud, ms",
-        "over T",
-        "adapted, ms",
-        "over T",
-        "flat polygons",
-        "flat gains"};
-    base::Progress progress(
-        "budgets", static_cast<int>(aircraft.size() * budgets.size()), quiet, "flights");
+    table.header = {"aircraft", "budget T, ms", "all flat, ms", "over T", "all Gouraud, ms", "over T", "adapted, ms",
+        "over T", "flat polygons", "flat gains"};
+    base::Progress progress("budgets", static_cast<int>(aircraft.size() * budgets.size()), quiet, "flights");
     int done = 0;
     for (const std::string& each : aircraft) {
         const BudgetFlights clock = fly_all(each, budget_flight, clock_rate_hz, clock_frames, 10);
         const double flat_ms = clock.median_ms(flat_flight);
-        const double way_ms =
-            std::max(clock.median_ms(smooth_flight) - flat_ms, min_way * flat_ms);
+        const double way_ms = std::max(clock.median_ms(smooth_flight) - flat_ms, min_way * flat_ms);
         for (const double budget : budgets) {
             const double budget_ms = flat_ms + budget * way_ms;
             const BudgetFlights flights =
                 fly_all(each, budget_modes.size(), 1000.0 / budget_ms, budget_frames, unsettled_frames);
-            table.rows.push_back(
-                cells_of(std::filesystem::path(each).stem().string(), budget_ms, flights));
+            table.rows.push_back(cells_of(std::filesystem::path(each).stem().string(), budget_ms, flights));
             progress.show(++done);
         }
     }
     progress.finish();
-    table.note = fmt::format(
-        "Medians of {} frames after {} of the path turn without ground, orbit view, 1280 x 720; "
-        "the three flights draw every frame in turn. Budgets lie below what all flat took in a "
-        "flight before, half way from all flat to all Gouraud and well above both; a tenth of all "
-        "flat's time counts as that way where it is shorter. Flat gains: what the control has "
-        "found out; where flat polygons take as long as smooth ones, to within the noise, it makes "
-        "all smooth whatever the budget is, for fewer would only look worse.",
-        budget_frames - unsettled_frames,
-        unsettled_frames);
+    table.note =
+        fmt::format("Medians of {} frames after {} of the path turn without ground, orbit view, 1280 x 720; "
+                    "the three flights draw every frame in turn. Budgets lie below what all flat took in a "
+                    "flight before, half way from all flat to all Gouraud and well above both; a tenth of all "
+                    "flat's time counts as that way where it is shorter. Flat gains: what the control has "
+                    "found out; where flat polygons take as long as smooth ones, to within the noise, it makes "
+                    "all smooth whatever the budget is, for fewer would only look worse.",
+            budget_frames - unsettled_frames, unsettled_frames);
     return table;
 }
 
@@ -741,8 +628,7 @@ std::byte grey_of(float light) {
 }
 
 /// Pictures side by side, below them their differences from the last but one.
-report::Picture
-column_rect(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& on) {
+report::Picture column_rect(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& on) {
     const auto size = static_cast<std::size_t>(row.front().size_px);
     const LightPicture& reference = row[row.size() - 2];
     report::Picture strip;
@@ -751,18 +637,14 @@ column_rect(const std::vector<LightPicture>& row, const std::vector<std::uint8_t
     strip.bytes.assign(std::size_t{6} * size * size * row.size(), background);
     for (std::size_t k = 0; k < row.size(); ++k) {
         for (std::size_t at = 0; at < size * size; ++at) {
-            if (on[at] == 0) {
-                continue;
-            }
+            if (on[at] == 0) { continue; }
             const float light = row[k].light[at];
             const float error = error_scale * std::abs(light - reference.light[at]);
             const std::size_t column = k * size + at % size;
             const std::size_t above = at / size * size * row.size() + column;
             const std::size_t below = above + size * size * row.size();
-            std::fill_n(
-                strip.bytes.begin() + static_cast<std::ptrdiff_t>(3 * above), 3, grey_of(light));
-            std::fill_n(
-                strip.bytes.begin() + static_cast<std::ptrdiff_t>(3 * below), 3, grey_of(error));
+            std::fill_n(strip.bytes.begin() + static_cast<std::ptrdiff_t>(3 * above), 3, grey_of(light));
+            std::fill_n(strip.bytes.begin() + static_cast<std::ptrdiff_t>(3 * below), 3, grey_of(error));
         }
     }
     return strip;
@@ -803,35 +685,26 @@ report::Plot curve_plot(const ShadingRun& run) {
 
 /// Curves and strips; the Markdown that shows them.
 std::string write_figures(
-    const ShadingStudyOptions& options,
-    const std::vector<ShadedModel>& models,
-    const std::vector<ShadingRun>& runs) {
+    const ShadingStudyOptions& options, const std::vector<ShadedModel>& models, const std::vector<ShadingRun>& runs) {
     std::string markdown;
     std::vector<report::Plot> plots;
     plots.reserve(runs.size());
-    for (const ShadingRun& run : runs) {
-        plots.push_back(curve_plot(run));
-    }
+    for (const ShadingRun& run : runs) { plots.push_back(curve_plot(run)); }
     if (const auto png = report::plots_png(plots)) {
         write_file(options.out / "curves.png", *png);
-        markdown +=
-            "![curves.png](curves.png)\n\nPSNR against all Gouraud; a curve ends where it is "
-            "exact.\n\n";
+        markdown += "![curves.png](curves.png)\n\nPSNR against all Gouraud; a curve ends where it is "
+                    "exact.\n\n";
     } else {
         base::print_note(options.quiet, "curves.png not made: gnuplot is not installed");
     }
     for (const ShadedModel& model : models) {
         const std::string file = "strip-" + file_part(model.name) + ".png";
         report::write_png(options.out / file, column_rect(model, options.size_px).view());
-        markdown += fmt::format(
-            "![{0}]({0})\n\n{1}: all flat; {2:.0f} % smooth at random, by the paper's rule, by the "
-            "same among polygons that face the eye, by the error; all Gouraud; each pixel. Below: "
-            "difference from all Gouraud, {3:.0f} "
-            "times.\n\n",
-            file,
-            model.name,
-            100.0 * strip_share,
-            error_scale);
+        markdown += fmt::format("![{0}]({0})\n\n{1}: all flat; {2:.0f} % smooth at random, by the paper's rule, by the "
+                                "same among polygons that face the eye, by the error; all Gouraud; each pixel. Below: "
+                                "difference from all Gouraud, {3:.0f} "
+                                "times.\n\n",
+            file, model.name, 100.0 * strip_share, error_scale);
     }
     return markdown;
 }
@@ -851,8 +724,7 @@ void study_shading(const ShadingStudyOptions& options) {
         runs[i] = run_shading(model, options.size_px, [&] { progress.show(++done); });
         progress.finish();
     });
-    std::vector<report::HtmlTable> tables{
-        operation_table(), gain_table(runs), control_table(control_runs())};
+    std::vector<report::HtmlTable> tables{operation_table(), gain_table(runs), control_table(control_runs())};
     std::vector<std::string> files{"operations", "gain", "control"};
     for (const ShadingRun& run : runs) {
         tables.push_back(quality_table(run));
@@ -860,9 +732,7 @@ void study_shading(const ShadingStudyOptions& options) {
     }
     if (options.times) {
         std::vector<std::string> aircraft{"f15", "500md"};
-        for (const std::filesystem::path& mesh : options.meshes) {
-            aircraft.push_back(mesh.string());
-        }
+        for (const std::filesystem::path& mesh : options.meshes) { aircraft.push_back(mesh.string()); }
         tables.push_back(shading_times_table(aircraft, options.quiet));
         files.emplace_back("times");
         tables.push_back(budget_times_table(aircraft, options.quiet));
@@ -876,10 +746,8 @@ void study_shading(const ShadingStudyOptions& options) {
     write_file(options.out / "shading.md", markdown + write_figures(options, models, runs));
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
     base::print_note(
-        options.quiet,
-        fmt::format(
-            "tables and figures: {0}/shading.md; each table as .csv, each figure as .png",
-            options.out.string()));
+        options.quiet, fmt::format("tables and figures: {0}/shading.md; each table as .csv, each figure as .png",
+                           options.out.string()));
 }
 
 } // namespace octant::ui::studies::hybrid_shading

@@ -24,13 +24,12 @@ struct ShadedModel {
     visuals::shading::ShadedPolygons polygons;
 };
 
-/// A closed dented ball of `rings` x `slices` cells, two triangles each (one at its ends), whose
-/// cells are up to some hundred times as large in one place as in another.
+/// A closed dented ball of `rings` x `slices` cells, two triangles each (one at its ends), whose cells are up to some
+/// hundred times as large in one place as in another.
 models::TriangleMesh uneven_ball(int rings, int slices);
 
-/// The paper's torus in its 416 triangles, that of this program in 416 quads, f15, 500md, an uneven
-/// ball of 9,118 triangles; mesh files (`more`), each as it is and refined for one eye. Throws
-/// Error.
+/// The paper's torus in its 416 triangles, that of this program in 416 quads, f15, 500md, an uneven ball of 9,118
+/// triangles; mesh files (`more`), each as it is and refined for one eye. Throws Error.
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more);
 
 /// A way to choose the smooth polygons.
@@ -40,8 +39,7 @@ struct StudiedRule {
     bool facing_only = false; ///< as if polygons that face away were not there
 };
 
-inline constexpr std::array studied_rules{
-    StudiedRule{"random", visuals::shading::ShadingRule::Random},
+inline constexpr std::array studied_rules{StudiedRule{"random", visuals::shading::ShadingRule::Random},
     StudiedRule{"paper", visuals::shading::ShadingRule::Paper},
     StudiedRule{"paper, facing only", visuals::shading::ShadingRule::Paper, true},
     StudiedRule{"error (ours)", visuals::shading::ShadingRule::Error}};
@@ -83,14 +81,10 @@ visuals::shading::ShadingLight study_light();
 /// Eight eyes around a model, three times its radius from its middle, above and below.
 std::vector<glm::dvec3> study_eyes(const visuals::shading::ShadedPolygons& polygons);
 
-/// Polygons that a rule makes smooth for one eye, nothing remembered. `share` is of all polygons;
-/// fewer where only facing ones count and there are no more.
-std::vector<std::uint8_t> smooth_polygons(
-    const visuals::shading::ShadedPolygons& polygons,
-    const StudiedRule& rule,
-    const glm::dvec3& eye_m,
-    double share,
-    std::uint64_t seed = 1);
+/// Polygons that a rule makes smooth for one eye, nothing remembered. `share` is of all polygons; fewer where only
+/// facing ones count and there are no more.
+std::vector<std::uint8_t> smooth_polygons(const visuals::shading::ShadedPolygons& polygons, const StudiedRule& rule,
+    const glm::dvec3& eye_m, double share, std::uint64_t seed = 1);
 
 /// All rules and shares. Random is the mean of several seeds. `tick`: called after each view.
 ShadingRun run_shading(const ShadedModel& model, int size_px, const std::function<void()>& tick);
@@ -99,15 +93,14 @@ struct ShadingStudyOptions : base::StudyOutput {
     std::vector<std::filesystem::path> meshes; ///< files, beside the models of its own
     int size_px = 320;                         ///< of the square pictures
     bool times = true;                         ///< fly too, for frame times
-    int jobs = 1; ///< models at once; flights for frame times are always one at a time
+    int jobs = 1;                              ///< models at once; flights for frame times are always one at a time
 };
 
-/// What H. Kim and H. Park's hybrid of flat and Gouraud shading (2008) shows: its operation counts,
-/// and how near to all Gouraud and to shading each pixel it comes when 0 to 100 % of the polygons
-/// are smooth, chosen at random, by the paper's rule and by the error in the picture; and how the
-/// share follows frame times. Prints the tables and writes them to `out` as CSV and together as
-/// Markdown, curves as PNG, and a strip of pictures of each model. The same options give the same
-/// bytes but for frame times. Throws Error.
+/// What H. Kim and H. Park's hybrid of flat and Gouraud shading (2008) shows: its operation counts, and how near to all
+/// Gouraud and to shading each pixel it comes when 0 to 100 % of the polygons are smooth, chosen at random, by the
+/// paper's rule and by the error in the picture; and how the share follows frame times. Prints the tables and writes
+/// them to `out` as CSV and together as Markdown, curves as PNG, and a strip of pictures of each model. The same
+/// options give the same bytes but for frame times. Throws Error.
 void study_shading(const ShadingStudyOptions& options);
 
 } // namespace octant::ui::studies::hybrid_shading

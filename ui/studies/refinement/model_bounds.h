@@ -27,8 +27,6 @@ inline BoundingSphere bounding_sphere(const visuals::refine::ProgressiveMesh& me
 }
 
 /// Processor time of this program so far.
-inline double process_cpu_time_s() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+inline double process_cpu_time_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 } // namespace octant::ui::studies::refinement

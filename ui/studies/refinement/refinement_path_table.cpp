@@ -21,12 +21,7 @@ refine::RefineView view_at(const BoundingSphere& model, double turn_rad, double 
     const double away_m = model.reach_m * (2.4 - 1.2 * nearness);
     const glm::dvec3 out = glm::normalize(glm::dvec3(std::cos(turn_rad), std::sin(turn_rad), 0.4));
     return refine::picture_view(
-        model.centre_m + away_m * out,
-        model.centre_m,
-        {0.0, 0.0, 1.0},
-        50.0 * std::numbers::pi / 180.0,
-        1280.0,
-        720.0);
+        model.centre_m + away_m * out, model.centre_m, {0.0, 0.0, 1.0}, 50.0 * std::numbers::pi / 180.0, 1280.0, 720.0);
 }
 
 /// Once around in `frames` frames, and twice near.
@@ -47,11 +42,8 @@ glm::dvec2 pixel(const refine::RefineView& view, const glm::dvec3& point_m) {
 class SplitWatch {
 public:
     explicit SplitWatch(const refine::SelectiveRefiner& front)
-        : leaves_(static_cast<std::uint32_t>(front.mesh().leaf_count()))
-        , nodes_(front.mesh().node_count() - leaves_) {
-        for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-            nodes_[i].is_split = front.is_split(leaves_ + i);
-        }
+        : leaves_(static_cast<std::uint32_t>(front.mesh().leaf_count())), nodes_(front.mesh().node_count() - leaves_) {
+        for (std::uint32_t i = 0; i < nodes_.size(); ++i) { nodes_[i].is_split = front.is_split(leaves_ + i); }
     }
 
     void view_towards(const refine::ViewRefiner& refiner, int frame) {
@@ -94,7 +86,7 @@ struct PathRun {
     std::size_t operations_max = 0;
     double active_mean = 0.0;
     double largest_step_px = 0.0;
-    double ms_mean = 0.0; ///< processor time of an update
+    double ms_mean = 0.0;        ///< processor time of an update
     std::size_t undone_soon = 0; ///< see SplitWatch
     double split_to_kept_ratio = 0.0;
 };
@@ -111,8 +103,7 @@ PathRun run_path(const RefinedModel& model, int frames) {
     refine::ViewRefiner refiner(model);
     const BoundingSphere place = bounding_sphere(*model);
     const refine::RefineView first = path_view(place, 0, frames);
-    for (int i = 0; i < 1000 && !refiner.update(first).settled; ++i) {
-    }
+    for (int i = 0; i < 1000 && !refiner.update(first).settled; ++i) {}
     PathRun run;
     std::vector<glm::vec3> before_m;
     std::vector<glm::vec3> after_m;
@@ -132,11 +123,9 @@ PathRun run_path(const RefinedModel& model, int frames) {
         for (std::size_t leaf = 0; leaf < after_m.size(); ++leaf) {
             if (after_m[leaf] != before_m[leaf]) {
                 const glm::dvec3& origin_m = model->parts().origin_m;
-                run.largest_step_px = std::max(
-                    run.largest_step_px,
-                    glm::distance(
-                        pixel(view, glm::dvec3(before_m[leaf]) + origin_m),
-                        pixel(view, glm::dvec3(after_m[leaf]) + origin_m)));
+                run.largest_step_px =
+                    std::max(run.largest_step_px, glm::distance(pixel(view, glm::dvec3(before_m[leaf]) + origin_m),
+                                                      pixel(view, glm::dvec3(after_m[leaf]) + origin_m)));
             }
         }
         std::swap(before_m, after_m);
@@ -174,32 +163,19 @@ RequestedSums requested_along(const RefinedModel& model, int frames) {
 report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, int frames) {
     report::HtmlTable table;
     table.title = fmt::format("Around each model in {} frames, errors of 1 px", frames);
-    table.header = {
-        "model",
-        "operations a frame, mean",
-        "most",
-        "active vertices, mean",
-        "largest step of a vertex, px",
-        "ms a frame",
-        "split and merged within 10 frames",
-        "split / kept",
-        "split / wanted",
-        "with repair"};
+    table.header = {"model", "operations a frame, mean", "most", "active vertices, mean",
+        "largest step of a vertex, px", "ms a frame", "split and merged within 10 frames", "split / kept",
+        "split / wanted", "with repair"};
     for (const RefinedModel& model : models) {
         const PathRun run = run_path(model, frames);
         const RequestedSums sums = requested_along(model, frames);
         const auto wanted = static_cast<double>(std::max<std::size_t>(sums.wanted, 1));
-        table.rows.push_back(
-            {model->parts().name,
-             fmt::format("{:.1f}", run.operations_mean),
-             fmt::format("{}", run.operations_max),
-             fmt::format("{:.0f}", run.active_mean),
-             fmt::format("{:.3f}", run.largest_step_px),
-             fmt::format("{:.3f}", run.ms_mean),
-             fmt::format("{}", run.undone_soon),
-             fmt::format("{:.4f}", run.split_to_kept_ratio),
-             fmt::format("{:.4f}", static_cast<double>(sums.bare) / wanted),
-             fmt::format("{:.4f}", static_cast<double>(sums.repaired) / wanted)});
+        table.rows.push_back({model->parts().name, fmt::format("{:.1f}", run.operations_mean),
+            fmt::format("{}", run.operations_max), fmt::format("{:.0f}", run.active_mean),
+            fmt::format("{:.3f}", run.largest_step_px), fmt::format("{:.3f}", run.ms_mean),
+            fmt::format("{}", run.undone_soon), fmt::format("{:.4f}", run.split_to_kept_ratio),
+            fmt::format("{:.4f}", static_cast<double>(sums.bare) / wanted),
+            fmt::format("{:.4f}", static_cast<double>(sums.repaired) / wanted)});
     }
     table.note = "1280x720, 50 degrees. A step: of any original vertex, as drawn, between two "
                  "frames seen from the second one's eye. Split and merged: nodes, either way "

@@ -35,9 +35,7 @@ Rates rates_of(const RefinedModel& model) {
     std::mt19937 numbers(1);
     std::shuffle(any_order.begin(), any_order.end(), numbers);
     const auto split_each = [&](const std::vector<std::uint32_t>& order) {
-        for (const std::uint32_t node : order) {
-            front.split(node);
-        }
+        for (const std::uint32_t node : order) { front.split(node); }
     };
     double split_s = 0.0;
     double coarse_s = 0.0;
@@ -52,9 +50,7 @@ Rates rates_of(const RefinedModel& model) {
         front.restart();
         coarse_s += seconds_of([&] { split_each(nodes); });
         collapse_s += seconds_of([&] {
-            for (std::size_t at = nodes.size(); at-- > 0;) {
-                front.collapse(nodes[at]);
-            }
+            for (std::size_t at = nodes.size(); at-- > 0;) { front.collapse(nodes[at]); }
         });
     }
     const double millions = 1e-6 * static_cast<double>(rounds) * static_cast<double>(nodes.size());
@@ -66,16 +62,8 @@ Rates rates_of(const RefinedModel& model) {
 report::HtmlTable refinement_speed_table(std::span<const RefinedModel> models) {
     report::HtmlTable table;
     table.title = "Speed on one core and memory";
-    table.header = {
-        "model",
-        "original vertices",
-        "splits, M/s",
-        "coarsest first, M/s",
-        "any order, M/s",
-        "collapses, M/s",
-        "hierarchy, bytes a vertex",
-        "front, bytes an active vertex",
-        "of them its index list",
+    table.header = {"model", "original vertices", "splits, M/s", "coarsest first, M/s", "any order, M/s",
+        "collapses, M/s", "hierarchy, bytes a vertex", "front, bytes an active vertex", "of them its index list",
         "drawn vertex, bytes"};
     for (const RefinedModel& model : models) {
         const Rates rates = rates_of(model);
@@ -83,24 +71,18 @@ report::HtmlTable refinement_speed_table(std::span<const RefinedModel> models) {
         front.split_all(model->coarsest_first());
         const auto vertices = static_cast<double>(model->leaf_count());
         const double index_bytes = static_cast<double>(front.indices().size_bytes()) / vertices;
-        table.rows.push_back(
-            {model->parts().name,
-             fmt::format("{}", model->leaf_count()),
-             fmt::format("{:.2f}", rates.splits_mps),
-             fmt::format("{:.2f}", rates.coarse_first_mps),
-             fmt::format("{:.2f}", rates.any_order_mps),
-             fmt::format("{:.2f}", rates.collapses_mps),
-             fmt::format("{:.1f}", static_cast<double>(model->bytes()) / vertices),
-             fmt::format("{:.1f}", static_cast<double>(front.bytes()) / vertices),
-             fmt::format("{:.1f}", index_bytes),
-             fmt::format("{}", sizeof(refine::RefinedVertex))});
+        table.rows.push_back({model->parts().name, fmt::format("{}", model->leaf_count()),
+            fmt::format("{:.2f}", rates.splits_mps), fmt::format("{:.2f}", rates.coarse_first_mps),
+            fmt::format("{:.2f}", rates.any_order_mps), fmt::format("{:.2f}", rates.collapses_mps),
+            fmt::format("{:.1f}", static_cast<double>(model->bytes()) / vertices),
+            fmt::format("{:.1f}", static_cast<double>(front.bytes()) / vertices), fmt::format("{:.1f}", index_bytes),
+            fmt::format("{}", sizeof(refine::RefinedVertex))});
     }
-    table.note =
-        "Processor time, everything split from the base mesh for a second, drawn vertices and "
-        "index list kept up to date, without repair. Splits: handed over in one call, which takes "
-        "an order of its own; the others one by one: coarsest first as the simplification went "
-        "backwards, or by chance, ancestors first where they are missing. The front at full "
-        "resolution with its index list; that and the drawn vertices go to the graphics card.";
+    table.note = "Processor time, everything split from the base mesh for a second, drawn vertices and "
+                 "index list kept up to date, without repair. Splits: handed over in one call, which takes "
+                 "an order of its own; the others one by one: coarsest first as the simplification went "
+                 "backwards, or by chance, ancestors first where they are missing. The front at full "
+                 "resolution with its index list; that and the drawn vertices go to the graphics card.";
     return table;
 }
 

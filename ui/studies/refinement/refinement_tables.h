@@ -10,8 +10,8 @@ namespace octant::ui::studies::refinement {
 
 using RefinedModel = std::shared_ptr<const visuals::refine::ProgressiveMesh>;
 
-/// Splits that each rule forces, percent of those requested; faces turned over without repair and
-/// what repair costs. One base vertex after another, and spheres of shares of the diagonal.
+/// Splits that each rule forces, percent of those requested; faces turned over without repair and what repair costs.
+/// One base vertex after another, and spheres of shares of the diagonal.
 report::HtmlTable forced_splits_table(std::span<const RefinedModel> models);
 
 /// Operations a second on one core and memory.

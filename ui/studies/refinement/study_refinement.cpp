@@ -1,4 +1,5 @@
 #include "ui/studies/refinement/study_refinement.h"
+
 #include "models/procedural/procedural_terrain.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/output_file.h"
@@ -38,21 +39,17 @@ constexpr auto background = std::byte{255};
 /// Axes of ShadingPictures: x forward, y right, z down.
 models::TriangleMesh in_body_axes(models::TriangleMesh mesh, bool y_up) {
     for (glm::dvec3& point_m : mesh.vertices_m) {
-        point_m = y_up ? glm::dvec3(point_m.x, point_m.z, -point_m.y)
-                       : glm::dvec3(point_m.x, -point_m.y, -point_m.z);
+        point_m = y_up ? glm::dvec3(point_m.x, point_m.z, -point_m.y) : glm::dvec3(point_m.x, -point_m.y, -point_m.z);
     }
     mesh.normals.clear();
     mesh.corner_normals.clear();
     mesh.materials.clear();
     mesh.triangle_materials.clear();
-    if (mesh.colours.empty()) {
-        mesh.colours.assign(mesh.vertices_m.size(), glm::vec3(0.6F));
-    }
+    if (mesh.colours.empty()) { mesh.colours.assign(mesh.vertices_m.size(), glm::vec3(0.6F)); }
     return mesh;
 }
 
-/// Flat faces from the right, a little from the front and above. Light is worked out for red, green
-/// and blue in turn.
+/// Flat faces from the right, a little from the front and above. Light is worked out for red, green and blue in turn.
 report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
     const models::TriangleMesh mesh = in_body_axes(original, y_up);
     shading::ShadingLight light;
@@ -65,13 +62,10 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
     picture.bytes.assign(std::size_t{3} * size_px * size_px, background);
     for (int part = 0; part < 3; ++part) {
         models::TriangleMesh tinted = mesh;
-        for (glm::vec3& colour : tinted.colours) {
-            colour = glm::vec3(colour[part], 0.0F, 0.0F);
-        }
+        for (glm::vec3& colour : tinted.colours) { colour = glm::vec3(colour[part], 0.0F, 0.0F); }
         const shading::ShadedPolygons polygons = shading::shaded_polygons(tinted, normals);
-        const glm::dvec3 eye_m =
-            glm::dvec3(polygons.centre_m) + 3.0 * static_cast<double>(polygons.radius_m) *
-                                                glm::normalize(glm::dvec3(0.35, 1.0, -0.3));
+        const glm::dvec3 eye_m = glm::dvec3(polygons.centre_m) + 3.0 * static_cast<double>(polygons.radius_m) *
+                                                                     glm::normalize(glm::dvec3(0.35, 1.0, -0.3));
         const ShadingPictures pictures(polygons, light, eye_m, size_px);
         const LightPicture seen = pictures.hybrid(std::vector<std::uint8_t>(polygons.size(), 0));
         for (std::size_t at = 0; at < seen.light.size(); ++at) {
@@ -85,8 +79,7 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
     return picture;
 }
 
-/// About the original vertex that lies nearest to three quarters of the way to the front and below
-/// the middle.
+/// About the original vertex that lies nearest to three quarters of the way to the front and below the middle.
 refine::Sphere chest_of(const models::TriangleMesh& original, bool y_up) {
     const models::BoundingBox bounds = models::bounds_of(original);
     const glm::dvec3 share = y_up ? glm::dvec3(0.72, 0.42, 0.8) : glm::dvec3(0.72, 0.2, 0.42);
@@ -96,20 +89,18 @@ refine::Sphere chest_of(const models::TriangleMesh& original, bool y_up) {
     return {*nearest, 0.12 * models::diagonal_m(original)};
 }
 
-/// The paper's figure of what refinement means: a model, its base mesh, the parts of the model that
-/// the base mesh's vertices stand for, and the base mesh with one part (a cow's chest: front, low)
-/// refined all the way. Writes four PNG to `folder`, returns the Markdown that shows them. `y_up`:
-/// else z is. The model is seen from its right, its front is at +x. Throws Error.
-std::string write_refinement_pictures(
-    const RefinedModel& model, bool y_up, const std::filesystem::path& folder) {
+/// The paper's figure of what refinement means: a model, its base mesh, the parts of the model that the base mesh's
+/// vertices stand for, and the base mesh with one part (a cow's chest: front, low) refined all the way. Writes four PNG
+/// to `folder`, returns the Markdown that shows them. `y_up`: else z is. The model is seen from its right, its front is
+/// at +x. Throws Error.
+std::string write_refinement_pictures(const RefinedModel& model, bool y_up, const std::filesystem::path& folder) {
     refine::SelectiveRefiner front(model);
     const auto add = [&](const char* name, const models::TriangleMesh& mesh) {
         const std::string file = fmt::format("refinement-{}.png", name);
         report::write_png(folder / file, picture_of(mesh, y_up).view());
         return fmt::format("![{}]({}) ", name, file);
     };
-    const models::TriangleMesh original =
-        visuals::refine::partition_mesh(front, visuals::refine::ColourBy::Nothing);
+    const models::TriangleMesh original = visuals::refine::partition_mesh(front, visuals::refine::ColourBy::Nothing);
     std::string markdown = add("original", original);
     models::TriangleMesh base = refine::active_mesh(front).mesh;
     base.colours.clear();
@@ -119,17 +110,10 @@ std::string write_refinement_pictures(
     refine::refine_regions(front, std::span(&chest, 1));
     front.repair();
     markdown +=
-        add("region",
-            visuals::refine::coloured_mesh(
-                refine::active_mesh(front), visuals::refine::ColourBy::Level));
-    return fmt::format(
-        "{}: {} vertices; its base mesh of {}; the parts that these stand for; one part refined, "
-        "{} vertices (blue: original ones)\n\n{}\n",
-        model->parts().name,
-        model->leaf_count(),
-        model->roots().size(),
-        front.active_count(),
-        markdown);
+        add("region", visuals::refine::coloured_mesh(refine::active_mesh(front), visuals::refine::ColourBy::Level));
+    return fmt::format("{}: {} vertices; its base mesh of {}; the parts that these stand for; one part refined, "
+                       "{} vertices (blue: original ones)\n\n{}\n",
+        model->parts().name, model->leaf_count(), model->roots().size(), front.active_count(), markdown);
 }
 
 namespace refine = visuals::refine;
@@ -160,8 +144,7 @@ RefinedModel made_ground(int base) {
     models::simplify::SimplifyOptions options;
     options.length_share = 0.03;
     options.goal.vertices = static_cast<std::size_t>(base);
-    return std::make_shared<const refine::ProgressiveMesh>(
-        models::simplify::fast_sequence(std::move(mesh), options));
+    return std::make_shared<const refine::ProgressiveMesh>(models::simplify::fast_sequence(std::move(mesh), options));
 }
 
 std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
@@ -173,9 +156,7 @@ std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
         input.quiet = options.quiet;
         models.push_back(world::load_refine_mesh(input).mesh);
     }
-    if (models.empty()) {
-        models.push_back(made_ground(options.base));
-    }
+    if (models.empty()) { models.push_back(made_ground(options.base)); }
     return models;
 }
 
@@ -196,8 +177,7 @@ void study_refinement(const RefinementStudyOptions& options) {
     add("refinement-path", refinement_path_table(models, options.frames));
     add("refinement-speed", refinement_speed_table(models));
     // The made ground has z up, mesh files y.
-    markdown +=
-        write_refinement_pictures(models.back(), !options.meshes.empty(), options.out) + "\n";
+    markdown += write_refinement_pictures(models.back(), !options.meshes.empty(), options.out) + "\n";
     base::print_note(options.quiet, "done: pictures");
     write_file(options.out / "refinement.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);

@@ -1,4 +1,5 @@
 #include "ui/studies/simplification/study_simplification.h"
+
 #include "models/meshfile/mesh_file.h"
 #include "models/procedural/background60.h"
 #include "models/procedural/globe.h"
@@ -44,8 +45,7 @@ constexpr const char* repeats = "3";
 /// A file that goes when it is no longer needed.
 class TemporaryFile {
 public:
-    explicit TemporaryFile(fs::path file)
-        : path(std::move(file)) {}
+    explicit TemporaryFile(fs::path file) : path(std::move(file)) {}
 
     ~TemporaryFile() {
         std::error_code ignored;
@@ -63,9 +63,7 @@ public:
 double time_in(const fs::path& program, const std::string& output) {
     const auto json = nlohmann::json::parse(output, nullptr, false);
     if (!json.is_object() || !json.contains("time_ms") || !json["time_ms"].is_number()) {
-        throw_error_in(
-            program,
-            fmt::format("expected a line of JSON with time_ms, got '{}'", printable(output)));
+        throw_error_in(program, fmt::format("expected a line of JSON with time_ms, got '{}'", printable(output)));
     }
     return json["time_ms"].get<double>();
 }
@@ -78,11 +76,9 @@ models::TriangleMesh bare(const models::TriangleMesh& mesh) {
     return shape;
 }
 
-constexpr std::array peer_methods = {
-    PeerMethod{"meshoptimizer", "meshoptimizer"},
+constexpr std::array peer_methods = {PeerMethod{"meshoptimizer", "meshoptimizer"},
     PeerMethod{lindstrom_turk_name, "CGAL Lindstrom-Turk"},
-    PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"},
-    PeerMethod{"openmesh-quadric", "OpenMesh quadric"}};
+    PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"}, PeerMethod{"openmesh-quadric", "OpenMesh quadric"}};
 
 models::TriangleMesh octahedron() {
     models::TriangleMesh mesh;
@@ -99,9 +95,7 @@ models::TriangleMesh octahedron() {
 std::vector<PeerMethod> methods_of_peer(const fs::path& program, const fs::path& folder) {
     std::vector<PeerMethod> there;
     for (const PeerMethod& method : peer_methods) {
-        if (simplified_by_peer(program, method.name, octahedron(), 6, folder)) {
-            there.push_back(method);
-        }
+        if (simplified_by_peer(program, method.name, octahedron(), 6, folder)) { there.push_back(method); }
     }
     return there;
 }
@@ -110,37 +104,21 @@ std::optional<fs::path> find_peer_program() {
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
     const fs::path peers = program.parent_path() / "octant-peers";
-    if (failed || !fs::is_regular_file(peers, failed)) {
-        return std::nullopt;
-    }
+    if (failed || !fs::is_regular_file(peers, failed)) { return std::nullopt; }
     return peers;
 }
 
-std::optional<PeerResult> simplified_by_peer(
-    const fs::path& program,
-    const std::string& method,
-    const models::TriangleMesh& mesh,
-    std::size_t faces,
-    const fs::path& folder) {
+std::optional<PeerResult> simplified_by_peer(const fs::path& program, const std::string& method,
+    const models::TriangleMesh& mesh, std::size_t faces, const fs::path& folder) {
     const TemporaryFile input(folder / "peer-input.obj");
     const TemporaryFile output(folder / "peer-output.obj");
     models::meshfile::write_mesh(input.path, bare(mesh));
-    auto child = report::ChildProgram::start(
-        {fs::absolute(program).string(),
-         method,
-         input.path.string(),
-         fmt::format("{}", faces),
-         output.path.string(),
-         "--repeat",
-         repeats});
-    if (!child) {
-        throw_error_in(program, "expected the program octant-peers, got nothing that can be run");
-    }
+    auto child = report::ChildProgram::start({fs::absolute(program).string(), method, input.path.string(),
+        fmt::format("{}", faces), output.path.string(), "--repeat", repeats});
+    if (!child) { throw_error_in(program, "expected the program octant-peers, got nothing that can be run"); }
     const report::ProgramResult ending = child->finish();
     if (!ending.succeeded) {
-        if (ending.output.rfind("not built with", 0) == 0) {
-            return std::nullopt;
-        }
+        if (ending.output.rfind("not built with", 0) == 0) { return std::nullopt; }
         throw_error_in(program, fmt::format("{} failed: {}", method, printable(ending.last_error_line)));
     }
     PeerResult result;
@@ -182,30 +160,24 @@ models::TriangleMesh cut_in_four(const models::TriangleMesh& coarse) {
     fine.vertices_m = coarse.vertices_m;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-        const auto [found, is_new] = middles.try_emplace(
-            std::minmax(a, b), static_cast<std::uint32_t>(fine.vertices_m.size()));
-        if (is_new) {
-            fine.vertices_m.push_back(0.5 * (coarse.vertices_m[a] + coarse.vertices_m[b]));
-        }
+        const auto [found, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.vertices_m.size()));
+        if (is_new) { fine.vertices_m.push_back(0.5 * (coarse.vertices_m[a] + coarse.vertices_m[b])); }
         return found->second;
     };
     for (const auto& [a, b, c] : coarse.triangles) {
         const std::uint32_t ab = middle(a, b);
         const std::uint32_t bc = middle(b, c);
         const std::uint32_t ca = middle(c, a);
-        fine.triangles.insert(
-            fine.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
     return fine;
 }
 
 models::TriangleMesh fine_aircraft(const char* name) {
     constexpr std::size_t wanted = 40'000;
-    models::TriangleMesh mesh =
-        models::repair::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
-    while (mesh.triangles.size() < wanted) {
-        mesh = cut_in_four(mesh);
-    }
+    models::TriangleMesh mesh = models::repair::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
+    while (mesh.triangles.size() < wanted) { mesh = cut_in_four(mesh); }
     return mesh;
 }
 
@@ -216,14 +188,8 @@ StudyMesh bunny_from(const std::filesystem::path& file) {
     constexpr std::size_t vertices = 35947;
     constexpr std::size_t faces = 69451;
     if (mesh.original.vertices_m.size() != vertices || mesh.original.triangles.size() != faces) {
-        throw_error_in(
-            file,
-            fmt::format(
-                "expected the Stanford bunny of {} vertices and {} faces, got {} and {}",
-                vertices,
-                faces,
-                mesh.original.vertices_m.size(),
-                mesh.original.triangles.size()));
+        throw_error_in(file, fmt::format("expected the Stanford bunny of {} vertices and {} faces, got {} and {}",
+                                 vertices, faces, mesh.original.vertices_m.size(), mesh.original.triangles.size()));
     }
     mesh.name = "bunny";
     return mesh;
@@ -231,9 +197,7 @@ StudyMesh bunny_from(const std::filesystem::path& file) {
 
 StudyMesh study_mesh_from(const std::filesystem::path& file) {
     StudyMesh mesh = study_mesh(file.stem().string(), models::meshfile::read_mesh(file));
-    if (mesh.clean.triangles.empty()) {
-        throw_error_in(file, "expected a mesh with triangles, got none");
-    }
+    if (mesh.clean.triangles.empty()) { throw_error_in(file, "expected a mesh with triangles, got none"); }
     return mesh;
 }
 
@@ -273,9 +237,7 @@ measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMe
 class QualityRow {
 public:
     QualityRow(const StudyMesh& mesh, std::size_t faces, const OnResult& tick)
-        : mesh_(mesh)
-        , faces_(faces)
-        , tick_(tick) {}
+        : mesh_(mesh), faces_(faces), tick_(tick) {}
 
     void add(const char* method, const TriangleMesh& result, double time_ms) {
         QualityRun& run = runs.emplace_back();
@@ -290,9 +252,7 @@ public:
             const measure::MeshDistance found = distance_to(mesh_.clean, result);
             run.hausdorff = found.max_hausdorff_m() / mesh_.diagonal_m;
             run.rms = found.rms_m() / mesh_.diagonal_m;
-            if (!mesh_.clean.colours.empty() && !result.colours.empty()) {
-                run.colour_rms = found.colour_rms();
-            }
+            if (!mesh_.clean.colours.empty() && !result.colours.empty()) { run.colour_rms = found.colour_rms(); }
         }
         tick_();
     }
@@ -316,11 +276,8 @@ public:
 
     void add_peers(const QualityOptions& options) {
         for (const PeerMethod& peer : options.peers) {
-            const auto result =
-                simplified_by_peer(options.program, peer.name, mesh_.clean, faces_, options.folder);
-            if (!result) {
-                continue;
-            }
+            const auto result = simplified_by_peer(options.program, peer.name, mesh_.clean, faces_, options.folder);
+            if (!result) { continue; }
             add(peer.shown, result->mesh, result->time_ms);
             runs.back().peer = true;
             runs.back().lindstrom_turk_name = std::string(peer.name) == lindstrom_turk_name;
@@ -337,11 +294,10 @@ private:
 
 } // namespace
 
-std::vector<PaperRun>
-paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick) {
+std::vector<PaperRun> paper_runs(
+    const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick) {
     std::vector<PaperRun> runs;
-    for (const PaperMeasure by :
-         {PaperMeasure::Plane, PaperMeasure::Triangle, PaperMeasure::Bidirectional}) {
+    for (const PaperMeasure by : {PaperMeasure::Plane, PaperMeasure::Triangle, PaperMeasure::Bidirectional}) {
         simplify::PaperOptions options;
         options.measure = by;
         options.goal.vertices = vertices;
@@ -362,15 +318,10 @@ paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, co
     return runs;
 }
 
-int quality_methods(const QualityOptions& options) {
-    return static_cast<int>(own_methods + options.peers.size());
-}
+int quality_methods(const QualityOptions& options) { return static_cast<int>(own_methods + options.peers.size()); }
 
 std::vector<QualityRun> quality_runs(
-    const StudyMesh& mesh,
-    const std::vector<std::size_t>& faces,
-    const QualityOptions& options,
-    const OnResult& tick) {
+    const StudyMesh& mesh, const std::vector<std::size_t>& faces, const QualityOptions& options, const OnResult& tick) {
     std::vector<QualityRun> runs;
     for (const std::size_t wanted : faces) {
         QualityRow row(mesh, wanted, tick);
@@ -387,8 +338,7 @@ namespace {
 
 // The tables of the simplification paper with ours beside.
 //
-// Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, tables 1 and 2,
-// figures 5 and 6.
+// Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, tables 1 and 2, figures 5 and 6.
 
 using models::simplify::PaperMeasure;
 
@@ -401,14 +351,12 @@ struct Printed {
     std::array<std::size_t, 3> faces; ///< of the result, the same
 };
 
-constexpr std::array printed = {
-    Printed{"bunny", 281616, 2501472, {4.34e-5, 3.65e-5, 3.65e-5}, {1725, 1725, 1725}},
+constexpr std::array printed = {Printed{"bunny", 281616, 2501472, {4.34e-5, 3.65e-5, 3.65e-5}, {1725, 1725, 1725}},
     Printed{"globe", 234588, 2479236, {2.56e-5, 2.03e-5, 1.98e-5}, {9944, 9907, 9907}}};
 
 const Printed* printed_of(const PaperRun& run) {
-    const auto* found = std::find_if(printed.begin(), printed.end(), [&](const Printed& model) {
-        return run.mesh == model.mesh;
-    });
+    const auto* found =
+        std::find_if(printed.begin(), printed.end(), [&](const Printed& model) { return run.mesh == model.mesh; });
     return found == printed.end() ? nullptr : found;
 }
 
@@ -438,10 +386,7 @@ const char* name_of(ColourReading colour) {
 
 /// "12 of 34 = 35.29 %".
 std::string share_text(std::size_t part, std::size_t all) {
-    return fmt::format(
-        "{} of {} = {:.2f} %",
-        part,
-        all,
+    return fmt::format("{} of {} = {:.2f} %", part, all,
         100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)));
 }
 
@@ -450,24 +395,17 @@ std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous
     const auto index = static_cast<std::size_t>(run.measure);
     const auto& sums = run.result.sums;
     const auto& before = previous.result.sums;
-    return {
-        run.mesh,
-        name_of(run.colour),
-        name_of(run.measure),
+    return {run.mesh, name_of(run.colour), name_of(run.measure),
         paper == nullptr ? "" : fmt::format("{:.2e}", paper->errors[index]),
         paper == nullptr ? "" : fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]),
-        fmt::format("{:.4e}", sums.triangle_m2),
-        fmt::format("{:.3f}", sums.triangle_m2 / before.triangle_m2),
+        fmt::format("{:.4e}", sums.triangle_m2), fmt::format("{:.3f}", sums.triangle_m2 / before.triangle_m2),
         fmt::format("{:.4e}", sums.bidirectional_m2),
         fmt::format("{:.3f}", sums.bidirectional_m2 / before.bidirectional_m2),
         paper == nullptr ? "" : fmt::format("{}", paper->faces[index]),
-        fmt::format("{}", run.result.mesh.triangles.size()),
-        fmt::format("{}", run.result.mesh.vertices_m.size()),
-        fmt::format("{}", run.defects.duplicate_faces),
-        fmt::format("{}", run.defects.non_manifold_edges),
+        fmt::format("{}", run.result.mesh.triangles.size()), fmt::format("{}", run.result.mesh.vertices_m.size()),
+        fmt::format("{}", run.defects.duplicate_faces), fmt::format("{}", run.defects.non_manifold_edges),
         fmt::format("{:.3f}", 1e3 * run.distance.max_hausdorff_m() / run.diagonal_m),
-        fmt::format("{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m),
-        fmt::format("{:.0f}", run.time_ms)};
+        fmt::format("{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m), fmt::format("{:.0f}", run.time_ms)};
 }
 
 /// Whether a result has the faces asked for, and not many more.
@@ -477,23 +415,20 @@ bool is_at_goal(const QualityRun& run) {
 
 /// The least value of the libraries on the same mesh at the same goal, of those that reach it.
 template <typename Value>
-std::optional<double>
-best_peer_value(std::span<const QualityRun> runs, const QualityRun& reference, const Value& value) {
+std::optional<double> best_peer_value(
+    std::span<const QualityRun> runs, const QualityRun& reference, const Value& value) {
     std::optional<double> best;
     for (const QualityRun& run : runs) {
-        if (run.peer && is_at_goal(run) && run.mesh == reference.mesh &&
-            run.target_faces == reference.target_faces) {
+        if (run.peer && is_at_goal(run) && run.mesh == reference.mesh && run.target_faces == reference.target_faces) {
             best = std::min(best.value_or(std::numeric_limits<double>::infinity()), value(run));
         }
     }
     return best;
 }
 
-std::optional<double>
-time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& reference) {
+std::optional<double> time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& reference) {
     for (const QualityRun& run : runs) {
-        if (run.lindstrom_turk_name && run.mesh == reference.mesh &&
-            run.target_faces == reference.target_faces) {
+        if (run.lindstrom_turk_name && run.mesh == reference.mesh && run.target_faces == reference.target_faces) {
             return run.time_ms;
         }
     }
@@ -507,25 +442,19 @@ std::string ratio_text(double value, const std::optional<double>& to) {
 /// Of two distances as fractions of the diagonal: below 1e-8 they are rounding.
 std::string distance_ratio_text(double value, const std::optional<double>& to) {
     constexpr double exact = 1e-8;
-    if (!to || *to >= exact) {
-        return ratio_text(value, to);
-    }
+    if (!to || *to >= exact) { return ratio_text(value, to); }
     return value < exact ? "both exact" : "library exact";
 }
 
-std::vector<std::string>
-names_in_order(std::span<const QualityRun> runs, std::string QualityRun::*name) {
+std::vector<std::string> names_in_order(std::span<const QualityRun> runs, std::string QualityRun::*name) {
     std::vector<std::string> names;
     for (const QualityRun& run : runs) {
-        if (std::find(names.begin(), names.end(), run.*name) == names.end()) {
-            names.push_back(run.*name);
-        }
+        if (std::find(names.begin(), names.end(), run.*name) == names.end()) { names.push_back(run.*name); }
     }
     return names;
 }
 
-report::PlotSeries
-series_of(std::span<const QualityRun> runs, const std::string& mesh, const std::string& method) {
+report::PlotSeries series_of(std::span<const QualityRun> runs, const std::string& mesh, const std::string& method) {
     report::PlotSeries series;
     series.name = method;
     for (const QualityRun& run : runs) {
@@ -539,25 +468,24 @@ series_of(std::span<const QualityRun> runs, const std::string& mesh, const std::
 
 /// How the paper was read, above its tables: Markdown.
 std::string paper_reading_text() {
-    return fmt::format(
-        "# Simplification by distances to triangles (Y. Kim, B. U. Lee, 2005)\n\n"
-        "How the paper is read, where it leaves a choice:\n\n"
-        "- The shortest edge goes first, in space; equal lengths by the numbers of the vertices. "
-        "It becomes one of its ends or the middle, whichever costs least. No test keeps a "
-        "manifold.\n"
-        "- A cost is a sum of squared distances: of the new vertex to the faces of both ends, each "
-        "once (one direction); of both old ends to the same faces as moved, those that collapse "
-        "too; both directions: the larger sum. Previous: quadrics of planes.\n"
-        "- A foot is inside for 0 < a, b, c < 1: corners and borders are outside, and so is all of "
-        "a collapsed triangle. The share hangs on these points.\n"
-        "- Vertices that no triangle uses are counted: the bunny has 1113, and only so do 2000 "
-        "points have 1725 faces.\n"
-        "- The globe is made: 192 meridians, 192 rings, two poles, 1 m radius, land from Natural "
-        "Earth. Colour counts in distances as three more directions, w rgb with w = {:g} m, and "
-        "in the length of edges too where the table says so.\n"
-        "- The paper's error is the sum over all contractions, each against the mesh before. Its "
-        "unit is not said, and its values were not found again; what can be compared is each "
-        "measure against the previous one.\n\n",
+    return fmt::format("# Simplification by distances to triangles (Y. Kim, B. U. Lee, 2005)\n\n"
+                       "How the paper is read, where it leaves a choice:\n\n"
+                       "- The shortest edge goes first, in space; equal lengths by the numbers of the vertices. "
+                       "It becomes one of its ends or the middle, whichever costs least. No test keeps a "
+                       "manifold.\n"
+                       "- A cost is a sum of squared distances: of the new vertex to the faces of both ends, each "
+                       "once (one direction); of both old ends to the same faces as moved, those that collapse "
+                       "too; both directions: the larger sum. Previous: quadrics of planes.\n"
+                       "- A foot is inside for 0 < a, b, c < 1: corners and borders are outside, and so is all of "
+                       "a collapsed triangle. The share hangs on these points.\n"
+                       "- Vertices that no triangle uses are counted: the bunny has 1113, and only so do 2000 "
+                       "points have 1725 faces.\n"
+                       "- The globe is made: 192 meridians, 192 rings, two poles, 1 m radius, land from Natural "
+                       "Earth. Colour counts in distances as three more directions, w rgb with w = {:g} m, and "
+                       "in the length of edges too where the table says so.\n"
+                       "- The paper's error is the sum over all contractions, each against the mesh before. Its "
+                       "unit is not said, and its values were not found again; what can be compared is each "
+                       "measure against the previous one.\n\n",
         globe_colour_weight_m);
 }
 
@@ -567,17 +495,11 @@ report::HtmlTable feet_table(std::span<const PaperRun> runs) {
     table.title = "Table 1: perpendiculars whose foot lies outside the triangle";
     table.header = {"mesh", "colour in", "paper: outside", "ours: outside"};
     for (const PaperRun& run : runs) {
-        if (run.measure != PaperMeasure::Bidirectional) {
-            continue;
-        }
+        if (run.measure != PaperMeasure::Bidirectional) { continue; }
         const Printed* paper = printed_of(run);
-        table.rows.push_back(
-            {run.mesh,
-             name_of(run.colour),
-             paper == nullptr
-                 ? ""
-                 : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside),
-             share_text(run.result.feet_outside, run.result.feet)});
+        table.rows.push_back({run.mesh, name_of(run.colour),
+            paper == nullptr ? "" : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside),
+            share_text(run.result.feet_outside, run.result.feet)});
     }
     table.note = "Of the runs by both directions: three candidates for each edge, three points for "
                  "each face. The paper's numbers of perpendiculars can be divided by nine too.";
@@ -588,36 +510,20 @@ report::HtmlTable feet_table(std::span<const PaperRun> runs) {
 report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
     report::HtmlTable table;
     table.title = "Table 2: error summed over all contractions";
-    table.header = {
-        "mesh",
-        "colour in",
-        "measure",
-        "paper: error",
-        "paper: of previous",
-        "one-way sum, m2",
-        "of previous",
-        "two-way sum, m2",
-        "of previous",
-        "paper: faces",
-        "faces",
-        "vertices used",
-        "duplicate faces",
-        "edges of 3+ faces",
-        "Hausdorff, 1e-3",
-        "RMS, 1e-4",
-        "ms"};
+    table.header = {"mesh", "colour in", "measure", "paper: error", "paper: of previous", "one-way sum, m2",
+        "of previous", "two-way sum, m2", "of previous", "paper: faces", "faces", "vertices used", "duplicate faces",
+        "edges of 3+ faces", "Hausdorff, 1e-3", "RMS, 1e-4", "ms"};
     const PaperRun* previous = nullptr;
     for (const PaperRun& run : runs) {
         previous = run.measure == PaperMeasure::Plane ? &run : previous;
         table.rows.push_back(error_row(run, *previous));
     }
-    table.note =
-        "The sums are taken of every run by the same two rulers, whichever measure chose: squared "
-        "distances of new vertices to the triangles they replace, and the larger sum of both ways. "
-        "Hausdorff (certified upper bound, 2 % wide) and RMS are the larger one of both ways "
-        "between result and original, of positions only, as fractions of the diagonal: the paper's "
-        "sums fall while "
-        "these may rise, as each step is compared with the mesh before it only.";
+    table.note = "The sums are taken of every run by the same two rulers, whichever measure chose: squared "
+                 "distances of new vertices to the triangles they replace, and the larger sum of both ways. "
+                 "Hausdorff (certified upper bound, 2 % wide) and RMS are the larger one of both ways "
+                 "between result and original, of positions only, as fractions of the diagonal: the paper's "
+                 "sums fall while "
+                 "these may rise, as each step is compared with the mesh before it only.";
     return table;
 }
 
@@ -625,40 +531,21 @@ report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
 report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peers) {
     report::HtmlTable table;
     table.title = "Distance to the original, and time";
-    table.header = {
-        "mesh",
-        "method",
-        "wanted faces",
-        "faces",
-        "Hausdorff, 1e-3",
-        "RMS, 1e-4",
-        "colour RMS",
-        "Hausdorff / best library",
-        "RMS / best library",
-        "time, ms",
-        "time / Lindstrom-Turk"};
+    table.header = {"mesh", "method", "wanted faces", "faces", "Hausdorff, 1e-3", "RMS, 1e-4", "colour RMS",
+        "Hausdorff / best library", "RMS / best library", "time, ms", "time / Lindstrom-Turk"};
     for (const QualityRun& run : runs) {
-        const auto hausdorff =
-            best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
+        const auto hausdorff = best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
         const auto rms = best_peer_value(runs, run, [](const QualityRun& r) { return r.rms; });
-        table.rows.push_back(
-            {run.mesh,
-             run.method,
-             fmt::format("{}", run.target_faces),
-             fmt::format("{}", run.faces),
-             fmt::format("{:.3f}", 1e3 * run.hausdorff),
-             fmt::format("{:.3f}", 1e4 * run.rms),
-             run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "",
-             distance_ratio_text(run.hausdorff, hausdorff),
-             distance_ratio_text(run.rms, rms),
-             fmt::format("{:.1f}", run.time_ms),
-             ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))});
+        table.rows.push_back({run.mesh, run.method, fmt::format("{}", run.target_faces), fmt::format("{}", run.faces),
+            fmt::format("{:.3f}", 1e3 * run.hausdorff), fmt::format("{:.3f}", 1e4 * run.rms),
+            run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "", distance_ratio_text(run.hausdorff, hausdorff),
+            distance_ratio_text(run.rms, rms), fmt::format("{:.1f}", run.time_ms),
+            ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))});
     }
-    table.note =
-        "Both ways between result and repaired original, the larger one, as fractions of the "
-        "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
-        "reading and writing; of the libraries the median of three. The libraries are given "
-        "positions only; the best one is that of those that came down to the faces wanted.";
+    table.note = "Both ways between result and repaired original, the larger one, as fractions of the "
+                 "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
+                 "reading and writing; of the libraries the median of three. The libraries are given "
+                 "positions only; the best one is that of those that came down to the faces wanted.";
     if (!with_peers) {
         table.note += " No libraries: build the target octant_peers (needs CGAL, meshoptimizer or "
                       "OpenMesh) and name the program octant-peers by --peers.";
@@ -666,11 +553,10 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
     return table;
 }
 
-/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty for one number of
-/// faces and when gnuplot is not installed. Throws Error when gnuplot fails.
+/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty for one number of faces and when gnuplot
+/// is not installed. Throws Error when gnuplot fails.
 std::string quality_figure(std::span<const QualityRun> runs) {
-    constexpr std::array colours = {
-        "#d62728", "#ff7f0e", "#777777", "#2ca02c", "#1f77b4", "#17becf", "#9467bd"};
+    constexpr std::array colours = {"#d62728", "#ff7f0e", "#777777", "#2ca02c", "#1f77b4", "#17becf", "#9467bd"};
     const std::vector<std::string> methods = names_in_order(runs, &QualityRun::method);
     std::vector<report::Plot> panels;
     for (const std::string& mesh : names_in_order(runs, &QualityRun::mesh)) {
@@ -682,13 +568,9 @@ std::string quality_figure(std::span<const QualityRun> runs) {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             report::PlotSeries series = series_of(runs, mesh, methods[i]);
             series.colour = colours[i % colours.size()];
-            if (series.x.size() > 1) {
-                plot.series.push_back(std::move(series));
-            }
+            if (series.x.size() > 1) { plot.series.push_back(std::move(series)); }
         }
-        if (!plot.series.empty()) {
-            panels.push_back(std::move(plot));
-        }
+        if (!plot.series.empty()) { panels.push_back(std::move(plot)); }
     }
     return panels.empty() ? "" : report::plots_png(panels).value_or("");
 }
@@ -708,38 +590,27 @@ StudyMeshes meshes_of(const SimplificationStudyOptions& options) {
     }
     std::vector<StudyMesh> built_in = built_in_mesh_names();
     std::move(built_in.begin(), built_in.end(), std::back_inserter(all.meshes));
-    for (const std::filesystem::path& file : options.meshes) {
-        all.meshes.push_back(study_mesh_from(file));
-    }
+    for (const std::filesystem::path& file : options.meshes) { all.meshes.push_back(study_mesh_from(file)); }
     return all;
 }
 
 /// The paper's goal, or as far as the bunny goes.
 std::size_t paper_goal(const StudyMesh& mesh) {
     constexpr double bunny_share = 2000.0 / 35947.0;
-    if (mesh.name == "bunny") {
-        return paper_bunny_vertices;
-    }
-    if (mesh.name == "globe") {
-        return paper_globe_vertices;
-    }
-    return static_cast<std::size_t>(
-        bunny_share * static_cast<double>(mesh.original.vertices_m.size()));
+    if (mesh.name == "bunny") { return paper_bunny_vertices; }
+    if (mesh.name == "globe") { return paper_globe_vertices; }
+    return static_cast<std::size_t>(bunny_share * static_cast<double>(mesh.original.vertices_m.size()));
 }
 
 std::vector<ColourReading> colour_readings(const StudyMesh& mesh) {
-    if (mesh.original.colours.empty()) {
-        return {ColourReading::None};
-    }
+    if (mesh.original.colours.empty()) { return {ColourReading::None}; }
     return {ColourReading::None, ColourReading::Distance, ColourReading::DistanceAndLength};
 }
 
 std::vector<PaperRun> all_paper_runs(const std::vector<StudyMesh>& meshes, bool quiet) {
     constexpr int measures = 3;
     int total = 0;
-    for (const StudyMesh& mesh : meshes) {
-        total += measures * static_cast<int>(colour_readings(mesh).size());
-    }
+    for (const StudyMesh& mesh : meshes) { total += measures * static_cast<int>(colour_readings(mesh).size()); }
     base::Progress progress("the paper's simplifier", total, quiet, "results");
     int done = 0;
     std::vector<PaperRun> runs;
@@ -754,13 +625,10 @@ std::vector<PaperRun> all_paper_runs(const std::vector<StudyMesh>& meshes, bool 
 }
 
 std::vector<std::size_t> goals_for(const StudyMesh& mesh, const std::vector<std::size_t>& wanted) {
-    if (!wanted.empty()) {
-        return wanted;
-    }
+    if (!wanted.empty()) { return wanted; }
     std::vector<std::size_t> goals;
     for (const double share : {0.15, 0.05, 0.025}) {
-        goals.push_back(
-            static_cast<std::size_t>(share * static_cast<double>(mesh.clean.triangles.size())));
+        goals.push_back(static_cast<std::size_t>(share * static_cast<double>(mesh.clean.triangles.size())));
     }
     return goals;
 }
@@ -777,9 +645,7 @@ QualityOptions quality_options(const SimplificationStudyOptions& options) {
 
 /// Coloured meshes twice: for their shape alone by every method, with colour by those that know it.
 std::vector<QualityRun> all_quality_runs(
-    const std::vector<StudyMesh>& meshes,
-    const SimplificationStudyOptions& options,
-    const QualityOptions& quality) {
+    const std::vector<StudyMesh>& meshes, const SimplificationStudyOptions& options, const QualityOptions& quality) {
     int total = 0;
     for (const StudyMesh& mesh : meshes) {
         const int goals = static_cast<int>(goals_for(mesh, options.faces).size());
@@ -808,10 +674,7 @@ std::vector<QualityRun> all_quality_runs(
 /// Tables by the names of their files.
 using FiledTables = std::vector<std::pair<std::string, report::HtmlTable>>;
 
-void write_and_print(
-    const FiledTables& filed,
-    const std::string& opening,
-    const std::string& figure,
+void write_and_print(const FiledTables& filed, const std::string& opening, const std::string& figure,
     const SimplificationStudyOptions& options) {
     std::string markdown = opening;
     std::vector<report::HtmlTable> tables;
@@ -828,8 +691,7 @@ void write_and_print(
     }
     write_file(options.out / "simplification.md", markdown);
     base::print_note(
-        options.quiet,
-        fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
+        options.quiet, fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
 }
 
 } // namespace
@@ -848,9 +710,7 @@ void study_simplification(const SimplificationStudyOptions& options) {
         tables.emplace_back("quality", quality_table(runs, !quality.peers.empty()));
         figure = quality_figure(runs);
         if (figure.empty()) {
-            base::print_note(
-                options.quiet,
-                "rms.png not made: it takes gnuplot and more than one number of faces");
+            base::print_note(options.quiet, "rms.png not made: it takes gnuplot and more than one number of faces");
         }
     }
     write_and_print(tables, paper_reading_text() + given.left_out, figure, options);

@@ -24,8 +24,7 @@ struct PeerMethod {
 inline constexpr const char* lindstrom_turk_name = "cgal-lindstrom-turk";
 
 /// What the program was built with, tried on a small mesh. Throws Error as simplified_by_peer.
-std::vector<PeerMethod>
-methods_of_peer(const std::filesystem::path& program, const std::filesystem::path& folder);
+std::vector<PeerMethod> methods_of_peer(const std::filesystem::path& program, const std::filesystem::path& folder);
 
 /// The program octant-peers beside ours; nothing when it is not there.
 std::optional<std::filesystem::path> find_peer_program();
@@ -35,15 +34,10 @@ struct PeerResult {
     double time_ms = 0.0; ///< median, without reading and writing
 };
 
-/// Simplifies by another library: a program is run in `folder`, which must be there, on files that
-/// are removed again. Nothing when the program was built without that library. Throws Error when it
-/// cannot be run or fails.
-std::optional<PeerResult> simplified_by_peer(
-    const std::filesystem::path& program,
-    const std::string& method,
-    const models::TriangleMesh& mesh,
-    std::size_t faces,
-    const std::filesystem::path& folder);
+/// Simplifies by another library: a program is run in `folder`, which must be there, on files that are removed again.
+/// Nothing when the program was built without that library. Throws Error when it cannot be run or fails.
+std::optional<PeerResult> simplified_by_peer(const std::filesystem::path& program, const std::string& method,
+    const models::TriangleMesh& mesh, std::size_t faces, const std::filesystem::path& folder);
 
 /// A mesh of the simplification study.
 struct StudyMesh {
@@ -53,15 +47,14 @@ struct StudyMesh {
     double diagonal_m = 0.0;
 };
 
-/// The Stanford bunny as the paper used it. Throws Error for a file with other numbers of vertices
-/// and faces.
+/// The Stanford bunny as the paper used it. Throws Error for a file with other numbers of vertices and faces.
 StudyMesh bunny_from(const std::filesystem::path& file);
 
 /// A mesh from a file. Throws Error.
 StudyMesh study_mesh_from(const std::filesystem::path& file);
 
-/// The coloured globe, a torus of 32,768 triangles, and what has sharp edges: a machined part, and
-/// the F-15 with every triangle cut in four until there are 40,000.
+/// The coloured globe, a torus of 32,768 triangles, and what has sharp edges: a machined part, and the F-15 with every
+/// triangle cut in four until there are 40,000.
 std::vector<StudyMesh> built_in_mesh_names();
 
 /// The same mesh without the colours of its vertices.
@@ -71,8 +64,8 @@ StudyMesh uncoloured(StudyMesh mesh);
 inline constexpr std::size_t paper_bunny_vertices = 2000;
 inline constexpr std::size_t paper_globe_vertices = 5000;
 
-/// w of the globe's distances in (position, w rgb), metres on a globe of 1 m radius: nearest to the
-/// paper's table 2 within 0.01.
+/// w of the globe's distances in (position, w rgb), metres on a globe of 1 m radius: nearest to the paper's table 2
+/// within 0.01.
 inline constexpr double globe_colour_weight_m = 0.12;
 
 /// What counts besides position.
@@ -108,8 +101,8 @@ struct QualityRun {
 using OnResult = std::function<void()>;
 
 /// The three measures of the paper on one mesh.
-std::vector<PaperRun>
-paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick);
+std::vector<PaperRun> paper_runs(
+    const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick);
 
 struct QualityOptions {
     std::filesystem::path program; ///< octant-peers
@@ -122,10 +115,7 @@ int quality_methods(const QualityOptions& options);
 
 /// Every method on one mesh, for each number of faces.
 std::vector<QualityRun> quality_runs(
-    const StudyMesh& mesh,
-    const std::vector<std::size_t>& faces,
-    const QualityOptions& options,
-    const OnResult& tick);
+    const StudyMesh& mesh, const std::vector<std::size_t>& faces, const QualityOptions& options, const OnResult& tick);
 
 struct SimplificationStudyOptions : base::StudyOutput {
     std::optional<std::filesystem::path> bunny; ///< bun_zipper.ply; not shipped
@@ -135,11 +125,10 @@ struct SimplificationStudyOptions : base::StudyOutput {
     bool paper_only = false;                    ///< tables 1 and 2, nothing of other methods
 };
 
-/// Tables 1 and 2 of Y. Kim and B. U. Lee's "Error measure for vertex simplification" with ours
-/// beside, for the bunny where it is given, the coloured globe, a torus, a finely cut F-15 and
-/// other meshes; then how far every way to simplify, ours and other libraries', goes from the
-/// original and how long it takes. Prints the tables and writes them to `out` as CSV and together
-/// as Markdown, with a figure as PNG. Throws Error.
+/// Tables 1 and 2 of Y. Kim and B. U. Lee's "Error measure for vertex simplification" with ours beside, for the bunny
+/// where it is given, the coloured globe, a torus, a finely cut F-15 and other meshes; then how far every way to
+/// simplify, ours and other libraries', goes from the original and how long it takes. Prints the tables and writes them
+/// to `out` as CSV and together as Markdown, with a figure as PNG. Throws Error.
 void study_simplification(const SimplificationStudyOptions& options);
 
 } // namespace octant::ui::studies::simplification

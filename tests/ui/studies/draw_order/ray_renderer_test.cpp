@@ -19,8 +19,7 @@ constexpr double reach_px = 0.01;
 constexpr std::uint32_t far_one = 1;
 constexpr std::uint32_t occluder = 2;
 
-/// A rectangle that fills the picture from one column to another, counted from the middle of
-/// cut_px.
+/// A rectangle that fills the picture from one column to another, counted from the middle of cut_px.
 struct Piece {
     std::uint32_t number = 0;
     float ahead_m = 1.0F;
@@ -45,9 +44,7 @@ void draw(RayRenderer& rays, const std::vector<Piece>& pieces) {
         add(piece.right_px, -1.0F);
         add(piece.right_px, 1.0F);
         add(piece.left_px, 1.0F);
-        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
-            model.indices.push_back(first + corner);
-        }
+        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) { model.indices.push_back(first + corner); }
     }
     rays.load_models({&model, 1});
     scene::Camera camera;
@@ -69,8 +66,8 @@ bool is_rounding(const std::vector<Piece>& pieces) {
 } // namespace
 
 TEST_CASE("where one plane cuts two polygons rounding may show the farther one") {
-    // The part on the right is painted last, and begins 0.001 px right of the pixel's middle:
-    // rounded, that of the far polygon may cover it, that of the near one not.
+    // The part on the right is painted last, and begins 0.001 px right of the pixel's middle: rounded, that of the far
+    // polygon may cover it, that of the near one not.
     constexpr float cut = 0.001F;
     const Piece far_left{far_one, 20.0F, -4.5F, cut};
     const Piece near_left{occluder, 10.0F, -4.5F, cut};
@@ -85,9 +82,6 @@ TEST_CASE("where one plane cuts two polygons rounding may show the farther one")
     CHECK_FALSE(is_rounding({{far_one, 20.0F}, near_left, near_right}));
     // nor where the cut is out of reach.
     constexpr float away = 0.02F;
-    CHECK_FALSE(is_rounding(
-        {{far_one, 20.0F, -4.5F, away},
-         {occluder, 10.0F, -4.5F, away},
-         {far_one, 20.0F, away, 3.5F},
-         {occluder, 10.0F, away, 3.5F}}));
+    CHECK_FALSE(is_rounding({{far_one, 20.0F, -4.5F, away}, {occluder, 10.0F, -4.5F, away},
+        {far_one, 20.0F, away, 3.5F}, {occluder, 10.0F, away, 3.5F}}));
 }

@@ -22,8 +22,7 @@ FlightCamera looking_down(double east_m) {
 }
 
 const models::heights::HeightField& level() {
-    static const models::heights::HeightField field(
-        101, 101, 100.0, std::vector<float>(std::size_t{101} * 101, 0.0F));
+    static const models::heights::HeightField field(101, 101, 100.0, std::vector<float>(std::size_t{101} * 101, 0.0F));
     return field;
 }
 
@@ -46,8 +45,7 @@ TEST_CASE("a picture that moves with the ground does not change; another does") 
     const visuals::terrain::GroundSamples ground(level());
     const glm::ivec2 size_px(160, 120);
     const double focal_px = 60.0 / std::tan(0.5 * looking_down(0.0).camera.vertical_fov_rad);
-    const auto matches =
-        reprojected_pixels(ground, looking_down(0.0), looking_down(1000.0 / focal_px), size_px, 0.0);
+    const auto matches = reprojected_pixels(ground, looking_down(0.0), looking_down(1000.0 / focal_px), size_px, 0.0);
     const auto ramp = [&](int offset) {
         visuals::scene::Picture picture;
         picture.width = size_px.x;
@@ -74,9 +72,9 @@ TEST_CASE("a random view depends on its seed and number alone") {
     int beside = 0;
     for (std::uint64_t k = 0; k < 1000; ++k) {
         const RandomView view = random_view(ground, true, 1, k);
-        const bool on_map = visuals::terrain::GroundSamples(level()).half_extent_m().x >=
-                                std::abs(view.camera.eye_m.x) &&
-                            5000.0 >= std::abs(view.camera.eye_m.y);
+        const bool on_map =
+            visuals::terrain::GroundSamples(level()).half_extent_m().x >= std::abs(view.camera.eye_m.x) &&
+            5000.0 >= std::abs(view.camera.eye_m.y);
         beside += on_map ? 0 : 1;
         CHECK(view.camera.eye_m.z >= 2.0 - 1e-9);
         CHECK(view.camera.eye_m.z <= 20000.0 + 1e-6);

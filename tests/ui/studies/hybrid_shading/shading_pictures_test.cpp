@@ -19,8 +19,8 @@ namespace {
 const shading::ShadingLight from_above{
     .to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.0F, .diffuse = 1.0F, .specular = 0.0F};
 
-/// Two level triangles that make the square from -1 to 1; normals of the one with the corner
-/// (-1, 1) are tilted by 60 degrees there.
+/// Two level triangles that make the square from -1 to 1; normals of the one with the corner (-1, 1) are tilted by 60
+/// degrees there.
 shading::ShadedPolygons square() {
     models::TriangleMesh mesh;
     mesh.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -31,9 +31,7 @@ shading::ShadedPolygons square() {
     return shading::shaded_polygons(mesh, normals);
 }
 
-LightPicture even(float light) {
-    return {8, std::vector<float>(64, light)};
-}
+LightPicture even(float light) { return {8, std::vector<float>(64, light)}; }
 
 const std::vector<std::uint8_t> everywhere(64, 1);
 
@@ -90,9 +88,7 @@ TEST_CASE("what is not covered does not count") {
 
 TEST_CASE("a picture is like itself, less like itself in stripes") {
     LightPicture stripes = even(1.0F);
-    for (std::size_t i = 0; i < stripes.light.size(); i += 2) {
-        stripes.light[i] = 2.0F;
-    }
+    for (std::size_t i = 0; i < stripes.light.size(); i += 2) { stripes.light[i] = 2.0F; }
     CHECK(structural_similarity(stripes, stripes, everywhere) == Approx(1.0));
     CHECK(structural_similarity(stripes, even(1.5F), everywhere) < 0.1);
 }

@@ -14,12 +14,9 @@ namespace {
 std::optional<std::filesystem::path> real_bunny() {
     const char* given = std::getenv("OCTANT_SHARED_DATA");
     const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given)
-                         : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
+        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
     const auto file = folder / "meshes" / "bun_zipper.ply";
-    if (std::filesystem::exists(file)) {
-        return file;
-    }
+    if (std::filesystem::exists(file)) { return file; }
     std::cout << "SKIPPED: no meshes/bun_zipper.ply in " << folder << '\n';
     return std::nullopt;
 }
@@ -28,11 +25,8 @@ std::optional<std::filesystem::path> real_bunny() {
 
 TEST_CASE("the bunny of 2000 counted vertices is as the 2005 paper has it") {
     const auto file = real_bunny();
-    if (!file) {
-        return;
-    }
-    const auto runs =
-        paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, [] {});
+    if (!file) { return; }
+    const auto runs = paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, [] {});
     REQUIRE(runs.size() == 3);
     for (const PaperRun& run : runs) {
         CHECK(run.result.counted_vertices == 2000);
