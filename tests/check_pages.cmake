@@ -2,14 +2,9 @@
 # (`x.h`, `folder/x.cpp`), a function (`name()`) or a type (`TwoWords`) that the sources do not have.
 cmake_minimum_required(VERSION 3.25)
 
-set(sources "")
-foreach(top sim flightpaths models visuals ui tests)
-  file(GLOB_RECURSE files ${ROOT}/${top}/*.h ${ROOT}/${top}/*.cpp)
-  foreach(file ${files})
-    file(READ ${file} text)
-    string(APPEND sources "${text}")
-  endforeach()
-endforeach()
+execute_process(
+  COMMAND grep -rhoE "[A-Za-z_][A-Za-z0-9_]*" --include=*.h --include=*.cpp sim flightpaths models visuals ui tests
+  COMMAND sort -u OUTPUT_VARIABLE sources WORKING_DIRECTORY ${ROOT} COMMAND_ERROR_IS_FATAL ANY)
 
 file(GLOB_RECURSE pages RELATIVE ${ROOT} ${ROOT}/sim/README.md ${ROOT}/flightpaths/README.md ${ROOT}/models/README.md
   ${ROOT}/visuals/README.md ${ROOT}/ui/README.md ${ROOT}/tests/README.md ${ROOT}/CONTRIBUTING.md)
@@ -39,7 +34,7 @@ foreach(page ${pages})
   foreach(name ${names})
     string(REGEX REPLACE "`|[(][)]" "" word ${name})
     string(REGEX REPLACE "^.*::" "" word ${word})
-    string(FIND "${sources}" "${word}" place)
+    string(FIND "${sources}" "\n${word}\n" place)
     if(place LESS 0)
       message(SEND_ERROR "${page}: expected a name of the sources, got ${name}")
     endif()
