@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
+#include "models/triangle_mesh.h"
 
 namespace octant::models::procedural {
 
@@ -22,5 +23,17 @@ polygons::PolygonModel background60();
 /// quads are planar and convex, face outward and follow one another around the axis, ring after ring; one part, one
 /// material.
 polygons::PolygonModel torus(int around = 26, int across = 16);
+
+/// A coloured globe of the size that the 2005 simplification paper used: a sphere of 1 m radius with 192 meridians, 192
+/// rings and two poles, 36,866 vertices and 73,728 triangles, the earth's land and sea in colours of the vertices.
+/// Axes: x towards 0 degrees east on the equator, y towards 90 degrees east, z north. Vertices: north pole, rings from
+/// north to south, each from 180 degrees west on eastward, south pole.
+TriangleMesh globe();
+
+/// An invented machined part, closed, 110 mm large: a block with a rounded edge, a step and a hollow along it, tapered,
+/// then swept around a bend; a flat end with a boss, chamfered, and a bore with a conical bottom in it. Flats,
+/// cylinders, cones and one doubly curved sweep, all between sharp edges, cut finely and evenly: 35,600 triangles.
+/// Metres.
+TriangleMesh machined_part();
 
 } // namespace octant::models::procedural

@@ -1,8 +1,9 @@
-#include "models/srgb.h"
+#include "models/material.h"
 
 #include <cmath>
 
 namespace octant::models {
+
 namespace {
 
 // IEC 61966-2-1, section 5.2: a straight piece near black, then a power.
