@@ -8,7 +8,7 @@
 
 namespace octant::models {
 
-/// Stands for no triangle or no vertex.
+/// The index of no triangle or no vertex.
 inline constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// One edge collapse: the vertices `first` and `second` become a new one, whose number is the original mesh's vertex
@@ -36,7 +36,7 @@ struct CollapseSequence {
 /// along, normals left out.
 TriangleMesh mesh_after(const CollapseSequence& sequence, std::size_t count);
 
-/// How many collapses leave at most `faces` triangles; all of them when even those leave more.
+/// The number of collapses that leave at most `faces` triangles; all of them if even they leave more.
 std::size_t collapses_to_faces(const CollapseSequence& sequence, std::size_t faces);
 
 } // namespace octant::models

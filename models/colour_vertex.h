@@ -11,8 +11,8 @@ namespace octant::models {
 struct ColourVertex {
     glm::vec3 position_m{0.0F}; ///< world axes, metres, eye point subtracted
     /// Red in the lowest byte, then green, blue, alpha; each 0..255. Red, green and blue are display values
-    /// (models/srgb.h). Alpha of ground that a texture colours is the share of its light that is left; of other ground
-    /// the share of the fine pattern that it has.
+    /// (models/material.h). Alpha of ground that a texture colours is the share of its light that is left; of other
+    /// ground the share of the fine pattern that it has.
     std::uint32_t colour = 0;
 };
 

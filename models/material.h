@@ -7,14 +7,24 @@
 
 namespace octant::models {
 
-/// A named surface colour, perhaps with a picture.
+// Display values are the colours of this project: red, green and blue, 0..1, encoded as sRGB (IEC 61966-2-1), thus
+// non-linear in light. They go to the screen times 255. Model files contain them, except glTF files, whose colours are
+// linear in light.
+
+/// Converts components that are linear in light, 0..1 each, to display values.
+glm::dvec3 srgb_from_linear(const glm::dvec3& linear);
+
+/// Converts display values, 0..1 each, to components that are linear in light. In double, thus a float survives the
+/// conversion to linear and back to the bit.
+glm::dvec3 linear_from_srgb(const glm::dvec3& display);
+
+/// A named surface colour with an optional texture image.
 struct Material {
     std::string name;
-    glm::vec3 colour{0.7F}; ///< red, green, blue: display values 0..1 (models/srgb.h)
-    /// The file of the picture that texture coordinates point into, or the name of one that stands in the mesh's own
-    /// file; empty = none.
+    glm::vec3 colour{0.7F}; ///< red, green, blue: display values 0..1
+    /// The file of the texture image, or the name of an image inside the mesh's file; empty = none.
     std::string picture = {};
-    /// The encoded picture where it stands in the mesh's own file, else null.
+    /// The encoded image if it is inside the mesh's file, else null.
     std::shared_ptr<const std::string> picture_bytes = {};
 };
 

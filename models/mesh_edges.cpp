@@ -21,17 +21,17 @@ std::vector<TriangleEdge> sorted_triangle_edges(std::span<const Triangle> triang
         }
     };
     for_each_side([&](const TriangleEdge& side) {
-        ends.resize(std::max<std::size_t>(ends.size(), std::size_t{side.least} + 2), 0);
-        ++ends[side.least + 1];
+        ends.resize(std::max<std::size_t>(ends.size(), std::size_t{side.min_vertex} + 2), 0);
+        ++ends[side.min_vertex + 1];
     });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     std::vector<TriangleEdge> sides(triangles.size() * 3);
-    for_each_side([&](const TriangleEdge& side) { sides[ends[side.least]++] = side; });
+    for_each_side([&](const TriangleEdge& side) { sides[ends[side.min_vertex]++] = side; });
     auto first = sides.begin();
     for (const std::uint32_t end : ends) {
         const auto last = sides.begin() + static_cast<std::ptrdiff_t>(end);
         std::sort(first, last, [](const TriangleEdge& a, const TriangleEdge& b) {
-            return std::tie(a.most, a.triangle, a.corner) < std::tie(b.most, b.triangle, b.corner);
+            return std::tie(a.max_vertex, a.triangle, a.corner) < std::tie(b.max_vertex, b.triangle, b.corner);
         });
         first = last;
     }
@@ -57,9 +57,9 @@ std::size_t count_boundary_loops(const TriangleMesh& mesh) {
     const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh.triangles);
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 1) {
-            loops.join(edge[0].least, edge[0].most);
-            on_boundary[edge[0].least] = true;
-            on_boundary[edge[0].most] = true;
+            loops.join(edge[0].min_vertex, edge[0].max_vertex);
+            on_boundary[edge[0].min_vertex] = true;
+            on_boundary[edge[0].max_vertex] = true;
         }
     });
     std::size_t count = 0;

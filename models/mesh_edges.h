@@ -10,7 +10,7 @@
 
 namespace octant::models {
 
-/// Things that are put together piece by piece (union-find); the smallest thing of a group names it.
+/// Disjoint sets (union-find). The smallest element of a set is its name.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0U); }
@@ -35,11 +35,11 @@ private:
 
 /// One side of a triangle: from corner `corner` to the next one.
 struct TriangleEdge {
-    std::uint32_t least = 0; ///< the smaller of its vertices
-    std::uint32_t most = 0;
+    std::uint32_t min_vertex = 0; ///< the smaller of its vertices
+    std::uint32_t max_vertex = 0;
     std::uint32_t triangle = 0;
     std::uint8_t corner = 0;
-    bool rises = true; ///< from least to most
+    bool rises = true; ///< runs from min_vertex to max_vertex
 
     /// Its corners at the smaller and at the larger vertex.
     std::uint32_t min_corner() const { return rises ? corner : (corner + 1U) % 3U; }
@@ -49,16 +49,16 @@ struct TriangleEdge {
     bool operator==(const TriangleEdge&) const = default;
 };
 
-/// The sides of all triangles, sorted so that those of one edge stand together, in the order of their triangles.
+/// The sides of all triangles, sorted by edge; sides of one edge in the order of their triangles.
 std::vector<TriangleEdge> sorted_triangle_edges(std::span<const Triangle> triangles);
 
-/// Calls `take(std::span<const Side>)` for each edge.
+/// Calls `take(std::span<const TriangleEdge>)` for each edge.
 template <typename Take>
 void for_each_edge(std::span<const TriangleEdge> sides, Take&& take) {
     for (std::size_t first = 0; first < sides.size();) {
         std::size_t last = first + 1;
-        while (
-            last < sides.size() && sides[last].least == sides[first].least && sides[last].most == sides[first].most) {
+        while (last < sides.size() && sides[last].min_vertex == sides[first].min_vertex &&
+               sides[last].max_vertex == sides[first].max_vertex) {
             ++last;
         }
         take(sides.subspan(first, last - first));
@@ -66,10 +66,10 @@ void for_each_edge(std::span<const TriangleEdge> sides, Take&& take) {
     }
 }
 
-/// Pieces of an oriented manifold that hang together by vertices.
+/// The number of connected components (shells) of an oriented manifold; shared vertices connect.
 std::size_t count_shells(const TriangleMesh& mesh);
 
-/// Closed runs of sides that one triangle has, of an oriented manifold.
+/// The number of closed boundary loops of an oriented manifold.
 std::size_t count_boundary_loops(const TriangleMesh& mesh);
 
 } // namespace octant::models

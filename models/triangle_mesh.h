@@ -8,10 +8,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace octant::models {
+
+/// The index of no normal, no material or no vertex.
+inline constexpr std::uint32_t invalid_index = std::numeric_limits<std::uint32_t>::max();
 
 /// Three indices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
@@ -36,7 +40,7 @@ struct TriangleMesh {
     std::vector<Triangle> corner_texture_coordinates;
     std::vector<Material> materials;               ///< empty = none
     std::vector<std::uint32_t> triangle_materials; ///< one a triangle; empty where `materials` is
-    std::vector<std::string> notes;                ///< what reading or repairing it found; often none
+    std::vector<std::string> notes;                ///< messages of the reader and of repairs
 };
 
 /// Smallest and largest coordinates of the vertices that triangles use; both 0 without triangles.
@@ -47,24 +51,24 @@ struct BoundingBox {
 
 BoundingBox bounds_of(const TriangleMesh& mesh);
 
-/// Length of the diagonal of bounds_of: what errors are given as fractions of.
+/// The length of the diagonal of bounds_of(), the unit of relative errors.
 double diagonal_m(const TriangleMesh& mesh);
 
-/// Gives vertices and triangles new numbers, so that those that are near in space are near in memory (along a Morton
-/// curve). The surface stays the same.
+/// Renumbers vertices and triangles along a Morton curve: those near in space become near in memory. The surface stays
+/// the same.
 void sort_spatially(TriangleMesh& mesh);
 
-/// Along a triangle's normal, as long as twice its area.
+/// A vector along a triangle's normal with twice the area as its length.
 glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle);
 
-/// Unit normal of a triangle; `degenerate_normal` where it has none.
+/// The unit normal of a triangle; `degenerate_normal` for one without area.
 glm::dvec3 normal_of(
     const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& degenerate_normal = glm::dvec3(0.0));
 
-/// Colour of a triangle's material, the plain one's where it has none.
+/// The colour of a triangle's material; that of a default Material without one.
 glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle);
 
-/// Mean colour of a triangle's vertices, its material's where they have none.
+/// The mean colour of a triangle's vertices; material_colour() if the mesh has no vertex colours.
 glm::vec3 mean_colour(const TriangleMesh& mesh, std::size_t triangle);
 
 } // namespace octant::models

@@ -1,6 +1,6 @@
 #include "tests/order_shapes.h"
 
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 

@@ -11,11 +11,12 @@
 #include <gdalwarper.h>
 #include <ogr_srs_api.h>
 
-// GDAL's functions that this room calls. The library is opened by the first call: with all that it depends on it takes
-// longer to load than the rest of the program. A function that is needed gets a line here and nothing else.
+// The functions of GDAL that this module calls. The first call opens the library, because GDAL and its dependencies
+// take longer to load than the rest of the program. A new function needs one line here. Only .cpp files of this module
+// include this header.
 namespace octant::models::heights {
 
-extern constinit LazyLibrary gdal_library;
+extern constinit LazyLibrary gdal_library; // gdal_session.cpp
 
 #define OCTANT_GDAL(name) inline const LazyFunction<decltype(::name)> name(gdal_library, #name)
 OCTANT_GDAL(CPLErrorReset);

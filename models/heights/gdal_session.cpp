@@ -12,6 +12,8 @@
 
 namespace octant::models::heights {
 
+constinit LazyLibrary gdal_library(OCTANT_GDAL_FILE);
+
 namespace {
 
 void add_text(std::vector<std::string>& texts, const char* text) {

@@ -8,11 +8,10 @@
 
 namespace octant::models::heights {
 
-/// While one lives, GDAL on this thread keeps off the network and remembers the first error and the warnings it meets.
-/// GDAL begins no threads of its own then, so that each warning belongs to the session whose work it is about. Neither
-/// GDAL nor a library below it (HDF5, PROJ, libpng, libtiff) prints on any thread. Side files of maps (.aux.xml) are
-/// read; none is written, because datasets are opened for reading only, nothing is set in them and no statistics or
-/// histograms are asked for. Not to be nested.
+/// The scope of work with GDAL on one thread. During it GDAL does not use the network or start threads, and the session
+/// records the first error and the warnings. Neither GDAL nor a library below it (HDF5, PROJ, libpng, libtiff) prints
+/// on any thread. Side files of maps (.aux.xml) are read but never written, because datasets are opened read-only and
+/// no statistics are requested. Sessions of a thread must not be nested.
 class GdalSession {
 public:
     GdalSession();
@@ -24,24 +23,24 @@ public:
 
     bool failed() const { return !first_error_.empty(); }
 
-    /// True when the error was that no driver knows the file.
+    /// Whether the error was that no driver knows the file.
     bool is_unknown_format() const;
 
-    /// Starts over: what went wrong so far was harmless.
+    /// Discards the error because it was harmless.
     void forget() { first_error_.clear(); }
 
-    /// GDAL's first error as one printable piece without the file's path; "no reason given" when there was none.
+    /// GDAL's first error as one printable line without the file's path; "no reason given" without one.
     std::string reason(const std::filesystem::path& path) const;
 
-    /// What GDAL warned of: each text once, one printable line, at most `max_warnings` of them.
+    /// GDAL's warnings: distinct printable lines, at most `max_warnings`.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
     static constexpr std::size_t max_warnings = 8;
 
-    /// Keeps the text if it is the first; what GDAL's error handler calls.
+    /// Called by GDAL's error handler: records the first error.
     void note_error(const char* text);
 
-    /// Keeps the text if it is new; what GDAL's error handler calls.
+    /// Called by GDAL's error handler: records a new warning.
     void note_warning(const char* text);
 
 private:
@@ -49,7 +48,7 @@ private:
     std::vector<std::string> warnings_;
 };
 
-/// Refuses a file that should have been "an image" or "a height field".
+/// Throws Error for a file that is not what was `expected`, such as "an image" or "a height field".
 [[noreturn]] void throw_unreadable(
     const std::filesystem::path& file, std::string_view expected, const std::string& got);
 
@@ -57,7 +56,7 @@ struct DatasetDeleter {
     void operator()(void* dataset) const;
 };
 
-/// Owner of a GDALDatasetH. GDAL's own headers stay out of ours.
+/// Owner of a GDALDatasetH. Headers of this module do not include GDAL's headers, except gdal_functions.h.
 using Dataset = std::unique_ptr<void, DatasetDeleter>;
 
 } // namespace octant::models::heights

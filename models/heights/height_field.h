@@ -5,6 +5,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,25 +15,61 @@
 
 namespace octant::models::heights {
 
-/// A coordinate system whose x and y run along a field's own.
+/// Heights before they become a HeightField: row after row from the south, west to east. NaN marks a sample without
+/// data until fill_voids has run.
+struct HeightGrid {
+    int columns = 0;
+    int rows = 0;
+    std::vector<float> heights_m;
+
+    float at(int column, int row) const { return heights_m[index(column, row)]; }
+
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+    }
+};
+
+/// Bilinear height at fractional grid coordinates; outside the grid the height at its border. The grid needs at least 2
+/// x 2 samples (asserted).
+float interpolated(const HeightGrid& grid, double column, double row);
+
+/// Bilinear height at a position, metres; nothing outside the field. `Grid` has columns(), rows(), spacing_m(),
+/// half_extent_m() and height_m(column, row) as HeightField.
+template <class Grid>
+std::optional<double> bilinear_height_m(const Grid& grid, double x_m, double y_m) {
+    const glm::dvec2 half = grid.half_extent_m();
+    if (!(std::abs(x_m) <= half.x && std::abs(y_m) <= half.y)) { return std::nullopt; }
+    const double across = (x_m + half.x) / grid.spacing_m();
+    const double up = (y_m + half.y) / grid.spacing_m();
+    const int column = std::min(static_cast<int>(across), grid.columns() - 2);
+    const int row = std::min(static_cast<int>(up), grid.rows() - 2);
+    const double u = across - column;
+    const double v = up - row;
+    const auto mixed = [&](int at_row) {
+        return grid.height_m(column, at_row) * (1.0 - u) + grid.height_m(column + 1, at_row) * u;
+    };
+    return mixed(row) * (1.0 - v) + mixed(row + 1) * v;
+}
+
+/// A coordinate system with the same axis directions as the field.
 struct CoordinateSystem {
     std::string wkt;
-    double centre_x = 0.0; ///< of the field, in the system's units
+    double centre_x = 0.0; ///< x of the field's centre, in the system's units
     double centre_y = 0.0;
     double unit_m = 1.0;
 };
 
-/// What a person should be told of a map: what was assumed or mended, or what looks wrong.
+/// A message about a map: an assumption, a repair or a suspicious value.
 struct MapNote {
     /// One sentence that begins with the file's name and names the option that changes it.
     std::string text;
-    /// Metres east and north of the field's centre; empty where the whole map is meant.
+    /// Positions of the values in question, metres east and north of the field's centre; empty for the whole map.
     std::vector<glm::dvec2> places_m = {};
 
     bool operator==(const MapNote&) const = default;
 };
 
-/// How far a ground lies from the surface it was made from, as measured at some places.
+/// The vertical distance between a ground and its source, measured at some positions.
 struct HeightDeviation {
     double rms_m = 0.0;
     double worst_m = 0.0;
@@ -74,10 +113,10 @@ public:
     float highest_m() const { return highest_m_; }
 
     std::string name;                       ///< built-in name or file name, for reports
-    std::optional<GeoPosition> place;       ///< of its centre; nothing for made ground
-    std::optional<CoordinateSystem> system; ///< nothing for ground without a place in any
-    long filled_voids = 0;                  ///< samples without data that were filled in on reading
-    std::vector<MapNote> notes;             ///< of the files it was read from
+    std::optional<GeoPosition> place;       ///< position of the centre; nothing for generated ground
+    std::optional<CoordinateSystem> system; ///< nothing for ground without a coordinate system
+    long filled_voids = 0;                  ///< number of samples without data that were filled
+    std::vector<MapNote> notes;             ///< messages about its files
 
 private:
     int columns_;

@@ -4,8 +4,8 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
 #include "models/heights/import_options.h"
-#include "models/heights/map_rectangle.h"
-#include "models/heights/raster_file.h"
+#include "models/heights/local_frame.h"
+#include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -209,12 +209,12 @@ DegreeSigns degree_signs(GDALDatasetH dataset, const HeightRaster& raster) {
     DegreeSigns signs;
     signs.cell = raster.map->steps();
     signs.extent = bounds.size();
-    const glm::dvec2 furthest = glm::max(glm::abs(bounds.least), glm::abs(bounds.most));
+    const glm::dvec2 furthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
     signs.furthest = std::max(furthest.x, furthest.y);
     // Outer edges of cells may lie behind a pole.
     const double edge_deg = std::clamp(signs.cell.y, 1.0, 5.0);
-    signs.fit = bounds.least.x >= -360.0 - edge_deg && bounds.most.x <= 360.0 + edge_deg &&
-                bounds.least.y >= -90.0 - edge_deg && bounds.most.y <= 90.0 + edge_deg &&
+    signs.fit = bounds.min.x >= -360.0 - edge_deg && bounds.max.x <= 360.0 + edge_deg &&
+                bounds.min.y >= -90.0 - edge_deg && bounds.max.y <= 90.0 + edge_deg &&
                 signs.extent.x <= 360.0 + edge_deg;
     signs.by_name = has_cf_degrees(dataset);
     return signs;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "models/heights/gdal_session.h"
+#include "models/heights/height_voids.h"
 #include "models/heights/import_options.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/text_grid.h"
-#include "models/heights/void_values.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,23 +18,23 @@ namespace octant::models::heights {
 /// A file of heights, open to be read piece by piece: its band of heights and how raw numbers become metres. Row 0 is
 /// the south and column 0 the west, where it is upright.
 struct HeightRaster {
-    std::vector<Dataset> datasets;        ///< the file's; behind it what was made of it, which owns `band`
+    std::vector<Dataset> datasets;        ///< the file's, then those derived from it; the last one owns `band`
     void* band = nullptr;                 ///< GDALRasterBandH
     void* mask = nullptr;                 ///< GDALRasterBandH that is 0 where there is no data; null: none
-    std::optional<double> no_data;        ///< raw number, as the file declares it
-    std::vector<double> user_void_values; ///< raw numbers, as the options have them
+    std::optional<double> no_data;        ///< raw number that the file declares
+    std::vector<double> user_void_values; ///< raw numbers of the options
     TextVoids text_voids;                 ///< of a text grid
     /// Found by the first read that meets a doubtful number, from all samples.
     mutable std::optional<UndeclaredVoids> undeclared;
     double scale_m = 1.0;
     double offset_m = 0.0;
-    bool declares_unit = false; ///< of heights
+    bool declares_unit = false; ///< whether the file names the unit of heights
     int columns = 0;
     int rows = 0;
     bool rows_run_west = false;       ///< its lines run westward
     bool first_row_is_south = false;  ///< its first line is the southernmost
     bool has_integer_metres = false;  ///< its numbers are metres that fit 16 bits
-    std::vector<MapNote> notes;       ///< what a person should be told of the file
+    std::vector<MapNote> notes;       ///< messages about the file
     std::optional<GridTransform> map; ///< nothing for a file without georeference
     Ellipsoid ellipsoid;              ///< of its system; WGS 84 without one
     SpatialReference system;          ///< null where lengths are metres without a place on the earth
@@ -48,7 +48,7 @@ struct GridWindow {
     int rows = 0;
 };
 
-/// Stands for a sample without data among whole metres.
+/// Marks a sample without data among heights in whole metres.
 inline constexpr std::int16_t void_height_m = std::numeric_limits<std::int16_t>::min();
 
 /// Throws Error unless both are from 2 to max_import_samples.
@@ -59,10 +59,11 @@ void check_import_size(const std::filesystem::path& file, int columns, int rows)
 void check_height(const std::filesystem::path& file, double height_m, double raw, bool declares_unit,
     const Ellipsoid& ellipsoid = {});
 
-/// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size, which is not checked.
+/// Opens a file with any of GDAL's drivers. The contract is that of read_height_field, except that the size is not
+/// checked.
 HeightRaster open_height_raster(const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
 
-/// What a person should be told of a raster; complete once all heights have been read.
+/// All messages about a raster; complete after all heights have been read.
 std::vector<MapNote> notes_of(const std::filesystem::path& file, const HeightRaster& raster);
 
 /// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error as
@@ -75,7 +76,7 @@ void read_heights(const std::filesystem::path& file, const HeightRaster& raster,
 void read_raw(const std::filesystem::path& file, const HeightRaster& raster, const GridWindow& window,
     std::span<double> raw, const GdalSession& gdal);
 
-/// Whether a number that a file stores is one that --void names by `mark`: the same but for the rounding of floats.
+/// Whether a stored number equals a number of --void, `mark`, apart from rounding to float.
 bool is_same_raw(double raw, double mark);
 
 /// As read_heights, for a raster of whole metres (asserted); void_height_m without data.

@@ -1,13 +1,13 @@
 #include "models/heights/height_source.h"
 
 #include "models/heights/gdal_functions.h"
-#include "models/heights/height_grid.h"
+#include "models/heights/gdal_session.h"
+#include "models/heights/height_field.h"
 #include "models/heights/height_raster.h"
+#include "models/heights/height_voids.h"
 #include "models/heights/map_defects.h"
-#include "models/heights/raster_file.h"
-#include "models/heights/source_grid.h"
-#include "models/heights/target_grid.h"
-#include "models/heights/void_values.h"
+#include "models/heights/map_inputs.h"
+#include "models/heights/map_resampling.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -28,12 +28,12 @@
 
 namespace octant::models::heights {
 
-/// Heights of grids at the samples of another lattice: bilinear between each grid's samples, the first grid that has
-/// data there counts. A source sample that is higher than all eight around it keeps its height at the nearest sample of
-/// the lattice, so that summits do not sink.
+/// Resamples source grids to a target grid: bilinear, from the first source grid that has data at a position. A source
+/// sample that is higher than its eight neighbours keeps its height at the nearest target sample, which preserves
+/// summits.
 class Resampler {
 public:
-    /// The grids look from the lattice's frame. Both must outlive the resampler.
+    /// The source grids must be in the target grid's frame. Both must outlive the resampler.
     Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice) : grids_(grids), lattice_(lattice) {}
 
     /// Rows from `first_row` on, as many as fill the span; NaN without data. Throws Error.
@@ -66,10 +66,10 @@ private:
 namespace {
 
 constexpr int block_edge = 256;
-/// Between places so many samples apart source coordinates run linearly: at 100 m spacing the error is 0.05 m, far
-/// below a sample.
+/// Source coordinates are interpolated linearly between positions this many samples apart. At 100 m spacing the error
+/// is 0.05 m, far below a sample.
 constexpr int place_step = 16;
-/// How far beyond a grid's rim a place may lie by rounding, in cells.
+/// How far outside a grid's border a position may be because of rounding, in cells.
 constexpr double rim = 0.02;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
@@ -106,7 +106,7 @@ void Resampler::read(int first_row, std::span<float> heights_m, const GdalSessio
     }
 }
 
-/// Where a block's samples lie in a grid: exact every place_step samples, linear between.
+/// The positions of a block's samples in a grid: exact every place_step samples, linear between.
 void Resampler::locate_samples(const SourceGrid& grid, const Block& block) {
     const int across = (block.columns - 1) / place_step + 2;
     const int up = (block.rows - 1) / place_step + 2;
@@ -142,7 +142,7 @@ void Resampler::locate_samples(const SourceGrid& grid, const Block& block) {
     }
 }
 
-/// The part of a grid that the places of a block need; empty where all lie outside.
+/// The part of a grid that a block's positions need; empty if all are outside.
 GridWindow Resampler::window_of(const SourceGrid& grid) const {
     double west = std::numeric_limits<double>::infinity();
     double east = -west;
@@ -176,7 +176,7 @@ void Resampler::sample(const Block& block, const GridWindow& window) {
     }
 }
 
-/// The bilinear height; of the samples that are known where they have half of the weight or more, else NaN.
+/// The bilinear height of the known samples if they have at least half of the weight, else NaN.
 float Resampler::surface_m(const GridWindow& window, double column, double row) const {
     const int c = std::min(static_cast<int>(column), std::max(window.columns - 2, 0));
     const int r = std::min(static_cast<int>(row), std::max(window.rows - 2, 0));
@@ -231,7 +231,7 @@ namespace {
 /// height before any value is read and may throw too.
 HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size);
 
-/// Hands out the words of a text one after another and knows their line.
+/// Reads the words of a text with their line numbers.
 class Words {
 public:
     explicit Words(std::string_view text) : text_(text) {}
@@ -273,7 +273,7 @@ long number_between(const std::filesystem::path& path, Words& words, long lowest
     return *number;
 }
 
-/// True for a file that starts as a plain (text) PGM, which GDAL cannot read.
+/// Whether a file begins like a plain (text) PGM, which GDAL cannot read.
 bool is_plain_pgm(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
     char first = 0;
@@ -311,7 +311,7 @@ HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function
 
 using std::filesystem::path;
 
-/// A plain PGM's heights in metres; adds a note of voids that it does not declare.
+/// The heights of a plain PGM, metres; adds a note about undeclared voids.
 HeightGrid plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
     HeightGrid grid = read_plain_pgm(file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
     const double unit_m = options.height_scale.value_or(1.0);
@@ -349,7 +349,7 @@ std::vector<SourceGrid> open_grids(const std::vector<path>& files, const ImportO
     return grids;
 }
 
-/// A sample of a file: the number that it stores, and the height that this means.
+/// A sample of a file: its stored number and its height.
 struct StoredSample {
     double raw = 0.0;
     float height_m = 0.0F;
@@ -419,7 +419,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
     gdal->forget(); // a system without a place on the earth is no fault
 }
 
-/// A ground without a place.
+/// A ground without georeference.
 void HeightSource::Content::take_picture(int columns, int rows, double spacing) {
     const auto fits = [](int n) { return n >= 2 && n <= largest_samples; };
     if (!fits(columns) || !fits(rows)) {
@@ -453,7 +453,7 @@ glm::dvec2 HeightSource::Content::metres_of(const glm::dvec2& column_row) const 
     return (column_row - 0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1)) * spacing_m;
 }
 
-/// A place for people: by latitude and longitude where they are known.
+/// A position as text for messages: latitude and longitude if they are known.
 std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
     std::string geo;
     if (place) {
@@ -475,7 +475,7 @@ void HeightSource::Content::for_each_row(const Do& act) const {
     }
 }
 
-/// Samples of the files at most `radius` columns and rows away from one of the lattice.
+/// Samples of the files at most `radius` columns and rows away from a target sample.
 std::vector<StoredSample> HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) const {
     std::vector<StoredSample> samples;
     if (whole) {
@@ -514,7 +514,7 @@ std::vector<StoredSample> HeightSource::Content::samples_near(const glm::ivec2& 
     return samples;
 }
 
-/// The samples of the files that make a spike, the furthest from what lies around it first.
+/// The samples of the files that form a spike, the one with the largest difference to its surroundings first.
 std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) const {
     // A sample of the ground lies up to one sample of the file away from the file's own.
     const int radius = spike.radius + (lattice.is_source ? 0 : 1);
@@ -531,7 +531,7 @@ std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) 
     return samples;
 }
 
-/// How many samples of the files have one of these numbers. Reads all of them.
+/// The number of samples of the files with one of these numbers. Reads all samples.
 std::int64_t HeightSource::Content::count_of(std::span<const double> numbers) const {
     const auto is_one = [numbers](double raw) {
         return std::ranges::any_of(numbers, [raw](double number) { return is_same_raw(raw, number); });
@@ -548,7 +548,7 @@ std::int64_t HeightSource::Content::count_of(std::span<const double> numbers) co
     return samples;
 }
 
-/// The option that takes the samples of a spike for missing, and how many samples it takes in all.
+/// The option that declares the samples of a spike as missing, and the number of samples that it affects in all.
 std::string HeightSource::Content::cure_of(std::span<const StoredSample> samples) const {
     constexpr std::size_t max_numbers = 16;
     std::vector<double> numbers;

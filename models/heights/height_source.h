@@ -2,7 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
-#include "models/heights/source_surface.h"
+#include "models/heights/map_resampling.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,13 +14,12 @@
 
 namespace octant::models::heights {
 
-/// Heights of one or several rasters that form one ground, read in bands of rows: none is held as a whole. Row 0 is the
-/// south, column 0 the west. For one thread, on which no other GDAL session lives.
+/// Heights of one or several rasters that form one ground, read in bands of rows; no raster is held as a whole, except
+/// a plain PGM. Row 0 is the south, column 0 the west. For one thread without another GDAL session.
 ///
-/// Any raster that GDAL reads will do, and rasters of several systems, resolutions and places beside each other:
-/// target_lattice.h tells which ground they make and where it has their own samples. Where files overlap, the first
-/// named that has data counts; gaps between them are without data. Several files each know their place. A plain PGM is
-/// read as a whole.
+/// Rasters may have different systems, resolutions and positions: target_grid_for (map_resampling.h) chooses the
+/// ground's grid. Where files overlap, the first named one that has data counts; gaps between files are without data.
+/// Each of several files must be georeferenced.
 class HeightSource {
 public:
     static constexpr int largest_samples = 65536; ///< of width and of height
@@ -48,25 +47,24 @@ public:
     /// East and north sides of the finest file's cells at its middle, metres.
     glm::dvec2 cell_m() const;
 
-    /// What a person should be told of the files, in their order. What depends on heights is complete once all of them
-    /// have been read.
+    /// Messages about the files, in their order. Those about heights are complete after all heights have been read.
     std::vector<MapNote> notes() const;
 
-    /// Samples of the files that are without data. Reads all of them. Throws Error.
+    /// The number of samples without data in the files. Reads all samples. Throws Error.
     std::int64_t count_voids() const;
 
     /// Whether all heights are whole metres that fit 16 bits.
     bool has_integer_metres() const;
 
-    /// Whether all samples are the files' own, none computed between them.
+    /// Whether each sample is one of the files' samples and none is interpolated.
     bool keeps_source_samples() const;
 
-    /// The files' bilinear height at a place in metres east and north of the ground's centre; nothing where there is
-    /// none. Not for files without georeference. Throws Error.
+    /// The files' bilinear height at a position, metres east and north of the ground's centre; nothing without data.
+    /// Not for files without georeference. Throws Error.
     std::optional<double> height_at(double x_m, double y_m) const;
 
-    /// How far some ground on these samples lies from the files; nothing for files without georeference, whose samples
-    /// are the ground's. Throws Error.
+    /// The vertical distance between a ground made of these samples and the files; nothing for files without
+    /// georeference, whose samples are the ground's. Throws Error.
     std::optional<HeightDeviation> deviation_of(const GroundAt& ground) const;
 
     /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south, NaN without data.

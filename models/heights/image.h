@@ -1,26 +1,31 @@
 #pragma once
 
+#include "models/heights/height_field.h"
+
+#include <glm/vec2.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace octant::models::heights {
 
-/// A colour picture, and where it lies on the earth if it says so.
+/// A colour image with its georeference, if it has one.
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgba; ///< row after row from the top; alpha 0 = nothing is there
+    std::vector<std::uint8_t> rgba; ///< row after row from the top; alpha 0 = no data
     /// x = t[0] + column t[1] + row t[2], y = t[3] + column t[4] + row t[5] in `wkt`; column and row count from the
     /// outer corner of the first pixel.
     std::array<double, 6> transform{0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    std::string wkt;  ///< coordinate system; empty = a picture without a place
+    std::string wkt;  ///< coordinate system; empty = not georeferenced
     std::string name; ///< of the file, for messages
-    std::string note; ///< what a person should be told; empty = nothing
+    std::string note; ///< message for the user; empty = none
 
     const std::uint8_t* pixel(int column, int row) const {
         return &rgba[4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -41,7 +46,25 @@ inline constexpr int max_image_px = 16384;
 /// depths.
 Image read_image(const std::filesystem::path& file);
 
-/// The same of a file's bytes; `name` is only told.
+/// Reads an image from the bytes of a file; `name` is for messages.
 Image image_from_bytes(const std::string& name, std::string_view bytes);
+
+/// The extent of a ground that an image covers.
+struct GroundArea {
+    std::string name;
+    glm::dvec2 half_extent_m{0.0}; ///< from the centre, east and north
+    double spacing_m = 1.0;        ///< of its samples
+    std::optional<CoordinateSystem> system;
+};
+
+GroundArea area_of(const HeightField& field);
+
+/// Resamples an image to the extent of the ground, north up, with alpha 0 where the image has no data. A georeferenced
+/// image is transformed to the ground's coordinate system (bilinear, accurate to an eighth of a pixel); its pixels keep
+/// about their size but become no larger than the ground's spacing. An image without georeference is stretched over the
+/// ground. A side has at most `largest_px` pixels. `note` names ground that the image does not cover.
+///
+/// Throws Error for a georeferenced image over ground without a coordinate system, and for an image outside the ground.
+Image resampled_to_ground(Image image, const GroundArea& ground, int largest_px);
 
 } // namespace octant::models::heights

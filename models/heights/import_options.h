@@ -6,7 +6,7 @@
 
 namespace octant::models::heights {
 
-/// Stored numbers of height files that mean "no data".
+/// Stored numbers that mean "no data".
 struct VoidValues {
     std::vector<double> values = {}; ///< in addition to the file's own and to common ones
     bool only = false;               ///< neither the file's own nor common ones mean "no data", only `values` do
@@ -14,10 +14,10 @@ struct VoidValues {
     bool operator==(const VoidValues&) const = default;
 };
 
-/// What files of heights do not say themselves. Numbers above zero and finite (asserted).
+/// Properties that files of heights may lack. Numbers are above zero and finite (asserted).
 struct ImportOptions {
-    double spacing_m = 30.0; ///< between samples, where a file has no place (PNG, PGM and the like)
-    /// Metres a unit of heights, where a file names no unit or one that is not known; 1 if nothing.
+    double spacing_m = 30.0; ///< between samples of a file without georeference (PNG, PGM and the like)
+    /// Metres per unit of height for a file that names no unit or an unknown one; 1 if nothing.
     std::optional<double> height_scale = {};
     /// The coordinate system of files that have a place but name none, as GDAL takes it: EPSG:4326, a PROJ string,
     /// well-known text, a .prj file; or "metres". Nothing: WGS 84 where their axes are in degrees, else metres.
@@ -30,15 +30,15 @@ struct ImportOptions {
     bool operator==(const ImportOptions&) const = default;
 };
 
-/// Largest width and height that is read, samples.
+/// Largest width and height of a map that is read as a whole, samples.
 inline constexpr int max_import_samples = 20000;
 
-/// Heights that are believed on the earth, metres. A file with others is refused.
+/// Plausible heights on the earth, metres. A file with other heights is refused.
 inline constexpr double lowest_import_m = -12000.0;
 inline constexpr double highest_import_m = 9000.0;
 
-/// Heights that are believed elsewhere, up and down from the ellipsoid: Olympus Mons on Mars is 21.2 km high, the
-/// deepest basin of Vesta 22 km deep.
+/// Plausible heights on other bodies, up and down from the ellipsoid: Olympus Mons on Mars is 21.2 km high, the deepest
+/// basin of Vesta is 22 km deep.
 inline constexpr double max_height_other_body_m = 25000.0;
 
 } // namespace octant::models::heights

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "sim/base/transverse_mercator.h"
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +14,24 @@
 #include <string_view>
 
 namespace octant::models::heights {
+
+/// The axis-parallel bounding rectangle of points. Without points it has no area.
+struct MapRectangle {
+    glm::dvec2 min{std::numeric_limits<double>::infinity()};
+    glm::dvec2 max{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec2& point) {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+
+    glm::dvec2 size() const { return max - min; }
+
+    double area() const {
+        const glm::dvec2 sides = glm::max(size(), glm::dvec2(0.0));
+        return sides.x * sides.y;
+    }
+};
 
 struct TransformationDeleter {
     void operator()(void* transformation) const;
@@ -25,8 +46,8 @@ using SpatialReferenceHandle = void*;
 /// A counted OGRSpatialReferenceH of our own.
 using SpatialReference = std::shared_ptr<void>;
 
-/// Where a grid's sample of a column and row lies in its coordinate system, in the system's units: x = x0 + x_column *
-/// column + x_row * row, and y alike.
+/// Converts the column and row of a grid's sample to its coordinate system, in the system's units: x = x0 + x_column *
+/// column + x_row * row; the same for y.
 struct GridTransform {
     double x0 = 0.0;
     double x_column = 1.0;
@@ -39,61 +60,83 @@ struct GridTransform {
         return {x0 + x_column * column + x_row * row, y0 + y_column * column + y_row * row};
     }
 
-    /// Columns run east and rows north, or against that.
+    /// Whether columns run east or west and rows north or south.
     bool is_upright() const { return x_row == 0.0 && y_column == 0.0; }
 
     /// The lengths of a column's and a row's step.
     glm::dvec2 steps() const;
 
-    /// Column and row as x and y of a place. The grid has an area.
+    /// Converts from the coordinate system to column and row. The grid must have an area.
     GridTransform inverse() const;
 };
 
-/// A system as well-known text; empty when it cannot be written.
+/// A system as well-known text; empty if GDAL cannot write it.
 std::string wkt_of(SpatialReferenceHandle system);
 
-/// The ellipsoid that a system counts latitudes on, from its text; WGS 84 for every system of the earth and for one
-/// that names no ellipsoid.
+/// The ellipsoid of a system given as well-known text; WGS 84 for each system of the earth and for a system that names
+/// no ellipsoid.
 Ellipsoid ellipsoid_of(const std::string& wkt);
 
-/// An ellipsoid's latitude and longitude in degrees, longitude first.
+/// The geographic system of an ellipsoid: longitude, then latitude, in degrees.
 SpatialReference geographic_coordinate_system(const Ellipsoid& ellipsoid);
 
-/// What ImportOptions::system says of files whose axes are in metres without a place on the earth.
+/// The value of ImportOptions::system for files in metres that are not georeferenced.
 inline constexpr std::string_view local_metres_name = "metres";
 
-/// A system by a name that ImportOptions::system may have. Throws Error for other names.
+/// The system that a value of ImportOptions::system names. Throws Error for an unknown name.
 SpatialReference coordinate_system_from_name(const std::string& name);
 
-/// The system of a ground; null where its text is not understood.
+/// The system of a ground; null if GDAL does not understand its text.
 SpatialReference coordinate_system_of(const CoordinateSystem& system);
 
-/// A copy of a system that lives as long as it is wanted.
+/// A copy of a system with shared ownership.
 SpatialReference spatial_reference_of(SpatialReferenceHandle system);
 
-/// The transverse Mercator projection of scale 1 that touches a place: x is east and y is north of it, in metres. Null
-/// where there is none.
+/// The transverse Mercator projection of scale 1 with its origin at `place`: x is east, y is north, metres. Null if
+/// there is none.
 SpatialReference local_coordinate_system(const GeoPosition& place);
 
-/// Null when one system cannot be brought to the other.
+/// The transformation between two systems; null if there is none.
 Transformation between(SpatialReferenceHandle from, SpatialReferenceHandle to);
 
-/// Moves points, each x and y in their place; those that cannot be moved become NaN. Does nothing with a null
-/// transformation.
+/// Transforms points in place. Points that cannot be transformed become NaN. A null transformation changes nothing.
 void transform_points(const Transformation& by, std::span<double> x, std::span<double> y);
 
-/// Nothing when the point cannot be moved.
+/// A transformed point; nothing if it cannot be transformed.
 std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point);
 
-/// How far a system is from being true to the ground.
+/// How much a projection distorts lengths and directions.
 struct ProjectionDistortion {
-    double scale_percent = 0.0; ///< how much too long or short a length is drawn, at most
-    double turn_deg = 0.0;      ///< how far its north lies off true north, at most
+    double scale_percent = 0.0; ///< the largest relative error of a length
+    double turn_deg = 0.0;      ///< the largest angle between grid north and true north
 };
 
-/// At the four corners of a field that lies so in a system. Nothing where the system does not know its place on the
-/// earth.
+/// The distortion at the four corners of a field. Nothing if the system is not georeferenced.
 std::optional<ProjectionDistortion> distortion_at_corners(
     const CoordinateSystem& system, const glm::dvec2& half_extent_m);
+
+/// The frame of ground whose axes are those of a map's coordinate system. Farther than 1,000 km from the ground, and
+/// where the system is not defined, positions follow the TransverseMercator frame at the ground's centre.
+class MapFrame final : public EarthFrame {
+public:
+    /// `system` must be georeferenced; `middle` is the geographic position of the ground's centre.
+    MapFrame(const CoordinateSystem& system, const GeoPosition& middle);
+
+    GeoPosition origin() const override { return about_.origin(); }
+
+    glm::dvec2 local_from_geo(const GeoPosition& place) const override;
+    GeoPosition geo_from_local(const glm::dvec2& east_north_m) const override;
+
+private:
+    CoordinateSystem system_;
+    TransverseMercator about_;
+    Transformation from_globe_;
+    Transformation to_globe_;
+};
+
+/// The MapFrame of ground with a coordinate system, the TransverseMercator frame of ground with a position only; null
+/// for ground without a position.
+std::shared_ptr<const EarthFrame> frame_of_ground(
+    const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place);
 
 } // namespace octant::models::heights

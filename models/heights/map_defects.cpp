@@ -1,6 +1,6 @@
 #include "models/heights/map_defects.h"
 
-#include "models/heights/map_rectangle.h"
+#include "models/heights/local_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -173,14 +173,14 @@ Placed placed(const SourceGrid& grid, const SourcePiece& piece) {
     }
     const glm::dvec2 cells(piece.raster.columns - 1, piece.raster.rows - 1);
     const glm::dvec2 border = result.around.size() * (0.02 + static_cast<double>(depth + 1) / cells);
-    result.around.least -= border;
-    result.around.most += border;
+    result.around.min -= border;
+    result.around.max += border;
     return result;
 }
 
 bool may_meet(const Placed& a, const Placed& b) {
-    return glm::all(glm::lessThanEqual(a.around.least, b.around.most)) &&
-           glm::all(glm::lessThanEqual(b.around.least, a.around.most));
+    return glm::all(glm::lessThanEqual(a.around.min, b.around.max)) &&
+           glm::all(glm::lessThanEqual(b.around.min, a.around.max));
 }
 
 /// Heights of files at single places.

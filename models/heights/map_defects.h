@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/heights/source_grid.h"
+#include "models/heights/map_resampling.h"
 
 #include <array>
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace octant::models::heights {
 
-/// A sample, or a cluster of samples, far above or below everything around it.
+/// A sample, or a cluster of samples, far above or below all samples around it.
 struct Spike {
-    int column = 0; ///< of the sample that is furthest from what lies around it
+    int column = 0; ///< column of the sample with the largest difference to its surroundings
     int row = 0;
     float height_m = 0.0F;
-    float above_m = 0.0F; ///< the nearest height around it; below zero for a pit
-    int radius = 0;       ///< its other samples are at most so many columns and rows away
+    float above_m = 0.0F; ///< difference to the nearest height around it; negative for a pit
+    int radius = 0;       ///< largest distance of its other samples, columns or rows
 };
 
 /// Finds spikes and pits while the rows of a ground are read from the south to the north. A sample counts if it exceeds
@@ -27,7 +27,7 @@ struct Spike {
 /// heights. Samples of one sign that lie closer together than 8 samples are one spike.
 class SpikeFinder {
 public:
-    /// The longest list that is kept; more spikes are only counted.
+    /// The largest number of spikes in found(); further ones are only counted.
     static constexpr std::size_t max_listed_spikes = 1000;
 
     SpikeFinder(int columns, int rows, double spacing_m);
@@ -36,7 +36,7 @@ public:
     /// new search.
     void take(int first_row, std::span<const float> heights_m);
 
-    /// By row and column of the first sample that was found of each.
+    /// Sorted by row and column of the first sample of each spike.
     const std::vector<Spike>& found() const { return found_; }
 
     std::int64_t count() const { return count_; }
@@ -65,7 +65,7 @@ struct SeamStep {
     const SourcePiece* b = nullptr;
     double rise_m = 0.0; ///< from the last sample of a to the first of b: the median along the seam
     double step_m = 0.0; ///< the same less the mean slope on both sides
-    /// Of `grid`, from one end of the seam to the other.
+    /// Columns and rows of `grid`, from one end of the seam to the other.
     std::vector<glm::dvec2> column_row = {};
     const SourceGrid* grid = nullptr;
 };

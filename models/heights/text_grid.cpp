@@ -1,6 +1,7 @@
 #include "models/heights/text_grid.h"
 
 #include "models/heights/gdal_functions.h"
+#include "models/heights/gdal_session.h"
 #include "sim/base/error.h"
 
 #include <algorithm>

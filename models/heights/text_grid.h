@@ -10,15 +10,15 @@
 
 namespace octant::models::heights {
 
-/// Samples of a text grid for which a word such as NA stands.
+/// The samples of a text grid that are words such as NA instead of numbers.
 struct TextVoids {
-    std::vector<bool> are_void; ///< samples row after row from the north, up to the last such one
+    std::vector<bool> are_void; ///< one a sample, row after row from the north, up to the last void
     std::int64_t samples = 0;
     std::string word;                ///< the first of them
-    bool declares_no_number = false; ///< NODATA_value is a word: what GDAL makes of it is no value
-    std::int64_t numbers_left = 0;   ///< behind the last sample
+    bool declares_no_number = false; ///< NODATA_value is a word, thus GDAL's number for it is meaningless
+    std::int64_t numbers_left = 0;   ///< how many numbers follow the last sample
 
-    /// Puts NaN in place of those samples among some in a row, from `first` on.
+    /// Replaces these samples by NaN in consecutive samples that begin with number `first`.
     void apply(std::int64_t first, std::span<double> raw) const;
 };
 

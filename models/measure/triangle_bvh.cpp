@@ -13,9 +13,11 @@
 //
 // Deviations: from depth 64 on, and where no bin separates the triangles, they are split at the median, so that the
 // depth is bounded.
+
 #include "models/measure/triangle_bvh.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,24 +26,157 @@
 
 namespace octant::models::measure {
 
+// Frames of triangles: a rotation into the plane, a two-dimensional distance to the edges and the height above the
+// plane give the distance in float without branches, for several triangles or points at once.
+
+namespace {
+
+float inverse(double value) { return value > 1e-30 ? static_cast<float>(1.0 / value) : 0.0F; }
+
+/// An edge shorter than this has no direction, because its square loses digits.
+constexpr double min_length = 1e-100;
+/// A height below this share of an edge's length consists of rounding too much to be perpendicular to the other edge.
+constexpr double min_height = 1e-8;
+
+/// Any unit vector perpendicular to a unit vector.
+glm::dvec3 across(const glm::dvec3& axis) {
+    const glm::dvec3 helper = std::abs(axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    return glm::normalize(glm::cross(axis, helper));
+}
+
+/// Replaces `found` by the nearest point of the segment from corner i to corner j if that is nearer to the origin. The
+/// nearest point of a segment without length is its first end.
+void update_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
+    const glm::dvec3& start = corners[static_cast<std::size_t>(i)];
+    const glm::dvec3& end = corners[static_cast<std::size_t>(j)];
+    const glm::dvec3 edge = end - start;
+    const double length2 = glm::dot(edge, edge);
+    const double along = length2 > 0.0 ? std::clamp(-glm::dot(start, edge) / length2, 0.0, 1.0) : 0.0;
+    const glm::dvec3 point = along < 1.0 ? start + along * edge : end;
+    const double distance2 = glm::dot(point, point);
+    if (distance2 < found.distance2) {
+        found = {point, glm::dvec3(0.0), distance2};
+        found.weights[i] = 1.0 - along;
+        found.weights[j] = along;
+    }
+}
+
+/// Whether a corner is the point of its triangle nearest to the origin: both edges at it lead away from the origin.
+bool is_at_corner(const glm::dvec3& corner, const glm::dvec3& to_one, const glm::dvec3& to_other) {
+    return glm::dot(corner, to_one) >= 0.0 && glm::dot(corner, to_other) >= 0.0;
+}
+
+/// The point of a triangle's plane that is nearest to the origin, as barycentric weights.
+struct NearestInPlane {
+    glm::dvec3 weights{-1.0};
+    bool uncertain = true; ///< The triangle is nearly a line, and the weights may be wrong.
+};
+
+/// The nearest point in the plane of a triangle whose longest edge `base` runs from corner 0 to corner 1. It is found
+/// along that edge and along the height over it, which keeps its accuracy for thin triangles. The weights are in the
+/// order of the corners.
+NearestInPlane nearest_over_base(const glm::dvec3& from, const glm::dvec3& base, const glm::dvec3& side, double base2) {
+    const double foot = glm::dot(side, base) / base2;
+    const glm::dvec3 height = side - foot * base;
+    const double height2 = glm::dot(height, height);
+    if (!(height2 > 0.0)) { return {}; }
+    const double along = -glm::dot(from, base) / base2;
+    const double up = -glm::dot(from + along * base, height) / height2;
+    const double end = along - up * foot;
+    return {{1.0 - up - end, end, up}, height2 < 1e-12 * base2};
+}
+
+/// The nearest point in a triangle's plane: calls nearest_over_base with the longest edge as the base.
+NearestInPlane nearest_in_plane(
+    const std::array<glm::dvec3, 3>& corners, const glm::dvec3& ab, const glm::dvec3& bc, const glm::dvec3& ca) {
+    const double ab2 = glm::dot(ab, ab);
+    const double bc2 = glm::dot(bc, bc);
+    const double ca2 = glm::dot(ca, ca);
+    if (ca2 > std::max(ab2, bc2)) {
+        const NearestInPlane found = nearest_over_base(corners[2], ca, -bc, ca2);
+        return {{found.weights.y, found.weights.z, found.weights.x}, found.uncertain};
+    }
+    if (bc2 > ab2) {
+        const NearestInPlane found = nearest_over_base(corners[1], bc, -ab, bc2);
+        return {{found.weights.z, found.weights.x, found.weights.y}, found.uncertain};
+    }
+    return ab2 > 0.0 ? nearest_over_base(corners[0], ab, -ca, ab2) : NearestInPlane{};
+}
+
+/// The point of a triangle that is nearest to the origin.
+NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 bc = c - b;
+    const glm::dvec3 ca = a - c;
+    const NearestInPlane plane = nearest_in_plane(corners, ab, bc, ca);
+    const glm::dvec3& weights = plane.weights;
+    NearestOnTriangle found{a, {1.0, 0.0, 0.0}, glm::dot(a, a)};
+    if (weights.x > 0.0 && weights.y > 0.0 && weights.z > 0.0) {
+        const glm::dvec3 point = weights.x * a + weights.y * b + weights.z * c;
+        const NearestOnTriangle inside{point, weights, glm::dot(point, point)};
+        if (!plane.uncertain) { return inside; }
+        found = inside.distance2 < found.distance2 ? inside : found;
+    }
+    if (is_at_corner(a, ab, -ca)) { return {a, {1.0, 0.0, 0.0}, glm::dot(a, a)}; }
+    if (is_at_corner(b, bc, -ab)) { return {b, {0.0, 1.0, 0.0}, glm::dot(b, b)}; }
+    if (is_at_corner(c, ca, -bc)) { return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)}; }
+    if (plane.uncertain || !(weights.z > 0.0)) { update_from_edge(corners, 0, 1, found); }
+    if (plane.uncertain || !(weights.x > 0.0)) { update_from_edge(corners, 1, 2, found); }
+    if (plane.uncertain || !(weights.y > 0.0)) { update_from_edge(corners, 2, 0, found); }
+    return found;
+}
+
+} // namespace
+
+NearestOnTriangle nearest_on_triangle(
+    const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    NearestOnTriangle found = nearest_to_origin({a - point, b - point, c - point});
+    found.point += point;
+    return found;
+}
+
+PlaneFrame<float> plane_frame(const std::array<glm::dvec3, 3>& corners) {
+    const glm::dvec3 ab = corners[1] - corners[0];
+    const glm::dvec3 ac = corners[2] - corners[0];
+    const double length = glm::length(ab);
+    const glm::dvec3 x_axis = length > min_length ? ab / length : glm::dvec3(1.0, 0.0, 0.0);
+    const double along = glm::dot(ac, x_axis);
+    const glm::dvec3 height = ac - along * x_axis;
+    const double up = glm::length(height);
+    const glm::dvec3 y_axis = up > min_height * glm::length(ac) ? height / up : across(x_axis);
+    PlaneFrame<float> t{};
+    t.origin = narrow(corners[0]);
+    t.x_axis = narrow(x_axis);
+    t.y_axis = narrow(y_axis);
+    t.normal = narrow(glm::cross(x_axis, y_axis));
+    t.bx = static_cast<float>(length);
+    t.cx = static_cast<float>(along);
+    t.cy = static_cast<float>(up);
+    t.per_ab2 = inverse(length * length);
+    t.per_bc2 = inverse((along - length) * (along - length) + up * up);
+    t.per_ca2 = inverse(along * along + up * up);
+    return t;
+}
+
 /// An axis-aligned bounding box in single precision; at first it holds nothing.
 struct Extent {
-    glm::vec3 least{std::numeric_limits<float>::infinity()};
-    glm::vec3 most{-std::numeric_limits<float>::infinity()};
+    glm::vec3 min{std::numeric_limits<float>::infinity()};
+    glm::vec3 max{-std::numeric_limits<float>::infinity()};
 
     void take(const glm::vec3& point) {
-        least = glm::min(least, point);
-        most = glm::max(most, point);
+        min = glm::min(min, point);
+        max = glm::max(max, point);
     }
 
     void take(const Extent& other) {
-        least = glm::min(least, other.least);
-        most = glm::max(most, other.most);
+        min = glm::min(min, other.min);
+        max = glm::max(max, other.max);
     }
 
     /// Half the surface area; 0 for an empty box.
     double half_area() const {
-        const glm::dvec3 size = glm::dvec3(most) - glm::dvec3(least);
+        const glm::dvec3 size = glm::dvec3(max) - glm::dvec3(min);
         return size.x >= 0.0 ? size.x * size.y + size.y * size.z + size.z * size.x : 0.0;
     }
 };
@@ -51,13 +186,13 @@ struct Item {
     Extent extent;
     std::uint32_t triangle = 0;
 
-    glm::vec3 middle() const { return 0.5F * (extent.least + extent.most); }
+    glm::vec3 middle() const { return 0.5F * (extent.min + extent.max); }
 };
 
 namespace {
 
 int longest_axis(const Extent& extent) {
-    const glm::vec3 size = extent.most - extent.least;
+    const glm::vec3 size = extent.max - extent.min;
     const int first = size.y > size.x ? 1 : 0;
     return size.z > size[first] ? 2 : first;
 }
@@ -104,13 +239,13 @@ std::size_t cheapest_split(std::span<const Item> items, const Bins& bins) {
     extent = {};
     count = 0;
     std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (std::size_t bin = 1; bin < bin_count; ++bin) {
         extent.take(extents[bin - 1]);
         count += counts[bin - 1];
         const double cost = extent.half_area() * leaves_of(count) + behind[bin];
-        if (count > 0 && count < items.size() && cost < least) {
-            least = cost;
+        if (count > 0 && count < items.size() && cost < min) {
+            min = cost;
             best = bin;
         }
     }
@@ -125,8 +260,8 @@ std::size_t split(std::span<Item> items, int depth) {
     for (const Item& item : items) { middles.take(item.middle()); }
     Bins bins;
     bins.axis = longest_axis(middles);
-    bins.start = middles.least[bins.axis];
-    const float size = middles.most[bins.axis] - bins.start;
+    bins.start = middles.min[bins.axis];
+    const float size = middles.max[bins.axis] - bins.start;
     if (size > min_size && depth < median_depth) {
         bins.scale = static_cast<float>(bin_count) / size;
         const std::size_t bin = cheapest_split(items, bins);
@@ -170,8 +305,8 @@ struct TriangleBvh::Builder {
         for (const Item& item : part) { extent.take(item.extent); }
         for (int axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<std::size_t>(axis);
-            node.least[i][lane] = extent.least[axis];
-            node.most[i][lane] = extent.most[axis];
+            node.min[i][lane] = extent.min[axis];
+            node.max[i][lane] = extent.max[axis];
         }
     }
 
@@ -230,8 +365,8 @@ struct TriangleBvh::Builder {
     static Node empty_node() {
         Node node{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            node.least[axis] = Floats{} + std::numeric_limits<float>::infinity();
-            node.most[axis] = Floats{} - std::numeric_limits<float>::infinity();
+            node.min[axis] = Floats{} + std::numeric_limits<float>::infinity();
+            node.max[axis] = Floats{} - std::numeric_limits<float>::infinity();
         }
         return node;
     }
@@ -331,7 +466,7 @@ void TriangleBvh::search_leaf(std::uint32_t leaf, const glm::dvec3& point_m, Sea
         const auto& [a, b, c] = corners_[first + i];
         const std::uint32_t triangle = triangles_[first + i];
         const NearestOnTriangle here =
-            detail::nearest_to_origin({vertices_m_[a] - point_m, vertices_m_[b] - point_m, vertices_m_[c] - point_m});
+            nearest_to_origin({vertices_m_[a] - point_m, vertices_m_[b] - point_m, vertices_m_[c] - point_m});
         const bool tie = here.distance2 == search.reach2_m2 && triangle < search.found.triangle;
         if (here.distance2 < search.reach2_m2 || tie) {
             search.found = {triangle, here.point, here.weights, here.distance2};

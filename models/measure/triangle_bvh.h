@@ -1,6 +1,5 @@
 #pragma once
 
-#include "models/measure/plane_frame.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/geometric.hpp>
@@ -20,6 +19,125 @@
 
 namespace octant::models::measure {
 
+/// A triangle in the coordinates of its own plane: corner a is the origin and corner b lies on the x axis. In single
+/// precision; `Number` is float, or a vector of floats for several triangles side by side.
+template <typename Number>
+struct PlaneFrame {
+    std::array<Number, 3> origin;
+    std::array<Number, 3> x_axis;
+    std::array<Number, 3> y_axis;
+    std::array<Number, 3> normal;
+    Number bx, cx, cy;
+    Number per_ab2, per_bc2, per_ca2; ///< 1 / length^2 of each edge; 0 for an edge without length.
+};
+
+/// The frame of a triangle. One without height gets any plane through its longest edges, and one without length any
+/// plane at all. Corners are displaced by the rounding to float and by at most 1e-8 of an edge.
+PlaneFrame<float> plane_frame(const std::array<glm::dvec3, 3>& corners);
+
+inline std::array<float, 3> narrow(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+// Results go out by reference: vectors as return values would depend on the processor's ABI.
+#define OCTANT_INLINE [[gnu::always_inline]] inline
+
+/// Sets `value` to the smaller one, lane by lane.
+template <typename F>
+OCTANT_INLINE void set_to_min(F& value, const F& other) {
+    value = other < value ? other : value;
+}
+
+/// Clamps to 0..1, lane by lane.
+template <typename F>
+OCTANT_INLINE void clamp_unit(F& value) {
+    value = value > 0.0F ? value : F{};
+    value = value < 1.0F ? value : F{} + 1.0F;
+}
+
+/// Computes the normals of frames and 1 / length^2 of their edges from the rest.
+template <typename F>
+OCTANT_INLINE void finish_frame(PlaneFrame<F>& t) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t next = (axis + 1) % 3;
+        const std::size_t last = (axis + 2) % 3;
+        t.normal[axis] = t.x_axis[next] * t.y_axis[last] - t.x_axis[last] * t.y_axis[next];
+    }
+    const auto inverse = [](F& value, const F& length2) { value = length2 > 1e-30F ? 1.0F / length2 : F{}; };
+    const F ex = t.cx - t.bx;
+    inverse(t.per_ab2, t.bx * t.bx);
+    inverse(t.per_bc2, ex * ex + t.cy * t.cy);
+    inverse(t.per_ca2, t.cx * t.cx + t.cy * t.cy);
+}
+
+/// The vectors from the nearest point of the triangle's edges to a point, both in the plane of the triangle.
+template <typename F>
+struct EdgeFeet {
+    F away_x, away_y, away2;
+};
+
+/// Finds the nearest point on the edges for a point (x, y) of the plane. away_x and away_y are filled only
+/// `with_place`.
+template <bool with_place, typename F, typename Number>
+OCTANT_INLINE void nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const PlaneFrame<Number>& t) {
+    const F qx = x - t.bx;
+    const Number ex = t.cx - t.bx;
+    F ab = x * (t.bx * t.per_ab2);
+    F bc = (qx * ex + y * t.cy) * t.per_bc2;
+    F ca = (x * t.cx + y * t.cy) * t.per_ca2;
+    clamp_unit(ab);
+    clamp_unit(bc);
+    clamp_unit(ca);
+    const F ab_x = x - ab * t.bx;
+    const F bc_x = qx - bc * ex;
+    const F bc_y = y - bc * t.cy;
+    const F ca_x = x - ca * t.cx;
+    const F ca_y = y - ca * t.cy;
+    const F ab2 = ab_x * ab_x + y * y;
+    const F bc2 = bc_x * bc_x + bc_y * bc_y;
+    const F ca2 = ca_x * ca_x + ca_y * ca_y;
+    feet.away2 = ab2;
+    set_to_min(feet.away2, bc2);
+    if constexpr (with_place) {
+        const auto is_bc = bc2 < ab2;
+        const auto is_ca = ca2 < feet.away2;
+        feet.away_x = is_bc ? bc_x : ab_x;
+        feet.away_y = is_bc ? bc_y : y;
+        feet.away_x = is_ca ? ca_x : feet.away_x;
+        feet.away_y = is_ca ? ca_y : feet.away_y;
+    }
+    set_to_min(feet.away2, ca2);
+}
+
+/// A point in the coordinates of a triangle's plane, and its distance from the triangle.
+template <typename F>
+struct FramePoints {
+    F x, y, distance2;
+    /// Where the foot of the perpendicular lies inside the triangle, away_x and away_y are 0.
+    EdgeFeet<F> feet;
+};
+
+/// Transforms a point into the frame of a triangle and finds its squared distance from the triangle.
+template <bool with_place, typename F, typename Number>
+OCTANT_INLINE void find_in_frame(FramePoints<F>& found, const std::array<F, 3>& place, const PlaneFrame<Number>& t) {
+    const F dx = place[0] - t.origin[0];
+    const F dy = place[1] - t.origin[1];
+    const F dz = place[2] - t.origin[2];
+    found.x = dx * t.x_axis[0] + dy * t.x_axis[1] + dz * t.x_axis[2];
+    found.y = dx * t.y_axis[0] + dy * t.y_axis[1] + dz * t.y_axis[2];
+    const F h = dx * t.normal[0] + dy * t.normal[1] + dz * t.normal[2];
+    nearest_on_edges<with_place>(found.feet, found.x, found.y, t);
+    F inside = found.y;
+    set_to_min(inside, F((t.cx - t.bx) * found.y - t.cy * (found.x - t.bx)));
+    set_to_min(inside, F(t.cy * found.x - t.cx * found.y));
+    const auto is_inside = inside >= 0.0F;
+    found.distance2 = (is_inside ? F{} : found.feet.away2) + h * h;
+    if constexpr (with_place) {
+        found.feet.away_x = is_inside ? F{} : found.feet.away_x;
+        found.feet.away_y = is_inside ? F{} : found.feet.away_y;
+    }
+}
+
 /// The point of a triangle that is nearest to a given one.
 struct NearestOnTriangle {
     glm::dvec3 point{0.0};
@@ -27,103 +145,11 @@ struct NearestOnTriangle {
     double distance2 = 0.0;  ///< The square of the distance.
 };
 
-namespace detail {
-
-/// Replaces `found` by the nearest point of the segment from corner i to corner j if that is nearer to the origin. The
-/// nearest point of a segment without length is its first end.
-inline void update_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
-    const glm::dvec3& start = corners[static_cast<std::size_t>(i)];
-    const glm::dvec3& end = corners[static_cast<std::size_t>(j)];
-    const glm::dvec3 edge = end - start;
-    const double length2 = glm::dot(edge, edge);
-    const double along = length2 > 0.0 ? std::clamp(-glm::dot(start, edge) / length2, 0.0, 1.0) : 0.0;
-    const glm::dvec3 point = along < 1.0 ? start + along * edge : end;
-    const double distance2 = glm::dot(point, point);
-    if (distance2 < found.distance2) {
-        found = {point, glm::dvec3(0.0), distance2};
-        found.weights[i] = 1.0 - along;
-        found.weights[j] = along;
-    }
-}
-
-/// Whether a corner is the point of its triangle nearest to the origin: both edges at it lead away from the origin.
-inline bool is_at_corner(const glm::dvec3& corner, const glm::dvec3& to_one, const glm::dvec3& to_other) {
-    return glm::dot(corner, to_one) >= 0.0 && glm::dot(corner, to_other) >= 0.0;
-}
-
-/// The point of a triangle's plane that is nearest to the origin, as barycentric weights.
-struct NearestInPlane {
-    glm::dvec3 weights{-1.0};
-    bool uncertain = true; ///< The triangle is nearly a line, and the weights may be wrong.
-};
-
-/// The nearest point in the plane of a triangle whose longest edge `base` runs from corner 0 to corner 1. It is found
-/// along that edge and along the height over it, which keeps its accuracy for thin triangles. The weights are in the
-/// order of the corners.
-inline NearestInPlane nearest_over_base(
-    const glm::dvec3& from, const glm::dvec3& base, const glm::dvec3& side, double base2) {
-    const double foot = glm::dot(side, base) / base2;
-    const glm::dvec3 height = side - foot * base;
-    const double height2 = glm::dot(height, height);
-    if (!(height2 > 0.0)) { return {}; }
-    const double along = -glm::dot(from, base) / base2;
-    const double up = -glm::dot(from + along * base, height) / height2;
-    const double end = along - up * foot;
-    return {{1.0 - up - end, end, up}, height2 < 1e-12 * base2};
-}
-
-/// The nearest point in a triangle's plane: calls nearest_over_base with the longest edge as the base.
-inline NearestInPlane nearest_in_plane(
-    const std::array<glm::dvec3, 3>& corners, const glm::dvec3& ab, const glm::dvec3& bc, const glm::dvec3& ca) {
-    const double ab2 = glm::dot(ab, ab);
-    const double bc2 = glm::dot(bc, bc);
-    const double ca2 = glm::dot(ca, ca);
-    if (ca2 > std::max(ab2, bc2)) {
-        const NearestInPlane found = nearest_over_base(corners[2], ca, -bc, ca2);
-        return {{found.weights.y, found.weights.z, found.weights.x}, found.uncertain};
-    }
-    if (bc2 > ab2) {
-        const NearestInPlane found = nearest_over_base(corners[1], bc, -ab, bc2);
-        return {{found.weights.z, found.weights.x, found.weights.y}, found.uncertain};
-    }
-    return ab2 > 0.0 ? nearest_over_base(corners[0], ab, -ca, ab2) : NearestInPlane{};
-}
-
-/// nearest_on_triangle for the origin.
-inline NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corners) {
-    const auto& [a, b, c] = corners;
-    const glm::dvec3 ab = b - a;
-    const glm::dvec3 bc = c - b;
-    const glm::dvec3 ca = a - c;
-    const NearestInPlane plane = nearest_in_plane(corners, ab, bc, ca);
-    const glm::dvec3& weights = plane.weights;
-    NearestOnTriangle found{a, {1.0, 0.0, 0.0}, glm::dot(a, a)};
-    if (weights.x > 0.0 && weights.y > 0.0 && weights.z > 0.0) {
-        const glm::dvec3 point = weights.x * a + weights.y * b + weights.z * c;
-        const NearestOnTriangle inside{point, weights, glm::dot(point, point)};
-        if (!plane.uncertain) { return inside; }
-        found = inside.distance2 < found.distance2 ? inside : found;
-    }
-    if (is_at_corner(a, ab, -ca)) { return {a, {1.0, 0.0, 0.0}, glm::dot(a, a)}; }
-    if (is_at_corner(b, bc, -ab)) { return {b, {0.0, 1.0, 0.0}, glm::dot(b, b)}; }
-    if (is_at_corner(c, ca, -bc)) { return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)}; }
-    if (plane.uncertain || !(weights.z > 0.0)) { update_from_edge(corners, 0, 1, found); }
-    if (plane.uncertain || !(weights.x > 0.0)) { update_from_edge(corners, 1, 2, found); }
-    if (plane.uncertain || !(weights.y > 0.0)) { update_from_edge(corners, 2, 0, found); }
-    return found;
-}
-
-} // namespace detail
-
-/// The point of the triangle a, b, c, which includes its edges and corners, that is nearest to `point`. Computed with
-/// edge vectors and relative to `point`, so that neither a far origin nor triangles without area or length spoil it.
-/// The found point lies on the triangle, so that the distance is never below the true one by more than rounding.
-inline NearestOnTriangle nearest_on_triangle(
-    const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    NearestOnTriangle found = detail::nearest_to_origin({a - point, b - point, c - point});
-    found.point += point;
-    return found;
-}
+/// The point of the triangle a, b, c, edges and corners included, that is nearest to `point`. Edge vectors relative to
+/// `point` keep it accurate far from the origin and on triangles without area or length. The result lies on the
+/// triangle; its distance is below the true one by no more than rounding.
+NearestOnTriangle nearest_on_triangle(
+    const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 /// The point of a mesh that is nearest to a given one.
 struct NearestOnMesh {
@@ -169,8 +195,8 @@ private:
 
     /// Four bounding boxes in the tree's units: the mesh's centre is the origin and half of its longest side is 1.
     struct Node {
-        std::array<Floats, 3> least;
-        std::array<Floats, 3> most;
+        std::array<Floats, 3> min;
+        std::array<Floats, 3> max;
         /// For each box the number of a node, or with leaf_bit that of a leaf.
         std::array<std::uint32_t, lanes> below;
     };
@@ -252,8 +278,8 @@ void TriangleBvh::for_each_near(const glm::dvec3& point, double within_m, const 
 OCTANT_INLINE void TriangleBvh::box_distances2(Floats& distances2, const Node& node, const Probe& probe) {
     distances2 = Floats{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Floats below = node.least[axis] - probe.place[axis];
-        const Floats above = probe.place[axis] - node.most[axis];
+        const Floats below = node.min[axis] - probe.place[axis];
+        const Floats above = probe.place[axis] - node.max[axis];
         Floats away = below > above ? below : above;
         away = away > 0.0F ? away : Floats{};
         distances2 += away * away;
@@ -291,7 +317,7 @@ public:
     double distance2_to(std::uint32_t triangle, const glm::dvec3& point) const {
         const auto& [a, b, c] = mesh_->triangles[triangle];
         const auto& at = mesh_->vertices_m;
-        return detail::nearest_to_origin({at[a] - point, at[b] - point, at[c] - point}).distance2;
+        return nearest_on_triangle(point, at[a], at[b], at[c]).distance2;
     }
 
     double longest_edge_m(std::uint32_t triangle) const {

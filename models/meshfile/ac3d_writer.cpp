@@ -1,6 +1,6 @@
-#include "models/invalid_index.h"
 #include "models/meshfile/material_names.h"
 #include "models/meshfile/mesh_formats.h"
+#include "models/triangle_mesh.h"
 #include "sim/base/format_once.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/word_scanner.h"
-#include "models/srgb.h"
 #include "sim/base/error.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
+#include "models/material.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/byte_writer.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/srgb.h"
 
 #include <glm/common.hpp>
 

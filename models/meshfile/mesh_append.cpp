@@ -1,6 +1,6 @@
 #include "models/meshfile/mesh_append.h"
 
-#include "models/invalid_index.h"
+#include "models/triangle_mesh.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "models/invalid_index.h"
 #include "models/meshfile/baked_pictures.h"
 #include "models/meshfile/mesh_limits.h"
 #include "models/meshfile/mesh_parts.h"

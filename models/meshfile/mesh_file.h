@@ -14,8 +14,8 @@ namespace octant::models::meshfile {
 /// IndexedFaceSet), .xml (FlightGear's model with its sub-models, or an aircraft's
 /// -set.xml, which names its model; read only). Polygons are cut into triangles; nothing else is
 /// changed: see repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round again), axes and
-/// units as the file has them. Whole-number colours stand for 0..1. Colours are display values (models/srgb.h); those
-/// of glTF, linear in its files, are converted.
+/// units as the file has them. Whole-number colours stand for 0..1. Colours are display values (models/material.h);
+/// those of glTF, linear in its files, are converted.
 ///
 /// Texture coordinates and the names of materials' pictures are read from .obj, .ac and glTF files, texture coordinates
 /// alone from .ply and .off; pictures themselves only as `options` say. Left out, where a file has it: lines and

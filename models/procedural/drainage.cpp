@@ -4,9 +4,9 @@
 // slope). The direction of descent is that of flow_direction.cpp. Deviations: the stack order is built breadth first.
 // The priority queue has buckets of heights, of which only the lowest is a heap: what is pushed is never lower than
 // what was popped.
+
 #include "models/procedural/drainage.h"
 
-#include "models/procedural/flow_direction.h"
 #include "sim/base/parallel_for.h"
 
 #include <algorithm>

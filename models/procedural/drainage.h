@@ -3,19 +3,20 @@
 #include "models/procedural/terrain_grid.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace octant::models::procedural {
 
-/// Where water runs on a grid of at least 3 x 3 cells; one entry a cell.
+/// The water flow on a grid of at least 3 x 3 cells; one entry a cell.
 struct Drainage {
     std::vector<int> receiver;    ///< cell that a cell drains to; itself for an outlet or a pit
-    std::vector<int> upstream;    ///< all cells, every receiver before its donors
-    std::vector<double> length_m; ///< way to the receiver
+    std::vector<int> upstream;    ///< all cells, each receiver before its donors
+    std::vector<double> length_m; ///< distance to the receiver
     std::vector<double> area_m2;  ///< area that drains through a cell, itself included
 };
 
-/// Raises every pit to its spill level plus a trace, so that all ground drains to an outlet.
+/// Raises each pit slightly above its spill level, which makes all ground drain to an outlet.
 void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet);
 
 /// Routes each cell to one lower neighbour of eight in the direction of steepest descent: between the two neighbours
@@ -30,5 +31,15 @@ struct StreamPower {
 
 /// One implicit step of dh/dt = uplift - (1 / steepness) sqrt(area) slope. Outlets stay.
 void erode(TerrainGrid& ground, const Drainage& water, const std::vector<double>& uplift, const StreamPower& power);
+
+/// The receivers of a row of cells; one entry a cell.
+struct RowReceivers {
+    std::span<int> receiver;    ///< cell of the grid
+    std::span<double> length_m; ///< distance to it
+};
+
+/// Finds the lower neighbour to which each cell of a row drains, by the rule of compute_drainage(). A cell without a
+/// lower neighbour drains to itself, at a distance of one cell.
+void choose_receivers(const TerrainGrid& ground, int row, std::uint64_t seed, const RowReceivers& to);
 
 } // namespace octant::models::procedural

@@ -3,7 +3,8 @@
 // neighbours of a facet but given to one of them, with the chance that leads in the facet's direction on average (after
 // Fairfield and Leymarie's Rho8, 1991): streams do not run along the grid. Compiled once for each instruction set; all
 // give the same bits.
-#include "models/procedural/flow_direction.h"
+
+#include "models/procedural/drainage.h"
 
 // SVE's vectors have no size that the compiler knows.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)

@@ -8,13 +8,13 @@
 
 namespace octant::models::procedural {
 
-/// Ground is made on a grid turned by the angle of (3, 4, 5) and larger than the field, so that neither its lattice nor
-/// its rim shows.
+/// Ground is generated on a grid that is rotated by the angle of the triangle (3, 4, 5) and larger than the field,
+/// which hides its lattice and its border.
 inline constexpr double rotation_cos = 0.8;
 inline constexpr double rotation_sin = 0.6;
 inline constexpr double upscale_factor = 1.42;
 
-/// Working heights of made ground: a square of side * side values, row after row from the south.
+/// Heights during generation: a square of side * side values, row after row from the south.
 struct TerrainGrid {
     int side = 0;
     double cell_m = 0.0; ///< between samples
@@ -33,22 +33,23 @@ struct TerrainGrid {
 
     std::span<double> row(int number) { return {&values[index(0, number)], static_cast<std::size_t>(side)}; }
 
-    /// Smooth value (Catmull-Rom) at a place in metres from sample (0, 0); the rim's beyond it.
+    /// The Catmull-Rom interpolation at a position in metres from sample (0, 0); outside the grid the value at its
+    /// border.
     double smooth_at(double x_m, double y_m) const;
 };
 
-/// Places in metres, one after the other.
+/// The x and y of consecutive positions, metres.
 struct RowPoints {
     std::vector<double> x_m;
-    std::vector<double> y_m; ///< as many
+    std::vector<double> y_m; ///< of the same length
 
     explicit RowPoints(std::size_t count) : x_m(count), y_m(count) {}
 };
 
-/// Of a row's samples, from sample (0, 0).
+/// The positions of a row's samples, relative to sample (0, 0).
 RowPoints points_of_row(const TerrainGrid& grid, int row);
 
-/// The same ground with half the cell, interpolated smoothly and bent by the warp.
+/// The ground with half the cell size, interpolated smoothly and displaced by the warp.
 TerrainGrid refined(const TerrainGrid& grid, const DomainWarp& warp);
 
 /// One pass of diffusion: each inner value moves by `share` (0 to 0.25) of the sum of differences to its four

@@ -1,10 +1,11 @@
 // Triangles that agree make pieces; pieces whose joints disagree are put together, the one turned against the other. A
 // patch that lies the wrong way round meets its surface along a good part of its rim. Bodies that only touch, as a door
 // does at its hinge, meet along few edges; each of them looks the way the file has it.
+
 #include "models/repair/consistent_orientation.h"
 
-#include "models/invalid_index.h"
 #include "models/repair/edge_joints.h"
+#include "models/triangle_mesh.h"
 
 #include <algorithm>
 #include <array>

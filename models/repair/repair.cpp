@@ -1,6 +1,5 @@
 #include "models/repair/repair.h"
 
-#include "models/invalid_index.h"
 #include "models/mesh_edges.h"
 #include "models/repair/consistent_orientation.h"
 #include "models/repair/edge_joints.h"
@@ -69,8 +68,8 @@ std::vector<std::uint32_t> rim_vertices(const TriangleMesh& mesh) {
     const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh.triangles);
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 1) {
-            on_rim[edge[0].least] = true;
-            on_rim[edge[0].most] = true;
+            on_rim[edge[0].min_vertex] = true;
+            on_rim[edge[0].max_vertex] = true;
         }
     });
     std::vector<std::uint32_t> vertices;
@@ -462,8 +461,8 @@ private:
     /// Joins two triangles each at an edge where bodies touch: those with the inside of one body between them. Nothing
     /// where the triangles at the edge bound no bodies.
     void join_bodies(std::span<const TriangleEdge> edge) {
-        const glm::dvec3& from_m = mesh_.vertices_m[edge[0].least];
-        const glm::dvec3 along_m = mesh_.vertices_m[edge[0].most] - from_m;
+        const glm::dvec3& from_m = mesh_.vertices_m[edge[0].min_vertex];
+        const glm::dvec3 along_m = mesh_.vertices_m[edge[0].max_vertex] - from_m;
         const auto outwards_m = [&](const TriangleEdge& side) {
             return mesh_.vertices_m[mesh_.triangles[side.triangle][(side.corner + 2U) % 3U]] - from_m;
         };

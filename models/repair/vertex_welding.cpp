@@ -1,6 +1,6 @@
 #include "models/repair/vertex_welding.h"
 
-#include "models/invalid_index.h"
+#include "models/triangle_mesh.h"
 
 #include <array>
 #include <bit>

@@ -9,7 +9,7 @@
 namespace octant::models::repair {
 
 /// For each used vertex the first used one of the same position and colour, to the bit (-0 is 0); invalid_index
-/// (invalid_index.h) for the others. `colours` may be empty.
+/// (triangle_mesh.h) for the others. `colours` may be empty.
 std::vector<std::uint32_t> first_duplicates(
     std::span<const glm::dvec3> vertices_m, std::span<const glm::vec3> colours, const std::vector<bool>& used);
 

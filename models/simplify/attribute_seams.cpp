@@ -6,10 +6,11 @@
 // A seam may have one and the same chart on both sides, such as the seam of a cylinder's mantle. The nearest point
 // would then be found on either side of it, so such a chart is cut in two or more, none of which meets itself at a
 // seam.
+
 #include "models/simplify/attribute_seams.h"
 
-#include "models/invalid_index.h"
 #include "models/mesh_edges.h"
+#include "models/triangle_mesh.h"
 
 #include <glm/geometric.hpp>
 

@@ -20,31 +20,31 @@ struct AttributeError {
     double rms = 0.0; ///< over the area of the triangles that have the attribute
 };
 
-/// Of all kinds.
+/// The errors of all kinds of attributes.
 struct AttributeErrors {
     AttributeError texture;    ///< lengths in a picture whose sides are 1
     AttributeError normal_deg; ///< angles
     AttributeError colour;     ///< lengths in red, green and blue, each 0..1
 };
 
-/// The largest errors that are wanted.
+/// Upper limits of attribute errors.
 struct AttributeBounds {
     double texture = std::numeric_limits<double>::infinity();
     double normal_deg = std::numeric_limits<double>::infinity();
     double colour = std::numeric_limits<double>::infinity();
 };
 
-/// Where errors of attributes are looked for: in at least 8,000 triangles (in all where there are fewer), which takes
-/// less time on large meshes, or in all, so that a bound is known to be kept.
+/// The triangles whose attribute errors are measured: at least 8,000 (all if there are fewer), which is faster on large
+/// meshes, or all, which certifies a bound.
 enum class LookAt : std::uint8_t { SomeTriangles, AllTriangles };
 
-/// Attributes of a mesh, and the seams along which its colours or texture coordinates break, kept through its
-/// simplification. Seams part the surface into charts. The simplifier sees them as borders of materials, which it keeps
-/// where they are; its result then takes the attributes of each side of a seam from the chart on that side.
+/// Preserves the attributes of a mesh, and the seams along which its colours or texture coordinates are discontinuous,
+/// through simplification. Seams divide the surface into charts. The simplifier treats them as borders of materials,
+/// which it does not move; each side of a seam in its result takes its attributes from the chart on that side.
 class AttributeSeams {
 public:
-    /// `corner_colours` has one entry a triangle, or none where no colours break. The mesh must be a manifold with
-    /// colours where there are corner colours.
+    /// `corner_colours` has one entry a triangle, or none if colours are continuous. The mesh must be a manifold, with
+    /// colours if there are corner colours.
     AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> corner_colours);
 
     /// The mesh to be simplified: its materials tell charts apart as well, and it has neither texture coordinates nor
@@ -61,8 +61,8 @@ public:
     /// break, it has a vertex for each chart, at the same place to the bit and in the colour of its side.
     TriangleMesh with_colours(TriangleMesh made) const;
 
-    /// The same with texture coordinates and normals, too. Normals come from triangles that face as those of the result
-    /// do, so that sharp edges stay sharp.
+    /// The result of with_colours() with texture coordinates and normals. Normals come from triangles with a similar
+    /// orientation, which keeps sharp edges sharp.
     TriangleMesh with_attributes(TriangleMesh made) const;
 
     /// The errors of the attributes that with_attributes gives to a result of simplifying marked().
@@ -84,7 +84,7 @@ private:
     /// A triangle of a result, and the part of the mesh that its attributes come from.
     struct Lookup {
         const Chart* chart = nullptr;
-        std::optional<Chart> part; ///< instead of the chart
+        std::optional<Chart> part; ///< used instead of the chart, if present
         bool is_textured = false;
         glm::dvec3 facing{0.0}; ///< the triangle's normal
         glm::dvec3 middle_m{0.0};

@@ -1,5 +1,5 @@
-// Edge collapses, the cheapest first. The new vertex lies where quadrics are least (vertex_quadrics.cpp); the cost
-// decides the order.
+// Edge collapses, the cheapest first. Quadrics determine the position of the new vertex (quadrics.cpp), the cost
+// determines the order.
 //
 // - By quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
 //   Simplification Using Quadric Error Metrics", 1997, weighted by area. It is cheap and serves
@@ -94,12 +94,12 @@ SlotMap CollapsingSurface::compact() {
 
 namespace {
 
-// Shells of an assembly: what is left of a small one may cost more triangles than it is worth.
+// Shells of an assembly: the rest of a small shell may cost more triangles than it is worth.
 
 /// Shells that are farther from the others than this are not dropped, in working units.
 constexpr double max_shell_distance = 0.5;
 
-/// The connected pieces of a surface that collapses, and what it costs to drop one.
+/// The connected components (shells) of a surface during collapses, and the cost of dropping one.
 class Shells {
 public:
     /// A shell with a sample that is farther than `max_distance` from the others is not dropped: the usual
@@ -121,12 +121,11 @@ public:
     /// Counts triangles of a shell that went.
     void lose(std::uint32_t shell, std::size_t faces) { face_counts_[shell] -= faces; }
 
-    /// How much the error grows when a shell is dropped: its samples are then as far off as the nearest other shell of
-    /// the original. Infinite where there is none, or where that is far.
+    /// The growth of the error when a shell is dropped: its samples then have the distance of the nearest other shell
+    /// of the original. Infinite if there is no other shell or it is far away.
     double cost(std::uint32_t shell) const;
 
-    /// Drops a shell. `gone` is called with each of its triangles before. Its samples go to the triangles that are then
-    /// nearest.
+    /// Drops a shell after calling `gone` with each of its triangles. Its samples move to the nearest other triangles.
     template <typename Gone>
     void drop(std::uint32_t shell, const Gone& gone) {
         std::vector<std::uint32_t> numbers;

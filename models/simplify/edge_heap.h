@@ -9,9 +9,8 @@
 
 namespace octant::models::simplify {
 
-/// A priority queue of edges by cost, the least first; equal costs go by the edges' numbers. Each edge is in it at most
-/// once, and its cost can be changed. It is a heap with four children to a node, which takes fewer cache misses than
-/// two.
+/// A priority queue of edges with changeable costs: the least cost first, equal costs by the edges' numbers. A heap
+/// with four children a node, which causes fewer cache misses than a binary one.
 class EdgeHeap {
 public:
     explicit EdgeHeap(std::size_t edges) : places_(edges, none), costs_(edges, 0.0F) {}
@@ -25,7 +24,7 @@ public:
     /// The last cost given to an edge that is or was in the queue.
     float cost(std::uint32_t edge) const { return costs_[edge]; }
 
-    /// Puts an edge in, or changes its cost.
+    /// Inserts an edge or changes its cost.
     void set(std::uint32_t edge, float cost) {
         costs_[edge] = cost;
         if (!holds(edge)) {
@@ -37,7 +36,7 @@ public:
         down(up(places_[edge]));
     }
 
-    /// Takes an edge out; does nothing when it is not in.
+    /// Removes an edge, if it is in the queue.
     void remove(std::uint32_t edge) {
         const std::uint32_t place = places_[edge];
         if (place == none) { return; }

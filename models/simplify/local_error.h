@@ -1,8 +1,7 @@
 #pragma once
 
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/quadric.h"
-#include "models/simplify/sample_block.h"
+#include "models/simplify/quadrics.h"
 #include "models/simplify/surface_samples.h"
 #include "models/simplify/working_surface.h"
 
@@ -19,8 +18,8 @@
 
 namespace octant::models::simplify {
 
-/// A least-squares fit of one vertex: the step of its position, and the change of its colour, that lessen a sum of
-/// squared distances most, as far as distances are linear functions of both.
+/// A least-squares fit of one vertex: the change of its position and colour that minimizes a sum of squared distances,
+/// taken as linear functions of both.
 class VertexFit {
 public:
     /// Adds a pair of a point and its nearest point on a triangle whose corner 0 is the vertex. `off` runs from the
@@ -28,8 +27,8 @@ public:
     /// triangle's unit normal.
     void add(const glm::dvec3& off, const glm::dvec3& normal, double share, double weight);
 
-    /// Adds the colour of such a pair. `off` is the point's colour less that of the nearest point, and `gradient` how
-    /// the latter grows with position on the triangle.
+    /// Adds the colour of such a pair. `off` is the point's colour minus that of the nearest point, `gradient` the
+    /// gradient of the latter on the triangle.
     void add_colour(const glm::dvec3& off, const std::array<glm::dvec3, 3>& gradient, double share, double weight);
 
     /// The step of the position.
@@ -45,16 +44,16 @@ private:
     glm::dvec3 colour_sum_{0.0};
 };
 
-/// The corners of a triangle, and their colours where there are any.
+/// The corners of a triangle and, on coloured meshes, their colours.
 struct ColouredTriangle {
-    std::array<std::uint32_t, 3> vertices{none, none, none}; ///< none = it is new or moves.
+    std::array<std::uint32_t, 3> vertices{none, none, none}; ///< none = a vertex that is new or moves
     std::array<glm::dvec3, 3> places{};
     std::array<glm::dvec3, 3> colours{};
 };
 
-/// The error around a step, both ways: of the samples whose triangles change, to the triangles as they would be, and of
-/// points of these triangles back to the original. A step that moves or makes a vertex has it as corner 0 of every new
-/// triangle.
+/// The two-sided error around a step: from the samples whose triangles change to the new triangles (forward), and from
+/// points of the new triangles to the original (backward). The vertex that a step moves or makes is corner 0 of each
+/// new triangle.
 class LocalError {
 public:
     LocalError(const WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
@@ -63,7 +62,7 @@ public:
     /// Loads the samples of the triangles that change.
     void gather(std::span<const std::uint32_t> faces);
 
-    /// Sets the new triangles: those of a ring with their moving corner at `place`, in `colour`.
+    /// Sets the new triangles: those of a ring with their moving corner at `place`, with the colour `colour`.
     void set_ring(std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour);
 
     /// Moves corner 0 of all new triangles.
@@ -72,8 +71,8 @@ public:
     /// Sets the new triangles. Each is expected to be near the present one of `near`.
     void set_triangles(std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
-    /// Measures the ways back of all present triangles, and the colours of their samples. Returns the largest squared
-    /// distance.
+    /// Measures the backward errors of all present triangles and the colour errors of their samples. Returns the
+    /// largest squared backward distance.
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
@@ -82,47 +81,47 @@ public:
     /// Measures from the new triangles to the original, until the sum exceeds `limit`.
     double backward_error(double limit = std::numeric_limits<double>::infinity());
 
-    /// Both; only a lower bound where that exceeds `limit`.
+    /// The sum of both errors; only a lower bound if it exceeds `limit`.
     double measured(double limit = std::numeric_limits<double>::infinity());
 
-    /// The largest squared distance that was measured last, in both directions.
+    /// The largest squared distance of the last measurement, in both directions.
     double max_distance2() { return std::max(max_there2(), max_back2_); }
 
-    /// The sum of the present errors of the triangles that were loaded.
+    /// The sum of the present errors of the loaded triangles.
     double present() const { return current_forward_error_ + current_backward_error_; }
 
     double current_forward_error() const { return current_forward_error_; }
 
-    /// Below this an error may be nothing but the rounding of the samples.
+    /// An error below this may consist of rounding only.
     double rounding() const { return sample_rounding * sample_rounding * area_; }
 
-    /// The least-squares step of corner 0, from what forward_error() saw last; with the present ways back where the new
-    /// triangles are still the present ones.
+    /// The least-squares step of corner 0 for the last forward_error(). `with_back` includes the present backward
+    /// errors, which requires that the new triangles are the present ones.
     VertexFit fit(bool with_back) const;
 
-    /// From now on ways back start from points of the edges too, and the largest distance is that from the whole of the
-    /// other surface. The error stays as it is.
+    /// From now on backward distances also start from points of the edges, and the largest distance is that to the
+    /// whole other surface. The error does not change.
     void measure_densely();
 
-    /// Measured closely, only squared distances above this one are looked up in the whole of the other surface.
+    /// Only squared distances above this one are searched for in the whole other surface (measure_densely).
     void set_trusted2(double distance2) { trusted2_ = distance2; }
 
-    /// The step of corner 0 that lowers the largest distance, both ways, of what was measured closely last: a
-    /// least-squares fit in which far points weigh most.
+    /// The step of corner 0 that lowers the largest distance of the last dense measurement, in both directions: a
+    /// least-squares fit with large weights of far points.
     glm::dvec3 max_error_step();
 
-    /// About how many distances to triangles one measurement takes.
+    /// The approximate number of distances to triangles that one measurement computes.
     double work() const;
 
-    /// The sum of that over all measurements so far.
+    /// The sum of work() over all measurements.
     double work_done() const { return work_done_; }
 
-    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of
-    /// `faces`, the numbers of the new triangles in their order. `emptied` are those that were loaded, and `vertex` is
-    /// the number of the vertex that is new or moves, or none.
+    /// Accepts the step of the last complete measurement, after the mesh was changed: moves the samples to the lists of
+    /// `faces`, the numbers of the new triangles in their order. `emptied` are the loaded triangles; `vertex` is the
+    /// vertex that is new or moves, or none.
     void keep(std::span<const std::uint32_t> emptied, std::span<const std::uint32_t> faces, std::uint32_t vertex);
 
-    /// Lets the way back from a new vertex start where that from another one at its place ends.
+    /// Copies the backward foot of a vertex to a new vertex at the same position.
     void copy_vertex(std::uint32_t from, std::uint32_t to) { samples_.from_vertex(to) = samples_.from_vertex(from); }
 
 private:

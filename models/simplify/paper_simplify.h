@@ -57,10 +57,9 @@ enum class PaperMeasure {
 /// How to simplify as printed in the paper.
 struct PaperOptions {
     PaperMeasure measure = PaperMeasure::Bidirectional;
-    /// Vertices or faces; error_m must be empty (asserted). As in the paper, vertices that no triangle uses are
-    /// counted.
+    /// Vertices or faces; error_m must be empty (asserted). As in the paper, unreferenced vertices count.
     Goal goal;
-    std::size_t uncounted = 0; ///< How many such vertices of the file the mesh no longer has.
+    std::size_t uncounted = 0; ///< number of unreferenced vertices of the file that the mesh does not have
     /// w of distances in the six dimensions (position, w rgb), in metres; 0 = position only.
     double colour_weight = 0.0;
     /// The shortest edge is searched for in six dimensions, too.
@@ -76,15 +75,15 @@ struct PaperSums {
     double bidirectional_m2 = 0.0; ///< The larger one of that and the opposite direction.
 };
 
-/// The simplified mesh and what the paper's tables tell about it.
+/// The simplified mesh and the figures of the paper's tables.
 struct PaperResult {
     TriangleMesh mesh;
     std::size_t contractions = 0;
     std::size_t counted_vertices = 0; ///< How many vertices are left, as the paper counts them.
-    std::size_t feet = 0;             ///< How many perpendiculars were dropped on triangles to choose.
-    /// How many of their feet lie outside, by the strict test 0 < a, b, c < 1.
+    std::size_t feet = 0;             ///< number of perpendiculars computed for the choice
+    /// The number of their feet outside the triangle, by the strict test 0 < a, b, c < 1.
     std::size_t feet_outside = 0;
-    PaperSums sums; ///< By all measures, whichever of them chose.
+    PaperSums sums; ///< by all measures, not only the one that chose
 };
 
 /// Iterative edge contraction as printed in the paper: the shortest edge first, to the best of both ends and the

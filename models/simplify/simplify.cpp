@@ -5,10 +5,10 @@
 // triangles in both directions comes: the reference is the original surface instead of the previous mesh, new vertices
 // are placed by quadrics instead of at ends or midpoints, the link condition keeps a manifold, and a wanted error is
 // certified by measuring, not estimated. The paper's own mode is paper_simplify.cpp.
+
 #include "models/simplify/simplify.h"
 
 #include "models/measure/mesh_distance.h"
-#include "models/measure/sampled_distance.h"
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/edge_collapse.h"
 #include "models/simplify/optimize.h"
@@ -310,16 +310,16 @@ private:
     /// The number of triangles to try next, where the error lies between those of two numbers in the logarithms. The
     /// kept number where that is near enough.
     std::size_t next_faces(std::size_t kept, double kept_m, std::size_t too_few, double too_far_m) const {
-        const auto most = static_cast<double>(kept);
-        const auto least = static_cast<double>(too_few);
+        const auto max = static_cast<double>(kept);
+        const auto min = static_cast<double>(too_few);
         if (too_few == 0) {
             const double share = std::pow(kept_m / (aim * error_m_), 1.0 / steepness);
-            return static_cast<std::size_t>(most * std::clamp(share, 0.3, 1.0 / (1.0 + close_enough)));
+            return static_cast<std::size_t>(max * std::clamp(share, 0.3, 1.0 / (1.0 + close_enough)));
         }
-        if (most <= least * (1.0 + close_enough) || kept <= too_few + 1) { return kept; }
+        if (max <= min * (1.0 + close_enough) || kept <= too_few + 1) { return kept; }
         const double between =
             kept_m < too_far_m ? std::log(aim * error_m_ / kept_m) / std::log(too_far_m / kept_m) : 0.5;
-        const double wanted = most * std::pow(least / most, std::clamp(between, 0.2, 0.8));
+        const double wanted = max * std::pow(min / max, std::clamp(between, 0.2, 0.8));
         return std::clamp(static_cast<std::size_t>(wanted), too_few + 1, kept - 1);
     }
 

@@ -1,8 +1,11 @@
 #pragma once
 
-#include "models/simplify/sample_block.h"
+#include "models/measure/triangle_bvh.h"
 #include "models/simplify/working_surface.h"
 
+#include <glm/vec3.hpp>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,7 +13,58 @@
 
 namespace octant::models::simplify {
 
-/// Positions of samples are rounded to about this share of the diagonal; smaller distances mean nothing.
+/// A triangle in the coordinates of its own plane, in single precision, with its colours where there are any.
+struct FlatTriangle : measure::PlaneFrame<float> {
+    /// The colour at corner a, and its gradient along the plane's x and y axes.
+    std::array<float, 3> colour;
+    std::array<float, 3> colour_x;
+    std::array<float, 3> colour_y;
+};
+
+/// The triangle without colours.
+FlatTriangle flat(const std::array<glm::dvec3, 3>& corners);
+
+/// The triangle with colours. On one without area the gradient may be zero.
+FlatTriangle flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours);
+
+inline glm::dvec3 widen(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+/// Samples in structure-of-arrays layout for vector instructions, with the nearest triangle of each.
+class SampleBlock {
+public:
+    void clear() { size_ = 0; }
+
+    std::size_t size() const { return size_; }
+
+    /// Allocates room for a total of `samples` samples, rounded up to whole vectors.
+    void make_room(std::size_t samples);
+
+    /// Adds a sample. make_room must have been called for it.
+    void add(std::uint32_t number, const std::array<float, 3>& place, float weight) {
+        numbers[size_] = number;
+        x[size_] = place[0];
+        y[size_] = place[1];
+        z[size_] = place[2];
+        weights[size_] = weight;
+        ++size_;
+    }
+
+    std::vector<std::uint32_t> numbers;
+    std::vector<float> x, y, z, weights;
+    std::vector<float> red, green, blue; ///< Filled by the caller where there are colours.
+    std::vector<float> distances2;       ///< The squared distance to the nearest triangle.
+    std::vector<float> colour_errors2;   ///< The squared difference in colour to the nearest point.
+    std::vector<std::int32_t> nearest;   ///< The index of the nearest triangle.
+
+private:
+    std::size_t size_ = 0;
+};
+
+/// Finds the nearest triangle of each sample: fills distances2 and nearest, and colour_errors2 if `coloured`. Of
+/// triangles at the same distance the first one counts. Needs at least one triangle (asserted).
+void find_nearest(SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured);
+
+/// Positions of samples are rounded to about this share of the diagonal; smaller distances are meaningless.
 inline constexpr double sample_rounding = 1e-7;
 
 /// A point of the original surface.
@@ -24,10 +78,10 @@ struct SurfaceSample {
     std::uint32_t triangle = none; ///< Of the original.
 };
 
-/// What a squared distance counts as: itself, and more where it is far above the usual one, so that one sum lowers the
-/// mean and the largest distance together.
+/// The penalty of a squared distance: the square itself, and more for distances far above the usual one. Minimizing its
+/// sum lowers both the mean and the largest distance.
 struct Penalty {
-    /// 1 / the squared distance that counts twice; 0 = plain squares.
+    /// 1 / the squared distance whose penalty is twice its square; 0 = plain squares.
     double per_high2 = 0.0;
 
     double of(double distance2) const { return distance2 * (1.0 + per_high2 * distance2); }
@@ -36,7 +90,7 @@ struct Penalty {
     double weight(double distance2) const { return 1.0 + 2.0 * per_high2 * distance2; }
 };
 
-/// Where the way back from a point of the current surface ends.
+/// The nearest point of the original to a point of the current surface.
 struct BackwardFoot {
     OriginalPoint foot;
     float distance2 = 0.0F;
@@ -74,10 +128,10 @@ public:
         }
     }
 
-    /// Gives samples new numbers, so that those of a triangle follow each other.
+    /// Renumbers samples: those of a triangle become consecutive.
     void sort();
 
-    /// Gives the memory of lists back until assign_all() makes them anew.
+    /// Frees the memory of the lists until assign_all() makes new ones.
     void drop_lists();
 
     std::size_t count(std::uint32_t face) const { return counts_[face]; }
@@ -102,13 +156,13 @@ public:
     /// samples of all `emptied` triangles.
     void assign(const SampleBlock& block, std::span<const std::uint32_t> emptied, std::span<const std::uint32_t> faces);
 
-    /// Takes all samples of a triangle out of its list.
+    /// Empties the list of a triangle.
     void clear(std::uint32_t face);
 
-    /// Puts a sample that is in no list into that of a triangle. Its colour counts as it did until assign() moves it.
+    /// Puts a sample that is in no list into that of a triangle. Its colour error stays until assign() moves it.
     void put(std::uint32_t sample, std::uint32_t face, float distance2);
 
-    /// Makes room for triangles numbered below `count`.
+    /// Allocates room for triangles numbered below `count`.
     void make_face_room(std::size_t count);
 
     /// Puts every sample into the list of triangle `faces[sample]`, at `distances2[sample]`. Samples get new numbers,
@@ -118,7 +172,7 @@ public:
 
     const Penalty& penalty() const { return penalty_; }
 
-    /// Errors are counted anew.
+    /// Sets the penalty and recomputes the errors of all triangles.
     void set_penalty(const Penalty& penalty);
 
     /// The weighted mean of the squared distances.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
-#include "models/measure/plane_frame.h"
 #include "models/measure/triangle_bvh.h"
 #include "models/triangle_mesh.h"
 
@@ -28,20 +27,19 @@ constexpr HalfEdge previous_of(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; 
 
 constexpr std::uint32_t face_of(HalfEdge h) { return h / 3; }
 
-/// A triangle of the ring around an edge that is about to collapse, or around a vertex. Its `half_edge` starts at the
-/// corner that moves.
+/// A triangle of the ring around a vertex or an edge to be collapsed. Its `half_edge` starts at the moving corner.
 struct RingFace {
     std::uint32_t face = none;
     HalfEdge half_edge = none;
 };
 
-/// The slots that stay when a mesh is compacted, by their numbers before, in order.
+/// The slots that remain when a mesh is compacted: their previous numbers, in order.
 struct SlotMap {
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> faces;
 };
 
-/// Leaves of a list with one entry a slot those of the kept slots, and gives the memory of the others back.
+/// Keeps the entries of the kept slots in a list with one entry a slot, and frees the other memory.
 template <typename T>
 void compact_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
     for (std::size_t i = 0; i < kept.size(); ++i) { list[i] = list[kept[i]]; }
@@ -49,7 +47,7 @@ void compact_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
     list.shrink_to_fit();
 }
 
-/// Which changes of the topology a collapse may make.
+/// The changes of the topology that a collapse may make.
 enum class TopologyChanges : std::uint8_t { None, Holes, HolesAndHandles };
 
 /// What the collapse of an edge (u, w) does to the topology.
@@ -60,7 +58,7 @@ struct CollapseEffect {
     /// hole, which has three edges, or around the handle.
     HalfEdge second = none;
     HalfEdge third = none;
-    /// After a cut: the vertex that stands for c right of u, w, c. The one for u and w there is w.
+    /// After a cut: the vertex that replaces c to the right of u, w, c. There w replaces u and w.
     std::uint32_t made = none;
 };
 
@@ -96,7 +94,7 @@ public:
 
     bool is_boundary_vertex(std::uint32_t vertex) const { return twins_[outgoing_[vertex]] == none; }
 
-    /// Any one of the triangles at a vertex, which must be there.
+    /// A triangle at a vertex, which must exist.
     std::uint32_t face_at(std::uint32_t vertex) const { return face_of(outgoing_[vertex]); }
 
     Triangle corners(std::uint32_t face) const {
@@ -155,11 +153,10 @@ public:
     /// triangle, the second that of the twin's.
     void split(HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces);
 
-    /// Removes a triangle of a shell all of whose triangles are removed; in between nothing else may be asked of the
-    /// shell.
+    /// Removes a triangle. The caller must remove all triangles of its shell before any other use of the shell.
     void remove(std::uint32_t face);
 
-    /// Gives the slots of vertices and triangles that are gone back. All others get new numbers.
+    /// Frees the slots of removed vertices and triangles and renumbers the others.
     SlotMap compact();
 
     /// Whether the edge may be replaced by the other diagonal of its two triangles.
@@ -226,7 +223,7 @@ struct WorkingSurface {
     std::vector<glm::dvec3> colours;      ///< One for each vertex slot; empty = no colours.
     std::vector<std::uint32_t> materials; ///< One for each triangle slot; empty = no materials.
 
-    /// From now on vertices of boundaries stay where they are in `from`, of which this was made.
+    /// Locks boundary vertices at their positions in `from`, the mesh of which this was made.
     void lock_border(const TriangleMesh& from, const WorkingUnits& units);
 
     bool locks_border() const { return !locked_m.empty(); }
@@ -243,10 +240,10 @@ struct WorkingSurface {
         return effect_of(h, TopologyChanges::None).kind == CollapseEffect::Kind::SameTopology;
     }
 
-    /// In file units; of locked vertices as the file has them, to the bit.
+    /// Converts a position to file units; that of a locked vertex becomes the file's to the bit.
     glm::dvec3 to_file(const glm::dvec3& place, const WorkingUnits& units) const;
 
-    /// By the places of locked vertices, in working units, those in the file.
+    /// Positions of locked vertices in the file, by their positions in working units.
     std::map<std::array<double, 3>, glm::dvec3> locked_m;
 
     bool coloured() const { return !colours.empty(); }
@@ -275,11 +272,11 @@ struct WorkingSurface {
     /// Whether an edge at a vertex is a border.
     bool is_border_vertex(std::uint32_t vertex) const;
 
-    /// The part of a move of a vertex that leaves a border through it where it is: across the surface and along the
-    /// border; all of it where there is none. Nothing of it for a locked vertex.
+    /// The part of a vertex's displacement that does not move a border through it: perpendicular to the surface and
+    /// along the border. The whole displacement without a border; zero for a locked vertex.
     glm::dvec3 along_borders(std::uint32_t vertex, const glm::dvec3& way) const;
 
-    /// Gives the slots of what is gone back.
+    /// Frees the slots of removed vertices and triangles.
     SlotMap compact();
 
     /// The present mesh in file units, vertices and triangles in the order of their slots. Name and materials are those

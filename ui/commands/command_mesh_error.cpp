@@ -1,6 +1,5 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
-#include "models/measure/sampled_distance.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"

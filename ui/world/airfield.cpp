@@ -1,8 +1,8 @@
 #include "ui/world/airfield.h"
 
 #include "models/heights/height_field.h"
-#include "models/heights/map_frame.h"
-#include "models/heights/runway_site.h"
+#include "models/heights/local_frame.h"
+#include "models/heights/runway_strip.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"

@@ -1,7 +1,6 @@
 #include "ui/world/ground_texture_file.h"
 
 #include "models/heights/image.h"
-#include "models/heights/image_on_ground.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
 

@@ -1,7 +1,6 @@
 #include "ui/world/input_files.h"
 
 #include "models/heights/map_inputs.h"
-#include "models/heights/raster_file.h"
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/hash.h"

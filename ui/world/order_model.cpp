@@ -1,7 +1,7 @@
 #include "ui/world/order_model.h"
 
 #include "models/polygons/obj_reader.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/error.h"
 #include "sim/base/random_generator.h"
 #include "ui/base/data_files.h"

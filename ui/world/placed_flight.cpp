@@ -3,7 +3,7 @@
 #include "flightpaths/placement.h"
 #include "flightpaths/reprojected_path.h"
 #include "models/heights/height_source.h"
-#include "models/heights/map_frame.h"
+#include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"

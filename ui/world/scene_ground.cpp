@@ -1,9 +1,9 @@
 #include "ui/world/scene_ground.h"
 
 #include "models/heights/height_field_import.h"
-#include "models/heights/map_frame.h"
+#include "models/heights/local_frame.h"
 #include "models/heights/runway_strip.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/error.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/input_files.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "models/heights/image_on_ground.h"
+#include "models/heights/image.h"
 #include "models/heights/runway_strip.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"

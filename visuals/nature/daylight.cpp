@@ -1,6 +1,6 @@
 #include "visuals/nature/daylight.h"
 
-#include "models/srgb.h"
+#include "models/material.h"
 #include "sim/base/units.h"
 
 #include <glm/common.hpp>

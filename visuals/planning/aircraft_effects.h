@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "models/invalid_index.h"
 #include "models/polygons/polygon_model.h"
+#include "models/triangle_mesh.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "visuals/planning/articulated_part.h"

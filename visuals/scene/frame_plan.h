@@ -20,8 +20,8 @@
 
 // The seam between deciding and drawing: the planner writes a FramePlan, a renderer draws it.
 //
-// All colours are display values (models/srgb.h), and all arithmetic is done on them directly; README.md of this room
-// says what that costs.
+// All colours are display values (models/material.h), and all arithmetic is done on them directly; README.md of this
+// room says what that costs.
 
 namespace octant::visuals::scene {
 

@@ -3,9 +3,10 @@
 // The line is cut at the grid's lines. Over one cell both the bilinear ground and the earth's curvature along the line
 // are quadratic in the distance travelled, and so is the line's height above them: its minimum and its first zero are
 // exact.
+
 #include "visuals/terrain/ground_query.h"
 
-#include "models/heights/bilinear.h"
+#include "models/heights/height_field.h"
 #include "visuals/terrain/curvature_drop.h"
 
 #include <glm/geometric.hpp>

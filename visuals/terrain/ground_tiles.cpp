@@ -1,7 +1,8 @@
 // Access to a ground's numbers by node and by sample.
+
 #include "visuals/terrain/ground_tiles.h"
 
-#include "models/heights/bilinear.h"
+#include "models/heights/height_field.h"
 
 #include <bit>
 #include <cassert>

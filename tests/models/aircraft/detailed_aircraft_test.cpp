@@ -1,9 +1,9 @@
-#include "models/aircraft/detailed_aircraft.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
 #include "models/polygons/polygon_check.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/models/aircraft/detailed_aircraft.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -20,7 +20,9 @@ using namespace octant::models;
 
 namespace {
 
-std::vector<polygons::PolygonModel> both() { return {aircraft::detailed_f15(), aircraft::detailed_500md()}; }
+std::vector<polygons::PolygonModel> both() {
+    return {aircraft::test::detailed_f15(), aircraft::test::detailed_500md()};
+}
 
 std::filesystem::path shipped(const polygons::PolygonModel& model, const char* ending) {
     return std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / (model.name + ending);
@@ -38,9 +40,9 @@ std::pair<glm::dvec3, glm::dvec3> extent_of(const polygons::PolygonModel& model)
 
 } // namespace
 
-TEST_CASE("the shipped detailed aircraft are what their makers make") {
+TEST_CASE("the shipped detailed aircraft are the output of their generators") {
     for (const polygons::PolygonModel& model : both()) {
-        INFO(model.name << ": OCTANT_APPROVE=1 writes the files anew");
+        INFO(model.name << ": OCTANT_APPROVE=1 rewrites the files");
         const polygons::ObjText text = polygons::obj_text(model, {}, shipped(model, ".mtl").filename().string());
         if (std::getenv("OCTANT_APPROVE") != nullptr) {
             write_file(shipped(model, ".obj"), text.obj);
@@ -68,12 +70,12 @@ TEST_CASE("detailed aircraft are of convex planar polygons, 300 to 1,500, read b
 }
 
 TEST_CASE("detailed aircraft have their types' published sizes") {
-    const auto [f15_min, f15_max] = extent_of(aircraft::detailed_f15());
+    const auto [f15_min, f15_max] = extent_of(aircraft::test::detailed_f15());
     CHECK(f15_max.x - f15_min.x == Approx(19.43).margin(0.1));  // length
     CHECK(f15_max.y - f15_min.y == Approx(13.05).margin(0.01)); // span
     CHECK(f15_min.y == -f15_max.y);
     CHECK(f15_max.z - f15_min.z == Approx(4.34).margin(0.03)); // height, gear up
-    const auto [md_min, md_max] = extent_of(aircraft::detailed_500md());
+    const auto [md_min, md_max] = extent_of(aircraft::test::detailed_500md());
     CHECK(md_max.y - md_min.y == Approx(8.04).epsilon(0.06)); // rotor, one blade ahead
     CHECK(1.20 + md_max.z == Approx(2.4).margin(0.05));       // skids 1.20 below the origin
 }

@@ -1,5 +1,4 @@
 #include "models/heights/height_field.h"
-#include "models/heights/height_grid.h"
 #include "models/heights/height_voids.h"
 
 #include <catch2/catch.hpp>

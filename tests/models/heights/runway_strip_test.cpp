@@ -1,4 +1,3 @@
-#include "models/heights/runway_site.h"
 #include "models/heights/runway_strip.h"
 #include "sim/base/units.h"
 

@@ -1,11 +1,12 @@
 // Maps as strangers send them. Right values are those of gdalinfo and gdallocationinfo (GDAL 3.6.2), which read the
 // same files without any of our code, or are computed by hand.
+
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
 #include "models/heights/height_field_import.h"
 #include "models/heights/height_source.h"
+#include "models/heights/height_voids.h"
 #include "models/heights/map_inputs.h"
-#include "models/heights/void_values.h"
 #include "tests/models/heights/sample_maps.h"
 #include "tests/scratch.h"
 

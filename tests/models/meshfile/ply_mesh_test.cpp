@@ -1,5 +1,5 @@
-#include "models/invalid_index.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/triangle_mesh.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>

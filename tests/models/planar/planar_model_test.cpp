@@ -1,7 +1,7 @@
 #include "models/planar/planar_model.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_check.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>

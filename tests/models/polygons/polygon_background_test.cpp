@@ -1,5 +1,5 @@
 #include "models/polygons/polygon_check.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>

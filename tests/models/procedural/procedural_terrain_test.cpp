@@ -1,4 +1,3 @@
-#include "models/procedural/canyon_network.h"
 #include "models/procedural/drainage.h"
 #include "models/procedural/procedural_terrain.h"
 #include "models/procedural/terrain_grid.h"

@@ -1,5 +1,5 @@
 #include "models/polygons/obj_writer.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "tests/scratch.h"
 #include "tests/ui/flight/kept_world.h"
 #include "ui/flight/id_comparison.h"

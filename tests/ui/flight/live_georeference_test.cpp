@@ -1,4 +1,4 @@
-#include "models/heights/map_frame.h"
+#include "models/heights/local_frame.h"
 #include "sim/base/axes.h"
 #include "ui/flight/live_flight.h"
 

@@ -1,4 +1,4 @@
-#include "models/procedural/globe.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"

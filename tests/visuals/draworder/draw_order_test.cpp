@@ -1,4 +1,4 @@
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "tests/paper_example.h"
 #include "visuals/draworder/draw_order.h"
 

@@ -1,5 +1,5 @@
 #include "models/polygons/polygon_model.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "tests/order_shapes.h"

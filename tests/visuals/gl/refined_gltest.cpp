@@ -1,4 +1,4 @@
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "tests/visuals/gl/small_scene.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/random_generator.h"

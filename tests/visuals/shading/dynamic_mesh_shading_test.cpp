@@ -1,4 +1,4 @@
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/units.h"
 #include "visuals/shading/dynamic_mesh_shading.h"
 #include "visuals/shading/vertex_normals.h"

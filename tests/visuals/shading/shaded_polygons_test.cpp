@@ -1,4 +1,4 @@
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "visuals/shading/shaded_polygons.h"
 #include "visuals/shading/vertex_normals.h"
 

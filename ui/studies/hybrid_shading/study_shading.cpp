@@ -1,7 +1,7 @@
 #include "ui/studies/hybrid_shading/study_shading.h"
 
 #include "models/polygons/obj_reader.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/output_file.h"
 #include "sim/base/parallel_for.h"
 #include "sim/base/random_generator.h"

@@ -1,9 +1,7 @@
 #include "ui/studies/simplification/study_simplification.h"
 
 #include "models/meshfile/mesh_file.h"
-#include "models/procedural/background60.h"
-#include "models/procedural/globe.h"
-#include "models/procedural/machined_part.h"
+#include "models/procedural/procedural_models.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
