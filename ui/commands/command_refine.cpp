@@ -11,9 +11,8 @@
 #include "ui/world/mesh_loader.h"
 #include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
-#include "visuals/refine/partition_mesh.h"
 #include "visuals/refine/progressive_file.h"
-#include "visuals/refine/refine_region.h"
+#include "visuals/refine/refine_criterion.h"
 
 #include <glm/geometric.hpp>
 

@@ -9,7 +9,7 @@
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_query.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/mesh_surface.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <cstdio>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/shading/intensity.h"
 #include "visuals/shading/shaded_polygons.h"
+#include "visuals/shading/shading_rule.h"
 
 #include <glm/vec3.hpp>
 

@@ -3,7 +3,7 @@
 #include "ui/base/progress.h"
 #include "ui/settings/settings_text.h"
 #include "ui/terrain/mesh_maker.h"
-#include "visuals/terrain/projected_error.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "ui/terrain/ground_view.h"
 #include "visuals/scene/camera.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <filesystem>
 #include <string>

@@ -4,7 +4,7 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/perspective_view.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

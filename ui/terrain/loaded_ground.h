@@ -3,7 +3,7 @@
 #include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
 #include "ui/terrain/ground_view.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "ui/report/png_file.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <span>
 

@@ -3,7 +3,7 @@
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/loaded_ground.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <memory>
 

@@ -5,11 +5,9 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
-#include "visuals/terrain/conformity.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_samples.h"
-#include "visuals/terrain/mesh_surface.h"
-#include "visuals/terrain/perspective_view.h"
+#include "visuals/terrain/ground_query.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <glm/vec2.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "visuals/terrain/curvature_drop.h"
-#include "visuals/terrain/ground_samples.h"
-#include "visuals/terrain/mesh_surface.h"
+#include "visuals/terrain/frustum.h"
+#include "visuals/terrain/ground_query.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

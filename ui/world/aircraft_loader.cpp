@@ -32,7 +32,6 @@
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
-#include "visuals/shading/piece_normals.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <algorithm>

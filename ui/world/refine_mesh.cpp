@@ -5,8 +5,8 @@
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/world/mesh_loader.h"
-#include "visuals/refine/packed_attributes.h"
 #include "visuals/refine/progressive_file.h"
+#include "visuals/refine/progressive_mesh.h"
 
 #include <fmt/format.h>
 #include <utility>

@@ -10,10 +10,9 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "visuals/groundfile/ground_file.h"
-#include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/terrain/ground_assembler.h"
-#include "visuals/terrain/ground_layout.h"
+#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_tiles.h"
 
 #include <algorithm>
 #include <bit>
@@ -139,7 +138,7 @@ void fill_rectangle(
 /// Gives every void of a field (row after row) a height that runs smoothly from rim to rim, rounded to a whole number.
 /// At least one sample must be known; known samples stay as they are. Up to four million samples are filled in one
 /// piece (models/heights/height_voids.h). Of a larger field, a coarser one of block means is filled first, and from it
-/// the voids are smoothed piece by piece. Memory: at most 80 MB beside the numbers.
+/// the voids are smoothed piece by piece. Memory: at most 80 MB besides the numbers.
 void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) {
     const Field field{numbers, columns, rows};
     int edge = 1;

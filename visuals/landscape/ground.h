@@ -10,7 +10,7 @@
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/settings.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec2.hpp>

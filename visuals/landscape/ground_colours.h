@@ -3,7 +3,7 @@
 #include "models/heights/height_field.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/scene/settings.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

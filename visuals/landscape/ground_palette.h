@@ -7,7 +7,7 @@
 #include "visuals/nature/scenery.h"
 #include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/settings.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <glm/vec3.hpp>
 

@@ -5,7 +5,7 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_texture.h"
 #include "visuals/scene/settings.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <glm/vec3.hpp>
 

@@ -7,7 +7,6 @@
 #include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/quadtree.h"
 #include "visuals/terrain/quadtree_mesher.h"
-#include "visuals/terrain/resolution_for_target.h"
 
 #include <algorithm>
 #include <cmath>

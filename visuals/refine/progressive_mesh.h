@@ -1,21 +1,131 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
+#include "models/material.h"
 #include "models/triangle_mesh.h"
-#include "visuals/refine/packed_attributes.h"
-#include "visuals/refine/progressive_mesh_data.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace octant::visuals::refine {
 
-/// All that is needed to draw a node and to judge its error. 28 bytes; siblings lie side by side in memory, because a
-/// split reads both.
+/// A unit vector in 32 bits by octahedral coding: it is projected onto an octahedron, which is unfolded into a square
+/// with 16 bits an axis. The error is below 1e-4 rad.
+struct PackedNormal {
+    std::int16_t x = 0;
+    std::int16_t y = 0;
+
+    bool operator==(const PackedNormal&) const = default;
+};
+
+/// Packs a vector of any length. A zero vector becomes +z.
+inline PackedNormal packed(const glm::vec3& normal) {
+    const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+    if (!(sum > 0.0F)) { return {}; }
+    float x = normal.x / sum;
+    float y = normal.y / sum;
+    if (normal.z < 0.0F) {
+        const float folded_x = (1.0F - std::abs(y)) * (x < 0.0F ? -1.0F : 1.0F);
+        y = (1.0F - std::abs(x)) * (y < 0.0F ? -1.0F : 1.0F);
+        x = folded_x;
+    }
+    return {static_cast<std::int16_t>(std::lround(x * 32767.0F)), static_cast<std::int16_t>(std::lround(y * 32767.0F))};
+}
+
+/// The unit vector that was packed.
+inline glm::vec3 unpacked(const PackedNormal& normal) {
+    float x = static_cast<float>(normal.x) / 32767.0F;
+    float y = static_cast<float>(normal.y) / 32767.0F;
+    const float z = 1.0F - std::abs(x) - std::abs(y);
+    const float fold = z < 0.0F ? -z : 0.0F;
+    x += x < 0.0F ? fold : -fold;
+    y += y < 0.0F ? fold : -fold;
+    return glm::normalize(glm::vec3(x, y, z));
+}
+
+/// A colour as three display values, 0 to 1 each, in 16 bits.
+struct PackedColour {
+    std::uint16_t red = 65535;
+    std::uint16_t green = 65535;
+    std::uint16_t blue = 65535;
+
+    bool operator==(const PackedColour&) const = default;
+};
+
+/// Packs a colour; parts outside 0 to 1 are clamped.
+inline PackedColour packed_rgb16(const glm::vec3& colour) {
+    const auto part = [](float value) {
+        return static_cast<std::uint16_t>(std::lround(glm::clamp(value, 0.0F, 1.0F) * 65535.0F));
+    };
+    return {part(colour.x), part(colour.y), part(colour.z)};
+}
+
+inline glm::vec3 unpacked(const PackedColour& colour) {
+    return glm::vec3(colour.red, colour.green, colour.blue) / 65535.0F;
+}
+
+/// The colour as the renderer takes it, 8 bits a part: the same rounding as models::packed_colour.
+inline std::uint32_t packed_rgba8(const PackedColour& colour) {
+    const auto byte = [](std::uint32_t part) { return (part * 255U + 32767U) / 65535U; };
+    return byte(colour.red) | byte(colour.green) << 8U | byte(colour.blue) << 16U | 0xff000000U;
+}
+
+using models::none;
+using models::Triangle;
+
+/// A node of the vertex hierarchy with its two children: the vertex split that replaces it by them, and the edge
+/// collapse that undoes the split. In the paper's words the node is vs, `first` is vu and `second` is vt.
+struct VertexSplit {
+    std::uint32_t first = none;
+    std::uint32_t second = none;
+    /// The original face that the collapse removes on the left; none on a boundary.
+    std::uint32_t left_face = none;
+    std::uint32_t right_face = none; ///< The same on the right.
+    /// The error of the surface where this node is active, never less than its children's.
+    float error_m = 0.0F;
+
+    // The rest is filled in by ProgressiveMesh and is not part of ProgressiveMeshData.
+
+    /// The fundamental cut vertex vs.l^: the third corner (a leaf) of left_face.
+    std::uint32_t left_cut = none;
+    /// The fundamental cut vertex vs.r^: the third corner (a leaf) of right_face.
+    std::uint32_t right_cut = none;
+    /// The leaves below this node are numbered consecutively, starting here.
+    std::uint32_t first_leaf = 0;
+    /// Of these, the leaves below the second child start here.
+    std::uint32_t middle = 0;
+};
+
+/// The data that a vertex hierarchy is made from. Nodes are numbered with the leaves first and then one inner node for
+/// each split, children before parents, so the finest split comes first (ProgressiveMesh renumbers the inner nodes).
+/// Leaves are numbered so that those below any node are consecutive, those of its first child first.
+struct ProgressiveMeshData {
+    std::string name;
+    glm::dvec3 origin_m{0.0};           ///< Positions are relative to this point of the file's axes.
+    std::vector<glm::vec3> positions_m; ///< One for each node.
+    std::vector<PackedNormal> normals;  ///< One for each node.
+    std::vector<PackedColour> colours;  ///< One for each node, or empty.
+    std::vector<VertexSplit> splits;    ///< One for each inner node.
+    std::vector<Triangle> faces;        ///< The faces of the original mesh; their corners are leaves.
+    /// For each face its number in the original mesh; empty = in order.
+    std::vector<std::uint32_t> original_faces;
+    std::vector<std::uint16_t> face_materials; ///< One for each face, or empty.
+    std::vector<models::Material> materials;
+    /// For each leaf its number in the original mesh.
+    std::vector<std::uint32_t> original_vertices;
+    std::vector<std::string> notes; ///< Messages to the user about reading; often none.
+};
+
+/// The data to draw a node and to evaluate its error. 28 bytes; siblings are adjacent in memory, because a split reads
+/// both.
 struct NodeGeometry {
     glm::vec3 position_m{0.0F};
     PackedNormal normal;
@@ -128,7 +238,7 @@ public:
     float cone_rad(std::uint32_t node) const;
 
     /// The original faces with leaves as corners, ordered so that neighbours in memory are neighbours on the surface.
-    /// original_face tells their numbers in the file.
+    /// original_face returns their numbers in the file.
     std::span<const Triangle> faces() const { return parts_.faces; }
 
     std::uint32_t original_face(std::uint32_t face) const { return parts_.original_faces[face]; }
@@ -194,7 +304,7 @@ private:
     NodeGeometry& shape(std::uint32_t node) { return shapes_[places_[node]]; }
 
     std::vector<std::uint32_t> roots_; ///< Ordered by their first leaves.
-    /// For each node its index in shapes_, which also tells its parent.
+    /// For each node its index in shapes_, which also identifies its parent.
     std::vector<std::uint32_t> places_;
     std::vector<NodeGeometry> shapes_;
     bool has_colours_ = false;

@@ -85,8 +85,8 @@ bool ProgressiveTree::add_base_face(const TreeFace& face) {
     return roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0];
 }
 
-/// Whether the active vertices beside both children differ. Were they the same, the split would wait for that vertex to
-/// split first, which in a damaged file might never end.
+/// Whether the active vertices next to both children differ. If they are the same, the split must wait for that vertex
+/// to split first, which in a damaged file might never end.
 bool ProgressiveTree::is_cut_apart(const TreeSplit& split, std::uint32_t end) const {
     return !split.left || !split.right ||
            starts_.last_up_to(outside_corner(*split.left, split.begin, end)) !=

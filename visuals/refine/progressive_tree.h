@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/refine/active_leaf_set.h"
-#include "visuals/refine/progressive_mesh_data.h"
+#include "visuals/refine/progressive_mesh.h"
 
 #include <array>
 #include <cstdint>

@@ -42,7 +42,7 @@ private:
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Reserves room for `count` items. The vector grows by a quarter at a time instead of doubling, and never beyond
+/// Reserves capacity for `count` items. The vector grows by a quarter at a time instead of doubling, and never beyond
 /// `most` items, to keep memory small.
 template <class Item>
 void reserve_up_to(std::vector<Item>& items, std::size_t count, std::size_t most) {
@@ -227,7 +227,7 @@ private:
 /// Which neighbourhood must be active before a node may split.
 enum class SplitRule {
     Selective, ///< Kim & Lee 2000, 2001: two different active cut vertices.
-    Hoppe,     ///< Hoppe 1997: the faces that lay beside the two removed ones at collapse time.
+    Hoppe,     ///< Hoppe 1997: the faces next to the two removed ones at collapse time.
     Xia        ///< Xia & Varshney 1996: all vertices of the 1-ring at collapse time.
 };
 
@@ -305,8 +305,8 @@ public:
     /// done; 0 when the node is split already.
     std::size_t split(std::uint32_t node);
 
-    /// Splits each of these inner nodes, in the order that takes the least time. Returns how many splits were done. In
-    /// the counts a split is forced only if it was not asked for.
+    /// Splits each of these inner nodes, in the fastest order. Returns how many splits were done. In the counts a split
+    /// is forced only if it was not asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
 
     /// Puts the nodes that split(active_node) would split before that one into `forced`, in order, for the rule
@@ -318,7 +318,7 @@ public:
 
     /// Collapses the two children of an inner node into it. Does nothing and returns false when they are not both
     /// active, when the result would not be a manifold (link condition), or, with repair, when a face would turn over.
-    /// It is worth another try when the neighbourhood has changed.
+    /// It can succeed later, after the neighbourhood has changed.
     bool collapse(std::uint32_t node);
 
     /// Whether collapse(node) would succeed now.
@@ -437,7 +437,7 @@ private:
     Uint24Array slots_;
     std::vector<std::uint32_t> stack_;   ///< Nodes that wait to be split; the last one is next.
     std::vector<std::uint32_t> path_;    ///< Scratch memory of split_with_prerequisites.
-    std::vector<std::uint32_t> changed_; ///< The slots whose faces repair() has to look at.
+    std::vector<std::uint32_t> changed_; ///< The slots whose faces repair() must check.
     std::vector<std::uint32_t> recent_splits_;
     DirtyBlocks dirty_vertices_;
     DirtyBlocks dirty_faces_;

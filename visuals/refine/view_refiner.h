@@ -15,7 +15,7 @@ struct GeomorphOptions {
     /// No vertex moves farther than this on the screen in one frame.
     double step_px = 0.6; ///< no vertex moves farther on the screen in a frame, seen from one eye
     /// A move takes at least this many frames.
-    double frames = 8.0; ///< a move takes at least so many
+    double frames = 8.0;
 };
 
 /// The vertices that are in motion (H. Hoppe's geomorphs), so that splits and collapses do not pop. After a split, both
@@ -76,7 +76,7 @@ struct ViewRefinerOptions {
     /// CriterionOptions::angle_margin_rad for merges: a node that may come into sight soon is not merged.
     double merge_angle_margin_rad = 0.2; ///< criterion.angle_margin_rad for merges: what comes into sight keeps
     /// A node that was split is not merged for this many frames.
-    int merge_delay_frames = 10; ///< a node that was split is not merged for so many
+    int merge_delay_frames = 10;
     /// A node that was merged is not split again for merge_delay_frames either, nor is one that would force it to
     /// split, unless its error is more than this many times error_px or nothing else mends a turned face.
     double resplit_error_ratio = 3.0;
@@ -84,7 +84,7 @@ struct ViewRefinerOptions {
     std::size_t operations = 2000; ///< splits and collapses asked for in a frame, at most
     bool geomorphs = true;
     /// The weights for splits.
-    CriterionOptions criterion{}; ///< of splits
+    CriterionOptions criterion{}; ///< Options for the errors of splits.
     GeomorphOptions geomorph{};
     bool repair = true; ///< Mends fold-overs.
 };

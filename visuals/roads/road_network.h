@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <glm/vec2.hpp>
 

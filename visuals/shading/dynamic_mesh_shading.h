@@ -1,7 +1,5 @@
 #pragma once
 
-#include "visuals/shading/largest_keys.h"
-#include "visuals/shading/reselection.h"
 #include "visuals/shading/shaded_polygons.h"
 #include "visuals/shading/shading_rule.h"
 

@@ -14,7 +14,7 @@ struct ShadingControllerSettings {
     double slope_drift = 1e-4;      ///< The same growth for bf n0 and for (bg - bf) n0.
     double noise_weight = 0.025;    ///< The weight of one frame in the running estimate of the noise.
     double target_margin_sds = 2.6; ///< The expected frame time is aimed this many deviations below T.
-    /// Less room below T than this many deviations counts as overload; 0 to target_margin_sds.
+    /// A margin below T of fewer than this many deviations counts as overload; 0 to target_margin_sds.
     double overload_sds = 1.9;
     /// As long as no more than this share of the polygons could still turn smooth, nothing changes.
     double dead_band = 0.04;

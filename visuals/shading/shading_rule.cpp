@@ -14,6 +14,8 @@
 // rest; within each group by perimeter, then by index. The first g are smooth.
 #include "visuals/shading/shading_rule.h"
 
+#include "visuals/shading/vertex_normals.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -22,6 +24,137 @@
 #include <utility>
 
 namespace octant::visuals::shading {
+
+// Operations of H. Kim, H. Park, "A Hybrid Rendering Model to support LOD (Level of Detail)", 2008, section 4 and table
+// 2. Deviations: the printed 5408 for all smooth is (9 + 4) x 416; its row says (9 + 4) x 415 = 5395.
+
+OperationCounts operation_counts(int polygons, int smooth) {
+    assert(smooth >= 0 && smooth <= polygons);
+    const int selection = 9 * polygons;
+    return {.selection = selection,
+        .all_flat = selection + polygons,
+        .all_smooth = selection + 4 * polygons,
+        .hybrid = selection + (polygons - smooth) + 4 * smooth};
+}
+
+// How many polygons are smooth, by distance and by the device's speed: H. Kim, H. Park, "A Hybrid Rendering Model to
+// support LOD (Level of Detail)", 2008, sections 3 and 4.
+//
+// Deviations: the printed n = (1 - d) g + d f contradicts f + g = n and has a pole at d = 1/2; the text means g = (1 -
+// d) n. The paper does not say how its relative speed 0.028 leads to "8 or 9" of 415 polygons; the formula here counts
+// the operations of its table 2 and is ours.
+
+namespace {
+
+/// Selection and flat shading of one polygon, table 2.
+constexpr double flat_operations = 9.0 + 1.0;
+constexpr double smooth_operations = 9.0 + 4.0; ///< Selection and Gouraud shading of one polygon.
+
+} // namespace
+
+int smooth_count(double distance_m, const ShadingRange& range, int polygons) {
+    assert(range.far_m > range.near_m && polygons >= 0);
+    assert(range.levels == 0 || range.levels >= 2);
+    double d = std::clamp((distance_m - range.near_m) / (range.far_m - range.near_m), 0.0, 1.0);
+    if (range.levels > 0) {
+        const double steps = range.levels - 1;
+        d = std::round(d * steps) / steps;
+    }
+    return static_cast<int>(std::lround((1.0 - d) * polygons));
+}
+
+int device_smooth_count(double device_ratio, int polygons) {
+    assert(device_ratio >= 0.0 && device_ratio <= 1.0 && polygons >= 0);
+    const double operations_of_polygon = flat_operations + device_ratio * (smooth_operations - flat_operations);
+    const double share = device_ratio * operations_of_polygon / smooth_operations;
+    return static_cast<int>(std::lround(share * polygons));
+}
+
+// Phong reflection of Kim and Park's hybrid rendering model (2008), section 3: "ambient, diffuse and specular
+// reflection for R, G and B, all summed to the intensity of a vertex". Deviations: the paper's text takes the polygon's
+// normal at its vertices, which makes their intensities nearly the same; here the caller brings a normal, that of the
+// vertex for corners.
+
+namespace {
+
+/// base^exponent by repeated squaring. std::pow may differ in its last bits from library to library; this gives the
+/// same bits everywhere, and so the same choices.
+float whole_power(float base, int exponent) {
+    float power = 1.0F;
+    for (; exponent > 0; exponent /= 2) {
+        power *= exponent % 2 == 1 ? base : 1.0F;
+        base *= base;
+    }
+    return power;
+}
+
+} // namespace
+
+float intensity(const glm::vec3& place_m, const glm::vec3& normal, float colour_sum, const ShadingLight& light,
+    const glm::vec3& eye_m) {
+    assert(light.shininess >= 1);
+    const float cosine = glm::dot(normal, light.to_light);
+    if (cosine <= 0.0F || light.specular <= 0.0F) { return diffuse_intensity(cosine, colour_sum, light); }
+    const glm::vec3 mirrored = 2.0F * cosine * normal - light.to_light;
+    const glm::vec3 to_eye = eye_m - place_m;
+    const float towards_eye = glm::dot(mirrored, to_eye);
+    float specular = 0.0F;
+    if (towards_eye > 0.0F) {
+        specular = light.specular * whole_power(towards_eye / glm::length(to_eye), light.shininess);
+    }
+    return diffuse_intensity(cosine, colour_sum, light) + 3.0F * specular;
+}
+
+// When to choose again. Intensities change little while eye and light turn by a small angle about the model, so a
+// choice is kept until the tolerance is exceeded. This saves the selection (9 operations a polygon in the 2008 paper's
+// count) in most frames and keeps polygons from flickering between flat and smooth.
+
+namespace {} // namespace
+
+bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, const glm::dvec3& centre_m,
+    const ReselectionTolerance& tolerance) {
+    if (now.eye_m == before.eye_m && now.light == before.light) { return false; }
+    ShadingLight turned = before.light;
+    turned.to_light = now.light.to_light;
+    if (turned != now.light ||
+        angle_rad(glm::dvec3(now.light.to_light), glm::dvec3(before.light.to_light)) > tolerance.angle_rad) {
+        return true;
+    }
+    const glm::dvec3 before_m = before.eye_m - centre_m;
+    const glm::dvec3 now_m = now.eye_m - centre_m;
+    const double farther_m = std::abs(glm::length(now_m) - glm::length(before_m));
+    return farther_m > tolerance.distance_share * glm::length(before_m) ||
+           angle_rad(before_m, now_m) > tolerance.angle_rad;
+}
+
+// Selection of the greatest keys by counting: one pass fills a histogram over the keys' top 12 bits, a scan from the
+// top finds the bucket in which the count is reached, and std::nth_element orders that bucket only.
+
+void LargestKeySelector::choose(
+    std::span<const std::uint32_t> keys, std::size_t count, std::span<std::uint8_t> chosen) {
+    assert(count <= keys.size() && chosen.size() == keys.size());
+    if (count == 0 || count == keys.size()) {
+        std::ranges::fill(chosen, count == 0 ? std::uint8_t{0} : std::uint8_t{1});
+        return;
+    }
+    counts_.fill(0);
+    for (const std::uint32_t key : keys) { ++counts_[key >> bucket_shift]; }
+    std::size_t bucket = counts_.size() - 1;
+    std::size_t left = count; // How many of the chosen keys lie in this bucket and below.
+    while (counts_[bucket] < left) { left -= counts_[bucket--]; }
+    border_.clear();
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+        const std::size_t own = keys[i] >> bucket_shift;
+        chosen[i] = own > bucket ? 1 : 0;
+        if (own == bucket) { border_.push_back(i); }
+    }
+    const auto last = border_.begin() + static_cast<std::ptrdiff_t>(left);
+    if (last != border_.end()) {
+        std::ranges::nth_element(border_, last,
+            [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] > keys[b] : a < b; });
+    }
+    std::for_each(border_.begin(), last, [&](std::uint32_t i) { chosen[i] = 1; });
+}
 
 namespace {
 
@@ -78,15 +211,15 @@ std::uint32_t ShadingSelector::by_error(std::size_t polygon, const glm::vec3& ey
 /// the tier is its perimeter.
 std::uint32_t ShadingSelector::by_paper(std::size_t polygon) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
-    float least = intensities_[polygons_->corner_points[shape.first_corner]];
-    float most = least;
+    float lowest = intensities_[polygons_->corner_points[shape.first_corner]];
+    float highest = lowest;
     for (std::uint32_t k = 1; k < shape.corner_count; ++k) {
         const float here = intensities_[polygons_->corner_points[shape.first_corner + k]];
-        least = std::min(least, here);
-        most = std::max(most, here);
+        lowest = std::min(lowest, here);
+        highest = std::max(highest, here);
     }
     const float hysteresis = smooth_[polygon] != 0 ? settings_.hysteresis : 1.0F;
-    const bool differs = hysteresis * (most - least) > settings_.threshold;
+    const bool differs = hysteresis * (highest - lowest) > settings_.threshold;
     const bool is_large = shape.perimeter_m > polygons_->mean_perimeter_m;
     return sort_key(differs ? (is_large ? 2U : 1U) : 0U, shape.perimeter_m);
 }

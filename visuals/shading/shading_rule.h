@@ -1,17 +1,120 @@
 #pragma once
 
-#include "visuals/shading/intensity.h"
-#include "visuals/shading/largest_keys.h"
-#include "visuals/shading/reselection.h"
 #include "visuals/shading/shaded_polygons.h"
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::shading {
+
+/// Operation counts as the 2008 paper has them in section 4 and table 2: every polygon costs 9 operations for the
+/// choice, then 1 when it is flat and 4 when it is smooth. n is the number of polygons, g of smooth ones, f = n - g of
+/// flat ones.
+struct OperationCounts {
+    int selection = 0;  ///< 9 n
+    int all_flat = 0;   ///< 9 n + n
+    int all_smooth = 0; ///< 9 n + 4 n
+    int hybrid = 0;     ///< 9 n + f + 4 g
+};
+
+/// The counts for n polygons (at least 0) of which g (0 to n, asserted) are smooth.
+OperationCounts operation_counts(int polygons, int smooth);
+
+/// The row that the paper prints for 415 polygons with 9 smooth ones. Its 5408 is 13 x 416, for the torus has 416
+/// polygons; 13 x 415 would be 5395.
+inline constexpr OperationCounts paper_counts{.selection = 3735, .all_flat = 4150, .all_smooth = 5408, .hybrid = 4177};
+
+/// The distances from the eye between which polygons turn from smooth to flat.
+struct ShadingRange {
+    double near_m = 0.0;   ///< Up to this distance all polygons are smooth.
+    double far_m = 1000.0; ///< From this distance on all polygons are flat; above near_m.
+    int levels = 0;        ///< The distance is rounded to so many steps, at least 2; 0 = not rounded.
+};
+
+/// g, how many of n polygons are smooth at a distance from the eye (section 3 of the paper): g = round((1 - d) n) with
+/// d = clamp((distance - near) / (far - near), 0, 1). With levels, the nearest step is all smooth and the farthest all
+/// flat.
+int smooth_count(double distance_m, const ShadingRange& range, int polygons);
+
+/// g for a device of relative speed r = `device_ratio`, 0 to 1, where 1 is the desktop that can shade everything
+/// smoothly: as many smooth polygons as use up the operations that r of a frame with a share r of smooth polygons has,
+/// g = round(r n (10 + 3 r) / 13). For r = 0.028 this gives the paper's 9 of 415.
+int device_smooth_count(double device_ratio, int polygons);
+
+/// One distant white light, and how surfaces reflect it. Directions are in the axes of the polygons that are lit.
+struct ShadingLight {
+    glm::vec3 to_light{0.0F, 0.0F, 1.0F}; ///< A unit vector towards the light.
+    float ambient = 0.45F;                ///< The factor on the surface's colour everywhere.
+    float diffuse = 0.65F;                ///< The factor on colour times cosine between normal and light.
+    /// The factor on cosine^shininess between the mirrored light and the eye; the highlight is white.
+    float specular = 0.25F;
+    int shininess = 24; ///< The exponent of the highlight, at least 1.
+
+    bool operator==(const ShadingLight&) const = default;
+};
+
+/// intensity() of a surface without a highlight (ambient + diffuse). `cosine` is that between the normal and the
+/// direction to the light.
+inline float diffuse_intensity(float cosine, float colour_sum, const ShadingLight& light) {
+    return (light.ambient + light.diffuse * std::max(cosine, 0.0F)) * colour_sum;
+}
+
+/// Phong reflection at a point, summed over red, green and blue and not clamped to what a screen can show: ambient +
+/// diffuse + specular. `normal` is a unit vector, `colour_sum` red + green + blue of the surface (each 0 to 1). A
+/// surface that faces away from the light has its ambient part only.
+float intensity(const glm::vec3& place_m, const glm::vec3& normal, float colour_sum, const ShadingLight& light,
+    const glm::vec3& eye_m);
+
+/// How much the eye and the light may change before smooth polygons are chosen again.
+struct ReselectionTolerance {
+    /// The eye may move by this angle about the model's centre, and the light may turn by it.
+    double angle_rad = 0.03;
+    /// The distance from the eye to the centre may change by this share of itself.
+    double distance_share = 0.05;
+};
+
+/// The eye and the light that a choice was made for, in the model's axes.
+struct ViewAndLight {
+    glm::dvec3 eye_m{0.0};
+    ShadingLight light;
+};
+
+/// Whether `now` differs from `before` by more than the tolerance, for a model with its centre at `centre_m`. Any
+/// change of the light but its direction counts.
+bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, const glm::dvec3& centre_m,
+    const ReselectionTolerance& tolerance);
+
+/// Packs a tier (0 to 3) and a rank (at least 0, finite) into one number, so that comparing keys compares first by tier
+/// and then by rank. It uses that the bits of non-negative floats sort as integers do. The lowest bit of the rank is
+/// lost: neighbouring floats may count as equal.
+inline std::uint32_t sort_key(std::uint32_t tier, float rank) {
+    return tier << 30U | std::bit_cast<std::uint32_t>(rank) >> 1U;
+}
+
+/// Finds the `count` greatest of many keys in linear time: a histogram over the keys' top bits finds the bucket in
+/// which the boundary lies, and only that bucket is partially sorted. Its memory is reused from call to call.
+class LargestKeySelector {
+public:
+    /// Sets `chosen`, which has as many entries as `keys`, to 1 for the `count` greatest keys and to 0 for the others.
+    /// Of equal keys the one with the lower index is taken first, so that the result is always the same. `count` is at
+    /// most the number of keys (asserted).
+    void choose(std::span<const std::uint32_t> keys, std::size_t count, std::span<std::uint8_t> chosen);
+
+private:
+    /// A bucket has the tier, the exponent and the two top bits of the rank's fraction in common.
+    static constexpr unsigned bucket_shift = 20;
+
+    std::array<std::uint32_t, std::size_t{1} << (32U - bucket_shift)> counts_{};
+    /// The indices of the keys in the one bucket that is chosen only in part.
+    std::vector<std::uint32_t> border_;
+};
 
 /// How polygons are ranked; the first g of the ranking are smooth.
 enum class ShadingRule {

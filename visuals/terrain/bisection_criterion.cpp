@@ -1,8 +1,8 @@
 // Longest-edge bisection by screen-space error: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified: A
 // General Framework for View-Dependent Out-of-Core Visualization", 2002, with saturated errors and nested regions of
 // influence. A sample v, the middle of the longest edge of two triangles, is in the mesh if its error e(v), seen from
-// the nearest point of its region of influence, is larger than the wanted error: if critical(v) = D2(v) / e(v)^2 <
-// (focal length / wanted error)^2, where D2 is the squared distance.
+// the nearest point of its region of influence, is larger than the target error: if critical(v) = D2(v) / e(v)^2 <
+// (focal length / target error)^2, where D2 is the squared distance.
 //
 // Deviations:
 // - Regions are boxes, not spheres. Horizontally they are squares about a node's centre, of half
@@ -11,7 +11,7 @@
 //   may split. Vertically they have the bounds of all blocks (nodes with height bounds, of v's
 //   level where that has them) that the square overlaps.
 // - D2 is at least 1 m^2.
-// - In a flat picture an error counts for more beside its middle than D tells. At a place p, whose
+// - In a flat picture an error off the middle counts for more than D says. At a place p, whose
 //   depth is z = p f, where f is the direction of view, an error e moves a pixel by F e n / (z (z +
 //   e f_z)), with n^2 = P^2 + f_z^2 R^2, where P and R are how far p lies ahead and aside on the
 //   level. So D is replaced by a lower bound of z / (n / z) over what a picture can see of the box.
@@ -21,7 +21,7 @@
 //   most the largest R of the box over its least z, and at most the tangent at the picture's
 //   corners. What lies behind the eye (P below zero) counts only where the picture's corners reach
 //   the vertical: z is at most |a| there, which is at most |f_z| D. All are nested as D is. The
-//   term e f_z is at most the wanted error: it adds one to F / wanted error.
+//   term e f_z is at most the target error: it adds one to F / target error.
 // - On a curved earth, e(v) is the stored error plus what the edge that v halves rises above the
 //   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //
@@ -35,8 +35,7 @@
 // stored; those of curvature halve from each step to the next.
 #include "visuals/terrain/bisection_criterion.h"
 
-#include "visuals/terrain/curvature_drop.h"
-#include "visuals/terrain/fan_shape.h"
+#include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/frustum.h"
 
 #include <glm/common.hpp>
@@ -284,7 +283,7 @@ float BisectionCriterion::share_below_middle(int level, int column, int row, std
     return (below_m + at.quadrant_error_m) / own_m;
 }
 
-/// The stored errors of the mid-points of a node's fan_edges, with the room that counts.
+/// The stored errors of the mid-points of a node's fan_edges, with the morph margin that counts.
 inline Float4 BisectionCriterion::middle_errors_m(int level, int column, int row) const {
     const LevelReader& memory = levels_[static_cast<std::size_t>(level)].memory;
     return errors_m([&](MorphMargin morph_margin) { return memory.middle_codes(column, row, morph_margin); });
@@ -303,7 +302,7 @@ inline float BisectionCriterion::centre_error_m(int level, int column, int row) 
            no_margin_m_[memory.centre_code(column, row, MorphMargin::None)];
 }
 
-/// Errors by their codes for each Room. With full room the others are not read.
+/// Errors by their codes for each MorphMargin. With full margin the others are not read.
 template <typename Codes>
 inline Float4 BisectionCriterion::errors_m(const Codes& codes_with) const {
     const auto metres = [](const std::array<float, 256>& of, const LevelReader::FourCodes& codes) {

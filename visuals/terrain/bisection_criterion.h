@@ -14,7 +14,7 @@ namespace octant::visuals::terrain {
 
 /// The vertical distance of the eye from the ground around a block, which is a node with height bounds.
 struct VerticalDistances {
-    /// The least squared distance to the block and to some of its neighbours. The index is a sum: 1 includes those
+    /// The smallest squared distance to the block and to some of its neighbours. The index is a sum: 1 includes those
     /// beyond its west side, 2 east, 4 south, 8 north.
     std::array<float, 16> squared_m2{};
     /// The same for how far ahead of the eye the block's heights alone bring it, at least: their share of the depth in
@@ -31,13 +31,13 @@ struct BlockIndex {
     int row = 0;
 };
 
-/// Where an eye is and looks, as far as heights are concerned.
+/// The eye's height and the vertical part of its direction.
 struct EyeElevation {
     float z_m = 0.0F;
-    float ahead_up = 0.0F; ///< What a metre up brings ahead; 0 for all around the eye.
+    float ahead_up = 0.0F; ///< The vertical part of the unit vector ahead; 0 for a view all around the eye.
 };
 
-/// The gaps of a block for an eye.
+/// The vertical distances of a block from an eye.
 VerticalDistances vertical_distances(const GroundTiles& ground, const BlockIndex& block, const EyeElevation& eye);
 
 /// Fast access to the numbers of a level of GroundTiles by node. The numbers of a node's fan lie close together.
@@ -151,7 +151,7 @@ private:
     int mask_;
 };
 
-/// Four numbers that are computed with at a time, each with the same result as alone.
+/// Four numbers computed at a time, each with the same result as alone.
 using Float4 = float __attribute__((vector_size(16)));
 
 /// The larger one of each pair.
@@ -163,7 +163,7 @@ inline Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
 /// The same number four times.
 inline Float4 splat4(float each) { return Float4{each, each, each, each}; }
 
-/// Bounds how far errors in boxes are seen to reach in a picture, as the beginning of error_rule.cpp tells.
+/// Bounds the size in a picture of errors in boxes; bisection_criterion.cpp derives the bound.
 class BoxErrorBound {
 public:
     /// The boxes of influence of four samples: their ends in samples from the eye, and the least vertical share of
@@ -288,8 +288,8 @@ public:
     /// The ground must outlive the rule.
     explicit BisectionCriterion(const GroundTiles& ground);
 
-    /// Judges by this view from now on, until it is given another. Errors are those with this share of the full room to
-    /// move (tile_builder_errors.cpp), from 0 to 1.
+    /// Sets the view for the following calls. Errors include this share, 0 to 1, of the full morph margin
+    /// (tile_builder.cpp).
     void set_view(const MeshView& view, double margin_share = 1.0);
 
     const GroundTiles& ground() const { return *ground_; }
@@ -304,19 +304,19 @@ public:
     /// The y coordinate of the field's south border relative to the eye.
     double south_m() const { return south_m_; }
 
-    /// The limit for a wanted error in pixels. A sample is in the mesh when its critical value is below the limit.
+    /// The limit for a target error in pixels. A sample is in the mesh when its critical value is below the limit.
     float limit_of(double error_px) const;
 
     /// The error in pixels that belongs to a limit.
     double error_px_of(float limit) const;
 
-    /// The gaps of a node; its level must have height bounds.
+    /// The vertical distances of a node; its level must have height ranges.
     VerticalDistances vertical_distances_of(int level, int column, int row) const;
 
     /// The error of the root's centre.
     float root_error_m() const;
 
-    /// The critical values of a node's fan. `place.gaps` must be set.
+    /// The critical values of a node's fan. `place.distances` must be set.
     FanCriticalValues criticals_of(const NodeContext& place) const;
 
     /// The largest error of the samples that need a node's centre, in errors of the centre.
@@ -355,8 +355,8 @@ private:
     const GroundTiles* ground_;
     MeshView view_;
     std::vector<Level> levels_;
-    /// For each code of an error with full room the share of it that counts, and the same for those without room: an
-    /// error is the sum of both.
+    /// For each code of an error with full margin the share of it that counts, and the same for those without margin:
+    /// an error is the sum of both.
     std::array<float, 256> full_margin_m_{};
     std::array<float, 256> no_margin_m_{};
     bool has_full_margin_ = true;

@@ -1,5 +1,5 @@
-// Triangle fans of a longest-edge bisection with geomorphs. Which samples are in the mesh is decided by error_rule.cpp
-// (P. Lindstrom, V. Pascucci, 2002).
+// Triangle fans of a longest-edge bisection with geomorphs. Which samples are in the mesh is decided by
+// bisection_criterion.cpp (P. Lindstrom, V. Pascucci, 2002).
 //
 // A bisected field is a quadtree of fans around the centres of nodes: a fan's quadrant is left to the child if the
 // child's centre is in the mesh, and an edge has a mid-point if that sample is in the mesh. So no neighbour needs to be
@@ -14,17 +14,16 @@
 // earliest, find the vertex at rest, and of all vertices that shape a place only the last one moves. The ground there
 // is the mean of two meshes, without the vertex (errors up to f) and with it (up to r f), and its error is at most (1 -
 // w) f + w r f, which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share of
-// its distance, a vertex that lies d wanted errors from the middle of its ends moves by d / (1 - r) times that share at
-// most, and tile_builder_errors.cpp sees to it that d / (1 - r) is small.
+// its distance, a vertex that lies d target errors from the middle of its ends moves by d / (1 - r) times that share at
+// most, and the errors of tile_builder.cpp keep d / (1 - r) small.
 //
 // Deviations:
-// - Where the field's end cuts a node, the mesh is that of the padded square (ground_layout.h), and
+// - Where the field's end cuts a node, the mesh is that of the padded square (ground_tiles.h), and
 //   its triangles are cut off at the border (fan_triangles.cpp).
 // - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/bisection_mesher.h"
 
 #include "sim/base/units.h"
-#include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/frustum.h"
 #include "visuals/terrain/tile_builder.h"
 
@@ -42,8 +41,9 @@
 
 namespace octant::visuals::terrain {
 
-// The smallest screen-space error that keeps a budget of triangles, exactly and in the frame in which it is spent. It
-// has no source; it works as budget_survey.cpp does, over the critical values of error_rule.cpp.
+// The smallest screen-space error that keeps a budget of triangles, exactly and in the same frame. It has no source. As
+// QuadtreeMesher does for its budget, it counts triangles as a function of the limit (find_limit), here over the
+// critical values of bisection_criterion.cpp.
 
 namespace {
 
@@ -64,13 +64,13 @@ float BisectionSelection::limit_for(const ErrorTarget& target) {
     assert(target.error_px >= 0.0 && target.max_triangles >= 1);
     nodes_tested_ = 0;
     geomorphs_ = target.geomorphs;
-    const float most = std::max(rule_->limit_of(target.error_px), min_limit);
+    const float max_limit = std::max(rule_->limit_of(target.error_px), min_limit);
     if (target.max_triangles >= any_triangles) {
-        start(most);
+        start(max_limit);
         visit<false>(root_visit());
-        return most;
+        return max_limit;
     }
-    const CountSearch search{target.max_triangles, min_limit, most,
+    const CountSearch search{target.max_triangles, min_limit, max_limit,
         last_error_px_ > 0.0 ? rule_->limit_of(last_error_px_) : 0.0F, rule_->limit_of(first_look_px)};
     const float found = find_limit(search, steps_, [&](float low, float high, int max_triangles) {
         start(high);
@@ -218,7 +218,7 @@ inline void BisectionSelection::count(
 // down steeply has none of them and could spend all of its budget on near ground: at a fifth of the error over rugged
 // ground. When it is pulled up, all of the horizon comes into the picture within a few degrees, and the error that
 // keeps the budget is five times larger a few frames later. Vertices move S pixels for a pixel of that change
-// (tile_builder_errors.cpp).
+// (tile_builder.cpp).
 //
 // So the error of such a view is kept at or above that of the same view turned until its border reaches the band of far
 // ground, less a share of how far the picture moves in that turn. The band is not turned to but added: the frustum of
@@ -369,7 +369,7 @@ namespace {
 /// The index in fan_ring of a quadrant's corner.
 constexpr std::array<std::uint8_t, 4> ring_of_quadrant = {0, 2, 6, 4};
 
-/// For each set of hidden quadrants the edges that have a quadrant beside them which is not hidden.
+/// For each set of hidden quadrants the edges that border on a visible quadrant.
 constexpr std::array<std::uint8_t, 16> edges_of_visible = [] {
     std::array<std::uint8_t, 16> edges{};
     for (unsigned hidden = 0; hidden < 16; ++hidden) {
@@ -414,7 +414,7 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
     return mesh_;
 }
 
-/// Makes room for five vertices and eight triangles for each node, and for the root's corners.
+/// Reserves memory for five vertices and eight triangles for each node, and for the root's corners.
 void BisectionMesher::reserve() {
     const std::size_t count = nodes_.size();
     if (vertices_.size() < 5 * count + 4) { vertices_.resize(6 * count + 4); }
@@ -537,7 +537,7 @@ inline void BisectionMesher::emit_part(const EmittedFan& fan, unsigned part) {
     index_count_ += 3;
 }
 
-/// Makes room for what the border adds to one node: three triangles for one, and their corners.
+/// Reserves memory for the additions at the border to one node: three triangles for one, and their corners.
 void BisectionMesher::reserve_border() {
     ++cut_nodes_;
     const std::size_t count = nodes_.size();
@@ -560,7 +560,7 @@ void BisectionMesher::emit_part_within_border(const EmittedFan& fan, const FanSa
     for (unsigned k = 0; k < left.count; ++k) {
         if (left.corner[k].vertex == ClipVertex::no_vertex) { left.corner[k].vertex = border_vertex(left.corner[k]); }
     }
-    // Back to front: triangles beside each other are separated by a line from the first corner.
+    // Back to front: a line from the first corner separates adjacent triangles.
     const glm::dvec2 first(left.corner[0].at.column, left.corner[0].at.row);
     std::array<unsigned, 3> order = {2, 2, 2};
     for (unsigned k = 3; k < left.count; ++k) {
@@ -619,7 +619,7 @@ inline void BisectionMesher::add_centre(const FanSamples& samples, std::int16_t 
     fan.ring[centre_of_ring] = add_vertex(made);
 }
 
-/// Fills in the mid-points beside quadrants that are not hidden, and tells the nodes beyond the edges of them.
+/// Adds the mid-points next to visible quadrants, and passes them to the nodes beyond the edges.
 inline void BisectionMesher::add_midpoints(
     const FanSamples& samples, const LevelReader::NodeSlot& slot, unsigned middles, EmittedFan& fan) {
     const BisectionNode& node = nodes_[fan.node];
@@ -645,6 +645,75 @@ inline std::uint32_t BisectionMesher::add_midpoint(
         weight_of(node.middle[edge], [&] { return rule_.share_below_middle(node.level, node.column, node.row, edge); });
     return add_vertex(
         {samples.padded_ring(2 * edge + 1), fan.ring[2 * edge], fan.ring[(2 * edge + 2) % 8], height, weight});
+}
+
+// Which triangles of a mesh lie in some box, such as around an aircraft whose shadow they receive or which they may
+// hide. A node's triangles and those of all nodes below it follow one another in the mesh, so that whole subtrees are
+// accepted or skipped by the box around what is drawn.
+
+void BisectionMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
+    if (has_mesh_) {
+        measure_boxes();
+        add_triangles_in(root_node, wanted, triangles);
+    }
+}
+
+void BisectionMesher::measure_boxes() const {
+    if (has_mesh_ && !has_drawn_heights_) {
+        drawn_heights_.resize(nodes_.size());
+        measure_drawn_heights(root_node);
+        has_drawn_heights_ = true;
+    }
+}
+
+/// The children of a node that are drawn; 0 for the others.
+BisectionMesher::Four BisectionMesher::drawn_children(const BisectionNode& node) const {
+    Four children = node.child;
+    for (unsigned q = 0; q < 4; ++q) { children[q] = is_drawn(node, q) ? children[q] : 0; }
+    return children;
+}
+
+/// Fills in drawn_heights_ for a node and all nodes below it.
+void BisectionMesher::measure_drawn_heights(std::uint32_t node) const {
+    DrawnHeights heights;
+    const auto add = [&](float lowest_m, float highest_m) {
+        heights.lowest_m = std::min(heights.lowest_m, lowest_m);
+        heights.highest_m = std::max(heights.highest_m, highest_m);
+    };
+    for_each_in_range(
+        triangle_ranges_[node], drawn_children(nodes_[node]),
+        [&](std::uint32_t child) { return triangle_ranges_[child]; },
+        [&](std::uint32_t triangle) {
+            for (std::size_t k = 3 * std::size_t{triangle}; k < 3 * std::size_t{triangle} + 3; ++k) {
+                const float z_m = vertices_[indices_[k]].position_m.z;
+                add(z_m, z_m);
+            }
+        },
+        [&](std::uint32_t child) {
+            measure_drawn_heights(child);
+            add(drawn_heights_[child].lowest_m, drawn_heights_[child].highest_m);
+        });
+    drawn_heights_[node] = heights;
+}
+
+void BisectionMesher::add_triangles_in(
+    std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
+    const BisectionNode& node = nodes_[own];
+    const FanSamples samples(*ground_, ground_->layout().level(node.level).edge, node.column, node.row);
+    const GridSample least = samples.at(0, 0);
+    const GridSample most = samples.at(2, 2);
+    const glm::dvec2 half_m = ground_->half_extent_m();
+    const glm::dvec2 west_south = glm::dvec2(least.column, least.row) * ground_->spacing_m() - half_m;
+    const glm::dvec2 east_north = glm::dvec2(most.column, most.row) * ground_->spacing_m() - half_m;
+    if (triangle_ranges_[own].first == triangle_ranges_[own].end ||
+        !wanted({west_south, static_cast<double>(drawn_heights_[own].lowest_m) + view_.eye_m.z},
+            {east_north, static_cast<double>(drawn_heights_[own].highest_m) + view_.eye_m.z})) {
+        return;
+    }
+    for_each_in_range(
+        triangle_ranges_[own], drawn_children(node), [&](std::uint32_t child) { return triangle_ranges_[child]; },
+        [&](std::uint32_t triangle) { triangles.push_back(triangle); },
+        [&](std::uint32_t child) { add_triangles_in(child, wanted, triangles); });
 }
 
 } // namespace octant::visuals::terrain

@@ -2,14 +2,11 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/terrain/bisection_criterion.h"
-#include "visuals/terrain/count_search.h"
-#include "visuals/terrain/fan_shape.h"
 #include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/paint_order.h"
 #include "visuals/terrain/step_function.h"
-#include "visuals/terrain/triangle_ranges.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -27,7 +24,7 @@ namespace octant::visuals::terrain {
 
 /// What is wanted of a mesh by screen-space error.
 struct ErrorTarget {
-    /// The wanted error, at or above zero. With 0 every sample is used that is not on a straight line.
+    /// The target error, at or above zero. With 0 every sample is used that is not on a straight line.
     double error_px = 1.0;
     /// A larger error is allowed where this number would be exceeded; with any_triangles it never is.
     int max_triangles = 32000;
@@ -37,27 +34,27 @@ struct ErrorTarget {
 };
 
 /// With geomorphs a vertex is at its own sample when its error, as seen from its region of influence, is this many
-/// times the wanted one, or earlier where samples need it (error_mesher.cpp), and still between its ends when it is no
-/// more than the wanted one.
+/// times the wanted one, or earlier where samples need it (bisection_mesher.cpp), and still between its ends when it is
+/// no more than the wanted one.
 inline constexpr float morph_ratio = 2.5F;
 
 inline constexpr int any_triangles = 1 << 30;
 
-/// The wanted error from which on vertices have full room to move (tile_builder_errors.cpp) where that error is the
-/// same in every frame; below it, they move S full_margin_px pixels at most while a distance shrinks by a small share
-/// of itself, divided by that share. With 14, vertices jump by at most 0.25 px a frame along the four paths over three
+/// The target error from which on vertices have the full morph margin (tile_builder.cpp) where that error is the same
+/// in every frame; below it, they move S full_margin_px pixels at most while a distance shrinks by a small share of
+/// itself, divided by that share. With 14, vertices jump by at most 0.25 px a frame along the four paths over three
 /// maps at 2 px, with 18 by 0.31 px.
 inline constexpr double full_margin_px = 14.0;
 
-/// Above this wanted error the share grows with its square. S grows with a sample's error, because a larger one moves
-/// farther off; but with a larger wanted error it moves as near as a smaller one did.
+/// Above this target error the share grows with its square. S grows with a sample's error, because a larger one moves
+/// farther off; but with a larger target error it moves as near as a smaller one did.
 inline constexpr double near_margin_px = 2.0;
 
-/// The share of their full room that vertices get: all of it with a budget, which changes the wanted error from frame
-/// to frame, else in proportion to the wanted error.
+/// The share of the full morph margin that vertices get: 1 with a budget, because it changes the target error from
+/// frame to frame; otherwise proportional to the target error.
 double margin_share(const ErrorTarget& target);
 
-/// A node whose fan is in the mesh at some limits. Its members tell from which limit on each part is there.
+/// A node whose fan is in the mesh at some limits. Each member is the limit from which on that part exists.
 struct alignas(64) BisectionNode {
     Float4 middle{};   ///< The mid-points of fan_edges.
     Float4 quadrant{}; ///< The fans of the children.
@@ -147,8 +144,8 @@ struct TurnedView {
 /// looks straight up or down.
 std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band);
 
-/// Finds the error below which a mesh within a budget is not to be refined, so that vertices do not jump when the view
-/// turns to the horizon (horizon_error.cpp).
+/// Finds the error below which a mesh with a budget must not be refined, so that vertices do not jump when the view
+/// turns to the horizon.
 class HorizonError {
 public:
     /// The ground must outlive it.

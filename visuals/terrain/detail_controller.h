@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/detail_settings.h"
+#include "visuals/terrain/quadtree.h"
 
 #include <array>
 

@@ -13,7 +13,7 @@ int along(const GridSample& at, bool rows) { return rows ? at.row : at.column; }
 
 /// Where an edge crosses the last column or row.
 ClipVertex crossing(const ClipVertex& a, const ClipVertex& b, int last, bool rows) {
-    // From the western or southern end, so that both triangles beside an edge get the same height.
+    // From the western or southern end, so that both triangles at an edge get the same height.
     const bool in_order = along(a.at, rows) < along(b.at, rows);
     const ClipVertex& from = in_order ? a : b;
     const ClipVertex& to = in_order ? b : a;

@@ -6,8 +6,10 @@
 
 #include "visuals/terrain/ground_query.h"
 
+#include "models/heights/bilinear.h"
 #include "models/heights/height_field.h"
 #include "visuals/terrain/curvature_drop.h"
+#include "visuals/terrain/frustum.h"
 
 #include <glm/geometric.hpp>
 
@@ -43,13 +45,13 @@ struct LineInterval {
 };
 
 /// Cuts a part to where one coordinate lies between two bounds.
-void clip_interval(LineInterval& part, double start, double delta, double least, double most) {
+void clip_interval(LineInterval& part, double start, double delta, double min, double max) {
     if (delta == 0.0) {
-        if (start < least || start > most) { part.last = -1.0; }
+        if (start < min || start > max) { part.last = -1.0; }
         return;
     }
-    const double a = (least - start) / delta;
-    const double b = (most - start) / delta;
+    const double a = (min - start) / delta;
+    const double b = (max - start) / delta;
     part.first = std::max(part.first, std::min(a, b));
     part.last = std::min(part.last, std::max(a, b));
 }

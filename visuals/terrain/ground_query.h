@@ -1,12 +1,70 @@
 #pragma once
 
-#include "visuals/terrain/ground_samples.h"
+#include "models/heights/height_field.h"
+#include "visuals/terrain/ground_tiles.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <optional>
 
 namespace octant::visuals::terrain {
+
+/// The samples of a ground, whoever stores them; used by measurements and queries. It refers to the ground, which must
+/// outlive it. World axes as in HeightField.
+class GroundSamples {
+public:
+    explicit GroundSamples(const models::heights::HeightField& field)
+        : GroundSamples(field, field.highest_m(), [](const void* ground, int column, int row) {
+              return static_cast<const models::heights::HeightField*>(ground)->height_m(column, row);
+          }) {}
+
+    explicit GroundSamples(const GroundTiles& tiles)
+        : GroundSamples(tiles, tiles.metadata().highest_m, [](const void* ground, int column, int row) {
+              return static_cast<const GroundTiles*>(ground)->height_m(column, row);
+          }) {}
+
+    int columns() const { return columns_; }
+
+    int rows() const { return rows_; }
+
+    double spacing_m() const { return spacing_m_; }
+
+    /// Half the extent of the field from its centre, east and north, metres.
+    glm::dvec2 half_extent_m() const { return half_extent_m_; }
+
+    /// The height of the highest sample, or more.
+    double highest_m() const { return highest_m_; }
+
+    /// The height of a sample. Column and row must be within the grid.
+    double height_m(int column, int row) const { return static_cast<double>(height_(ground_, column, row)); }
+
+    /// The world position of a sample.
+    glm::dvec3 sample_m(int column, int row) const {
+        return {column * spacing_m_ - half_extent_m_.x, row * spacing_m_ - half_extent_m_.y, height_m(column, row)};
+    }
+
+    /// A position in samples east and north of the first sample; whole numbers at samples.
+    glm::dvec2 grid_from_world(double x_m, double y_m) const {
+        return (glm::dvec2(x_m, y_m) + half_extent_m_) / spacing_m_;
+    }
+
+private:
+    using Height = float (*)(const void* ground, int column, int row);
+
+    template <class Ground>
+    GroundSamples(const Ground& ground, float highest_m, Height height)
+        : ground_(&ground), height_(height), highest_m_(static_cast<double>(highest_m)), columns_(ground.columns()),
+          rows_(ground.rows()), spacing_m_(ground.spacing_m()), half_extent_m_(ground.half_extent_m()) {}
+
+    const void* ground_;
+    Height height_;
+    double highest_m_;
+    int columns_;
+    int rows_;
+    double spacing_m_;
+    glm::dvec2 half_extent_m_;
+};
 
 // Queries against the full-resolution ground. Its surface is bilinear between four samples, and lines are intersected
 // with it exactly, cell by cell. The earth's curvature lowers everything at a horizontal distance d from the eye by d^2

@@ -4,11 +4,122 @@
 
 #include "models/heights/height_field.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 namespace octant::visuals::terrain {
+
+// Computes the offsets of ground_tiles.h. Tiles keep what a mesh looks at together in few pages, so that a mapped file
+// is read in large pieces.
+
+namespace {
+
+constexpr std::size_t parts_of_node = 3;
+constexpr std::size_t height_bytes = 2;
+
+std::size_t rounded_up(std::size_t bytes, std::size_t multiple) { return (bytes + multiple - 1) / multiple * multiple; }
+
+int rounded_up_quotient(int dividend, int divisor) { return (dividend + divisor - 1) / divisor; }
+
+} // namespace
+
+ErrorCodes codes_of(const GroundShape& shape) {
+    return shape.has_unit_codes ? ErrorCodes::for_height_unit(shape.height_unit_m) : ErrorCodes::legacy();
+}
+
+GroundLayout::GroundLayout(int columns, int rows, bool has_both_margins) : has_both_margins_(has_both_margins) {
+    assert(columns >= 2 && rows >= 2 && columns <= 65536 && rows <= 65536);
+    const int longest = std::max({columns, rows, 3}) - 1;
+    const int count = static_cast<int>(std::bit_width(static_cast<unsigned>(longest - 1)));
+    std::size_t end = 4 * sizeof(std::int16_t);
+    for (int index = 0; index < count; ++index) {
+        Level& level = levels_.emplace_back();
+        level.edge = 1 << (count - index);
+        level.columns = rounded_up_quotient(columns - 1, level.edge);
+        level.rows = rounded_up_quotient(rows - 1, level.edge);
+        const auto widest = static_cast<unsigned>(std::max(level.columns, level.rows));
+        level.tile_shift = std::countr_zero(std::min(std::bit_ceil(widest), static_cast<unsigned>(tile_edge)));
+        level.tiles_across = rounded_up_quotient(level.columns, 1 << level.tile_shift);
+        level.tiles_up = rounded_up_quotient(level.rows, 1 << level.tile_shift);
+        level.tile_nodes = std::size_t{1} << static_cast<unsigned>(2 * level.tile_shift);
+        place_errors(level, index + 1 == count);
+        if (index == 0 || level.edge >= finest_range_edge) {
+            range_level_ = index;
+            level.ranges = end;
+            end += sizeof(HeightRange) * static_cast<std::size_t>(level.columns) * static_cast<std::size_t>(level.rows);
+        }
+    }
+    for (Level& level : levels_) {
+        const auto across = static_cast<std::size_t>(level.columns);
+        const auto up = static_cast<std::size_t>(level.rows);
+        level.north_heights = end;
+        level.east_heights = level.north_heights + 2 * across;
+        end = level.east_heights + 2 * up;
+        for (std::size_t morph_margin = 0; morph_margin < (has_both_margins ? 2 : 1); ++morph_margin) {
+            std::fill(level.north_errors.begin() + morph_margin, level.north_errors.end(), end);
+            std::fill(level.east_errors.begin() + morph_margin, level.east_errors.end(), end + across);
+            end += across + up;
+        }
+        end = rounded_up(end, 2);
+    }
+    end = rounded_up(end, page_bytes);
+    for (Level& level : levels_) {
+        level.first_tile = end;
+        end +=
+            level.tile_bytes * static_cast<std::size_t>(level.tiles_across) * static_cast<std::size_t>(level.tiles_up);
+    }
+    total_bytes_ = end;
+}
+
+/// Places the errors in a level's tiles, and the end of the tiles behind them.
+void GroundLayout::place_errors(Level& level, bool finest) const {
+    std::size_t planes = height_bytes * parts_of_node;
+    for (std::size_t part = 0; part < parts_of_node; ++part) { level.errors[0][part] = planes++ * level.tile_nodes; }
+    for (std::size_t part = 0; part < parts_of_node; ++part) {
+        const bool is_needing = part == static_cast<std::size_t>(NodePart::Centre) || !finest;
+        level.errors[1][part] = has_both_margins_ && is_needing ? planes++ * level.tile_nodes : level.errors[0][part];
+    }
+    level.tile_bytes = rounded_up(planes * level.tile_nodes, 2);
+}
+
+// Tables of error codes: geometric series, so that one byte covers centimetres to kilometres. An error is rounded up to
+// its code, by half a step in the mean, and that costs triangles: steps are narrow where meshes have most of their
+// samples.
+
+ErrorCodes ErrorCodes::legacy() {
+    constexpr double smallest_m = 0.01;
+    constexpr double ratio = 1.0567; // the 254 steps reach 12,100 m
+    ErrorCodes codes;
+    double error_m = smallest_m;
+    for (std::size_t code = 1; code < codes.metres_.size(); ++code) {
+        codes.metres_[code] = static_cast<float>(error_m);
+        error_m *= ratio;
+    }
+    return codes;
+}
+
+ErrorCodes ErrorCodes::for_height_unit(double height_unit_m) {
+    // Numbers, not roots: a file means the same wherever it is read.
+    constexpr double wide = 1.148698355;   // 20 steps to 16 times
+    constexpr double narrow = 1.036271381; // 214 steps to 2048 times
+    constexpr std::size_t first_narrow = 21;
+    constexpr std::size_t end_narrow = 235;
+    ErrorCodes codes;
+    double units = 0.25;
+    for (std::size_t code = 1; code < codes.metres_.size(); ++code) {
+        codes.metres_[code] = static_cast<float>(units * height_unit_m);
+        units *= code >= first_narrow && code < end_narrow ? narrow : wide;
+    }
+    return codes;
+}
+
+std::uint8_t ErrorCodes::code_of(float error_m) const {
+    const auto at = std::lower_bound(metres_.begin(), metres_.end(), error_m);
+    return static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(at - metres_.begin(), 255));
+}
 
 GroundTiles::GroundTiles(const GroundShape& shape, GroundMetadata metadata, std::span<const std::byte> memory,
     std::shared_ptr<const void> owner, std::shared_ptr<const TileValidator> validator)

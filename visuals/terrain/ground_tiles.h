@@ -1,13 +1,12 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "visuals/terrain/error_codes.h"
-#include "visuals/terrain/ground_layout.h"
-#include "visuals/terrain/tile_validator.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,10 +14,193 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace octant::visuals::terrain {
 
-/// What is known of a ground besides its numbers.
+/// What the one-byte codes of a ground's errors mean, in metres: 0 for code 0 and ascending. An error's code is the
+/// smallest whose metres are at or above it.
+class ErrorCodes {
+public:
+    /// The codes of all grounds of file versions 1 to 4: 10 mm to 12 km in steps of 5.7 %.
+    static ErrorCodes legacy();
+
+    /// The codes of a ground that stores heights in units of so many metres, a power of two. It spans at most 65,000
+    /// units, and its codes a quarter of a unit to 2^17 units. Successive codes differ by 3.6 % from 4 to 8192 units
+    /// and by 15 % elsewhere, because smaller errors matter only to an eye close to the ground and larger errors are
+    /// rare.
+    static ErrorCodes for_height_unit(double height_unit_m);
+
+    float metres(std::uint8_t code) const { return metres_[code]; }
+
+    /// The code of an error; 255 for errors above the largest.
+    std::uint8_t code_of(float error_m) const;
+
+private:
+    ErrorCodes() = default;
+
+    std::array<float, 256> metres_{};
+};
+
+/// The three samples that a node of the quadtree owns. The middles of its north and east edges belong to the nodes
+/// beyond.
+enum class NodePart : std::uint8_t {
+    Centre, ///< The middle of the node.
+    South,  ///< The middle of its south edge.
+    West    ///< The middle of its west edge.
+};
+
+/// Which of a sample's two errors: Full includes the margin in which a vertex moves slowly while the target error
+/// changes from frame to frame; None has no margin (tile_builder.cpp).
+enum class MorphMargin : std::uint8_t { Full, None };
+
+/// The size of a ground and what its numbers mean.
+struct GroundShape {
+    int columns = 0; ///< Samples from west to east, 2 to 65,536.
+    int rows = 0;    ///< Samples from south to north, 2 to 65,536.
+    double spacing_m = 0.0;
+    double height_base_m = 0.0; ///< The height of the stored number 0.
+    double height_unit_m = 0.0; ///< The height of one unit; a power of two.
+    /// Whether errors are also stored without margin; if not, those with full margin stand for both.
+    bool has_both_margins = true;
+    /// Whether the error codes are ErrorCodes::for_height_unit; if not, they are ErrorCodes::legacy.
+    bool has_unit_codes = true;
+};
+
+/// The lowest and highest stored height of a node's samples.
+struct HeightRange {
+    std::int16_t lowest = 0;
+    std::int16_t highest = 0;
+};
+
+/// What the codes of a ground's errors mean.
+ErrorCodes codes_of(const GroundShape& shape);
+
+/// The offset of each number of a ground in one block of memory. It is the same in a file and in RAM.
+///
+/// The quadtree is that of quadtree.h: level 0 is the root, each level halves the edge, and the last level's edge is
+/// two samples. The field is padded to a square of 2^n + 1 samples by its reflection (StoredHeights::padded_number),
+/// and nodes wholly beyond it do not exist. Every sample but the root's four corners is a NodePart of exactly one node.
+/// So heights and errors are each stored once, 3.5 bytes a sample, and the first levels alone are a coarser ground (an
+/// image pyramid without repetition).
+///
+/// The nodes of a level lie in square tiles, tiles and the nodes in them row after row from the south. A tile holds all
+/// its heights (Centre of all nodes, then South, then West; int16), then all its errors with full margin (in the same
+/// order, one byte each) and then those without margin. No sample depends on the finest level's Souths and Wests, so
+/// these have only one error. Beyond the last row and column of nodes there are strips: the Souths of the row beyond
+/// the last, and the Wests of the column beyond.
+///
+/// The order in memory is corners, ranges, strips by level and then, from a page boundary on, tiles by level. Little
+/// endian.
+class GroundLayout {
+public:
+    static constexpr int tile_edge = 64; ///< In nodes; fewer where a level has fewer.
+    /// The edge, in samples, of the smallest nodes that have height ranges.
+    static constexpr int finest_range_edge = 32;
+    static constexpr std::size_t page_bytes = 4096;
+
+    /// A level of the tree. Offsets are in bytes from the beginning of the memory.
+    struct Level {
+        int columns = 0;    ///< In nodes.
+        int rows = 0;       ///< In nodes.
+        int edge = 0;       ///< The edge of a node in samples.
+        int tile_shift = 0; ///< The logarithm (base 2) of the nodes along a tile's edge.
+        int tiles_across = 0;
+        int tiles_up = 0;
+        std::size_t tile_nodes = 0;
+        std::size_t tile_bytes = 0;
+        /// By MorphMargin and NodePart: the offset in a tile of the nodes' errors.
+        std::array<std::array<std::size_t, 3>, 2> errors{};
+        std::size_t first_tile = 0; ///< The offset of the first tile.
+        /// The offset of the Souths of row `rows`: int16 by column.
+        std::size_t north_heights = 0;
+        std::array<std::size_t, 2> north_errors{}; ///< Their errors by MorphMargin: bytes by column.
+        /// The offset of the Wests of column `columns`: int16 by row.
+        std::size_t east_heights = 0;
+        std::array<std::size_t, 2> east_errors{}; ///< Their errors by MorphMargin: bytes by row.
+        /// The offset of the HeightRanges of all nodes, row after row; only for edges >= 32 and level 0.
+        std::size_t ranges = 0;
+    };
+
+    /// The layout of a field of so many samples; for `has_both_margins` see GroundShape.
+    GroundLayout(int columns, int rows, bool has_both_margins = true);
+
+    explicit GroundLayout(const GroundShape& shape) : GroundLayout(shape.columns, shape.rows, shape.has_both_margins) {}
+
+    bool has_both_margins() const { return has_both_margins_; }
+
+    int levels() const { return static_cast<int>(levels_.size()); }
+
+    const Level& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
+
+    /// The last level that has height ranges.
+    int range_level() const { return range_level_; }
+
+    /// The offset of the root's corners: four int16, south-west, south-east, north-west, north-east.
+    std::size_t corners() const { return 0; }
+
+    /// The offset at which the tiles begin, a multiple of page_bytes.
+    std::size_t first_tile() const { return levels_.front().first_tile; }
+
+    std::size_t total_bytes() const { return total_bytes_; }
+
+private:
+    void place_errors(Level& level, bool finest) const;
+
+    bool has_both_margins_;
+    std::vector<Level> levels_;
+    int range_level_ = 0;
+    std::size_t total_bytes_ = 0;
+};
+
+/// Records which tiles of a ground may be read, and validates each other tile at its first access. Thread-safe. This
+/// base class trusts all tiles; it serves grounds made in memory.
+class TileValidator {
+public:
+    explicit TileValidator(const GroundLayout& layout) : TileValidator(layout, true) {}
+
+    virtual ~TileValidator() = default;
+    TileValidator(const TileValidator&) = delete;
+    TileValidator& operator=(const TileValidator&) = delete;
+    TileValidator(TileValidator&&) = delete;
+    TileValidator& operator=(TileValidator&&) = delete;
+
+    /// Returns once a tile, counted as its level's tiles lie in memory, may be read.
+    void ensure_valid(int level, std::size_t tile) const {
+        if (ready_[first_[static_cast<std::size_t>(level)] + tile].load(std::memory_order_acquire) == 0) [[unlikely]] {
+            validate(level, tile);
+        }
+    }
+
+protected:
+    TileValidator(const GroundLayout& layout, bool is_trusted) {
+        std::size_t tiles = 0;
+        for (int level = 0; level < layout.levels(); ++level) {
+            const GroundLayout::Level& at = layout.level(level);
+            first_.push_back(tiles);
+            tiles += static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+        }
+        ready_ = std::make_unique<std::atomic<std::uint8_t>[]>(tiles);
+        for (std::size_t tile = 0; tile < tiles; ++tile) {
+            ready_[tile].store(is_trusted ? 1 : 0, std::memory_order_relaxed);
+        }
+    }
+
+    /// The number of a tile among those of all levels.
+    std::size_t index_of(int level, std::size_t tile) const { return first_[static_cast<std::size_t>(level)] + tile; }
+
+    bool is_valid(std::size_t index) const { return ready_[index].load(std::memory_order_acquire) != 0; }
+
+    void set_valid(std::size_t index) const { ready_[index].store(1, std::memory_order_release); }
+
+private:
+    virtual void validate(int level, std::size_t tile) const { set_valid(index_of(level, tile)); }
+
+    std::vector<std::size_t> first_; ///< For each level the number of its first tile.
+    std::unique_ptr<std::atomic<std::uint8_t>[]> ready_;
+};
+
+/// The metadata of a ground.
 struct GroundMetadata {
     std::string name;
     std::optional<GeoPosition> place;                        ///< Nothing for made ground.
@@ -27,7 +209,7 @@ struct GroundMetadata {
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
     float mean_m = 0.0F;
-    /// From the files that it was imported from; nothing where it was not measured.
+    /// The deviation from the imported files; nothing where it was not measured.
     std::optional<models::heights::HeightDeviation> deviation = {};
 };
 
@@ -36,12 +218,12 @@ struct GroundMetadata {
 /// HeightField: x east, y north, z up, metres, with the origin at the field's centre at datum; column 0 is west and row
 /// 0 south.
 ///
-/// The error of a sample belongs to the longest-edge bisection of the field. A sample halves the longest edge of two
+/// The error of a sample refers to the longest-edge bisection of the field. A sample halves the longest edge of two
 /// triangles (of one at the border). Its own error is the largest vertical distance of the field's samples from those
 /// two triangles. Stored is the largest of its own error and those of all samples that need it (the saturated error),
-/// once with room to move and once without, so that errors never grow from a sample to one that needs it. The middle of
-/// an edge needs the centres of both nodes beside the edge. The centre of a node needs the middles of two edges of its
-/// parent: those two of its corners that are neither its parent's centre nor its parent's corner.
+/// once with the morph margin and once without it, so that errors never grow from a sample to one that needs it. The
+/// middle of an edge needs the centres of both nodes that share the edge. The centre of a node needs the middles of two
+/// edges of its parent: those two of its corners that are neither its parent's centre nor its parent's corner.
 class GroundTiles {
 public:
     /// `memory` is laid out as GroundLayout(shape) says (its size is asserted) and kept alive by `owner`. A tile is
@@ -55,7 +237,7 @@ public:
 
     const GroundLayout& layout() const { return layout_; }
 
-    /// What lies in tiles may be read once validator() has let them.
+    /// The bytes of a tile may be read after validator().ensure_valid() has returned for it.
     std::span<const std::byte> memory() const { return memory_; }
 
     const TileValidator& validator() const { return *validator_; }

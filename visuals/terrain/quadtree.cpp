@@ -72,7 +72,7 @@ float middle_deviation_m(const NineSamples& nine) {
 }
 
 /// middle_deviation_m() for a node in which the padding has moved middles and ends: each middle is held against what
-/// the sides, or the triangles beside the diagonals, have at its place.
+/// the sides, or the triangles next to the diagonals, have at its place.
 float cut_middle_deviation_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
     const auto share = [](const std::array<int, 3>& at) {
@@ -81,7 +81,7 @@ float cut_middle_deviation_m(const NineSamples& nine) {
     const float s = share(nine.columns);
     const float t = share(nine.rows);
     const auto off = [](float middle, float a, float b, float part) { return std::abs(middle - (a + (b - a) * part)); };
-    // The shifted centre lies on neither diagonal, but within one triangle beside each.
+    // The shifted centre lies on neither diagonal, but within one triangle next to each.
     const float rising = s > t ? h[0][0] + (h[0][2] - h[0][0]) * s + (h[2][2] - h[0][2]) * t
                                : h[0][0] + (h[2][0] - h[0][0]) * t + (h[2][2] - h[2][0]) * s;
     const float falling = s + t < 1.0F ? h[0][0] + (h[0][2] - h[0][0]) * s + (h[2][0] - h[0][0]) * t

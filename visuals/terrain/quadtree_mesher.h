@@ -1,13 +1,11 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "visuals/terrain/detail_settings.h"
-#include "visuals/terrain/fan_shape.h"
+#include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/paint_order.h"
 #include "visuals/terrain/quadtree.h"
 #include "visuals/terrain/step_function.h"
-#include "visuals/terrain/triangle_ranges.h"
 
 #include <glm/vec3.hpp>
 
@@ -293,5 +291,15 @@ private:
     std::size_t index_count_ = 0;
     MeshCounters counters_;
 };
+
+/// The resolution C at which a mesh comes nearest to `target_triangles` from this view, by bisection between the tree's
+/// smallest one and `max_resolution`; `detail.resolution` is not used. It counts about 24 meshes, so it is meant for
+/// loading, where it lets the first picture of a run meet its target already.
+double resolution_for_target(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail,
+    double target_triangles, double max_resolution);
+
+/// N'(C), in triangles for a unit of C, around `detail.resolution`: the difference of two meshes 4 % of C apart, so
+/// that single steps of N(C) do not matter. Divided by a of equation (4) it is the loop gain g.
+double triangle_count_slope(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail);
 
 } // namespace octant::visuals::terrain

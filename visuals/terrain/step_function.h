@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -61,5 +64,61 @@ private:
     std::array<int, bins> change_{};
     std::array<int, bins> rise_{}; ///< The sum of the changes above zero.
 };
+
+/// A search for the limit at which a mesh has a given number of triangles N.
+struct CountSearch {
+    int triangles = 0;      ///< The budget.
+    float min_limit = 0.0F; ///< Above zero.
+    float max_limit = 0.0F;
+    float last_limit = 0.0F;  ///< The result for the previous frame; 0 = none.
+    float first_limit = 0.0F; ///< The upper end of the first walk when there is no last_limit.
+};
+
+/// The largest limit up to which no mesh has more triangles than the budget; min_limit if even that has more. The
+/// result does not depend on last_limit, which only shortens the search.
+///
+/// `walk(low, high, max_triangles)` must start `steps` with (low, high) and add all steps of N below high; it may stop
+/// once there are more than `max_triangles`. It returns whether there are steps above.
+template <typename Walk>
+float find_limit(const CountSearch& search, StepFunction& steps, const Walk& walk) {
+    // How far a walk looks, as factors of the limit. They influence the time only. Below the last limit: single steps
+    // are known from here on.
+    constexpr float look_below = 0.7F;
+    constexpr float look_above = 1.08F; // Above the last limit: the walk ends here.
+    constexpr float step_back = 0.1F;   // After far too many triangles.
+    constexpr float min_growth = 1.25F; // After too few triangles.
+    constexpr float max_growth = 8.0F;
+
+    const float min_limit = search.min_limit;
+    const float max_limit = std::max(search.max_limit, min_limit);
+    const bool first = search.last_limit <= 0.0F;
+    float low = std::clamp(search.last_limit * look_below, min_limit, max_limit);
+    float high = std::clamp(first ? search.first_limit : search.last_limit * look_above, min_limit, max_limit);
+    float too_high = std::numeric_limits<float>::infinity();
+    int max_triangles = 2 * search.triangles + 1000;
+    while (true) {
+        const int stop = high > min_limit ? max_triangles : std::numeric_limits<int>::max();
+        const bool more_above = walk(low, high, stop);
+        if (steps.at_high() > stop) {
+            too_high = high;
+            high = std::max(high * step_back, min_limit);
+            low = min_limit;
+            max_triangles += max_triangles / 4;
+        } else if (low > min_limit && steps.max_below_low() > search.triangles) {
+            low = min_limit;
+        } else if (steps.at_low() > search.triangles) {
+            return min_limit;
+        } else if (const auto place = steps.first_above(search.triangles)) {
+            return *place;
+        } else if (high >= max_limit || !more_above) {
+            return max_limit;
+        } else {
+            const float missing =
+                static_cast<float>(search.triangles) / static_cast<float>(std::max(steps.at_high(), 1));
+            const float grown = high * std::clamp(1.1F * missing, min_growth, max_growth);
+            high = std::min({grown, std::sqrt(high) * std::sqrt(too_high), max_limit});
+        }
+    }
+}
 
 } // namespace octant::visuals::terrain

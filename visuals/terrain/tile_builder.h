@@ -1,17 +1,108 @@
 #pragma once
 
-#include "visuals/terrain/bisection_error.h"
-#include "visuals/terrain/error_encoder.h"
-#include "visuals/terrain/ground_layout.h"
-#include "visuals/terrain/stored_heights.h"
+#include "visuals/terrain/ground_tiles.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::terrain {
+
+/// ErrorCodes::code_of for errors given in units of the stored numbers, by table: the leading bits of a float select a
+/// code, and one comparison corrects it.
+class ErrorEncoder {
+public:
+    ErrorEncoder(const ErrorCodes& codes, double unit_m) : unit_m_(static_cast<float>(unit_m)), metres_(codes) {
+        for (std::size_t code = 0; code < steps_.size(); ++code) {
+            steps_[code] = codes.metres(static_cast<std::uint8_t>(code)) / unit_m_;
+        }
+        first_ = bin_of(metres_.metres(1));
+        const std::uint32_t last = bin_of(metres_.metres(255)) + 1;
+        for (std::uint32_t bin = first_; bin <= last; ++bin) {
+            const auto lowest_m = std::bit_cast<float>(bin << dropped_bits);
+            codes_.push_back(metres_.code_of(lowest_m));
+        }
+    }
+
+    std::uint8_t code_of(float steps) const {
+        const float error_m = steps * unit_m_;
+        const std::uint32_t bin = bin_of(error_m);
+        if (bin < first_) { return error_m > 0.0F ? 1 : 0; }
+        const std::uint8_t code = codes_[std::min<std::size_t>(bin - first_, codes_.size() - 1)];
+        return static_cast<std::uint8_t>(code + (code < 255 && error_m > metres_.metres(code) ? 1 : 0));
+    }
+
+    /// The error of a code in units of the stored numbers.
+    float steps_of(std::uint8_t code) const { return steps_[code]; }
+
+private:
+    /// A bin spans 1/64 to 1/32 of an octave, which is narrower than the step between two codes.
+    static constexpr unsigned dropped_bits = 17;
+
+    static std::uint32_t bin_of(float error_m) { return std::bit_cast<std::uint32_t>(error_m) >> dropped_bits; }
+
+    float unit_m_;
+    ErrorCodes metres_;
+    std::array<float, 256> steps_{};
+    std::uint32_t first_ = 0;
+    std::vector<std::uint8_t> codes_;
+};
+
+/// A field's heights as whole numbers, row after row from the south; what a ground is built from. The ground stores
+/// number * multiplier + addend.
+struct StoredHeights {
+    std::span<const std::int16_t> numbers;
+    int columns = 0;
+    int rows = 0;
+    int multiplier = 1;
+    int addend = 0;
+    double number_unit_m = 1.0; ///< The height difference of two successive numbers.
+    int lowest = -32768;        ///< The limits of padded_number.
+    int highest = 32767;
+
+    std::int16_t number(int column, int row) const {
+        return numbers[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(column)];
+    }
+
+    /// The number at a place of the padded square. Beyond the last column and row the field goes on as its reflection
+    /// in the point on its border, so that slopes do not bend there.
+    std::int16_t padded_number(int column, int row) const {
+        const int last_column = std::min(column, columns - 1);
+        const int last_row = std::min(row, rows - 1);
+        if (column == last_column && row == last_row) { return number(column, row); }
+        const int west = std::max(2 * last_column - column, 0);
+        const int south = std::max(2 * last_row - row, 0);
+        const auto reflected = [&](int at_row) { return 2 * number(last_column, at_row) - number(west, at_row); };
+        const int value = 2 * reflected(last_row) - reflected(south);
+        return static_cast<std::int16_t>(std::clamp(value, lowest, highest));
+    }
+
+    std::int16_t stored(std::int16_t number) const { return static_cast<std::int16_t>(number * multiplier + addend); }
+};
+
+/// A diamond: two triangles of the longest-edge bisection that share their hypotenuse. The sample in the middle of the
+/// hypotenuse splits both.
+enum class Diamond : std::uint8_t {
+    Rising,  ///< A square node, cut from its south-west corner to its north-east one.
+    Falling, ///< A square node, cut from its north-west corner to its south-east one.
+    Lying,   ///< A square on its corner, cut from west to east.
+    Upright  ///< A square on its corner, cut from south to north.
+};
+
+/// A row of samples, each the middle of a diamond of the same size.
+struct DiamondRow {
+    const std::int16_t* first_middle = nullptr;
+    std::ptrdiff_t pitch = 0; ///< How many numbers one row of the field is from the next.
+    /// The distance from a middle to the ends of its hypotenuse along an axis, in samples: a power of two from 1 to 16.
+    /// The next middle is twice as far away.
+    int half = 1;
+    int count = 0;
+};
 
 /// A tile by its level and its place among the level's tiles.
 struct TileIndex {
@@ -20,8 +111,8 @@ struct TileIndex {
     int row = 0;
 };
 
-/// How far a vertex may move at most, in wanted errors, while the wanted error changes by a small share of itself,
-/// divided by that share: S of ground with this relief (tile_builder_errors.cpp).
+/// How far a vertex may move at most, in target errors, while the target error changes by a small share of itself,
+/// divided by that share: S of ground with this relief (tile_builder.cpp).
 float far_morph_rate_on(float relief_m);
 
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer level around it. There
@@ -33,7 +124,7 @@ public:
     TileBuilder(const GroundLayout& layout, const StoredHeights& heights, const ErrorEncoder& coder,
         std::span<std::byte> memory);
 
-    /// The bytes of a tile, valid until the next call. Also writes those parts of the strips that lie beside it.
+    /// The bytes of a tile, valid until the next call. Also writes the parts of the strips next to the tile.
     std::span<const std::byte> build(const TileIndex& place);
 
 private:
@@ -60,7 +151,7 @@ private:
         bool alternate = false;      ///< Every second edge leans the other way.
     };
 
-    /// Codes of errors of one Room, row after row.
+    /// Codes of errors of one MorphMargin, row after row.
     struct Codes {
         std::vector<std::uint8_t> children; ///< Centres one level finer, one more on each side.
         std::vector<std::uint8_t> souths;   ///< One row more than nodes.
@@ -69,7 +160,7 @@ private:
     };
 
     using RowOfCodes = std::span<const std::uint8_t>;
-    using MarginRows = std::array<std::uint8_t*, 2>; ///< By Room.
+    using MarginRows = std::array<std::uint8_t*, 2>; ///< By MorphMargin.
 
     Codes& codes_with(MorphMargin morph_margin) { return codes_[static_cast<std::size_t>(morph_margin)]; }
 
@@ -100,7 +191,7 @@ private:
     const ErrorEncoder& coder_;
     std::span<std::byte> memory_;
     int level_ = 0;
-    /// S (tile_builder_errors.cpp) beside the eye, and the most it may be far off.
+    /// S (tile_builder.cpp) near the eye, and its maximum far off.
     float near_morph_rate_ = 0.0F;
     float far_morph_rate_ = 0.0F;
     float inverse_far_morph_rate_ = 0.0F; ///< 1 / far_morph_rate_
@@ -112,10 +203,10 @@ private:
     std::ptrdiff_t pitch_ = 0;
     int lattice_column_ = 0; ///< The column of lattice_[0] in samples.
     int lattice_row_ = 0;
-    /// For each node, and for one more on each side of the tile, the error that samples beside the lattice may have in
-    /// a mesh of the lattice, in units of the numbers.
+    /// For each node, and for one more on each side of the tile, the error that samples off the lattice may have in a
+    /// mesh of the lattice, in units of the numbers.
     std::vector<float> lattice_errors_;
-    std::array<Codes, 2> codes_;                  ///< By Room.
+    std::array<Codes, 2> codes_;                  ///< By MorphMargin.
     std::vector<std::uint8_t> unsaturated_codes_; ///< Those of a row, not saturated.
     std::vector<std::uint8_t> dependent_codes_;   ///< The largest of those that need the row's samples.
     std::vector<float> errors_;

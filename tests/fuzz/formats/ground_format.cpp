@@ -2,7 +2,6 @@
 #include "sim/base/hash.h"
 #include "tests/fuzz/formats/target.h"
 #include "visuals/groundfile/ground_file.h"
-#include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/ground_query.h"
 

@@ -4,7 +4,6 @@
 #include "tests/fuzz/formats/target.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
-#include "visuals/refine/progressive_layout.h"
 
 #include <cmath>
 #include <cstdint>

@@ -3,10 +3,8 @@
 #include "tests/rough_heights.h"
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
-#include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/ground_assembler.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>

@@ -2,9 +2,8 @@
 #include "tests/damaged_grounds.h"
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
-#include "visuals/groundfile/ground_header.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/conformity.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <catch2/catch.hpp>
 

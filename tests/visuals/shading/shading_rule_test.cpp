@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <random>
+#include <vector>
 
 using namespace octant;
 using namespace octant::visuals::shading;
@@ -167,4 +170,127 @@ TEST_CASE("holding on makes fewer changes around the torus") {
         return sum;
     };
     CHECK(changes(1.5F) < changes(1.0F));
+}
+
+namespace {
+
+std::vector<std::uint8_t> chosen(const std::vector<std::uint32_t>& keys, std::size_t count) {
+    std::vector<std::uint8_t> result(keys.size(), 7);
+    LargestKeySelector greatest;
+    greatest.choose(keys, count, result);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("the greatest keys are chosen, of equal ones the first") {
+    using Marks = std::vector<std::uint8_t>;
+    CHECK(chosen({5, 9, 1, 9}, 1) == Marks{0, 1, 0, 0});
+    CHECK(chosen({5, 9, 1, 9}, 3) == Marks{1, 1, 0, 1});
+    CHECK(chosen({4, 4, 4}, 2) == Marks{1, 1, 0});
+    CHECK(chosen({5, 9, 1}, 0) == Marks{0, 0, 0});
+    CHECK(chosen({5, 9, 1}, 3) == Marks{1, 1, 1});
+    CHECK(chosen({}, 0).empty());
+}
+
+TEST_CASE("keys sort by tier, then by rank") {
+    CHECK(sort_key(1, 0.0F) > sort_key(0, 1e30F));
+    CHECK(sort_key(0, 2.0F) > sort_key(0, 1.0F));
+    CHECK(sort_key(3, 0.5F) > sort_key(3, 1e-30F));
+}
+
+TEST_CASE("counting finds what sorting finds") {
+    std::mt19937 dice(3);
+    LargestKeySelector greatest;
+    for (int trial = 0; trial < 300; ++trial) {
+        std::vector<std::uint32_t> keys(dice() % 400 + 1);
+        const std::uint32_t range = trial % 3 == 0 ? 10U : 0xffffffffU;
+        for (std::uint32_t& key : keys) { key = static_cast<std::uint32_t>(dice() % range); }
+        const std::size_t count = dice() % (keys.size() + 1);
+        std::vector<std::uint32_t> sorted(keys.size());
+        std::iota(sorted.begin(), sorted.end(), 0U);
+        std::ranges::stable_sort(sorted, [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+        std::vector<std::uint8_t> expected(keys.size(), 0);
+        for (std::size_t i = 0; i < count; ++i) { expected[sorted[i]] = 1; }
+        std::vector<std::uint8_t> found(keys.size());
+        greatest.choose(keys, count, found);
+        CHECK(found == expected);
+    }
+}
+
+TEST_CASE("all polygons are smooth to the near distance, none from the far one, half between") {
+    const ShadingRange range{.near_m = 100.0, .far_m = 300.0};
+    CHECK(smooth_count(0.0, range, 416) == 416);
+    CHECK(smooth_count(100.0, range, 416) == 416);
+    CHECK(smooth_count(200.0, range, 416) == 208); // where the printed formula has its pole
+    CHECK(smooth_count(250.0, range, 416) == 104);
+    CHECK(smooth_count(300.0, range, 416) == 0);
+    CHECK(smooth_count(1e9, range, 416) == 0);
+}
+
+TEST_CASE("three levels of distance are all, half and none smooth") {
+    const ShadingRange range{.near_m = 0.0, .far_m = 100.0, .levels = 3};
+    CHECK(smooth_count(24.0, range, 10) == 10);
+    CHECK(smooth_count(26.0, range, 10) == 5);
+    CHECK(smooth_count(74.0, range, 10) == 5);
+    CHECK(smooth_count(76.0, range, 10) == 0);
+}
+
+TEST_CASE("the paper's telephone has 9 smooth ones of 415 polygons, its desktop all") {
+    CHECK(device_smooth_count(0.028, 415) == 9);
+    CHECK(device_smooth_count(1.0, 415) == 415);
+    CHECK(device_smooth_count(0.0, 415) == 0);
+}
+
+TEST_CASE("a faster device never has fewer smooth polygons") {
+    int before = 0;
+    for (int percent = 0; percent <= 100; ++percent) {
+        const int now = device_smooth_count(percent / 100.0, 416);
+        CHECK(now >= before);
+        before = now;
+    }
+}
+
+namespace {
+
+const ShadingLight phong_light{
+    .to_light = {0.0F, 0.0F, 1.0F}, .ambient = 0.25F, .diffuse = 0.5F, .specular = 0.125F, .shininess = 2};
+constexpr glm::vec3 here(0.0F);
+constexpr glm::vec3 up(0.0F, 0.0F, 1.0F);
+
+} // namespace
+
+TEST_CASE("seen from the light, a surface across it has all three parts") {
+    // 2 x (0.25 + 0.5) + 3 x 0.125
+    CHECK(intensity(here, up, 2.0F, phong_light, {0.0F, 0.0F, 5.0F}) == Approx(1.875));
+}
+
+TEST_CASE("at 60 degrees from the mirrored light a quarter of the highlight is left") {
+    const glm::vec3 eye_m(std::sqrt(3.0F), 0.0F, 1.0F);
+    CHECK(intensity(here, up, 2.0F, phong_light, eye_m) == Approx(1.5 + 3.0 * 0.125 / 4.0));
+}
+
+TEST_CASE("behind the mirrored light there is no highlight") {
+    CHECK(intensity(here, up, 2.0F, phong_light, {1.0F, 0.0F, -1.0F}) == Approx(1.5));
+}
+
+TEST_CASE("a surface that faces away from the light has ambient light only") {
+    CHECK(intensity(here, -up, 2.0F, phong_light, {0.0F, 0.0F, 5.0F}) == Approx(0.5));
+}
+
+TEST_CASE("415 polygons of which 9 are smooth cost what table 2 prints, but for its slip") {
+    const OperationCounts counts = operation_counts(415, 9);
+    CHECK(counts.selection == paper_counts.selection);
+    CHECK(counts.all_flat == paper_counts.all_flat);
+    CHECK(counts.hybrid == paper_counts.hybrid);
+    CHECK(counts.all_smooth == 5395);
+}
+
+TEST_CASE("the printed count of all smooth is that of 416 polygons") {
+    CHECK(operation_counts(416, 0).all_smooth == paper_counts.all_smooth);
+}
+
+TEST_CASE("a hybrid of no or all smooth polygons costs what all flat or all smooth cost") {
+    CHECK(operation_counts(416, 0).hybrid == operation_counts(416, 0).all_flat);
+    CHECK(operation_counts(416, 416).hybrid == operation_counts(416, 0).all_smooth);
 }

@@ -1,8 +1,8 @@
 #include "models/heights/height_field.h"
 #include "tests/visuals/terrain/pixel_errors.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/conformity.h"
 #include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <catch2/catch.hpp>
 

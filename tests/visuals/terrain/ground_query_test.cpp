@@ -1,7 +1,7 @@
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/curvature_drop.h"
+#include "visuals/terrain/frustum.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/mesh_surface.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>

@@ -2,7 +2,7 @@
 #include "tests/visuals/terrain/error_ground.h"
 #include "tests/visuals/terrain/pixel_errors.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/vertex_popping.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>

@@ -1,6 +1,5 @@
 #include "tests/visuals/terrain/ground_check.h"
 #include "visuals/terrain/quadtree_mesher.h"
-#include "visuals/terrain/resolution_for_target.h"
 
 #include <catch2/catch.hpp>
 

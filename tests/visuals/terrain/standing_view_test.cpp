@@ -1,7 +1,7 @@
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/count_statistics.h"
 #include "visuals/terrain/detail_controller.h"
-#include "visuals/terrain/resolution_for_target.h"
+#include "visuals/terrain/mesh_measurement.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <catch2/catch.hpp>
 

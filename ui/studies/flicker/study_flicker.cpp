@@ -9,8 +9,8 @@
 #include "ui/report/table_text.h"
 #include "ui/studies/flicker/flicker_runs.h"
 #include "ui/world/terrain_file.h"
-#include "visuals/terrain/count_statistics.h"
-#include "visuals/terrain/resolution_for_target.h"
+#include "visuals/terrain/mesh_measurement.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <algorithm>
 #include <array>

@@ -15,9 +15,9 @@
 #include "ui/world/terrain_file.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
-#include "visuals/terrain/curvature_drop.h"
+#include "visuals/terrain/frustum.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/vertex_popping.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <glm/geometric.hpp>
 

@@ -5,7 +5,7 @@
 #include "ui/report/html_text.h"
 #include "ui/settings/settings.h"
 #include "visuals/scene/picture.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 
 #include <glm/vec2.hpp>
 

@@ -22,9 +22,8 @@
 #include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/view_refiner.h"
-#include "visuals/shading/operation_counts.h"
 #include "visuals/shading/shading_controller.h"
-#include "visuals/shading/smooth_count.h"
+#include "visuals/shading/shading_rule.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,6 @@
 
 #include "models/triangle_mesh.h"
 #include "ui/base/study_output.h"
-#include "visuals/shading/intensity.h"
 #include "visuals/shading/shaded_polygons.h"
 #include "visuals/shading/shading_rule.h"
 

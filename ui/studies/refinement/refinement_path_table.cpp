@@ -1,6 +1,6 @@
 #include "ui/studies/refinement/model_bounds.h"
 #include "ui/studies/refinement/refinement_tables.h"
-#include "visuals/refine/refine_region.h"
+#include "visuals/refine/refine_criterion.h"
 #include "visuals/refine/view_refiner.h"
 
 #include <glm/geometric.hpp>

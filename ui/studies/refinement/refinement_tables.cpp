@@ -1,7 +1,7 @@
 #include "ui/studies/refinement/refinement_tables.h"
 
 #include "ui/studies/refinement/model_bounds.h"
-#include "visuals/refine/refine_region.h"
+#include "visuals/refine/refine_criterion.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,0 +1,662 @@
+// Measures of meshes for studies, tests and `octant terrain error`: changes of the triangle count, projected error,
+// conformity, the mesh's surface, and popping. No flight uses them.
+#include "visuals/terrain/mesh_measurement.h"
+
+#include "sim/base/geometry2d.h"
+#include "sim/base/nearest_rank.h"
+#include "sim/base/parallel_for.h"
+#include "visuals/terrain/frustum.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_precision.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <limits>
+
+namespace octant::visuals::terrain {
+
+// Figures for how quietly the number of triangles is held: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
+// Minimize Flickering Effect", section 4, which plots dn for each frame.
+//
+// Deviations: the paper gives plots and no figures. Sign changes of dn alone mean nothing, because even the quietest
+// run alternates by a few triangles; they are weighted by the amount that is taken back.
+
+ChangeStatistics change_statistics(std::span<const int> triangles, std::size_t first) {
+    ChangeStatistics figures;
+    if (first < 1 || first >= triangles.size()) { return figures; }
+    const auto change = [&](std::size_t k) { return triangles[k] - triangles[k - 1]; };
+    const auto frames = static_cast<double>(triangles.size() - first);
+    for (std::size_t k = first; k < triangles.size(); ++k) {
+        const int size = std::abs(change(k));
+        figures.mean += size / frames;
+        figures.largest = std::max(figures.largest, size);
+        if (k > first && (change(k) > 0) != (change(k - 1) > 0)) {
+            figures.flicker_triangles += std::min(size, std::abs(change(k - 1))) / frames;
+        }
+    }
+    return figures;
+}
+
+std::optional<int> frames_until_constant(std::span<const int> triangles, std::size_t stable_frames) {
+    std::size_t first = triangles.size();
+    while (first > 0 && triangles[first - 1] == triangles.back()) { --first; }
+    return triangles.size() - first < stable_frames ? std::nullopt : std::optional(static_cast<int>(first));
+}
+
+std::optional<int> frames_until_within(std::span<const int> triangles, int target, double share, int stable_frames) {
+    int near = 0;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        near = std::abs(triangles[k] - target) <= share * target ? near + 1 : 0;
+        if (near == stable_frames) { return static_cast<int>(k) + 1 - stable_frames; }
+    }
+    return std::nullopt;
+}
+
+// The error of a mesh in pixels against the full-resolution ground: the measure by which the paper's quadtree and the
+// default mesh are compared.
+//
+// Each triangle is rasterised in plan over the samples that it covers, its border included. One bit for each sample
+// ensures that each counts once (both triangles at an edge have the same height there). Rows are divided into bands,
+// always the same ones, which threads share.
+
+namespace {
+
+constexpr int rows_per_band = 64;
+
+/// Vertices are snapped to this fraction of a sample, which floats far from the eye still resolve.
+constexpr double snap_steps_per_sample = 256.0;
+
+/// Wider than rounding, and far narrower than that fraction.
+constexpr double row_tolerance = 1e-7;
+
+/// The slopes of a triangle, metres for a sample east and north.
+struct Slope {
+    double east = 0.0;
+    double north = 0.0;
+};
+
+Slope slope_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double signed_area2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (signed_area2 == 0.0) { return {}; }
+    return {((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / signed_area2,
+        ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / signed_area2};
+}
+
+/// The part of a row of samples that lies within a triangle in plan.
+struct RowInterval {
+    double first;
+    double last;
+};
+
+RowInterval row_interval(const std::array<glm::dvec3, 3>& corner, double row) {
+    RowInterval part{1e30, -1e30};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3& a = corner[k];
+        const glm::dvec3& b = corner[(k + 1) % 3];
+        if (row < std::min(a.y, b.y) || row > std::max(a.y, b.y)) { continue; }
+        const double at = a.y == b.y ? a.x : a.x + (row - a.y) * (b.x - a.x) / (b.y - a.y);
+        part.first = std::min({part.first, at, a.y == b.y ? b.x : at});
+        part.last = std::max({part.last, at, a.y == b.y ? b.x : at});
+    }
+    return part;
+}
+
+/// Whether a triangle in view axes is not wholly outside one plane of the frustum.
+bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PerspectiveView& view) {
+    const double wide = view.half_width_px / view.focal_px;
+    const double tall = view.half_height_px / view.focal_px;
+    const auto all = [&](const auto& outside) { return std::all_of(seen.begin(), seen.end(), outside); };
+    return !all([&](const glm::dvec3& p) { return p.z < view.near_m; }) &&
+           !all([&](const glm::dvec3& p) { return p.x > wide * p.z; }) &&
+           !all([&](const glm::dvec3& p) { return -p.x > wide * p.z; }) &&
+           !all([&](const glm::dvec3& p) { return p.y > tall * p.z; }) &&
+           !all([&](const glm::dvec3& p) { return -p.y > tall * p.z; });
+}
+
+int triangles_in_view(const GroundMesh& mesh, const PerspectiveView& view) {
+    int count = 0;
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        std::array<glm::dvec3, 3> seen{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            seen[i] = view.seen_m(glm::dvec3(mesh.vertices[mesh.indices[k + i]].position_m));
+        }
+        count += touches_frustum(seen, view) ? 1 : 0;
+    }
+    return count;
+}
+
+/// A percentile by nearest rank; reorders the values.
+double nearest_rank(std::vector<float>& values, int permille) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank_of(values.size(), permille) - 1);
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+}
+
+/// The figures over all errors; reorders them.
+void summarise(std::vector<float>& errors_px, ProjectedError& error) {
+    if (errors_px.empty()) { return; }
+    double sum = 0.0;
+    double sum_of_squares = 0.0;
+    for (const float value : errors_px) {
+        const auto error_px = static_cast<double>(value);
+        sum += error_px;
+        sum_of_squares += error_px * error_px;
+    }
+    const auto count = static_cast<double>(errors_px.size());
+    error.samples = static_cast<std::int64_t>(errors_px.size());
+    error.mean_px = sum / count;
+    error.rms_px = std::sqrt(sum_of_squares / count);
+    error.maximum_px = static_cast<double>(*std::max_element(errors_px.begin(), errors_px.end()));
+    error.p999_px = nearest_rank(errors_px, 999);
+    error.p99_px = nearest_rank(errors_px, 990);
+}
+
+} // namespace
+
+/// What is the same for all samples of a picture.
+struct ProjectedErrorMeter::Picture {
+    const PerspectiveView& view;
+    double earth_radius_m;
+    glm::dvec2 first_m; ///< The first sample's position relative to the eye.
+
+    /// The position of a sample relative to the eye, lowered by curvature.
+    glm::dvec3 sample_m(const GroundSamples& ground, int column, int row) const {
+        const double x = first_m.x + column * ground.spacing_m();
+        const double y = first_m.y + row * ground.spacing_m();
+        return {x, y, ground.height_m(column, row) - view.eye_m.z - curvature_drop_m(x * x + y * y, earth_radius_m)};
+    }
+};
+
+ProjectedErrorMeter::ProjectedErrorMeter(GroundSamples ground, int threads)
+    : ground_(ground), threads_(threads), words_per_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
+    assert(threads >= 1);
+    for (int row = 0; row < ground.rows(); row += rows_per_band) {
+        Band& band = bands_.emplace_back();
+        band.first_row = row;
+        band.end_row = std::min(row + rows_per_band, ground.rows());
+    }
+}
+
+ProjectedError ProjectedErrorMeter::measure(
+    const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m) {
+    const Picture picture{view, earth_radius_m, -ground_.half_extent_m() - glm::dvec2(view.eye_m)};
+    grid_vertices_.clear();
+    for (const models::ColourVertex& vertex : mesh.vertices) {
+        const glm::dvec3 from_eye_m(vertex.position_m);
+        const glm::dvec2 grid = (glm::dvec2(from_eye_m) - picture.first_m) / ground_.spacing_m();
+        grid_vertices_.emplace_back(glm::round(grid * snap_steps_per_sample) / snap_steps_per_sample, from_eye_m.z);
+    }
+    parallel_for(bands_.size(), threads_,
+        [&](std::size_t band, std::size_t /*worker*/) { measure_band(bands_[band], mesh.indices, picture); });
+    ProjectedError error;
+    error.triangles_in_view = triangles_in_view(mesh, view);
+    errors_px_.clear();
+    for (const Band& band : bands_) {
+        errors_px_.insert(errors_px_.end(), band.errors_px.begin(), band.errors_px.end());
+        error.uncovered += band.uncovered;
+    }
+    summarise(errors_px_, error);
+    return error;
+}
+
+void ProjectedErrorMeter::measure_band(Band& band, std::span<const std::uint32_t> indices, const Picture& picture) {
+    band.covered.assign(words_per_row_ * static_cast<std::size_t>(band.end_row - band.first_row), 0);
+    band.errors_px.clear();
+    for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
+        const glm::dvec3& a = grid_vertices_[indices[k]];
+        const glm::dvec3& b = grid_vertices_[indices[k + 1]];
+        const glm::dvec3& c = grid_vertices_[indices[k + 2]];
+        if (std::max({a.y, b.y, c.y}) >= band.first_row && std::min({a.y, b.y, c.y}) <= band.end_row - 1) {
+            measure_triangle(band, {a, b, c}, picture);
+        }
+    }
+    count_uncovered(band, picture);
+}
+
+void ProjectedErrorMeter::measure_triangle(Band& band, const Corners& corners, const Picture& picture) const {
+    const auto& [a, b, c] = corners;
+    const Slope slope = slope_of(a, b, c);
+    const int first_row = std::max(band.first_row, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+    const int last_row = std::min(band.end_row - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+    const PerspectiveView& view = picture.view;
+    for (int row = first_row; row <= last_row; ++row) {
+        const RowInterval part = row_interval(corners, row);
+        const int first = std::max(0, static_cast<int>(std::ceil(part.first - row_tolerance)));
+        const int last = std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + row_tolerance)));
+        std::uint64_t* const covered =
+            band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
+        for (int column = first; column <= last; ++column) {
+            const auto at = static_cast<std::size_t>(column);
+            const std::uint64_t bit = std::uint64_t{1} << (at % 64);
+            if ((covered[at / 64] & bit) != 0) { continue; }
+            covered[at / 64] |= bit;
+            const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
+            const glm::dvec3 seen = view.seen_m(sample_m);
+            if (!view.shows(seen)) { continue; }
+            const double surface_m = a.z + slope.east * (column - a.x) + slope.north * (row - a.y);
+            glm::dvec3 drawn = view.seen_m({sample_m.x, sample_m.y, surface_m});
+            drawn.z = std::max(drawn.z, view.near_m);
+            band.errors_px.push_back(static_cast<float>(glm::distance(view.pixel(seen), view.pixel(drawn))));
+        }
+    }
+}
+
+void ProjectedErrorMeter::count_uncovered(Band& band, const Picture& picture) const {
+    band.uncovered = 0;
+    for (int row = band.first_row; row < band.end_row; ++row) {
+        const std::uint64_t* const covered =
+            band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
+        for (int column = 0; column < ground_.columns(); ++column) {
+            const auto at = static_cast<std::size_t>(column);
+            if ((covered[at / 64] >> (at % 64) & 1U) == 0) {
+                const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
+                band.uncovered += picture.view.shows(picture.view.seen_m(sample_m)) ? 1 : 0;
+            }
+        }
+    }
+}
+
+// Tests that a mesh of the ground is conforming, by matching edges: the property that the paper's fans and the
+// bisection promise, and that cracks violate.
+//
+// Edges are kept by their vertices' numbers in an open hash table. An edge with a single triangle is allowed at the
+// field's border and where the frustum does not see it. A vertex inside an edge leaves that edge open, so that only
+// open edges need to be compared with vertices, and only with those of open edges.
+
+namespace {
+
+constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ULL;
+
+/// Whether any part of a line (relative to the eye) is inside the frustum by more than rounding.
+bool is_seen(const glm::dvec3& a_m, const glm::dvec3& b_m, const MeshView& view) {
+    const double rounding_m = 1e-2 + 1e-6 * std::max(glm::length(a_m), glm::length(b_m));
+    double first = 0.0;
+    double last = 1.0;
+    for (const glm::dvec3& normal : view.frustum_normals) {
+        if (normal == glm::dvec3(0.0)) { continue; }
+        const double at_a = glm::dot(normal, a_m) - rounding_m;
+        const double at_b = glm::dot(normal, b_m) - rounding_m;
+        if (at_a < 0.0 && at_b < 0.0) { return false; }
+        if (at_a < 0.0) {
+            first = std::max(first, at_a / (at_a - at_b));
+        } else if (at_b < 0.0) {
+            last = std::min(last, at_a / (at_a - at_b));
+        }
+    }
+    return first < last;
+}
+
+/// An order of positions: west before east, then south before north.
+bool before(const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
+} // namespace
+
+std::string Conformity::text() const {
+    return fmt::format("{} open edges, {} corners on edges, {} crowded edges, {} turned triangles, {} doubled "
+                       "vertices",
+        open_edges, t_junctions, overlapping_edges, inverted_triangles, duplicate_vertices);
+}
+
+ConformityCheck::ConformityCheck(const GroundSamples& ground)
+    : spacing_m_(ground.spacing_m()), half_extent_m_(ground.half_extent_m()),
+      last_(ground.columns() - 1, ground.rows() - 1) {}
+
+Conformity ConformityCheck::check(const GroundMesh& mesh, const MeshView& view) {
+    Conformity found;
+    locate_vertices(mesh, view);
+    match_edges(mesh, found);
+    open_.clear();
+    for (const Edge& edge : edges_) {
+        if (edge.mesh != mesh_) { continue; }
+        found.overlapping_edges += edge.forward > 1 || edge.back > 1 ? 1 : 0;
+        if (edge.forward + edge.back != 1 || on_border(places_[edge.low], places_[edge.high])) { continue; }
+        open_.push_back(edge);
+        const bool seen = is_seen(
+            glm::dvec3(mesh.vertices[edge.low].position_m), glm::dvec3(mesh.vertices[edge.high].position_m), view);
+        found.open_edges += seen ? 1 : 0;
+    }
+    found.t_junctions = count_t_junctions();
+    found.duplicate_vertices = duplicate_vertices();
+    return found;
+}
+
+/// Snaps all vertices to the grid.
+void ConformityCheck::locate_vertices(const GroundMesh& mesh, const MeshView& view) {
+    places_.clear();
+    for (const models::ColourVertex& vertex : mesh.vertices) {
+        const glm::dvec2 world_m = glm::dvec2(vertex.position_m) + glm::dvec2(view.eye_m);
+        places_.push_back(
+            glm::round((world_m + half_extent_m_) * (snap_steps_per_sample / spacing_m_)) / snap_steps_per_sample);
+    }
+}
+
+/// Enters all edges into the hash table and counts turned triangles.
+void ConformityCheck::match_edges(const GroundMesh& mesh, Conformity& found) {
+    const std::size_t wanted = std::bit_ceil(2 * mesh.indices.size() + 2);
+    if (edges_.size() < wanted) {
+        edges_.assign(wanted, {});
+        mesh_ = 0;
+    }
+    ++mesh_;
+    used_.assign(mesh.vertices.size(), 0);
+    for (const std::uint32_t vertex : mesh.indices) { used_[vertex] = 1; }
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        const std::uint32_t a = mesh.indices[k];
+        const std::uint32_t b = mesh.indices[k + 1];
+        const std::uint32_t c = mesh.indices[k + 2];
+        found.inverted_triangles += octant::signed_area2(places_[a], places_[b], places_[c]) > 0.0 ? 0 : 1;
+        add_edge(a, b);
+        add_edge(b, c);
+        add_edge(c, a);
+    }
+}
+
+void ConformityCheck::add_edge(std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t low = std::min(from, to);
+    const std::uint32_t high = std::max(from, to);
+    const std::size_t mask = edges_.size() - 1;
+    const std::uint64_t mixed = (std::uint64_t{low} << 32U | std::uint64_t{high}) * hash_factor;
+    std::size_t slot = static_cast<std::size_t>(mixed >> 32U) & mask;
+    while (edges_[slot].mesh == mesh_ && (edges_[slot].low != low || edges_[slot].high != high)) {
+        slot = (slot + 1) & mask;
+    }
+    Edge& edge = edges_[slot];
+    if (edge.mesh != mesh_) { edge = {low, high, mesh_, 0, 0}; }
+    std::uint16_t& way = from == low ? edge.forward : edge.back;
+    ++way;
+}
+
+bool ConformityCheck::on_border(const glm::dvec2& a, const glm::dvec2& b) const {
+    return (a.x == b.x && (a.x == 0.0 || a.x == last_.x)) || (a.y == b.y && (a.y == 0.0 || a.y == last_.y));
+}
+
+/// Counts used vertices at positions that another vertex has.
+int ConformityCheck::duplicate_vertices() {
+    constexpr std::uint32_t free_slot = ~std::uint32_t{0};
+    const std::size_t mask = std::bit_ceil(2 * places_.size() + 2) - 1;
+    slots_.assign(mask + 1, free_slot);
+    int doubled = 0;
+    for (std::uint32_t k = 0; k < places_.size(); ++k) {
+        if (used_[k] == 0) { continue; }
+        const glm::dvec2 part = places_[k] * snap_steps_per_sample;
+        const auto east = static_cast<std::uint64_t>(static_cast<std::int64_t>(part.x));
+        const auto north = static_cast<std::uint64_t>(static_cast<std::int64_t>(part.y));
+        auto slot = static_cast<std::size_t>((east << 32U ^ north) * hash_factor >> 32U) & mask;
+        while (slots_[slot] != free_slot && places_[slots_[slot]] != places_[k]) { slot = (slot + 1) & mask; }
+        doubled += slots_[slot] == free_slot ? 0 : 1;
+        slots_[slot] = k;
+    }
+    return doubled;
+}
+
+/// Counts vertices strictly inside open edges.
+int ConformityCheck::count_t_junctions() {
+    sorted_.clear();
+    for (const Edge& edge : open_) {
+        sorted_.push_back(edge.low);
+        sorted_.push_back(edge.high);
+    }
+    const auto by_place = [&](std::uint32_t a, std::uint32_t b) { return before(places_[a], places_[b]); };
+    std::sort(sorted_.begin(), sorted_.end(), by_place);
+    sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
+    int corners = 0;
+    for (const Edge& edge : open_) {
+        const bool turned = before(places_[edge.high], places_[edge.low]);
+        const std::uint32_t first = turned ? edge.high : edge.low;
+        const std::uint32_t end = turned ? edge.low : edge.high;
+        auto at = std::upper_bound(sorted_.begin(), sorted_.end(), first, by_place);
+        for (; at != sorted_.end() && before(places_[*at], places_[end]); ++at) {
+            corners += octant::signed_area2(places_[first], places_[end], places_[*at]) == 0.0 ? 1 : 0;
+        }
+    }
+    return corners;
+}
+
+// Point location in a mesh of very different triangles: a hashed hierarchical grid, in which every triangle is entered
+// at the level of its own size.
+
+namespace {
+
+constexpr double smallest_cell_m = 1.0;
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+/// A position this far beyond an edge, as a share of the triangle's size, still belongs to the triangle. That is more
+/// than the rounding of floats far from the eye.
+constexpr double edge_share = 1e-6;
+
+glm::ivec2 cell_of(const glm::dvec2& place_m, double cell_m) { return glm::ivec2(glm::floor(place_m / cell_m)); }
+
+} // namespace
+
+void MeshSurface::set_mesh(const GroundMesh& mesh, const glm::dvec3& eye_m) {
+    eye_m_ = eye_m;
+    indices_.assign(mesh.indices.begin(), mesh.indices.end());
+    vertices_m_.clear();
+    for (const models::ColourVertex& vertex : mesh.vertices) { vertices_m_.emplace_back(vertex.position_m); }
+    entries_.clear();
+    levels_used_ = 0;
+    slots_.assign(std::bit_ceil(indices_.size() + 1), none);
+    const auto triangles = static_cast<std::uint32_t>(indices_.size() / 3);
+    for (std::uint32_t triangle = 0; triangle < triangles; ++triangle) { add(triangle); }
+}
+
+MeshSurface::Corners MeshSurface::corners_of(std::uint32_t triangle) const {
+    const std::size_t first = 3 * static_cast<std::size_t>(triangle);
+    return {vertices_m_[indices_[first]], vertices_m_[indices_[first + 1]], vertices_m_[indices_[first + 2]]};
+}
+
+std::size_t MeshSurface::slot_of(std::uint32_t level, std::int32_t column, std::int32_t row) const {
+    const std::uint64_t place =
+        std::uint64_t{static_cast<std::uint32_t>(column)} << 32U | static_cast<std::uint32_t>(row);
+    const std::uint64_t mixed = (place ^ std::uint64_t{level} << 58U) * 0x9e3779b97f4a7c15ULL;
+    return static_cast<std::size_t>(mixed >> 32U) & (slots_.size() - 1);
+}
+
+void MeshSurface::add(std::uint32_t triangle) {
+    const auto [a, b, c] = corners_of(triangle);
+    const glm::dvec2 min_m = glm::min(glm::min(glm::dvec2(a), glm::dvec2(b)), glm::dvec2(c));
+    const glm::dvec2 max_m = glm::max(glm::max(glm::dvec2(a), glm::dvec2(b)), glm::dvec2(c));
+    const double margin_m = edge_share * (max_m.x - min_m.x + max_m.y - min_m.y);
+    const double size_m = std::max(max_m.x - min_m.x, max_m.y - min_m.y) + 2.0 * margin_m;
+    const int level = std::clamp(static_cast<int>(std::ceil(std::log2(size_m))), 0, levels - 1);
+    const double cell_m = std::ldexp(smallest_cell_m, level);
+    levels_used_ |= 1U << static_cast<unsigned>(level);
+    const glm::ivec2 first = cell_of(min_m - margin_m, cell_m);
+    const glm::ivec2 last = cell_of(max_m + margin_m, cell_m);
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int column = first.x; column <= last.x; ++column) {
+            const auto level_number = static_cast<std::uint32_t>(level);
+            std::uint32_t& slot = slots_[slot_of(level_number, column, row)];
+            entries_.push_back({level_number, column, row, triangle, slot});
+            slot = static_cast<std::uint32_t>(entries_.size() - 1);
+        }
+    }
+}
+
+bool MeshSurface::covers(std::uint32_t triangle, const glm::dvec2& place_m) const {
+    const auto [a, b, c] = corners_of(triangle);
+    const glm::dvec2 p(a);
+    const glm::dvec2 q(b);
+    const glm::dvec2 r(c);
+    const double min_area = -edge_share * octant::signed_area2(p, q, r);
+    return octant::signed_area2(p, q, place_m) >= min_area && octant::signed_area2(q, r, place_m) >= min_area &&
+           octant::signed_area2(r, p, place_m) >= min_area;
+}
+
+std::optional<std::uint32_t> MeshSurface::triangle_at(double x_m, double y_m) const {
+    const glm::dvec2 place_m = glm::dvec2(x_m, y_m) - glm::dvec2(eye_m_);
+    for (std::uint32_t left = levels_used_; left != 0; left &= left - 1) {
+        const auto level = static_cast<std::uint32_t>(std::countr_zero(left));
+        const glm::ivec2 cell = cell_of(place_m, std::ldexp(smallest_cell_m, static_cast<int>(level)));
+        for (std::uint32_t k = slots_[slot_of(level, cell.x, cell.y)]; k != none;) {
+            const Entry& entry = entries_[k];
+            if (entry.level == level && entry.column == cell.x && entry.row == cell.y &&
+                covers(entry.triangle, place_m)) {
+                return entry.triangle;
+            }
+            k = entry.next;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<double> MeshSurface::height_at(double x_m, double y_m) const {
+    const auto triangle = triangle_at(x_m, y_m);
+    if (!triangle) { return std::nullopt; }
+    const auto [a, b, c] = corners_of(*triangle);
+    const glm::dvec2 place_m = glm::dvec2(x_m, y_m) - glm::dvec2(eye_m_);
+    const double whole = octant::signed_area2(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
+    if (whole == 0.0) { return eye_m_.z + a.z; }
+    const double of_b = octant::signed_area2(glm::dvec2(a), place_m, glm::dvec2(c)) / whole;
+    const double of_c = octant::signed_area2(glm::dvec2(a), glm::dvec2(b), place_m) / whole;
+    return eye_m_.z + a.z + of_b * (b.z - a.z) + of_c * (c.z - a.z);
+}
+
+std::optional<double> MeshSurface::first_hit(const glm::dvec3& from_m, const glm::dvec3& to_m) const {
+    const glm::dvec3 start = from_m - eye_m_;
+    const glm::dvec3 way = to_m - from_m;
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto triangles = static_cast<std::uint32_t>(indices_.size() / 3);
+    for (std::uint32_t triangle = 0; triangle < triangles; ++triangle) {
+        const auto [a, b, c] = corners_of(triangle);
+        const glm::dvec3 normal = glm::cross(b - a, c - a);
+        const double approach = glm::dot(normal, way);
+        if (approach == 0.0) { continue; }
+        const double share = glm::dot(normal, a - start) / approach;
+        if (share < 0.0 || share > 1.0 || share >= nearest) { continue; }
+        if (covers(triangle, glm::dvec2(start + way * share))) { nearest = share; }
+    }
+    return nearest <= 1.0 ? std::optional(nearest) : std::nullopt;
+}
+
+// Popping: the jumps of vertices, which geomorphs remove. The quadtree paper counts triangles only. `octant study
+// popping` plots it along flights.
+//
+// Most vertices of a mesh are in the next one, too, and tell its height there. A vertex that only one of two meshes has
+// lies in the middle of an edge that is within one triangle of the other mesh (bisection_mesher.cpp), so that the other
+// surface's height is the mean of that at the edge's ends. Only where a mesh does not tell the ends of its vertices is
+// its surface searched.
+
+namespace {
+
+/// The cell of a grid that is finer than samples lie apart.
+glm::i64vec2 cell_of(const glm::dvec2& place_m) {
+    constexpr double cell_m = 0.25;
+    return glm::i64vec2(glm::floor(place_m / cell_m));
+}
+
+} // namespace
+
+void PoppingMeter::Frame::set_mesh(const GroundMesh& mesh, const PerspectiveView& view) {
+    view_ = view;
+    vertices_.assign(mesh.vertices.begin(), mesh.vertices.end());
+    indices_.assign(mesh.indices.begin(), mesh.indices.end());
+    morphs_.assign(mesh.morphs.begin(), mesh.morphs.end());
+    has_surface_ = false;
+    used_.assign(vertices_.size(), 0);
+    for (const std::uint32_t vertex : indices_) { used_[vertex] = 1; }
+    vertices_m_.clear();
+    slots_.assign(std::bit_ceil(4 * vertices_.size() + 1), 0);
+    for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex) {
+        vertices_m_.push_back(view.eye_m + glm::dvec3(vertices_[vertex].position_m));
+        // Vertices that are only ends of others are on the surface; what else is unused may not be.
+        if (used_[vertex] == 0 && morphs_.empty()) { continue; }
+        std::size_t slot = slot_of(cell_of(glm::dvec2(vertices_m_.back())));
+        while (slots_[slot] != 0) { slot = (slot + 1) & (slots_.size() - 1); }
+        slots_[slot] = vertex + 1;
+    }
+}
+
+template <typename Take>
+void PoppingMeter::Frame::for_each_used(const Take& set_mesh) const {
+    for (std::uint32_t vertex = 0; vertex < used_.size(); ++vertex) {
+        if (used_[vertex] != 0) { set_mesh(vertex, vertices_m_[vertex]); }
+    }
+}
+
+std::size_t PoppingMeter::Frame::slot_of(const glm::i64vec2& cell) const {
+    const auto column = static_cast<std::uint64_t>(cell.x);
+    const auto row = static_cast<std::uint64_t>(cell.y);
+    const std::uint64_t mixed = (column << 32U ^ (row & 0xffffffffU)) * 0x9e3779b97f4a7c15ULL;
+    return static_cast<std::size_t>(mixed >> 32U) & (slots_.size() - 1);
+}
+
+/// The height of this mesh's own vertex at a place; nothing where it has none.
+std::optional<double> PoppingMeter::Frame::own_height_at(const glm::dvec3& place_m) const {
+    constexpr double rounding = 1e-6; // Positions are floats from the eye.
+    const glm::dvec2 place(place_m);
+    const glm::dvec2 away_m = glm::abs(place - glm::dvec2(view_.eye_m));
+    const double near_m = rounding * (away_m.x + away_m.y);
+    const glm::i64vec2 first = cell_of(place - near_m);
+    const glm::i64vec2 last = cell_of(place + near_m);
+    glm::i64vec2 cell = first;
+    for (cell.y = first.y; cell.y <= last.y; ++cell.y) {
+        for (cell.x = first.x; cell.x <= last.x; ++cell.x) {
+            for (std::size_t slot = slot_of(cell); slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
+                const glm::dvec3& own_m = vertices_m_[slots_[slot] - 1];
+                const glm::dvec2 off_m = glm::abs(glm::dvec2(own_m) - place);
+                if (off_m.x + off_m.y <= near_m) { return own_m.z; }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<double> PoppingMeter::Frame::height_at(const Frame& other, std::uint32_t vertex) {
+    const glm::dvec3& place_m = other.vertices_m_[vertex];
+    if (const auto own_m = own_height_at(place_m)) { return own_m; }
+    if (!morphs_.empty() && !other.morphs_.empty()) {
+        const VertexMorph& origin = other.morphs_[vertex];
+        if (origin.parent_a != vertex) {
+            const auto from_a = height_at(other, origin.parent_a);
+            const auto from_b = height_at(other, origin.parent_b);
+            return from_a && from_b ? std::optional(0.5 * (*from_a + *from_b)) : std::nullopt;
+        }
+    }
+    if (!has_surface_) {
+        GroundMesh mesh;
+        mesh.vertices = vertices_;
+        mesh.indices = indices_;
+        surface_.set_mesh(mesh, view_.eye_m);
+        has_surface_ = true;
+    }
+    return surface_.height_at(place_m.x, place_m.y);
+}
+
+std::optional<VertexPopping> PoppingMeter::next(const GroundMesh& mesh, const PerspectiveView& view) {
+    Frame& later = frames_[taken_ % 2];
+    Frame& earlier = frames_[(taken_ + 1) % 2];
+    later.set_mesh(mesh, view);
+    if (++taken_ == 1) { return std::nullopt; }
+    VertexPopping most;
+    compare_at(later, earlier, later, most);
+    compare_at(earlier, later, later, most);
+    return most;
+}
+
+/// Compares the vertices of `own` with the surface of `other`, as seen from `later`.
+void PoppingMeter::compare_at(const Frame& own, Frame& other, const Frame& later, VertexPopping& most) {
+    const PerspectiveView& view = later.view();
+    own.for_each_used([&](std::uint32_t vertex, const glm::dvec3& vertex_m) {
+        const auto shows = [&vertex_m](const PerspectiveView& picture) {
+            return picture.shows(picture.seen_m(vertex_m - picture.eye_m));
+        };
+        if (!shows(own.view()) || !shows(other.view())) { return; }
+        const auto height_m = other.height_at(own, vertex);
+        if (!height_m) { return; }
+        const glm::dvec3 there = view.seen_m(glm::dvec3(vertex_m.x, vertex_m.y, *height_m) - view.eye_m);
+        if (there.z < view.near_m) { return; }
+        const glm::dvec3 seen = view.seen_m(vertex_m - view.eye_m);
+        const double popping_px = glm::distance(view.pixel(seen), view.pixel(there));
+        if (popping_px > most.popping_px) { most = {popping_px, vertex_m}; }
+    });
+}
+
+} // namespace octant::visuals::terrain
