@@ -1,8 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace octant::ui::report {
+
+/// True for the names that a recording gives its files and folders, and for what a kill left of writing one.
+bool is_recording_name(std::string_view name);
 
 /// Name of the file that whoever writes into a folder holds locked.
 inline constexpr const char* lock_name = "recording.lock";

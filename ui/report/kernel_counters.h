@@ -3,7 +3,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/frame_record.h"
-#include "ui/report/slow_frames.h"
+#include "ui/report/statistics.h"
 
 #include <cstdint>
 #include <filesystem>
