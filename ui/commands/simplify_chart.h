@@ -16,7 +16,7 @@
 
 namespace octant::ui::commands {
 
-/// One row and point of a chart.
+/// One level of detail in a chart: a point of the plot and a row of the table.
 struct ChartLevel {
     std::size_t faces = 0;
     double error_m = 0.0; ///< the largest distance to the mesh, certified

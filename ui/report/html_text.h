@@ -90,7 +90,7 @@ private:
     std::vector<HtmlTable> tables_;
 };
 
-/// The style sheet of every page: light or dark as the reader's system is, fit for paper.
+/// Style sheet of all pages: light or dark as the reader's system, printable.
 std::string_view page_style();
 
 /// The beginning of every page, up to its opened main element; `layout`: "one" or "several" as the style sheet has

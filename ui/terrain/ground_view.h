@@ -21,7 +21,7 @@
 
 namespace octant::ui::terrain {
 
-/// Which terrain, seen from where and how large: what every command about one mesh is told.
+/// Terrain, eye point and picture size: options of all commands about one mesh.
 struct GroundViewOptions {
     std::string terrain;
     models::heights::ImportOptions files; ///< what files do not say
@@ -33,7 +33,7 @@ struct GroundViewOptions {
     double earth_radius_m = 0.0; ///< R of the loaded ground; 0 = flat
 };
 
-/// Which mesh of the ground is made, and how finely.
+/// Kind and resolution of a terrain mesh.
 struct GroundMeshOptions {
     visuals::scene::GroundMetric mesh = visuals::scene::GroundMetric::ScreenError;
     visuals::scene::GroundFans fans = visuals::scene::GroundFans::Partial;
@@ -47,23 +47,23 @@ struct GroundMeshOptions {
 /// Eye and look as options say. Throws Error when one is missing or both are the same point.
 visuals::scene::Camera camera_of(const GroundViewOptions& options);
 
-/// What a mesher is told of a camera.
+/// The view of a camera as meshers take it.
 visuals::terrain::MeshView mesh_view(const visuals::scene::Camera& camera, const GroundViewOptions& options);
 
-/// What measures are told of it; near plane at 10 m.
+/// The view of a camera as error measurements take it; near plane at 10 m.
 visuals::terrain::PerspectiveView picture_view(const visuals::scene::Camera& camera, const glm::ivec2& size_px);
 
-/// A terrain as it was given: read whole, or imported and mapped.
+/// A loaded terrain: a height field read into memory, or an imported ground file that is memory-mapped.
 class LoadedGround {
 public:
     explicit LoadedGround(models::heights::HeightField field) : ground_(std::move(field)) {}
 
     explicit LoadedGround(visuals::terrain::GroundTiles tiles) : ground_(std::move(tiles)) {}
 
-    /// A view of the samples, valid as long as this ground stays where it is.
+    /// A view of the samples; this object must outlive it and not move.
     visuals::terrain::GroundSamples samples() const;
 
-    /// Nothing for an imported ground.
+    /// Null for an imported ground file.
     const models::heights::HeightField* field() const { return std::get_if<models::heights::HeightField>(&ground_); }
 
     /// By which it curves: that of the planet on which it lies, of the earth for made ground.
@@ -85,7 +85,7 @@ LoadedGround load_ground(
 /// `quiet`, where the eye point lies under the ground.
 LoadedGround load_ground(GroundViewOptions& options, bool quiet = false);
 
-/// A place to look from, as written in a table of eye points.
+/// A row of a table of eye points.
 struct EyePoint {
     int line = 0; ///< of the file
     double x_m = 0.0;

@@ -20,10 +20,10 @@ public:
     MeshMaker(MeshMaker&&) = delete;
     MeshMaker& operator=(MeshMaker&&) = delete;
 
-    /// The ground that its meshes are of, at full resolution.
+    /// The ground at full resolution.
     virtual visuals::terrain::GroundSamples ground() const = 0;
 
-    /// How coarse meshes may get: the error in pixels, or 1 / C. Both ends make sense.
+    /// Useful range of the coarseness: the error in pixels, or 1 / C.
     struct Range {
         double finest;
         double coarsest;

@@ -12,7 +12,7 @@
 
 namespace octant::ui::studies::draw_order {
 
-/// A way of the raster renderer to remove hidden surfaces.
+/// A hidden-surface method of the raster renderer.
 struct RasterMode {
     const char* name;
     visuals::scene::HiddenSurface hidden_surface;
@@ -20,7 +20,7 @@ struct RasterMode {
     int samples = 1;
 };
 
-/// Those that are compared, in this order everywhere.
+/// The methods compared; tables and arrays use this order.
 inline constexpr std::array raster_modes{RasterMode{"octant, near to far", visuals::scene::HiddenSurface::Octant},
     RasterMode{"octant, far to near", visuals::scene::HiddenSurface::Octant,
         visuals::raster::Renderer::PaintDirection::FarToNear},
@@ -47,7 +47,7 @@ struct RasterTimes {
 report::HtmlTable raster_table(const std::vector<std::string>& name_header,
     const std::vector<std::vector<std::string>>& names, const std::vector<RasterTimes>& times);
 
-/// The three ways of removing hidden surfaces that are raced, in this order everywhere.
+/// The three hidden-surface methods timed; tables and arrays use this order.
 inline constexpr std::array raced_methods = {visuals::scene::HiddenSurface::Octant,
     visuals::scene::HiddenSurface::BackFace, visuals::scene::HiddenSurface::DepthBuffer};
 
@@ -58,7 +58,7 @@ struct RaceTimes {
     int draw_calls = 0; ///< median over the frames
 };
 
-/// One scene, drawn by the three ways in turn, frame by frame, so that they see the same machine.
+/// Times of one scene. The three methods draw each frame in turn, so that load from other programs affects all of them.
 struct Race {
     std::string scene;
     int aircraft = 0;
@@ -72,7 +72,7 @@ struct Race {
     double against(std::size_t mode) const { return gl_times[mode].median_ms / gl_times[0].median_ms; }
 };
 
-/// Races the three ways over `frames` frames of a run after a warm-up. Throws Error.
+/// Times the three methods over `frames` frames of a run after a warm-up. Throws Error.
 Race race(const settings::RunSettings& settings, int frames, bool quiet);
 
 } // namespace octant::ui::studies::draw_order

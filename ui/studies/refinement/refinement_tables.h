@@ -25,7 +25,7 @@ report::HtmlTable refinement_speed_table(std::span<const RefinedModel> models);
 /// A view that goes around each model and nearer and back: operations a frame, steps of vertices.
 report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, int frames);
 
-/// The box around a hierarchy's leaves, file axes.
+/// Bounding sphere of the leaves of a hierarchy, in file axes.
 struct BoundingSphere {
     glm::dvec3 centre_m{0.0};
     double reach_m = 0.0; ///< to the farthest vertex
