@@ -6,7 +6,7 @@
 #include "ui/base/results_text.h"
 #include "ui/commands/command_terrain.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"

@@ -9,7 +9,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_model.h"
 #include "visuals/certificate/order_certificate.h"

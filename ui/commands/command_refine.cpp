@@ -7,7 +7,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 #include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"

@@ -6,7 +6,7 @@
 #include "ui/base/memory.h"
 #include "ui/base/results_text.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/commands/simplify_run.h"
 #include "ui/world/mesh_loader.h"
 

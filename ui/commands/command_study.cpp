@@ -1,7 +1,7 @@
 #include "ui/base/study_output.h"
 #include "ui/commands/command_terrain.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"

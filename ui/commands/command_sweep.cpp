@@ -4,7 +4,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"

@@ -14,7 +14,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/path_fields.h"

@@ -4,7 +4,7 @@
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/video_pipe.h"

@@ -1,5 +1,6 @@
 #include "ui/commands/option.h"
 
+#include "ui/commands/setting_option.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
 #include "ui/settings/settings_text.h"

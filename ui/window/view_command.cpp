@@ -6,7 +6,7 @@
 #include "ui/base/stop_signals.h"
 #include "ui/base/stopwatch.h"
 #include "ui/base/user_folders.h"
-#include "ui/commands/option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/report/statistics.h"
 #include "ui/window/viewer.h"
 #include "ui/world/input_files.h"
