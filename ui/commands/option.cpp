@@ -1,12 +1,7 @@
 #include "ui/commands/option.h"
 
-#include "ui/commands/setting_option.h"
-#include "ui/settings/settings_fields.h"
-#include "ui/settings/settings_file.h"
 #include "ui/settings/settings_text.h"
 
-#include <fmt/format.h>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -42,65 +37,6 @@ Option choice_option(std::string name, std::string form, std::string meaning, st
         value = choices[settings::read_choice({name, "", ""}, words.front(), choices)];
     };
     return option;
-}
-
-using settings::RunSettings;
-using settings::SettingInfo;
-
-namespace {
-
-/// Makes an option of each setting that it is shown.
-class OptionAdder {
-public:
-    explicit OptionAdder(std::vector<Option>& options) : options_(options) {}
-
-    template <class Value>
-    void operator()(const SettingInfo& info, Value& value) {
-        options_.push_back(option_of(info, value));
-        options_.back().heading = settings::name_of(info.group);
-    }
-
-private:
-    template <class Value>
-    static Option option_of(const SettingInfo& info, Value& value) {
-        return value_option(info, value, info.name == "path" ? "" : "--");
-    }
-
-    static Option option_of(const SettingInfo& info, bool& value) {
-        return with_shown_default(value ? "true" : "false",
-            flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value));
-    }
-
-    static Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
-        return with_shown_default(values.front(), list_option(fmt::format("--{}", info.name), std::string(info.form),
-                                                      std::string(info.meaning), Arity::Repeatable, values));
-    }
-
-    std::vector<Option>& options_;
-};
-
-/// Makes each of these options note its name when it is read.
-void record_given_options(std::span<Option> options, std::vector<std::string>& given) {
-    for (Option& option : options) {
-        const std::string name = option.name.substr(0, option.name.find(','));
-        option.read = [name, read = option.read, &given](const Words& words) {
-            given.push_back(name);
-            read(words);
-        };
-    }
-}
-
-} // namespace
-
-void add_setting_options(std::vector<Option>& options, RunSettings& settings, std::vector<std::string>* given) {
-    const std::size_t own = options.size();
-    options.push_back({.name = "--settings",
-        .form = "FILE",
-        .meaning = "read settings from FILE or from a recording (run.json, folder or packed file); other options "
-                   "override them",
-        .read = [&settings](const Words& words) { settings = settings::read_settings(words.front()); }});
-    settings::visit_settings(settings, OptionAdder(options));
-    if (given != nullptr) { record_given_options(std::span(options).subspan(own), *given); }
 }
 
 } // namespace octant::ui::commands
