@@ -9,8 +9,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/option.h"
-#include "ui/commands/value_option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_model.h"
 #include "visuals/certificate/order_certificate.h"
@@ -128,34 +127,35 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
              fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")), options.model),
             text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
             value_option({"method", "KIND",
-                             "paper (8 octants as printed), cells (octants divided further, exact from a distance "
-                             "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
+                             "paper (8 octants as printed), cells (octants subdivided; exact beyond a minimum "
+                             "distance), tree (tree of view cells; exact everywhere) or bsp (polygons split)"},
                 options.order.method),
-            value_option(
-                {"order-seconds", "SECONDS",
-                    "cells, tree: about so long is searched; then polygons are divided as by bsp", 0.001, 3600},
+            value_option({"order-seconds", "SECONDS",
+                             "cells, tree: approximate time limit of the search; then polygons are split as with bsp",
+                             0.001, 3600},
                 options.order.seconds),
-            text_option("--order-cache", "DIR",
-                "keep the orders in this folder, and read them where the same model is ordered again", options.cache),
-            value_option({"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
+            text_option("--order-cache", "DIR", "folder where painting orders are cached", options.cache),
+            value_option(
+                {"min-distance", "RADII",
+                    "cells: orders are exact for eyes with |x|+|y|+|z| of at least this many model radii", 1, 1000},
                 options.order.min_distance_radii)});
 }
 
 void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
     table.insert(table.end(),
-        {flag("--table", "show every cell and its list, P1 the first polygon", options.table),
-            text_option("--export", "FILE", "write the orders as text", options.export_file),
+        {flag("--table", "print every cell and its polygon list; P1 is the first polygon", options.table),
+            text_option("--export", "FILE", "output file of the painting orders, as text", options.export_file),
             text_option("--export-model", "FILE.obj",
-                "write the polygons, split where they had to be, that the orders speak of", options.export_model),
+                "output file of the polygons that the orders refer to, after splitting", options.export_model),
             text_option("--certificate", "FILE",
-                "write for each pair of polygons what proves that it is painted right; not of paper",
+                "output file of a certificate that proves the order of every pair of polygons; not for --method paper",
                 options.certificate),
             text_option(
-                "--verify", "FILE", "check a certificate without rounding, in place of all else", options.verify),
+                "--verify", "FILE", "check a certificate with exact arithmetic and do nothing else", options.verify),
             {.name = "--check",
                 .form = "[FILE]",
-                .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
-                           "those just found",
+                .meaning =
+                    "certify the orders of FILE for this model, or the orders just found, and test them with rays",
                 .arity = Arity::Optional,
                 .read =
                     [&options](const Words& words) {
@@ -164,8 +164,9 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
                     }},
             with_shown_default(fmt::format("{}", default_rays),
                 value_option(
-                    {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9}, options.rays)),
-            flag("--json", "results as JSON", options.json), flag("--quiet", "no progress, no notes", options.quiet)});
+                    {"rays", "N", "number of test rays, also without --check; 0 = none", 0, 1e9}, options.rays)),
+            flag("--json", "print the results as JSON", options.json),
+            flag("--quiet", "print no progress and no notes", options.quiet)});
 }
 
 void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
@@ -481,16 +482,11 @@ Command draw_order_command() {
     auto options = std::make_shared<DrawOrderOptions>();
     Command command = {.name = "draw-order",
         .summary = "Finds, shows, exports and checks the painting orders of a model",
-        .footer = "Exit code 1: a check said no. A file of orders speaks of the model that "
-                  "--export-model "
-                  "writes, in the axes of that file.\n"
-                  "Examples:\n"
-                  "  octant draw-order concave --method paper --table\n"
-                  "  octant draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n"
-                  "  octant draw-order f15-split.obj --check f15-orders.txt\n"
-                  "  octant draw-order torus --order-cache orders\n"
-                  "  octant draw-order f15 --certificate f15-proof.txt\n"
-                  "  octant draw-order --verify f15-proof.txt",
+        .footer = "Exit code 1: a check failed. A file of orders refers to the polygons written by --export-model, in "
+                  "the\naxes of that file.\nExamples:\n  octant draw-order concave --method paper --table\n  octant "
+                  "draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n  octant draw-order "
+                  "f15-split.obj --check f15-orders.txt\n  octant draw-order torus --order-cache orders\n  octant "
+                  "draw-order f15 --certificate f15-proof.txt\n  octant draw-order --verify f15-proof.txt",
         .run = [options] { draw_order(*options); }};
     add_draw_order_options(command.options, *options);
     return command;

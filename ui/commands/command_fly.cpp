@@ -5,8 +5,7 @@
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
 #include "ui/commands/packet_replay.h"
-#include "ui/commands/settings_options.h"
-#include "ui/commands/value_option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
 #include "ui/flight/sender.h"
@@ -185,14 +184,13 @@ void fly(FlyOptions options) {
 
 std::vector<Option> options_of(FlyOptions& options) {
     std::vector<Option> table = {
-        text_option("--record", "DIR", "write the recording and its report into this folder", options.record.folder),
+        text_option("--record", "DIR", "folder for the recording and its report", options.record.folder),
         text_option("--video", "FILE.mp4", "write a video (needs ffmpeg; frame times then include the encoder's load)",
             options.record.video),
         {.name = "--replay",
             .form = "DIR",
-            .meaning = "fly the recording in DIR, a folder or a packed file, again by its rows, as far as "
-                       "they go, and check that states and pictures are the same (exit code 1 when not, or "
-                       "when it was cut short and has none to compare with)",
+            .meaning = "repeat the recording in DIR (a folder or packed file) frame by frame and check that states and "
+                       "pictures are identical; exit code 1 if they differ or the recording is incomplete",
             .read =
                 [&options](const Words& words) {
                     const std::filesystem::path folder = report::recording_folder(words.front());
@@ -201,18 +199,17 @@ std::vector<Option> options_of(FlyOptions& options) {
                     options.settings = settings::read_settings(folder / "run.json");
                 }},
         list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
-            "send each picture's aircraft to another program, as fast as the clock goes: "
-            "fdm: the first one as FlightGear's native FDM; xplane: the first one as X-Plane's "
-            "DATA; dis: all as DIS entity states; "
-            "cigi:HOST:PORT[:OWN]: all and the camera to an image generator that answers to port "
-            "OWN "
-            "[8005], whose picture is waited for, so that several show one frame; "
-            "tacview:PORT: for readers of Tacview's telemetry",
+            "send the aircraft of each frame to another program, in real time; repeatable. fdm: the first aircraft as "
+            "FlightGear native FDM; xplane: the first aircraft as X-Plane DATA; dis: all aircraft as DIS entity "
+            "states; cigi:HOST:PORT[:OWN]: all aircraft and the camera to a CIGI image generator that answers to port "
+            "OWN [8005]; each frame waits for its picture, so that several generators show the same frame; "
+            "tacview:PORT: serve Tacview real-time telemetry",
             Arity::Repeatable, options.send),
-        text_option("--swept", "HOW", "how octant sweep flies this one beside others, for its report",
-            options.record.batch_context),
-        flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
-        flag("--json", "summary as JSON", options.json), flag("--quiet", "no progress, no notes", options.quiet)};
+        hidden(text_option("--swept", "HOW", "internal: how octant sweep shares the machine, for the report",
+            options.record.batch_context)),
+        flag("--if-new", "skip the flight if DIR already contains a recording of exactly this run", options.if_new),
+        flag("--json", "print the summary as JSON", options.json),
+        flag("--quiet", "print no progress and no notes", options.quiet)};
     add_setting_options(table, options.settings, &options.given);
     return table;
 }
@@ -222,7 +219,7 @@ std::vector<Option> options_of(FlyOptions& options) {
 Command fly_command() {
     auto options = std::make_shared<FlyOptions>();
     return {.name = "fly",
-        .summary = "Flies a path without a window, as fast as it can, and records it",
+        .summary = "Flies a path without a window, as fast as possible, and records it",
         .options = options_of(*options),
         .footer = "Examples:\n"
                   "  octant fly straight\n"

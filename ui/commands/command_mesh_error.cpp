@@ -6,7 +6,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/value_option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 
 #include <cstdio>
@@ -202,11 +202,15 @@ std::vector<Option> options_of(MeshErrorOptions& options) {
         required(text_option("A", "MESH",
             "the original: " + world::built_in_mesh_names() + " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
             options.a)),
-        required(text_option("B", "MESH", "what was made of it", options.b)),
-        value_option({"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100}, options.tightness),
-        value_option({"samples", "N", "points each way, for rms and mean", 1, 1e9}, options.samples),
-        value_option({"threads", "N", "that measure [all processors]", 1, 256}, options.threads),
-        flag("--json", "results as JSON", options.json), flag("--quiet", "no progress", options.quiet)};
+        required(text_option("B", "MESH", "mesh to compare with A", options.b)),
+        value_option(
+            {"tightness", "RATIO", "largest allowed ratio of the upper to the lower bound of the Hausdorff distance",
+                1.000001, 100},
+            options.tightness),
+        value_option(
+            {"samples", "N", "number of sample points in each direction, for rms and mean", 1, 1e9}, options.samples),
+        value_option({"threads", "N", "number of threads [all processors]", 1, 256}, options.threads),
+        flag("--json", "print the results as JSON", options.json), flag("--quiet", "print no progress", options.quiet)};
 }
 
 } // namespace
@@ -214,7 +218,7 @@ std::vector<Option> options_of(MeshErrorOptions& options) {
 Command mesh_error_command() {
     auto options = std::make_shared<MeshErrorOptions>();
     return {.name = "mesh-error",
-        .summary = "Measures how far two triangle meshes are apart, and what is wrong with B",
+        .summary = "Measures the distance between two triangle meshes, and the defects of B",
         .options = options_of(*options),
         .footer = footer,
         .run = [options] { mesh_error(*options); }};

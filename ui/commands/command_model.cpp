@@ -265,13 +265,15 @@ void show_model_info(const ModelInfoOptions& options) {
 Command model_info_command() {
     auto options = std::make_shared<ModelInfoOptions>();
     return {.name = "info",
-        .summary = "Size, axes, surface and materials of a mesh, and a picture of three views",
+        .summary = "Shows size, axes, surface defects and materials of a mesh, and draws three views of it",
         .options = {required(text_option("file", "FILE",
                         "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .chain) or a built-in name", options->file)),
             text_option("--picture", "OUT.png",
-                "draw it from its left, from above and from ahead; the nose points left", options->picture),
-            text_option("--axes", "X,Y,Z|auto", "where x, y and z of the file point", options->axes),
-            flag("--json", "as JSON", options->json), flag("--quiet", "no notes", options->quiet)},
+                "write a picture with views from the left, above and ahead; the nose points left", options->picture),
+            text_option("--axes", "X,Y,Z|auto",
+                "directions of the file's x, y and z axes: right, left, up, down, forward, back", options->axes),
+            flag("--json", "print the results as JSON", options->json),
+            flag("--quiet", "print no notes", options->quiet)},
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
                   "(red green blue) and how often, vertex_colours, picture.\n"
@@ -283,7 +285,7 @@ Command model_info_command() {
 
 Command model_command() {
     return {.name = "model",
-        .summary = "Looks at aircraft and meshes before they fly",
+        .summary = "Inspects aircraft and mesh files",
         .footer = "Example:\n  octant model info f15 --picture f15.png",
         .commands = {model_info_command()}};
 }

@@ -7,7 +7,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/value_option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 #include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
@@ -203,40 +203,42 @@ std::vector<Option> model_options(RefineOptions& options) {
                     " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
                 options.input.file)),
         value_option(
-            {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9}, options.base),
-        value_option({"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9}, options.vertices),
+            {"base", "N", "meshes: number of vertices of the base mesh [as few as possible]", 0, 1e9}, options.base),
+        value_option(
+            {"vertices", "N", ".pm files: read only the coarser model of N vertices [all]", 0, 1e9}, options.vertices),
         {.name = "--region",
             .form = "sphere X Y Z RADIUS",
-            .meaning = "every original vertex inside is active (file axes, repeatable)",
+            .meaning = "refine this sphere to full resolution, in file axes; repeatable",
             .arity = Arity::OneOrMore,
             .read = [&options](const Words& words) { options.regions = regions_from(words); },
             .words_per_use = static_cast<int>(region_words)},
+        value_option({"error-px", "PIXELS", "refine until the error seen from --eye is at most this [off]", 0.0, 1e6},
+            options.error_px),
+        value_option({"eye", "X,Y,Z", "eye point in file axes", -far_m, far_m}, options.eye_m),
         value_option(
-            {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6}, options.error_px),
-        value_option({"eye", "X,Y,Z", "where the view is from, file axes", -far_m, far_m}, options.eye_m),
-        value_option({"look", "X,Y,Z", "what it looks at", -far_m, far_m}, options.look_m),
-        value_option({"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg),
+            {"look", "X,Y,Z", "point shown in the middle of the picture, in file axes", -far_m, far_m}, options.look_m),
+        value_option({"fov", "DEGREES", "vertical field of view", 1.0, 170.0}, options.fov_deg),
         value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)};
 }
 
 void add_method_options(std::vector<Option>& table, RefineOptions& options) {
     table.insert(
         table.end(), {choice_option("--rule", "RULE",
-                          "what a split needs: two cut vertices (selective), the faces beside (hoppe, 1997) or "
-                          "all vertices around (xia, 1996)",
+                          "condition for a vertex split: two cut vertices active (selective), neighbouring faces "
+                          "active (hoppe, 1997) or all neighbouring vertices active (xia, 1996)",
                           {"selective", "hoppe", "xia"}, options.rule),
-                         flag("--no-repair", "leave faces that have turned over", options.no_repair),
-                         text_option("--save", "FILE.pm", "write the progressive mesh", options.save),
-                         text_option("--out", "FILE", "write the active mesh", options.out),
+                         flag("--no-repair", "do not repair flipped faces", options.no_repair),
+                         text_option("--save", "FILE.pm", "output file of the progressive mesh", options.save),
+                         text_option("--out", "FILE", "output file of the active mesh", options.out),
                          choice_option("--colour-by", "WHAT",
-                             "colours of --out: each active vertex its own (region) or by original vertices below "
-                             "it (level)",
+                             "vertex colours of --out: region (one colour per active vertex) or level (by the number "
+                             "of original vertices that it stands for)",
                              {"none", "region", "level"}, options.colour_by),
-                         text_option("--out-partition", "FILE", "write the original mesh coloured by active vertices",
-                             options.partition),
-                         text_option("--nodes", "FILE", "write the list of active nodes", options.nodes),
-                         flag("--json", "results as JSON", options.json),
-                         flag("--quiet", "no progress, no notes", options.input.quiet)});
+                         text_option("--out-partition", "FILE",
+                             "output file of the original mesh, coloured by active vertex", options.partition),
+                         text_option("--nodes", "FILE", "output file of the list of active nodes", options.nodes),
+                         flag("--json", "print the results as JSON", options.json),
+                         flag("--quiet", "print no progress and no notes", options.input.quiet)});
 }
 
 } // namespace

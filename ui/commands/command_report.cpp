@@ -94,16 +94,17 @@ void make_report(const ReportOptions& options) {
 Command report_command() {
     auto options = std::make_shared<ReportOptions>();
     return {.name = "report",
-        .summary = "Makes report.html from recordings; several are compared side by side",
+        .summary = "Writes report.html from one recording, or compares several side by side",
         .options = {required(list_option("folders", "DIR...",
-                        "folders of recordings, also of flights that were killed, or packed ones", Arity::OneOrMore,
-                        options->folders)),
-            with_shown_default("report.html in the first folder",
-                text_option("--out", "FILE.html", "the page to write", options->out)),
+                        "folders of recordings or packed recordings; recordings of killed flights work too",
+                        Arity::OneOrMore, options->folders)),
+            with_shown_default(
+                "report.html in the first folder", text_option("--out", "FILE.html", "page to write", options->out)),
             text_option("--gate", "FIGURE=N%,...",
-                "exit code 1 where a recording's figures are above the first one's by more", options->gate),
-            flag("--json", "figures of each recording as JSON", options->json),
-            flag("--quiet", "no notes", options->quiet)},
+                "exit code 1 when a statistic of a recording exceeds that of the first recording by more than N %",
+                options->gate),
+            flag("--json", "print the statistics of each recording as JSON", options->json),
+            flag("--quiet", "print no notes", options->quiet)},
         .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
                   "written and says so.\n"
                   "Examples:\n"
@@ -111,6 +112,48 @@ Command report_command() {
                   "  octant report octant-run depth-buffer-run --out both.html\n"
                   "  octant report before after --gate p50=500%,p99=900% --out change.html",
         .run = [options] { make_report(*options); }};
+}
+
+namespace {
+
+struct PackOptions {
+    std::filesystem::path folder;
+    std::optional<std::filesystem::path> out;
+    bool with_terrain = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+void pack(const PackOptions& options) {
+    std::filesystem::path folder = options.folder;
+    if (!folder.has_filename()) { // "my-flight/"
+        folder = folder.parent_path();
+    }
+    const std::filesystem::path file = options.out.value_or(folder.string() + ".zip");
+    const report::PackResult packing = report::pack_recording(folder, file, options.with_terrain);
+    for (const std::string& note : packing.notes) { base::print_note(options.quiet, "note: " + note); }
+    if (options.json) {
+        base::print_value({{"file", file.string()}, {"files", packing.files}, {"notes", packing.notes}}, true);
+    }
+    base::print_note(options.quiet, fmt::format("packed: {}, {} files", file.string(), packing.files));
+}
+
+} // namespace
+
+Command pack_command() {
+    auto options = std::make_shared<PackOptions>();
+    return {.name = "pack",
+        .summary = "Packs a recording into one file that can be reported and replayed on any machine",
+        .options = {required(text_option("folder", "DIR", "folder of the recording", options->folder)),
+            with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
+            flag("--with-terrain", "include the terrain file", options->with_terrain),
+            flag("--json", "print the result as JSON", options->json),
+            flag("--quiet", "print no notes", options->quiet)},
+        .footer = "Examples:\n"
+                  "  octant pack my-flight --out my-flight.zip\n"
+                  "On any machine then: octant report my-flight.zip --out page.html; and octant fly\n"
+                  "--replay or --settings my-flight.zip.",
+        .run = [options] { pack(*options); }};
 }
 
 } // namespace octant::ui::commands

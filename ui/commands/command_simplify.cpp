@@ -6,8 +6,8 @@
 #include "ui/base/memory.h"
 #include "ui/base/results_text.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/setting_option.h"
 #include "ui/commands/simplify_run.h"
-#include "ui/commands/value_option.h"
 #include "ui/world/mesh_loader.h"
 
 #include <filesystem>
@@ -203,74 +203,72 @@ std::vector<Option> goal_options(SimplifyArguments& command) {
             "whose ending says how. With --shared-border only meshes; with --chart OUT may be "
             "left out",
         Arity::OneOrMore, command.files))};
-    add_group(table, "How far (one of them)",
-        {value_option({"faces", "N", "down to so many triangles; with --chain of the coarsest level [no goal]", 1, 2e9},
+    add_group(table, "Goal (one of them)",
+        {value_option(
+             {"faces", "N", "target number of triangles; with --chain: of the coarsest level [no goal]", 1, 2e9},
              command.faces),
-            value_option({"vertices", "N", "down to so many vertices [no goal]", 1, 2e9}, command.vertices),
+            value_option({"vertices", "N", "target number of vertices [no goal]", 1, 2e9}, command.vertices),
             text_option("--error", "E|P%",
-                "to as few triangles as possible no farther off than this, both ways: in units of the "
-                "file, or as 0.1% of the diagonal of its bounding box",
+                "as few triangles as possible within this two-sided distance: in file units, or as a percentage of the "
+                "bounding box diagonal, such as 0.1%",
                 command.error)});
     return table;
 }
 
 void add_bound_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(table, "What attributes may lose",
-        {value_option({"uv-error", "U", "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
+    add_group(table, "Attribute error bounds",
+        {value_option({"uv-error", "U", "largest error of texture coordinates; 1 = the width of the texture [no bound]",
                           1e-9, 1e9},
              command.uv_error),
-            value_option({"normal-error", "DEGREES", "normals may be off by so much [no bound]", 0.01, 180},
-                command.normal_error),
-            value_option({"colour-error", "SHARE",
-                             "colours may be off by so much: a length in red, green and blue 0..1 [no bound]", 1e-4, 2},
+            value_option(
+                {"normal-error", "DEGREES", "largest error of normals [no bound]", 0.01, 180}, command.normal_error),
+            value_option(
+                {"colour-error", "SHARE", "largest error of colours: a distance in RGB, each 0..1 [no bound]", 1e-4, 2},
                 command.colour_error),
             value_option({"colour-weight", "W",
-                             "what a colour difference of 1 counts as, in diagonals [0.015; as printed 0.1]", 0, 1000},
+                             "distance that a colour difference of 1 is worth, in bounding box diagonals [0.015; "
+                             "methods of the paper 0.1]",
+                             0, 1000},
                 command.colour_weight)});
 }
 
 void add_constraint_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(table, "What stays",
-        {flag("--keep-shells", "no part of the mesh vanishes, even if the goal is then out of reach",
+    add_group(table, "Constraints",
+        {flag("--keep-shells",
+             "keep at least one triangle of every connected part, even if the goal is then out of reach",
              command.keep_shells),
             flag("--keep-topology",
-                "no part vanishes, no hole is closed and no handle cut, even if the goal is then out "
-                "of reach; --chain implies it",
+                "keep all parts, holes and handles, even if the goal is then out of reach; implied by --chain",
                 command.keep_topology),
-            flag("--keep-seams-apart", "weld only vertices that agree to the bit, colours too",
+            flag("--keep-seams-apart", "weld only vertices whose positions and colours are identical",
                 command.keep_seams_apart),
             flag("--lock-border",
-                "all vertices of open borders stay where they are, even if the goal is then out of "
-                "reach; implies --keep-topology",
+                "do not move vertices of open borders, even if the goal is then out of reach; implies --keep-topology",
                 command.lock_border),
             flag("--shared-border",
-                "simplify several meshes as one, so that no gap opens along their common borders; "
-                "goals count for all together",
+                "simplify several meshes together, so that no gap opens along their common borders; goals apply to all "
+                "meshes together",
                 command.shared_border),
             text_option("--out-dir", "DIR",
-                "with --shared-border: the folder for the results, which have the file names of the "
-                "inputs",
+                "with --shared-border: output folder; output files have the names of the input files",
                 command.out_dir)});
 }
 
 void add_work_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(table, "How much work",
+    add_group(table, "Effort",
         {value_option({"effort", "0..9",
-                          "how long to optimize: each one more doubles the steps, as long as some help; 5 and "
-                          "more look at "
-                          "more points; 0 makes none [4]",
+                          "optimization effort: each level doubles the number of steps; 5 and above use more sample "
+                          "points; 0 = no optimization [4]",
                           0, 9},
              command.effort),
             value_option({"max-seconds", "S",
-                             "stop optimizing after this time; a note gives the --steps that repeat the result. "
-                             "Collapses and "
-                             "certificates may take longer [no limit]",
+                             "time limit of the optimization; a note gives the --steps value that repeats the result. "
+                             "Collapses and the certificate are not limited [no limit]",
                              1e-3, 1e6},
                 command.max_seconds),
             value_option({"steps", "N",
-                             "number of optimization steps, over all tries where --error or a bound needs "
-                             "several; with "
-                             "--chain and --chart for each level [given by --effort]",
+                             "number of optimization steps, summed over all attempts where --error or a bound needs "
+                             "several; with --chain and --chart: for each level [given by --effort]",
                              0, 2e9},
                 command.steps),
             choice_option("--method", "KIND",
@@ -280,15 +278,16 @@ void add_work_options(std::vector<Option>& table, SimplifyArguments& command) {
             value_option(
                 {"threads", "N", "number of threads; the result does not depend on it [all processors]", 1, 1024},
                 command.threads)});
-    add_group(table, "What is written",
+    add_group(table, "Output",
         {text_option("--chart", "FILE.html",
-             "a page that plots errors of levels of the mesh against their faces, and gives the "
-             "command that makes each",
+             "write a page that plots error against number of faces for a series of levels, with the command that "
+             "makes each level",
              command.chart),
-            flag("--chain", "levels of detail, halving, into OUT.chain", command.chain),
-            text_option("--polygons", "FILE.obj", "with --chain: polygons for its far end, instead of the last level",
+            flag("--chain", "write levels of detail, each with half the triangles, to OUT.chain", command.chain),
+            text_option("--polygons", "FILE.obj", "with --chain: polygon model to use instead of the last level",
                 command.polygons),
-            flag("--json", "results as JSON", command.json), flag("--quiet", "no progress, no notes", command.quiet)});
+            flag("--json", "print the results as JSON", command.json),
+            flag("--quiet", "print no progress and no notes", command.quiet)});
 }
 
 constexpr const char* simplify_footer =
@@ -325,7 +324,7 @@ constexpr const char* simplify_footer =
 Command simplify_command() {
     auto work = std::make_shared<SimplifyArguments>();
     Command command = {.name = "simplify",
-        .summary = "Reduces triangles of a mesh and certifies how far the result is off",
+        .summary = "Simplifies a mesh and certifies the error of the result",
         .options = goal_options(*work),
         .footer = simplify_footer,
         .run = [work] { run(*work); }};

@@ -1,7 +1,7 @@
 #include "ui/base/study_output.h"
+#include "ui/commands/command_terrain.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/terrain_options.h"
-#include "ui/commands/value_option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
@@ -24,9 +24,9 @@ namespace {
 /// A study's own options between those that every study has.
 std::vector<Option> study_options(base::StudyOutput& output, std::vector<Option> own) {
     own.insert(own.begin(), required(text_option("--out", "DIR",
-                                "folder for the tables (CSV, Markdown) and whatever else comes of it", output.out)));
+                                "output folder for tables (CSV, Markdown), figures and pictures", output.out)));
     own.push_back(flag("--json", "print the tables as JSON", output.json));
-    own.push_back(flag("--quiet", "no progress, no notes", output.quiet));
+    own.push_back(flag("--quiet", "print no progress and no notes", output.quiet));
     return own;
 }
 
@@ -35,7 +35,7 @@ Option size_option(settings::RunSettings& settings, std::string_view meaning) {
 }
 
 Option context_option(settings::RunSettings& settings) {
-    return value_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context);
+    return value_option({"context", "KIND", "OpenGL context: osmesa or egl"}, settings.drawing.context);
 }
 
 Option jobs_option(int& jobs, std::string_view meaning) { return value_option({"jobs", "N", meaning, 1, 1000}, jobs); }
@@ -43,10 +43,11 @@ Option jobs_option(int& jobs, std::string_view meaning) { return value_option({"
 Command flights_command() {
     auto options = std::make_shared<studies::draw_order::FlightStudyOptions>();
     return {.name = "flights",
-        .summary = "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods",
+        .summary = "Repeats tables 5 and 6 of the 1989 paper: four paths, two aircraft, three hidden-surface methods",
         .options = study_options(
             *options, {size_option(options->settings, "picture size in pixels"), context_option(options->settings),
-                          jobs_option(options->jobs, "flights at once; their times then depend on each other")}),
+                          jobs_option(options->jobs,
+                              "number of flights run at once; above 1 their frame times affect each other")}),
         .footer = "Example:\n  octant study flights --out tables",
         .run = [options] { studies::draw_order::study_flights(*options); }};
 }
@@ -54,7 +55,8 @@ Command flights_command() {
 Command draw_order_study_command() {
     auto options = std::make_shared<studies::draw_order::DrawOrderStudyOptions>();
     return {.name = "draw-order",
-        .summary = "Tables 1 and 4 of the 1989 paper, and cells, splits, wrong pixels and BSP trees",
+        .summary = "Repeats tables 1 and 4 of the 1989 paper, and compares the ordering methods with each other and "
+                   "with a BSP tree",
         .options = study_options(*options, {}),
         .footer = "Example:\n  octant study draw-order --out tables",
         .run = [options] { studies::draw_order::study_draw_order(*options); }};
@@ -63,12 +65,15 @@ Command draw_order_study_command() {
 Command flicker_command() {
     auto options = std::make_shared<studies::flicker::FlickerStudyOptions>();
     Command command = {.name = "flicker",
-        .summary = "Triangle control of the quadtree paper: its figures 3, 5, 6, 8 and 9, and how "
-                   "quietly previous, damped and exact control hold the count",
+        .summary = "Repeats figures 3, 5, 6, 8 and 9 of the quadtree paper, and compares how steadily its controls, "
+                   "the exact triangle budget and the default mesh hold the triangle count",
         .options = study_options(*options,
-            {text_option("--gentle", "NAME|FILE", "gentle ground: hills, canyon or a file", options->gentle),
-                text_option("--rugged", "NAME|FILE", "rugged ground: hills, canyon or a file", options->rugged),
-                value_option({"frames", "N", "frames of the path; a fifth of them at a fixed view", 100, 100000},
+            {text_option(
+                 "--gentle", "NAME|FILE", "terrain with gentle relief: hills, canyon or a file", options->gentle),
+                text_option(
+                    "--rugged", "NAME|FILE", "terrain with rugged relief: hills, canyon or a file", options->rugged),
+                value_option(
+                    {"frames", "N", "number of frames along the path; the fixed view has a fifth of them", 100, 100000},
                     options->frames)}),
         .footer = "Examples:\n  octant study flicker --out tables\n  octant study flicker --out "
                   "tables --gentle pugetsound.tif --rugged gcanyon.tif",
@@ -87,16 +92,17 @@ void hidden_surface(studies::draw_order::HiddenSurfaceStudyOptions study, const 
 
 std::vector<Option> hidden_surface_options(studies::draw_order::HiddenSurfaceStudyOptions& study, std::string& only) {
     return {choice_option("--only", "PART",
-                "frames a second (race), polygon numbers against a depth buffer (pictures), against "
-                "rays (rays) or all",
+                "part to run: race (frames per second), pictures (polygon ids compared with a depth buffer), rays "
+                "(polygon ids compared with ray casting) or all",
                 {"race", "pictures", "rays", "all"}, only),
-        value_option({"terrain", "NAME|FILE", "ground of all parts"}, study.settings.path.terrain),
-        size_option(study.settings, "picture size of the comparison; the race has 640x480 and 1280x720"),
+        value_option({"terrain", "NAME|FILE", "terrain of all parts"}, study.settings.path.terrain),
+        size_option(
+            study.settings, "picture size of the comparisons in pixels; the race always uses 640x480 and 1280x720"),
         context_option(study.settings),
-        text_option("--aircraft", "NAME|FILE", "compare this one in place of f15 and 500md", study.aircraft),
-        jobs_option(study.jobs, "views of a flight compared at once; the race is one at a time"),
-        value_option({"frames", "N", "timed frames of each race", 10, 100000}, study.race_frames),
-        value_option({"every", "N", "every Nth frame is compared", 1, 100000}, study.every)};
+        text_option("--aircraft", "NAME|FILE", "aircraft to compare instead of f15 and 500md", study.aircraft),
+        jobs_option(study.jobs, "number of views compared at once; the race always runs one flight at a time"),
+        value_option({"frames", "N", "number of timed frames of each race", 10, 100000}, study.race_frames),
+        value_option({"every", "N", "compare every Nth frame", 1, 100000}, study.every)};
 }
 
 Command hidden_surface_command() {
@@ -104,8 +110,8 @@ Command hidden_surface_command() {
     auto only = std::make_shared<std::string>("all");
     study->settings.path.terrain = "canyon";
     Command command = {.name = "hidden-surface",
-        .summary = "Octant order, depth buffer and removal of back faces: frames a second, and "
-                   "every pixel's polygon compared",
+        .summary = "Compares octant order, depth buffer and back-face removal: frames per second, and the polygon of "
+                   "every pixel",
         .options = study_options(*study, hidden_surface_options(*study, *only)),
         .footer = "Exit code 1 when a pixel is wrong.\n"
                   "Examples:\n  octant study hidden-surface --out tables --only pictures --every 10\n"
@@ -118,36 +124,37 @@ Command hidden_surface_command() {
 Command pictures_command() {
     auto options = std::make_shared<studies::draw_order::PictureStudyOptions>();
     return {.name = "pictures",
-        .summary = "How near the pictures of both renderers, with 1, 4 and 16 samples a pixel, "
-                   "come to 8 x 8 samples, standing and moving",
+        .summary = "Compares the pictures of both renderers with 1, 4 and 16 samples per pixel with a reference of 8 x "
+                   "8 samples, still and moving",
         .options = study_options(
             *options, {size_option(options->settings, "picture size in pixels"), context_option(options->settings),
-                          value_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames),
-                          jobs_option(options->jobs, "scenes at once")}),
+                          value_option({"frames", "N", "number of pictures of each scene", 1, 1000}, options->frames),
+                          jobs_option(options->jobs, "number of scenes rendered at once")}),
         .footer = "Example:\n  octant study pictures --out tables",
         .run = [options] { studies::draw_order::study_pictures(*options); }};
 }
 
 std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& options) {
     settings::RunSettings& settings = options.settings;
-    return {value_option({"terrain", "NAME|FILE", "the ground"}, settings.path.terrain),
+    return {value_option({"terrain", "NAME|FILE", "terrain"}, settings.path.terrain),
         size_option(settings, "picture size in pixels"),
-        value_option({"triangles", "N", "budget [20000]", 1, 1e8}, settings.ground.triangles),
-        value_option(
-            {"error-px", "PIXELS", "screen-error: refined no further [0.25]", 0.001, 1e4}, settings.ground.error_px),
-        value_option({"frames", "N", "only the first of each path", 2, 1e7}, settings.time.frames),
-        jobs_option(options.jobs, "flights at once"),
-        flag("--shimmer", "draw, and measure shimmer too", options.shimmer),
-        flag("--near-detail", "also with made-up detail of the ground near the eye", settings.ground.near_detail),
-        flag("--scenery", "shimmer: with made-up trees and houses near the eye", settings.ground.scenery),
-        value_option({"every", "N", "shimmer: one pair of frames in N", 2, 100000}, options.every)};
+        value_option({"triangles", "N", "ground triangle budget [20000]", 1, 1e8}, settings.ground.triangles),
+        value_option({"error-px", "PIXELS", "screen-error mesh: stop refining at this error [0.25]", 0.001, 1e4},
+            settings.ground.error_px),
+        value_option({"frames", "N", "use only the first N frames of each path", 2, 1e7}, settings.time.frames),
+        jobs_option(options.jobs, "number of flights run at once"),
+        flag("--shimmer", "also render pictures and measure shimmer", options.shimmer),
+        flag("--near-detail", "also measure a mesh with procedural ground detail near the eye",
+            settings.ground.near_detail),
+        flag("--scenery", "shimmer: draw procedural trees and houses near the eye", settings.ground.scenery),
+        value_option({"every", "N", "shimmer: measure one pair of frames in N", 2, 100000}, options.every)};
 }
 
 Command popping_command() {
     auto options = std::make_shared<studies::flicker::PoppingStudyOptions>();
     options->settings.path.terrain = "canyon";
     Command command = {.name = "popping",
-        .summary = "Largest jump of a vertex in any frame of the four paths, and shimmer",
+        .summary = "Measures the largest vertex jump between frames along the four paths, and shimmer",
         .options = study_options(*options, popping_options(*options)),
         .footer = "Example:\n  octant study popping --out tables --terrain canyon",
         .run = [options] { studies::flicker::study_popping(*options); }};
@@ -158,32 +165,32 @@ Command popping_command() {
 Command shading_command() {
     auto options = std::make_shared<studies::hybrid_shading::ShadingStudyOptions>();
     Command command = {.name = "shading",
-        .summary = "Hybrid of flat and Gouraud shading of the 2008 paper: its operation counts, "
-                   "and the quality of pictures over the share of smooth polygons, by its rule and "
-                   "by ours",
-        .options = study_options(*options,
-            {list_option("--mesh", "FILE",
-                 "mesh file to look at too, as it is and as it is refined for an eye; may be given "
-                 "more than once",
-                 Arity::OneOrMore, options->meshes),
-                value_option({"size", "PIXELS", "side of the square pictures in pixels", 16, 2048}, options->size_px),
-                jobs_option(options->jobs, "models at once; flights for times are one at a time")}),
+        .summary = "Repeats the 2008 paper on hybrid flat and Gouraud shading: operation counts, and picture quality "
+                   "as a function of the share of smooth polygons, for its rule and ours",
+        .options = study_options(
+            *options, {list_option("--mesh", "FILE",
+                           "further mesh file, studied as read and as refined for one eye point; repeatable",
+                           Arity::OneOrMore, options->meshes),
+                          value_option({"size", "PIXELS", "width and height of the pictures in pixels", 16, 2048},
+                              options->size_px),
+                          jobs_option(options->jobs,
+                              "number of models processed at once; flights for frame times always run one at a time")}),
         .footer = "Example:\n  octant study shading --out tables --mesh cow.obj",
         .run = [options] { studies::hybrid_shading::study_shading(*options); }};
-    command.options.push_back(
-        flag("!--no-times", "no flights for frame times, which differ from run to run", options->times));
+    command.options.push_back(flag(
+        "!--no-times", "skip the flights that measure frame times (these differ from run to run)", options->times));
     return command;
 }
 
 Command refinement_command() {
     auto options = std::make_shared<studies::refinement::RefinementStudyOptions>();
     return {.name = "refinement",
-        .summary = "Selective refinement: splits forced by three rules, faces turned over, speed, a path",
-        .options = study_options(
-            *options, {list_option("--mesh", "FILE", "a mesh (repeatable); none: made ground, 129 x 129",
-                           Arity::OneOrMore, options->meshes),
-                          value_option({"base", "N", "vertices of the base meshes", 4, 1000000}, options->base),
-                          value_option({"frames", "N", "frames of the path", 20, 100000}, options->frames)}),
+        .summary = "Studies selective refinement: forced splits of three rules, flipped faces, speed, and a path",
+        .options = study_options(*options,
+            {list_option("--mesh", "FILE", "mesh file; repeatable [a procedural terrain of 129 x 129 samples]",
+                 Arity::OneOrMore, options->meshes),
+                value_option({"base", "N", "number of vertices of each base mesh", 4, 1000000}, options->base),
+                value_option({"frames", "N", "number of frames along the path", 20, 100000}, options->frames)}),
         .footer = "Example:\n  octant study refinement --out tables --mesh bunny.ply --mesh "
                   "cow.obj",
         .run = [options] { studies::refinement::study_refinement(*options); }};
@@ -201,22 +208,24 @@ std::vector<std::size_t> faces_from(const Words& words) {
 }
 
 std::vector<Option> simplification_options(studies::simplification::SimplificationStudyOptions& options) {
-    return {text_option("--bunny", "FILE", "the Stanford bunny, bun_zipper.ply", options.bunny),
-        list_option("--mesh", "FILE", "one more mesh; may be repeated", Arity::Repeatable, options.meshes),
+    return {text_option("--bunny", "FILE", "file bun_zipper.ply of the Stanford bunny", options.bunny),
+        list_option("--mesh", "FILE", "further mesh file; repeatable", Arity::Repeatable, options.meshes),
         {.name = "--faces",
             .form = "N",
-            .meaning = "simplify to N faces; may be repeated [15, 5, 2.5 %]",
+            .meaning = "simplify to N faces; repeatable [15, 5 and 2.5 % of each mesh]",
             .arity = Arity::Repeatable,
             .read = [&options](const Words& words) { options.faces = faces_from(words); }},
-        text_option("--peers", "PROGRAM", "the program octant-peers [beside this program, if there]", options.peers),
-        flag("--paper-only", "tables 1 and 2 only", options.paper_only)};
+        text_option("--peers", "PROGRAM",
+            "program octant-peers, which runs other libraries [octant-peers in the folder of this program, if present]",
+            options.peers),
+        flag("--paper-only", "make only tables 1 and 2", options.paper_only)};
 }
 
 Command simplification_command() {
     auto options = std::make_shared<studies::simplification::SimplificationStudyOptions>();
     return {.name = "simplification",
-        .summary = "Tables 1 and 2 of the 2005 paper on simplification, and every way to simplify, "
-                   "ours and other libraries', by distance to the original and time",
+        .summary = "Repeats tables 1 and 2 of the 2005 paper on simplification, and compares our methods with other "
+                   "libraries by distance to the original and time",
         .options = study_options(*options, simplification_options(*options)),
         .footer = "Example:\n  octant study simplification --out tables --bunny bun_zipper.ply",
         .run = [options] { studies::simplification::study_simplification(*options); }};
@@ -226,7 +235,7 @@ Command simplification_command() {
 
 Command study_command() {
     return {.name = "study",
-        .summary = "Repeats a paper's experiment and prints its tables with ours beside",
+        .summary = "Repeats the experiment of a paper and prints its results next to ours",
         .footer = "Examples:\n  octant study flights --out tables\n  octant study draw-order --out "
                   "tables",
         .commands = {flights_command(), draw_order_study_command(), flicker_command(), hidden_surface_command(),

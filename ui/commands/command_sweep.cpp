@@ -4,7 +4,7 @@
 #include "ui/base/results_text.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/value_option.h"
+#include "ui/commands/setting_option.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
@@ -266,34 +266,41 @@ void run_sweep(const SweepOptions& options) {
 Command sweep_command() {
     auto options = std::make_shared<SweepOptions>();
     return {.name = "sweep",
-        .summary = "Flies many flights, by a table of what they vary, and reports them together",
-        .options = {required(text_option("file", "FILE.toml", "what is flown", options->file)),
-            with_shown_default("the sweep's name", text_option("--out", "DIR", "folder of all of it", options->out)),
-            flag("--list", "print the flights and fly none", options->list),
+        .summary = "Runs a batch of flights from a parameter table and writes one report",
+        .options = {required(text_option("file", "FILE.toml", "parameter table of the batch", options->file)),
+            with_shown_default("the sweep's name",
+                text_option("--out", "DIR", "output folder for recordings, logs and the report", options->out)),
+            flag("--list", "print the names of the flights without running them", options->list),
             choice_option("--on", "ENGINE",
-                "who flies: local, processes of this machine; slurm, a job array; parallel, GNU "
-                "parallel over ssh, all machines seeing the folder",
+                "where flights run: local (processes on this machine), slurm (a job array) or parallel (GNU parallel "
+                "over ssh); all machines must see the folder under the same name",
                 {"local", "slurm", "parallel"}, options->on),
-            value_option({"retries", "N", "how often a flight that failed is tried again", 0, 100}, options->retries),
-            flag("--share-cores", "fly several at once on a machine; frame times then depend on each other",
+            value_option({"retries", "N", "number of times a failed flight is repeated", 0, 100}, options->retries),
+            flag("--share-cores",
+                "run several flights at once on one machine; their frame times then affect each other",
                 options->engine.share_cores),
             value_option(
-                {"jobs", "N", "flights at once: here, on each machine, of the array", 1, 10000}, options->jobs),
+                {"jobs", "N", "number of flights run at once: on this machine, on each machine, or of the job array", 1,
+                    10000},
+                options->jobs),
+            value_option({"tasks", "N", "number of tasks of the job array [one per flight, at most 1000]", 1, 100000},
+                options->tasks),
             value_option(
-                {"tasks", "N", "tasks of the job array [one a flight, at most 1000]", 1, 100000}, options->tasks),
-            value_option(
-                {"minutes", "N", "time limit of a task or a flight on engines [60]", 1, 100000}, options->minutes),
-            value_option(
-                {"split", "N", "fly each flight in N parts, of consecutive frames, and put these together", 2, 10000},
+                {"minutes", "N", "slurm, parallel: time limit in minutes of a task or a flight [60]", 1, 100000},
+                options->minutes),
+            value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
                 options->split),
-            flag("--video", "write a video of each flight, videos/NAME.mp4", options->engine.videos),
-            list_option("--sbatch", "OPTION", "a further option of sbatch, such as --sbatch=--partition=long",
-                Arity::Repeatable, options->engine.sbatch_options),
-            text_option("--hosts", "FILE", "GNU parallel's file of machines", options->hosts),
-            with_shown_default("this one",
-                text_option("--program", "FILE", "octant as the machines that fly call it", options->program)),
-            flag("--json", "results as JSON", options->json),
-            flag("--quiet", "no progress, no notes", options->engine.quiet)},
+            flag("--video", "write a video of each flight to videos/NAME.mp4", options->engine.videos),
+            list_option("--sbatch", "OPTION",
+                "further option for sbatch, such as --sbatch=--partition=long; repeatable", Arity::Repeatable,
+                options->engine.sbatch_options),
+            text_option("--hosts", "FILE", "parallel: file with the names of the machines, as for --sshloginfile",
+                options->hosts),
+            with_shown_default(
+                "this one", text_option("--program", "FILE",
+                                "path of the octant program on the machines that run the flights", options->program)),
+            flag("--json", "print the results as JSON", options->json),
+            flag("--quiet", "print no progress and no notes", options->engine.quiet)},
         .footer = "Examples:\n"
                   "  octant sweep budgets.toml --list\n"
                   "  octant sweep budgets.toml --out budgets\n"

@@ -4,19 +4,173 @@
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/flight_summary.h"
+#include "ui/commands/setting_option.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/video_pipe.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::commands {
+
+namespace {
+
+/// Settings that say something about a path of our own.
+constexpr std::array<std::string_view, 9> path_only_settings{"path", "--heading", "--height-mode",
+    "--lenient,!--no-lenient", "--start", "--frame-per-sample,!--no-frame-per-sample", "--realtime,!--no-realtime",
+    "--mesh-ahead,!--no-mesh-ahead", "--path-ribbon,!--no-path-ribbon"};
+
+/// Where packets come from.
+std::vector<Option> port_options(flight::LiveInputOptions& input) {
+    return {text_option("--bind", "ADDRESS",
+                "IPv4 address of this machine to listen on; 0.0.0.0 = all addresses, reachable from other machines",
+                input.bind),
+        value_option({"fdm-port", "PORT",
+                         "UDP port for FlightGear's FGNetFDM; 0 = any free one, -1 = closed [5550; none with "
+                         "--channel]",
+                         -1, 65535},
+            input.fdm_port),
+        value_option({"mavlink-port", "PORT", "UDP port for MAVLink 1 and 2; -1 = closed [14550; none with --channel]",
+                         -1, 65535},
+            input.mavlink_port),
+        value_option(
+            {"dis-port", "PORT", "UDP port for DIS entity states; -1 = closed [3000; none with --channel]", -1, 65535},
+            input.dis_port),
+        value_option({"xplane-port", "PORT",
+                         "UDP port for X-Plane's DATA (groups 3, 17, 18, 20 and 21) and RREF; -1 = closed "
+                         "[49003; none with --channel]",
+                         -1, 65535},
+            input.xplane_port),
+        text_option("--xplane", "HOST[:PORT]",
+            "request motion data from the X-Plane at this address [port 49000]; not needed if X-Plane already sends "
+            "DATA",
+            input.xplane_host),
+        value_option(
+            {"cigi-port", "PORT", "UDP port for CIGI 3.3 hosts, as their image generator; -1 = closed", -1, 65535},
+            input.cigi_port),
+        text_option("--cigi-host", "HOST:PORT", "address that receives Start of Frame and responses", input.cigi_host),
+        value_option(
+            {"lines-port", "PORT", "TCP port for lines of named columns; -1 = closed", -1, 65535}, input.lines_port)};
+}
+
+void read_packet_source(const std::string& from, flight::LiveInputOptions& input) {
+    if (from != "-") {
+        sim::links::address_from_text("--from", from);
+        input.only_from = from;
+        return;
+    }
+    input.standard_input = true;
+    input.fdm_port = -1;
+    input.mavlink_port = -1;
+    input.dis_port = -1;
+    input.xplane_port = -1;
+    input.cigi_port = -1;
+}
+
+Option from_option(flight::LiveInputOptions& input) {
+    return {.name = "--from",
+        .form = "-|ADDRESS",
+        .meaning = "-: read lines with named columns from standard input only and open no ports; an IPv4 address: "
+                   "accept packets of this machine only",
+        .read = [&input](const Words& words) { read_packet_source(words.front(), input); }};
+}
+
+Option channel_option(flight::ListenerOptions& listener) {
+    return {.name = "--channel",
+        .form = "CHANNEL",
+        .meaning = "left, front or right: one of three adjacent pictures of a panorama, rotated by the horizontal "
+                   "field of view; driven by a CIGI host only",
+        .read = [&listener](const Words& words) {
+            const auto channel = flight::live_channel_from(words.front());
+            if (!channel) {
+                throw Error(fmt::format(
+                    "--channel: expected {}, got '{}'", flight::live_channel_names, printable(words.front())));
+            }
+            listener.live.channel = *channel;
+            listener.input.is_channel = true;
+        }};
+}
+
+Option height_option(flight::LiveOptions& live) {
+    return {.name = "--height",
+        .form = "MODE",
+        .meaning = "how received heights are used: msl: above mean sea level; agl: the sender's height above ground, "
+                   "added to our ground; offset: as msl, shifted so that the first height above our ground equals the "
+                   "sender's [msl on a georeferenced map, else offset]",
+        .read = [&live](const Words& words) {
+            live.height = flight::live_height_mode_from(words.front());
+            if (!live.height) {
+                throw Error(fmt::format(
+                    "--height: expected {}, got '{}'", flight::live_height_mode_names, printable(words.front())));
+            }
+        }};
+}
+
+/// What is shown of what comes.
+std::vector<Option> view_options(ListenOptions& options) {
+    return {value_option({"vehicles", "N",
+                             "largest number of vehicles shown [16]; vehicles beyond the --aircraft options look like "
+                             "the last of them",
+                             1, 256},
+                options.vehicles),
+        text_option("--entities", "FILE.toml",
+            "aircraft of CIGI entity types: tables [[entity]] with type, aircraft and count; replaces --aircraft",
+            options.entities),
+        value_option(
+            {"cigi-view", "N", "CIGI view to show, with the next one in the --inset [the view with the lowest number]",
+                0, 65535},
+            options.listener.live.view),
+        value_option(
+            {"delay", "S",
+                "display delay in seconds: 0 extrapolates by velocity, larger values interpolate between packets", 0.0,
+                5.0},
+            options.listener.live.delay_s)};
+}
+
+void append(std::vector<Option>& table, std::vector<Option> more) {
+    std::ranges::move(more, std::back_inserter(table));
+}
+
+/// The settings that say nothing about a path of our own.
+std::vector<Option> settings_of_live(settings::RunSettings& settings) {
+    std::vector<Option> table;
+    add_setting_options(table, settings);
+    std::erase_if(table, [](const Option& option) {
+        return std::ranges::find(path_only_settings, option.name) != path_only_settings.end();
+    });
+    return table;
+}
+
+} // namespace
+
+std::vector<Option> listen_options(ListenOptions& options) {
+    options.settings.path.name = settings::live_path;
+    flight::ListenerOptions& listener = options.listener;
+    std::vector<Option> table = port_options(listener.input);
+    table.push_back(from_option(listener.input));
+    table.push_back(flag("--step",
+        "with --headless: render one picture for each packet that moves something, without delay", listener.live.step));
+    table.push_back(channel_option(listener));
+    append(table, view_options(options));
+    table.push_back(height_option(listener.live));
+    append(table, {list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
+                       "forward the aircraft of each picture to another program, as octant fly --send; repeatable",
+                       Arity::Repeatable, options.send),
+                      flag("--quiet", "print no notes", options.quiet)});
+    append(table, settings_of_live(options.settings));
+    return table;
+}
 
 namespace {
 

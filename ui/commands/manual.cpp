@@ -1,9 +1,15 @@
 #include "ui/commands/manual.h"
 
+#include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/commands/commands.h"
 
+#include <cstdio>
 #include <fmt/format.h>
+#include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace octant::ui::commands {
 
@@ -31,6 +37,7 @@ std::string in_roff(std::string_view text) {
 void add_options(const Command& command, std::string& page) {
     std::string heading;
     for (const Option& option : command.options) {
+        if (option.heading.empty()) { continue; }
         if (option.heading != heading) {
             heading = option.heading;
             page += fmt::format(".PP\n.I {}\n", in_roff(heading));
@@ -72,7 +79,7 @@ std::string option_words(const Option& option) {
 void add_case(const Command& command, const std::string& before, std::string& text) {
     const std::string name = before.empty() ? command.name : before + " " + command.name;
     std::string words = "--help";
-    for (const Option& option : command.options) { words += option_words(option); }
+    for (const Option& option : command.options) { words += option.heading.empty() ? "" : option_words(option); }
     for (const Command& each : command.commands) { words += " " + each.name; }
     text += fmt::format("    '{}') words=\"{}\" ;;\n", name, words);
     for (const Command& each : command.commands) { add_case(each, name, text); }
@@ -88,9 +95,8 @@ std::string man_page(const Program& program) {
     add_lines(program.footer, page);
     page += ".SH COMMANDS\n";
     for (const Command& command : program.commands) { add_command(command, "octant", page); }
-    page += ".SH EXIT STATUS\n0: done. 1: a check said no. 2: wrong input or environment, told in one "
-            "line.\nA flight that a signal ended has its report, then ends the program by that "
-            "signal.\n";
+    page += ".SH EXIT STATUS\n0: success. 1: a check failed. 2: invalid input or environment; the error is one "
+            "line.\nA flight ended by a signal completes its report, then the program ends with that signal.\n";
     page += ".SH ENVIRONMENT\n.TP\n.B OCTANT_DATA\nfolder of the program's models and paths\n";
     return page;
 }
@@ -134,6 +140,24 @@ complete -o filenames -F _octant octant
 
 std::string zsh_completion(const Program& program) {
     return "#compdef octant\nautoload -U +X bashcompinit && bashcompinit\n" + bash_completion(program);
+}
+
+Command manual_command(std::shared_ptr<const Program> program) {
+    auto form = std::make_shared<std::string>("man");
+    Option what = choice_option(
+        "form", "FORM", "man (manual page), bash or zsh (shell completion)", {"man", "bash", "zsh"}, *form);
+    return {.name = "manual",
+        .summary = "Prints the manual page or a shell completion script",
+        .options = {std::move(what)},
+        .footer = "Examples:\n"
+                  "  octant manual man\n"
+                  "  octant manual bash",
+        .run = [form, program = std::move(program)] {
+            const std::string text = *form == "man"    ? man_page(*program)
+                                     : *form == "bash" ? bash_completion(*program)
+                                                       : zsh_completion(*program);
+            std::fputs(text.c_str(), stdout);
+        }};
 }
 
 } // namespace octant::ui::commands

@@ -2,6 +2,7 @@
 
 #include "ui/settings/settings_text.h"
 
+#include <string>
 #include <utility>
 
 namespace octant::ui::commands {
@@ -13,6 +14,11 @@ Option with_shown_default(std::string shown_default, Option option) {
 
 Option required(Option option) {
     option.required = true;
+    return option;
+}
+
+Option hidden(Option option) {
+    option.heading.clear();
     return option;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -13,40 +14,43 @@ using Words = std::vector<std::string>;
 
 /// How many words follow an option.
 enum class Arity {
-    None,       ///< a flag: it is read as "true", its negation and `=false` as "false"
-    One,        ///< and the option stands once
-    Optional,   ///< one word or none; none is read as an empty one
-    Repeatable, ///< one word each time that the option stands
-    OneOrMore,  ///< one or more words each time
+    None,       ///< a flag: reads "true"; its negation and `=false` read "false"
+    One,        ///< one word; the option can be given once
+    Optional,   ///< one word or none; none reads as an empty word
+    Repeatable, ///< one word; the option can be given several times
+    OneOrMore,  ///< one or more words, each time that the option is given
 };
 
 /// One row of a command's table: an option, a flag or an argument without dashes.
 struct Option {
     /// "--out", a flag's "--vsync,!--no-vsync", an argument's "terrain".
     std::string name = {};
-    std::string form = {}; ///< shown in help for its words: "METRES"
+    std::string form = {}; ///< placeholder of the words in help: "METRES"
     std::string meaning = {};
     Arity arity = Arity::One;
-    /// Called once with all words of an option that stands in the command line; options are read in the order of the
-    /// table. Throws Error.
+    /// Called once with all words of the option, if it is given; options are read in the order of the table. Throws
+    /// Error.
     std::function<void(const Words&)> read = {};
     std::string shown_default = {}; ///< in help; empty = none
     bool required = false;
-    int words_per_use = 1;           ///< so many words belong together and are given together
-    std::string heading = "Options"; ///< above the option in help
+    int words_per_use = 1;           ///< number of words that must be given together
+    std::string heading = "Options"; ///< above the option in help; empty = the option is not shown
 };
 
-/// The option with another default in help.
+/// The option with this default in help.
 Option with_shown_default(std::string shown_default, Option option);
 
-/// The option as one without which the command refuses to work.
+/// The option as a required one.
 Option required(Option option);
 
-/// A flag that sets `value`; names that begin with ! unset it.
+/// The option left out of help, manual page and completions.
+Option hidden(Option option);
+
+/// A flag that sets `value` to true; names that begin with ! set it to false.
 Option flag(std::string names, std::string meaning, bool& value);
 
-/// An option whose word is kept as it is, in a std::string, a path or an optional one of them. A string that is not
-/// empty is shown as the default.
+/// An option that assigns its word to a std::string, a path or an optional of these. A string that is not empty is
+/// shown as the default.
 template <class Text>
 Option text_option(std::string name, std::string form, std::string meaning, Text& value) {
     Option option{.name = std::move(name),
@@ -57,7 +61,7 @@ Option text_option(std::string name, std::string form, std::string meaning, Text
     return option;
 }
 
-/// The same for several words, which replace what `values` held.
+/// An option that assigns its words to `values`; given options replace the defaults.
 template <class Text>
 Option list_option(std::string name, std::string form, std::string meaning, Arity arity, std::vector<Text>& values) {
     return {.name = std::move(name),

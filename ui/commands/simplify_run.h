@@ -10,7 +10,7 @@
 
 namespace octant::ui::commands {
 
-/// What `octant simplify` is asked for.
+/// Arguments of `octant simplify`.
 struct SimplifyArguments {
     std::vector<std::string> files; ///< as they stand in the command line
     std::string in;                 ///< the first one; with shared_border unused

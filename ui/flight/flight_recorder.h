@@ -2,9 +2,9 @@
 
 #include "ui/flight/session.h"
 #include "ui/flight/track_files.h"
-#include "ui/report/frame_times.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
+#include "ui/report/statistics.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings.h"
 

@@ -30,7 +30,8 @@ public:
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;
 
-    /// Feeds the program, waiting for it where it is slower. False once it reads no more (it ended); raises no SIGPIPE.
+    /// Writes to the program's standard input, and blocks until it has read enough. Returns false once the program
+    /// reads no more (it ended); raises no SIGPIPE.
     bool send(std::string_view bytes);
 
     /// Nothing more is sent.
@@ -45,7 +46,7 @@ public:
     /// What it has written to its standard output so far.
     std::string output() const;
 
-    /// Ends the input and waits for the program. Once only.
+    /// Closes the input and waits for the program. May be called once.
     ProgramResult finish();
 
 private:

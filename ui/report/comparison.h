@@ -17,7 +17,7 @@ std::vector<std::string> settings_that_differ(const LoadedRecording& first, cons
 /// in is what a comparison is about.
 std::vector<std::vector<std::size_t>> comparable_groups(Recordings recordings);
 
-/// The recordings of a group by all of their settings: repeats of each variant.
+/// The recordings of a group, grouped further by equal settings: the repeats of each variant.
 std::vector<std::vector<std::size_t>> variants_of(Recordings recordings, std::span<const std::size_t> group);
 
 /// The middle value, or the mean of the two in the middle. At least one value.
@@ -30,7 +30,7 @@ struct RelativeChange {
     double low = 0.0;          ///< 95 % interval by the bootstrap
     double high = 0.0;
 
-    /// True when the interval leaves zero out.
+    /// True when the interval does not contain zero.
     bool is_significant() const { return has_interval && (low > 0.0 || high < 0.0); }
 };
 

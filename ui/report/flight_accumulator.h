@@ -1,15 +1,77 @@
 #pragma once
 
-#include "ui/report/curve.h"
 #include "ui/report/frame_record.h"
-#include "ui/report/frame_times.h"
+#include "ui/report/plots.h"
 #include "ui/report/run_file.h"
-#include "ui/report/slow_frames.h"
-#include "ui/report/stage_columns.h"
+#include "ui/report/statistics.h"
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace octant::ui::report {
+
+/// The stages of a flight's frames in the memory of a plot: where there are more frames than columns, neighbours share
+/// one, which shows the longest of them.
+class StageColumns {
+public:
+    static constexpr std::size_t max_columns = 400; ///< each wide enough to be seen
+
+    struct Column {
+        double x_s = 0.0; ///< simulated time of its first frame
+        double frame_ms = 0.0;
+        double sim_ms = 0.0;
+        double plan_ms = 0.0;
+        double draw_ms = 0.0;
+        double read_ms = 0.0;
+    };
+
+    void add(const FrameRecord& record);
+
+    const std::vector<Column>& columns() const { return columns_; }
+
+    /// Simulated time of the last frame.
+    double end_s() const { return end_s_; }
+
+    bool is_thinned() const { return frames_per_column_ > 1; }
+
+private:
+    std::vector<Column> columns_;
+    std::size_t frames_per_column_ = 1;
+    std::size_t in_last_bucket_ = 0;
+    double end_s_ = 0.0;
+};
+
+/// A curve over a flight in the memory of a plot: where there are more points than it keeps pieces, neighbours share
+/// one, which keeps its least and its greatest value.
+class Curve {
+public:
+    /// More pieces than a page's plot has pixels.
+    static constexpr std::size_t max_pieces = 900;
+
+    /// `x` not below that of the last point. A value that is not finite is a gap.
+    void add(double x, double y);
+
+    /// Its points in order, two a piece at the most, in at most so many pieces (>= 1).
+    PlotSeries series(std::size_t buckets = max_pieces) const;
+
+private:
+    struct Point {
+        double x = 0.0;
+        double y = 0.0;
+    };
+
+    struct Bucket {
+        Point lowest;
+        Point highest;
+    };
+
+    static Bucket joined(const Bucket& a, const Bucket& b);
+
+    std::vector<Bucket> buckets_;
+    std::size_t points_per_bucket_ = 1;
+    std::size_t in_last_bucket_ = 0;
+};
 
 /// How a flight kept up with the clock, without its warm-up frames: latency and missed deadlines.
 class DeadlineStatistics {

@@ -1,8 +1,7 @@
 #include "ui/report/flight_plots.h"
 
-#include "ui/report/curve.h"
-#include "ui/report/frame_times.h"
-#include "ui/report/stage_columns.h"
+#include "ui/report/flight_accumulator.h"
+#include "ui/report/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -70,17 +69,17 @@ Plot histogram_plot(const FrameTimeHistogram& times) {
 }
 
 Plot stage_plot(const StageColumns& stages_of_flight, double ceiling_ms) {
-    using Column = StageColumns::Column;
+    using StageColumn = StageColumns::Column;
 
     struct Stage {
         const char* name;
         const char* colour;
-        double Column::*duration_ms;
+        double StageColumn::*duration_ms;
     };
 
-    constexpr std::array stages{Stage{"sim", violet, &Column::sim_ms}, Stage{"plan", green, &Column::plan_ms},
-        Stage{"draw", blue, &Column::draw_ms}, Stage{"read", amber, &Column::read_ms}};
-    const std::vector<Column>& columns = stages_of_flight.columns();
+    constexpr std::array stages{Stage{"sim", violet, &StageColumn::sim_ms}, Stage{"plan", green, &StageColumn::plan_ms},
+        Stage{"draw", blue, &StageColumn::draw_ms}, Stage{"read", amber, &StageColumn::read_ms}};
+    const std::vector<StageColumn>& columns = stages_of_flight.columns();
     Plot plot{"Stages, stacked", time_label, "ms", {}, {}, 0.0, ceiling_ms};
     if (stages_of_flight.is_thinned()) {
         plot.x_label = "simulated time, s (columns show the longest of their frames)";

@@ -1,18 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace octant::ui::report {
 
-/// Name of the file that whoever writes into a folder holds locked.
+/// True for names of files and folders of a recording, and for temporary files that a killed program left.
+bool is_recording_name(std::string_view name);
+
+/// Name of the file that a program locks while it writes into a folder.
 inline constexpr const char* lock_name = "recording.lock";
 
-/// Keeps other programs from recording into a folder for as long as it lives. The system lets go of the lock when a
-/// program is killed; the file that may be left then locks nothing.
+/// Prevents other programs from recording into a folder, for its own lifetime. The system releases the lock when the
+/// program is killed; a file left behind locks nothing.
 class FolderLock {
 public:
-    /// Throws Error at once where another program, or this one, is writing into the folder, and where no file can be
-    /// made there. File systems without locks keep nobody out.
+    /// Throws Error without waiting if another program, or this one, has locked the folder, and if no file can be made
+    /// there. On file systems without locks, nothing is prevented.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
@@ -25,7 +29,7 @@ private:
     int descriptor_ = -1;
 };
 
-/// True while somebody is writing into the folder. Writes nothing there.
+/// True while a program has locked the folder. Writes nothing there.
 bool is_locked(const std::filesystem::path& folder);
 
 } // namespace octant::ui::report

@@ -10,7 +10,7 @@
 
 namespace octant::ui::report {
 
-/// How a plot stands in a page.
+/// Width of a plot in a page.
 enum class PlotWidth {
     HalfWidth, ///< one of two beside each other
     FullWidth, ///< over the page's whole width

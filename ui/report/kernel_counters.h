@@ -3,7 +3,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/frame_record.h"
-#include "ui/report/slow_frames.h"
+#include "ui/report/statistics.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -31,7 +31,7 @@ public:
     /// A frame begins.
     void begin();
 
-    /// Since then; time that was stolen since this was asked last.
+    /// Counts since the construction; stolen time since the last call.
     FrameCounters lap();
 
 private:
@@ -48,7 +48,7 @@ private:
 std::string counters_header();
 std::string counters_line(const FrameRecord& record);
 
-/// What the kernel counted, frame after frame.
+/// Reads counters.csv frame by frame.
 class CounterReader {
 public:
     /// A file that is not there, or none of ours, has no frames.
@@ -56,7 +56,7 @@ public:
 
     bool is_there() const { return lines_.has_value(); }
 
-    /// The counters of a frame after those asked for before; all zero where there are none.
+    /// Counters of a frame later than all frames queried before; all zero if the file has none for it.
     FrameCounters of(int frame);
 
     /// The next frame with its counters.

@@ -6,8 +6,6 @@
 #include "ui/base/json_file_name.h"
 #include "ui/base/path_alias.h"
 #include "ui/report/folder_lock.h"
-#include "ui/report/json_text.h"
-#include "ui/report/recording_names.h"
 #include "ui/report/run_file.h"
 #include "ui/report/zip_file.h"
 

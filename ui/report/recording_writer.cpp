@@ -2,12 +2,12 @@
 
 #include "sim/base/error.h"
 #include "sim/base/format_once.h"
+#include "ui/report/folder_lock.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/kernel_counters.h"
 #include "ui/report/machine_info.h"
 #include "ui/report/png_file.h"
-#include "ui/report/recording_names.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,7 @@
 #include "sim/base/output_file.h"
 #include "ui/report/folder_lock.h"
 #include "ui/report/frame_record.h"
-#include "ui/report/frame_times.h"
-#include "ui/report/pixel_view.h"
+#include "ui/report/png_file.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 

@@ -1,12 +1,90 @@
 #include "ui/report/slow_pictures.h"
 
-#include "ui/report/contact_sheet.h"
+#include "sim/base/error.h"
 #include "ui/report/frame_csv.h"
+#include "ui/report/html_text.h"
 
 #include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 
 namespace octant::ui::report {
+
+namespace {
+
+constexpr std::size_t max_pictures = 12;
+constexpr int widest_picture_px = 640;
+
+/// Mean of one channel over a square of side `side` with its top left corner at (x, y).
+std::byte square_mean(const PixelView& picture, int x, int y, int side, int channel) {
+    unsigned sum = 0;
+    for (int row = y; row < y + side; ++row) {
+        const auto bytes = picture.row(row);
+        for (int column = x; column < x + side; ++column) {
+            const int at = column * picture.channels + channel;
+            sum += std::to_integer<unsigned>(bytes[static_cast<std::size_t>(at)]);
+        }
+    }
+    const auto count = static_cast<unsigned>(side * side);
+    return static_cast<std::byte>((sum + count / 2) / count);
+}
+
+} // namespace
+
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count) {
+    assert(max_count >= 1);
+    std::vector<std::size_t> chosen;
+    if (count <= max_count) {
+        for (std::size_t i = 0; i < count; ++i) { chosen.push_back(i); }
+        return chosen;
+    }
+    for (std::size_t i = 0; i < max_count; ++i) {
+        chosen.push_back(max_count == 1 ? 0 : i * (count - 1) / (max_count - 1));
+    }
+    return chosen;
+}
+
+Picture downscaled(const PixelView& picture, int widest) {
+    assert(picture.is_whole() && widest >= 1);
+    const int side = std::min((picture.width_px + widest - 1) / widest, std::max(1, picture.height_px));
+    Picture small{picture.width_px / side, picture.height_px / side, 3, {}};
+    small.bytes.reserve(small.view().row_bytes() * static_cast<std::size_t>(small.height_px));
+    for (int y = 0; y < small.height_px; ++y) {
+        for (int x = 0; x < small.width_px; ++x) {
+            for (int channel = 0; channel < 3; ++channel) {
+                small.bytes.push_back(square_mean(picture, x * side, y * side, side, channel));
+            }
+        }
+    }
+    return small;
+}
+
+std::string picture_html(const std::filesystem::path& picture, int widest, const std::string& caption) {
+    try {
+        const Picture small = downscaled(read_png(picture).view(), widest);
+        return fmt::format("<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
+                           "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
+            escaped(caption), small.width_px, small.height_px, base64(png_bytes(small.view(), PngEffort::Small)));
+    } catch (const Error& error) {
+        return fmt::format("<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n", escaped(error.what()));
+    }
+}
+
+std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) {
+    if (pictures.empty()) { return {}; }
+    const auto chosen = evenly_spaced(pictures.size(), max_pictures);
+    std::string html = "<div class=\"sheet\">\n";
+    for (const std::size_t index : chosen) {
+        html += picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
+    }
+    html += "</div>\n";
+    if (chosen.size() < pictures.size()) {
+        html += fmt::format("<p class=\"note\">{} of {} pictures, evenly spaced; the others lie beside run.json "
+                            "in the recording's folder.</p>\n",
+            chosen.size(), pictures.size());
+    }
+    return html;
+}
 
 std::string slow_picture_name(int frame) { return fmt::format("slow-{:05}.png", frame); }
 

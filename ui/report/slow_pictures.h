@@ -5,10 +5,26 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace octant::ui::report {
+
+/// Indices of `max_count` (>= 1) of `count` things, evenly spaced, first and last among them; all when there are no
+/// more.
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count);
+
+/// The picture made smaller by a whole number, each pixel the mean of a square of the old ones, so that it is at most
+/// `widest_px` wide. A picture narrower than that stays as it is. RGB.
+Picture downscaled(const PixelView& picture, int widest_px);
+
+/// A picture as a figure of a page, embedded, at most `widest_px` wide. One that cannot be read is named in its place.
+std::string picture_html(const std::filesystem::path& picture, int widest_px, const std::string& caption);
+
+/// The pictures of a flight as a grid of figures for a page, embedded, at most 12 of them and each at most 640 pixels
+/// wide; the rest is mentioned. A picture that cannot be read is named in its place. Empty when there are none.
+std::string contact_sheet_html(std::span<const std::filesystem::path> pictures);
 
 /// The name of a slow frame's picture in a recording: slow-00042.png.
 std::string slow_picture_name(int frame);

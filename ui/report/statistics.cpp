@@ -2,8 +2,10 @@
 
 #include "sim/base/nearest_rank.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace octant::ui::report {
@@ -55,6 +57,135 @@ std::string statistic_text(const Statistic& statistic, const Statistics& statist
 double nearest_rank(std::span<const double> sorted, int permille) {
     assert(permille >= 1 && permille <= 1000);
     return sorted.empty() ? 0.0 : sorted[rank_of(sorted.size(), permille) - 1];
+}
+
+void FrameTimeHistogram::add(double frame_ms) {
+    ++counts_[frame_ms];
+    if (frames_++ > 0) { change_ms_ += std::abs(frame_ms - last_ms_); }
+    last_ms_ = frame_ms;
+}
+
+void FrameTimeHistogram::add(const FrameRecord& record) {
+    if (!record.warm_up) { add(record.frame_ms); }
+}
+
+/// The time of that rank, counted from 1 upwards.
+double FrameTimeHistogram::at_rank(std::uint64_t rank) const {
+    std::uint64_t passed = 0;
+    for (const auto& [frame_ms, count] : counts_) {
+        passed += count;
+        if (passed >= rank) { return frame_ms; }
+    }
+    return 0.0;
+}
+
+double FrameTimeHistogram::low_fps(int permille) const {
+    const std::uint64_t slowest = rank_of(frames_, permille);
+    std::uint64_t left = slowest;
+    double sum_ms = 0.0;
+    for (auto at = counts_.rbegin(); at != counts_.rend() && left > 0; ++at) {
+        const std::uint64_t taken = std::min(at->second, left);
+        sum_ms += static_cast<double>(taken) * at->first;
+        left -= taken;
+    }
+    const double mean_ms = sum_ms / static_cast<double>(slowest);
+    return mean_ms > 0.0 ? 1000.0 / mean_ms : 0.0;
+}
+
+int FrameTimeHistogram::count_above(double limit_ms) const {
+    std::uint64_t count = 0;
+    for (auto at = counts_.upper_bound(limit_ms); at != counts_.end(); ++at) { count += at->second; }
+    return static_cast<int>(count);
+}
+
+Statistics FrameTimeHistogram::statistics() const {
+    Statistics result;
+    if (frames_ == 0) { return result; }
+    const auto n = static_cast<double>(frames_);
+    double sum_ms = 0.0;
+    for (const auto& [frame_ms, count] : counts_) { sum_ms += static_cast<double>(count) * frame_ms; }
+    result.frames = static_cast<int>(frames_);
+    result.mean_ms = sum_ms / n;
+    double squares = 0.0;
+    for (const auto& [frame_ms, count] : counts_) {
+        const double off_ms = frame_ms - result.mean_ms;
+        squares += static_cast<double>(count) * off_ms * off_ms;
+    }
+    if (frames_ > 1) {
+        result.sd_ms = std::sqrt(squares / (n - 1.0));
+        result.jitter_ms = change_ms_ / (n - 1.0);
+    }
+    result.p50_ms = at_rank(rank_of(frames_, 500));
+    result.p90_ms = at_rank(rank_of(frames_, 900));
+    result.p95_ms = at_rank(rank_of(frames_, 950));
+    result.p99_ms = at_rank(rank_of(frames_, 990));
+    result.p999_ms = at_rank(rank_of(frames_, 999));
+    result.max_ms = counts_.rbegin()->first;
+    result.low_1pct_fps = low_fps(10);
+    result.low_01pct_fps = low_fps(1);
+    result.overruns_16ms = count_above(overrun_16_ms);
+    result.overruns_33ms = count_above(overrun_33_ms);
+    result.overruns_41ms = count_above(overrun_41_ms);
+    return result;
+}
+
+Statistics statistics_of_times(std::span<const double> frame_ms) {
+    FrameTimeHistogram times;
+    for (const double each_ms : frame_ms) { times.add(each_ms); }
+    return times.statistics();
+}
+
+Statistics statistics_of(std::span<const FrameRecord> records) {
+    FrameTimeHistogram times;
+    for (const FrameRecord& record : records) { times.add(record); }
+    return times.statistics();
+}
+
+namespace {
+
+/// With the decimals of frames.csv, so that there are not many different ones.
+std::array<double, 5> stages_of(const FrameRecord& record) {
+    constexpr double decimals = 1e4;
+    const double timed_ms = record.sim_ms + record.plan_ms + record.draw_ms + record.read_ms;
+    return {record.sim_ms, record.plan_ms, record.draw_ms, record.read_ms,
+        std::round(std::max(0.0, record.frame_ms - timed_ms) * decimals) / decimals};
+}
+
+std::size_t index_of_greatest(const std::array<double, 5>& values) {
+    return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
+} // namespace
+
+void SlowFrameList::add(const FrameRecord& record) {
+    if (record.warm_up) { return; }
+    const std::array<double, 5> stage_ms = stages_of(record);
+    for (std::size_t i = 0; i < stages_.size(); ++i) { stages_[i].add(stage_ms[i]); }
+    if (record.frame_ms > overrun_16_ms) { ++above_16_ms_[index_of_greatest(stage_ms)]; }
+    const auto place =
+        std::ranges::find_if(slowest_, [&](const FrameRecord& kept) { return kept.frame_ms < record.frame_ms; });
+    if (place == slowest_.end() && slowest_.size() == max_kept) { return; }
+    slowest_.insert(place, record);
+    slowest_.resize(std::min(slowest_.size(), max_kept));
+}
+
+std::vector<SlowFrame> SlowFrameList::slowest() const {
+    std::array<double, 5> medians_ms{};
+    std::ranges::transform(
+        stages_, medians_ms.begin(), [](const FrameTimeHistogram& stage) { return stage.statistics().p50_ms; });
+    std::vector<SlowFrame> overruns;
+    for (const FrameRecord& record : slowest_) {
+        SlowFrame overrun;
+        overrun.record = record;
+        overrun.stage_ms = stages_of(record);
+        overrun.longest_stage = index_of_greatest(overrun.stage_ms);
+        std::array<double, 5> growth = overrun.stage_ms;
+        for (std::size_t i = 0; i < growth.size(); ++i) { growth[i] -= medians_ms[i]; }
+        overrun.slowed_stage = index_of_greatest(growth);
+        overrun.slowdown_ms = growth[overrun.slowed_stage];
+        overruns.push_back(overrun);
+    }
+    return overruns;
 }
 
 } // namespace octant::ui::report

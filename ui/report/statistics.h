@@ -1,8 +1,15 @@
 #pragma once
 
+#include "ui/report/frame_record.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace octant::ui::report {
 
@@ -52,5 +59,69 @@ std::string statistic_text(const Statistic& statistic, const Statistics& statist
 /// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards. `permille` in [1, 1000]; 0
 /// when there are no values.
 double nearest_rank(std::span<const double> sorted, int permille);
+
+/// Frame times counted one by one, so that a flight's figures are known without its rows. Takes memory for each
+/// different time, not for each frame: times rounded as frames.csv has them are hardly more than ten thousand for a
+/// second of range.
+class FrameTimeHistogram {
+public:
+    /// In flight order, in milliseconds.
+    void add(double frame_ms);
+
+    /// The same, unless it is one of the warm-up.
+    void add(const FrameRecord& record);
+
+    Statistics statistics() const;
+
+    /// How many frames took so long, by milliseconds.
+    const std::map<double, std::uint64_t>& counts() const { return counts_; }
+
+private:
+    double at_rank(std::uint64_t rank) const;
+    double low_fps(int permille) const;
+    int count_above(double limit_ms) const;
+
+    std::map<double, std::uint64_t> counts_;
+    std::uint64_t frames_ = 0;
+    double last_ms_ = 0.0;
+    double change_ms_ = 0.0; ///< sum of |change| from frame to frame
+};
+
+/// The figures of rows that are all there.
+Statistics statistics_of(std::span<const FrameRecord> records);
+
+/// The same from bare frame times in milliseconds, in flight order.
+Statistics statistics_of_times(std::span<const double> frame_ms);
+
+/// The stages of a frame; `other` is what frame_ms holds beside the four that are timed.
+inline constexpr std::array<std::string_view, 5> stage_names{"sim", "plan", "draw", "read", "other"};
+
+/// A slow frame and why.
+struct SlowFrame {
+    FrameRecord record;
+    std::array<double, 5> stage_ms{}; ///< as stage_names
+    std::size_t longest_stage = 0;    ///< took most of the frame
+    std::size_t slowed_stage = 0;     ///< took most above its own median of the flight
+    double slowdown_ms = 0.0;         ///< by that much
+};
+
+/// The slowest frames of a flight, those of its warm-up left out, in constant memory.
+class SlowFrameList {
+public:
+    static constexpr std::size_t max_kept = 12;
+
+    void add(const FrameRecord& record);
+
+    /// At most max_kept, the slowest first.
+    std::vector<SlowFrame> slowest() const;
+
+    /// Frames above overrun_16_ms by the stage that took most of each.
+    const std::array<int, 5>& above_16_ms() const { return above_16_ms_; }
+
+private:
+    std::vector<FrameRecord> slowest_;
+    std::array<FrameTimeHistogram, 5> stages_;
+    std::array<int, 5> above_16_ms_{};
+};
 
 } // namespace octant::ui::report

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/report/child_program.h"
-#include "ui/report/pixel_view.h"
+#include "ui/report/png_file.h"
 
 #include <filesystem>
 #include <optional>

@@ -3,8 +3,8 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/json_file_name.h"
-#include "ui/report/json_text.h"
 #include "ui/report/packed_recording.h"
+#include "ui/report/run_file.h"
 #include "ui/settings/settings_by_name.h"
 #include "ui/settings/settings_fields.h"
 

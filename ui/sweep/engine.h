@@ -9,7 +9,7 @@
 
 namespace octant::ui::sweep {
 
-/// How the flights of a sweep are given out.
+/// How the flights of a sweep are distributed.
 struct EngineOptions {
     std::string program;                     ///< the octant program, as the machines that fly call it
     bool share_cores = false;                ///< several at once on a machine, whatever that does to frame times
@@ -23,7 +23,7 @@ struct EngineOptions {
     bool quiet = false;
 };
 
-/// Gives runs to processes or machines.
+/// Runs flights on processes or machines.
 class Engine {
 public:
     Engine() = default;
@@ -33,25 +33,39 @@ public:
     Engine(Engine&&) = delete;
     Engine& operator=(Engine&&) = delete;
 
-    /// Has each of these runs flown once, or tried, and waits for all. What came of them lies in the folder. Indices
-    /// into the sweep's runs. Throws Error when the engine itself fails.
+    /// Attempts each of these runs once and waits for all of them; the results are in the folder. `runs`: indices into
+    /// the sweep's runs. Throws Error when the engine itself fails.
     virtual void fly(std::span<const std::size_t> runs) = 0;
 
     /// How the runs shared machines, for the report: "one at a time".
     virtual std::string machine_sharing() const = 0;
 };
 
-/// Child processes on this machine, one at a time unless cores may be shared.
+/// Child processes on this machine, one at a time unless EngineOptions::share_cores is set.
 std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// A job array of Slurm, submitted by a script that lies in the folder. Throws Error where there is no sbatch.
+/// A Slurm job array, submitted by a script in the folder. Throws Error if sbatch is not installed.
 std::unique_ptr<Engine> slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// GNU parallel over ssh, by a script that lies in the folder, which all machines must see under its name. Throws Error
 /// where there is no GNU parallel.
 std::unique_ptr<Engine> parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// Text as one word of a shell.
+/// The text quoted as one shell word.
 std::string shell_quoted(const std::string& text);
+
+/// A script for sbatch that flies the runs named in jobs.txt as one job array of `tasks`, each of which flies every
+/// tasks-th run. Submitted again after whatever happened, it flies what is not done yet.
+std::string sbatch_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options, int tasks);
+
+/// Number of tasks of a sweep's job array.
+int tasks_of(const Sweep& sweep, const EngineOptions& options);
+
+/// The tasks of the array that fly these runs: "0,3,7".
+std::string task_list(std::span<const std::size_t> runs, int tasks);
+
+/// A script that flies the runs named in todo.txt by GNU parallel, on the machines of a file. Run again after whatever
+/// happened, it flies what is not done yet.
+std::string parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options);
 
 } // namespace octant::ui::sweep

@@ -4,9 +4,9 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/flight/flight_recorder.h"
+#include "ui/report/html_text.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
-#include "ui/report/table_text.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 

@@ -170,7 +170,7 @@ report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasur
     table.title = fmt::format("Triangles in view at {:.4g} px", *run.target_error_px);
     table.header = {"mesh", "triangles", "c", "ratio"};
     const auto row = [&](const std::string& name, double triangles, const std::string& c) {
-        table.rows.push_back({name, fmt::format("{:.0f}", triangles), c, fmt::format("{:.3f}", own / triangles)});
+        table.add_row("{}\t{:.0f}\t{}\t{:.3f}", name, triangles, c, own / triangles);
     };
     row(settings::text_of(run.mesh.mesh), own, "");
     row("Roettger, full fans", full.triangles, fmt::format("{}", full.roughness_c));

@@ -2,7 +2,6 @@
 
 #include "ui/report/html_text.h"
 #include "ui/terrain/ground_view.h"
-#include "ui/terrain/loaded_ground.h"
 #include "visuals/scene/camera.h"
 
 #include <optional>

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "ui/terrain/ground_view.h"
-#include "ui/terrain/loaded_ground.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_query.h"
 
+#include <glm/vec3.hpp>
+
 #include <memory>
+#include <string>
 
 namespace octant::ui::terrain {
 
@@ -18,10 +20,10 @@ public:
     MeshMaker(MeshMaker&&) = delete;
     MeshMaker& operator=(MeshMaker&&) = delete;
 
-    /// The ground that its meshes are of, at full resolution.
+    /// The ground at full resolution.
     virtual visuals::terrain::GroundSamples ground() const = 0;
 
-    /// How coarse meshes may get: the error in pixels, or 1 / C. Both ends make sense.
+    /// Useful range of the coarseness: the error in pixels, or 1 / C.
     struct Range {
         double finest;
         double coarsest;
@@ -46,5 +48,9 @@ std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const Gro
 /// that does not go with the kind of mesh.
 visuals::terrain::GroundMesh mesh_from_options(
     MeshMaker& maker, const visuals::terrain::MeshView& view, const GroundMeshOptions& options);
+
+/// A mesh as a PLY file: world coordinates in double precision, triangles counter-clockwise from above. `eye_m`: what
+/// the mesh is relative to.
+std::string ply_of(const visuals::terrain::GroundMesh& mesh, const glm::dvec3& eye_m, bool ascii);
 
 } // namespace octant::ui::terrain

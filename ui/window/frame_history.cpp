@@ -1,6 +1,6 @@
 #include "ui/window/frame_history.h"
 
-#include "ui/report/frame_times.h"
+#include "ui/report/statistics.h"
 
 namespace octant::ui::window {
 

@@ -1,5 +1,5 @@
 #include "tests/fuzz/formats/target.h"
-#include "ui/terrain/eye_points.h"
+#include "ui/terrain/ground_view.h"
 
 #include <cmath>
 

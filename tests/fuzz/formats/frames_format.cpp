@@ -1,6 +1,5 @@
 #include "tests/fuzz/formats/target.h"
 #include "ui/report/frame_csv.h"
-#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
 namespace octant::tests::formats::frames_format {

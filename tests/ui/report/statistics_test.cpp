@@ -1,6 +1,4 @@
 #include "tests/ui/report/scratch.h"
-#include "ui/report/frame_times.h"
-#include "ui/report/slow_frames.h"
 #include "ui/report/statistics.h"
 
 #include <catch2/catch.hpp>

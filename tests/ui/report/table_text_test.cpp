@@ -1,4 +1,4 @@
-#include "ui/report/table_text.h"
+#include "ui/report/html_text.h"
 
 #include <catch2/catch.hpp>
 

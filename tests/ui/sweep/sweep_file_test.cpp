@@ -1,6 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/sweep/engine_scripts.h"
+#include "ui/sweep/engine.h"
 #include "ui/sweep/sweep_file.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/terrain/eye_points.h"
+#include "ui/terrain/ground_view.h"
 
 #include <catch2/catch.hpp>
 

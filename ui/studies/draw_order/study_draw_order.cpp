@@ -5,7 +5,6 @@
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/html_text.h"
-#include "ui/report/table_text.h"
 #include "ui/settings/settings_text.h"
 #include "ui/studies/draw_order/surface_race.h"
 #include "ui/world/order_model.h"
@@ -192,10 +191,10 @@ report::HtmlTable paper_order_table() {
         for (const orderfile::ListedCell& cell : orders.cells) {
             if (draworder::path_in_file(cell.path, input.axes) != row.octant) { continue; }
             const List printed = zero_based(row.list);
-            table.rows.push_back(
-                {row.octant, orderfile::list_description(printed), orderfile::list_description(cell.list),
-                    yes_or_no(same_polygons(cell.list, printed)), precedences_in_words(row),
-                    yes_or_no(keeps_precedences(cell.list, row)), yes_or_no(keeps_precedences(printed, row))});
+            table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{}", row.octant, orderfile::list_description(printed),
+                orderfile::list_description(cell.list), yes_or_no(same_polygons(cell.list, printed)),
+                precedences_in_words(row), yes_or_no(keeps_precedences(cell.list, row)),
+                yes_or_no(keeps_precedences(printed, row)));
         }
     }
     table.note = "Ours by the paper's steps as printed. Where no precedence is needed any sequence "
@@ -216,12 +215,10 @@ report::HtmlTable method_table(std::span<const OrderedByEachMethod> models) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
             const auto check = orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
-            table.rows.push_back(
-                {model.name, settings::text_of(methods[i]), fmt::format("{}", ordered.model.polygons.size()),
-                    fmt::format("{}", ordered.splits), fmt::format("{}", ordered.order.cell_count()),
-                    fmt::format("{}", ordered.order.list_count()), fmt::format("{}", tests.most),
-                    fmt::format("{:.2f}", tests.mean), fmt::format("{:.1f}", model.build_ms[i]),
-                    fmt::format("{}", check.pairs), fmt::format("{}", check.pairs_unproved + check.unlisted_unproved)});
+            table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}", model.name,
+                settings::text_of(methods[i]), ordered.model.polygons.size(), ordered.splits,
+                ordered.order.cell_count(), ordered.order.list_count(), tests.most, tests.mean, model.build_ms[i],
+                check.pairs, check.pairs_unproved + check.unlisted_unproved);
         }
     }
     table.note = "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
@@ -248,7 +245,7 @@ report::HtmlTable wrong_pixel_table(std::span<const OrderedByEachMethod> models)
             }
             const models::polygons::PolygonModel& whole = model.by_method[0].model;
             shares.push_back(percent(ray_count_of(whole, draworder::file_order(whole), range)));
-            table.rows.push_back({model.name, range.name, fmt::format("{}", rays)});
+            table.add_row("{}\t{}\t{}", model.name, range.name, rays);
             table.rows.back().insert(table.rows.back().end(), shares.begin(), shares.end());
         }
     }
@@ -269,12 +266,10 @@ report::HtmlTable bsp_table(std::span<const OrderedByEachMethod> models) {
         const draworder::OrderedModel& ordered = model.by_method[tree_method];
         const orderfile::BspTree bsp = orderfile::bsp_tree(model.by_method[0].model);
         const FrameCost cost = frame_cost(bsp, ordered);
-        table.rows.push_back({model.name, fmt::format("{}", model.polygons), fmt::format("{}", bsp.splits),
-            fmt::format("{}", bsp.model.polygons.size()), fmt::format("{}", bsp.nodes.size()),
-            fmt::format("{}", bsp.depth), fmt::format("{:.2f}", world::plane_tests(ordered).mean),
-            fmt::format("{}", ordered.splits), fmt::format("{:.0f}", cost.bsp_ns), fmt::format("{:.1f}", cost.cell_ns),
-            fmt::format("{:.1f}", cost.bsp_ns / cost.cell_ns), fmt::format("{:.1f}", cost.bsp_painted),
-            fmt::format("{:.1f}", cost.cell_painted)});
+        table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{}\t{:.0f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}", model.name,
+            model.polygons, bsp.splits, bsp.model.polygons.size(), bsp.nodes.size(), bsp.depth,
+            world::plane_tests(ordered).mean, ordered.splits, cost.bsp_ns, cost.cell_ns, cost.bsp_ns / cost.cell_ns,
+            cost.bsp_painted, cost.cell_painted);
     }
     table.note = "The BSP tree takes the planes of the polygons, those first that split fewest; it "
                  "holds turning parts at one angle only and leaves out back faces on its walk. The "
@@ -320,9 +315,8 @@ report::HtmlTable speed_table(bool quiet) {
         const auto fps = [&](std::size_t mode) {
             return fmt::format("{:.0f}", 1000.0 / raced.gl_times[mode].median_ms);
         };
-        table.rows.push_back({row.aircraft, fmt::format("{:.0f}", row.back_face_fps),
-            fmt::format("{:.0f}", row.depth_buffer_fps), fmt::format("{:.0f}", row.octant_fps), fps(1), fps(2), fps(0),
-            fmt::format("{:.2f}", raced.against(1)), fmt::format("{:.2f}", raced.against(2))});
+        table.add_row("{}\t{:.0f}\t{:.0f}\t{:.0f}\t{}\t{}\t{}\t{:.2f}\t{:.2f}", row.aircraft, row.back_face_fps,
+            row.depth_buffer_fps, row.octant_fps, fps(1), fps(2), fps(0), raced.against(1), raced.against(2));
     }
     table.note = "Ours: an orbit at 1280x720, medians of whole frames; the three ways draw every "
                  "frame in turn. More aircraft and ground: octant study hidden-surface.";
@@ -332,31 +326,22 @@ report::HtmlTable speed_table(bool quiet) {
 } // namespace
 
 void study_draw_order(const DrawOrderStudyOptions& options) {
-    make_folder(options.out);
+    report::StudyTables tables(options);
     std::vector<OrderedByEachMethod> models;
     for (const char* name : {"f15", "500md", "concave"}) {
         base::print_note(options.quiet, fmt::format("ordering {} by octants, cells and tree", name));
         models.push_back(order_by_each_method(name));
     }
-    std::vector<std::string> files;
-    std::vector<report::HtmlTable> tables;
     const auto add = [&](const char* file, report::HtmlTable table) {
         base::print_note(options.quiet, fmt::format("{}: {}", file, table.title));
-        files.emplace_back(file);
-        tables.push_back(std::move(table));
+        tables.add(file, std::move(table));
     };
     add("table-1", speed_table(options.quiet));
     add("table-4", paper_order_table());
     add("methods", method_table(models));
     add("wrong-pixels", wrong_pixel_table(models));
     add("bsp", bsp_table(models));
-    std::string markdown;
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        write_file(options.out / (files[i] + ".csv"), report::csv_of(tables[i]));
-        markdown += (i == 0 ? "" : "\n") + report::markdown_of(tables[i]);
-    }
-    write_file(options.out / "draw-order.md", markdown);
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.finish("draw-order", tables.markdown());
     base::print_note(options.quiet, fmt::format("tables: {0}/draw-order.md and one .csv each", options.out.string()));
 }
 

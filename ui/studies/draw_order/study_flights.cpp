@@ -7,12 +7,12 @@
 #include "ui/base/stop_signals.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/session.h"
-#include "ui/report/frame_times.h"
 #include "ui/report/html_report.h"
+#include "ui/report/html_text.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/plots.h"
-#include "ui/report/table_text.h"
-#include "ui/studies/draw_order/raster_modes.h"
+#include "ui/report/statistics.h"
+#include "ui/studies/draw_order/surface_race.h"
 
 #include <algorithm>
 #include <array>
@@ -163,11 +163,10 @@ report::HtmlTable table_5(const std::vector<MeasuredRow>& measured) {
     for (std::size_t i = 0; i < table_5_rows; ++i) {
         const PrintedTime& row = printed_times[i];
         const MeasuredRow& m = measured[i];
-        table.rows.push_back({row.aircraft, fmt::format("{}", m.vertices), fmt::format("{}", m.polygons),
-            fmt::format("{:.1f}", row.octant_s), seconds_text(m.seconds[0]),
-            fmt::format("{:.0f}", row.frames / row.octant_s), fps_text(m.frames, m.seconds[0]),
-            fmt::format("{:.0f}", row.depth_buffer_fps), fps_text(m.frames, m.seconds[1]),
-            fmt::format("{:.0f}", row.back_face_fps), fps_text(m.frames, m.seconds[2])});
+        table.add_row("{}\t{}\t{}\t{:.1f}\t{}\t{:.0f}\t{}\t{:.0f}\t{}\t{:.0f}\t{}", row.aircraft, m.vertices,
+            m.polygons, row.octant_s, seconds_text(m.seconds[0]), row.frames / row.octant_s,
+            fps_text(m.frames, m.seconds[0]), row.depth_buffer_fps, fps_text(m.frames, m.seconds[1]), row.back_face_fps,
+            fps_text(m.frames, m.seconds[2]));
     }
     table.note = "An orbit without background. The paper's machine was an IRIS workstation with 12 "
                  "geometry engines.";
@@ -187,14 +186,13 @@ report::HtmlTable table_6(const std::vector<MeasuredRow>& measured, const Flight
     for (std::size_t i = table_5_rows; i < printed_times.size(); ++i) {
         const PrintedTime& row = printed_times[i];
         const MeasuredRow& m = measured[i];
-        std::vector<std::string> cells = {row.aircraft, row.path, fmt::format("{}", m.frames),
-            fmt::format("{:.1f}", row.octant_s), fmt::format("{:.1f}", row.frames / row.octant_s)};
+        std::vector<std::string> cells = report::cells(
+            "{}\t{}\t{}\t{:.1f}\t{:.1f}", row.aircraft, row.path, m.frames, row.octant_s, row.frames / row.octant_s);
         for (const double seconds : m.seconds) {
             cells.push_back(seconds_text(seconds));
             cells.push_back(fps_text(m.frames, seconds));
         }
-        cells.push_back(fmt::format("{:.2f}", m.median_ms[1] / m.median_ms[0]));
-        cells.push_back(fmt::format("{:.2f}", m.median_ms[2] / m.median_ms[0]));
+        report::append_cells(cells, "{:.2f}\t{:.2f}", m.median_ms[1] / m.median_ms[0], m.median_ms[2] / m.median_ms[0]);
         table.rows.push_back(cells);
     }
     table.note =
@@ -241,15 +239,11 @@ report::HtmlTable raster_times(const std::vector<MeasuredRow>& measured) {
 }
 
 void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
-    const std::array tables = {table_5(measured), table_6(measured, options), raster_times(measured)};
-    std::string markdown;
-    for (const report::HtmlTable& table : tables) {
-        markdown += (markdown.empty() ? "" : "\n") + report::markdown_of(table);
-    }
-    write_file(options.out / "raster.csv", report::csv_of(tables[2]));
-    write_file(options.out / "table-5.csv", report::csv_of(tables[0]));
-    write_file(options.out / "table-6.csv", report::csv_of(tables[1]));
-    write_file(options.out / "flights.md", markdown);
+    report::StudyTables tables(options);
+    tables.add("table-5", table_5(measured));
+    tables.add("table-6", table_6(measured, options));
+    tables.add("raster", raster_times(measured));
+    tables.finish("flights", tables.markdown());
     if (const auto svg = report::plot_svg(plot_of(measured))) {
         write_file(options.out / "flights.svg", *svg);
     } else {
@@ -259,8 +253,7 @@ void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOp
     for (const PrintedTime& row : printed_times) {
         recordings.push_back(report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
     }
-    write_file(options.out / "report.html", report::html_report(recordings, tables));
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    write_file(options.out / "report.html", report::html_report(recordings, tables.tables()));
     base::print_note(
         options.quiet, fmt::format("tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv, {0}/raster.csv; report: "
                                    "{0}/report.html",

@@ -10,11 +10,11 @@ struct FlightStudyOptions : base::StudyOutput {
     int jobs = 1; ///< flights at once; above 1 their times depend on each other
 };
 
-/// Tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit) and the four paths over the 60-polygon
-/// background, one frame a path sample, for octant order, depth buffer and removal of back faces, by OpenGL and in all
-/// ways of the raster renderer. All of them draw every frame in turn, so that they see the same machine. Prints the
-/// tables with the paper's figures beside and writes them to `out` as CSV, Markdown and plot, with the recordings of
-/// the octant flights and a report. Throws Error.
+/// Repeats tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit), and the four paths over the
+/// 60-polygon background with one frame per path sample, for octant order, depth buffer and back-face removal by OpenGL
+/// and for all methods of the raster renderer. The methods draw each frame in turn, so that load from other programs
+/// affects all of them. Prints the tables next to the paper's values and writes them to `out` as CSV, Markdown and
+/// plot, with the recordings of the octant flights and a report. Throws Error.
 void study_flights(const FlightStudyOptions& options);
 
 } // namespace octant::ui::studies::draw_order

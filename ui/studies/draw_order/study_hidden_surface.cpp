@@ -6,7 +6,7 @@
 #include "ui/flight/id_comparison.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
-#include "ui/report/table_text.h"
+#include "ui/report/html_text.h"
 #include "ui/studies/draw_order/surface_race.h"
 #include "ui/world/world.h"
 
@@ -503,11 +503,10 @@ report::HtmlTable race_table(const std::vector<Race>& races) {
         "octant / back faces", "octant / depth buffer", "p99 ms octant", "p99 ms back faces", "p99 ms depth buffer",
         "draw calls octant", "draw calls back faces", "draw calls depth buffer"};
     for (const Race& r : races) {
-        std::vector<std::string> cells = {
-            short_name(r.scene), fmt::format("{}", r.aircraft), fmt::format("{}x{}", r.width_px, r.height_px)};
+        std::vector<std::string> cells =
+            report::cells("{}\t{}\t{}x{}", short_name(r.scene), r.aircraft, r.width_px, r.height_px);
         for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{:.0f}", 1000.0 / mode.median_ms)); }
-        cells.push_back(fmt::format("{:.2f}", r.against(1)));
-        cells.push_back(fmt::format("{:.2f}", r.against(2)));
+        report::append_cells(cells, "{:.2f}\t{:.2f}", r.against(1), r.against(2));
         for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{:.2f}", mode.p99_ms)); }
         for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{}", mode.draw_calls)); }
         table.rows.push_back(std::move(cells));
@@ -529,14 +528,8 @@ report::HtmlTable raster_times(const std::vector<Race>& races) {
 }
 
 std::vector<std::string> cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
-    name.push_back(fmt::format("{}", result.frames));
-    name.push_back(fmt::format("{}", result.frames_with_cuts));
-    name.push_back(fmt::format("{}", result.cuts));
-    name.push_back(fmt::format("{}", result.unordered));
-    name.push_back(fmt::format("{}", result.pixels));
-    name.push_back(fmt::format("{}", result.differing));
-    name.push_back(fmt::format("{}", result.unmatched));
-    name.push_back(fmt::format("{}", result.wrong));
+    report::append_cells(name, "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", result.frames, result.frames_with_cuts, result.cuts,
+        result.unordered, result.pixels, result.differing, result.unmatched, result.wrong);
     return name;
 }
 
@@ -595,12 +588,10 @@ report::HtmlTable ray_table(
     table.header = {"path", "aircraft", "view", "pictures", "pixels of a renderer", "raster: differing",
         "raster: wrong", "OpenGL: differing", "OpenGL: wrong", "first wrong"};
     const auto add_row = [&](std::vector<std::string> cells, const RayComparison& result) {
-        cells.push_back(fmt::format("{}", result.frames));
-        cells.push_back(fmt::format("{}", result.pixels));
+        report::append_cells(cells, "{}\t{}", result.frames, result.pixels);
         std::string first_wrong;
         for (const RayComparison::OfRenderer& one : result.renderers) {
-            cells.push_back(fmt::format("{}", one.differing));
-            cells.push_back(fmt::format("{}", one.wrong));
+            report::append_cells(cells, "{}\t{}", one.differing, one.wrong);
             first_wrong = first_wrong.empty() ? one.first_wrong : first_wrong;
         }
         cells.push_back(first_wrong);
@@ -627,37 +618,27 @@ report::HtmlTable ray_table(
 } // namespace
 
 bool study_hidden_surface(const HiddenSurfaceStudyOptions& study) {
-    world::load_world(study.settings); // says what is wrong with them before there is a folder
-    make_folder(study.out);
-    std::vector<report::HtmlTable> tables;
-    bool right = true;
+    world::load_world(study.settings); // reports wrong settings before a folder is made
+    report::StudyTables tables(study);
+    bool is_right = true;
     if (study.race) {
         const std::vector<Race> races = run_races(study);
-        tables.push_back(race_table(races));
-        write_file(study.out / "frames-per-second.csv", report::csv_of(tables.back()));
-        tables.push_back(raster_times(races));
-        write_file(study.out / "raster.csv", report::csv_of(tables.back()));
+        tables.add("frames-per-second", race_table(races));
+        tables.add("raster", raster_times(races));
     }
     if (study.pictures) {
         const auto compared = run_comparisons(aircraft_shown_by(study), views, flight::compare_with_depth_buffer);
-        for (const auto& run : compared) { right = right && run.result.wrong == 0; }
-        tables.push_back(picture_table(compared, study));
-        write_file(study.out / "pictures.csv", report::csv_of(tables.back()));
+        for (const auto& run : compared) { is_right = is_right && run.result.wrong == 0; }
+        tables.add("pictures", picture_table(compared, study));
     }
     if (study.rays) {
         const auto compared = run_ray_comparisons(study);
-        for (const auto& run : compared) { right = right && run.result.wrong() == 0; }
-        tables.push_back(ray_table(compared, study));
-        write_file(study.out / "rays.csv", report::csv_of(tables.back()));
+        for (const auto& run : compared) { is_right = is_right && run.result.wrong() == 0; }
+        tables.add("rays", ray_table(compared, study));
     }
-    std::string markdown;
-    for (const report::HtmlTable& table : tables) {
-        markdown += (markdown.empty() ? "" : "\n") + report::markdown_of(table);
-    }
-    write_file(study.out / "hidden-surface.md", markdown);
-    std::fputs((study.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.finish("hidden-surface", tables.markdown());
     base::print_note(study.quiet, fmt::format("tables: {}/hidden-surface.md", study.out.string()));
-    return right;
+    return is_right;
 }
 
 } // namespace octant::ui::studies::draw_order

@@ -7,7 +7,6 @@
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
-#include "ui/report/table_text.h"
 #include "ui/settings/settings.h"
 #include "ui/studies/draw_order/study_renderer.h"
 #include "visuals/raster/mask_picture.h"
@@ -416,10 +415,8 @@ report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
     const auto of_four = static_cast<double>(sums[gl_four_samples].false_changes);
     for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         const PictureQuality& one = sums[mode];
-        table.rows.push_back({std::string(render_modes[mode].name), fmt::format("{:.1f}", one.db_to_own()),
-            fmt::format("{:.1f}", one.db_to_gl()), fmt::format("{:.0f}", one.largest_error),
-            fmt::format("{}", one.false_changes),
-            fmt::format("{:.3f}", static_cast<double>(one.false_changes) / of_four)});
+        table.add_row("{}\t{:.1f}\t{:.1f}\t{:.0f}\t{}\t{:.3f}", std::string(render_modes[mode].name), one.db_to_own(),
+            one.db_to_gl(), one.largest_error, one.false_changes, static_cast<double>(one.false_changes) / of_four);
     }
     table.note = "Falsely: by more than 16 levels more or less than 8 x 8 samples change, when the "
                  "picture moves half a pixel to the right, and when it moves half a pixel down.";
@@ -429,18 +426,15 @@ report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
 } // namespace
 
 void study_pictures(const PictureStudyOptions& options) {
-    make_folder(options.out);
+    report::StudyTables tables(options);
     std::vector<Qualities> of_scenes(studied_scenes.size());
     PictureStudyOptions of_scene = options;
     of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     parallel_for(of_scenes.size(), options.jobs,
         [&](std::size_t i, std::size_t /*worker*/) { of_scenes[i] = measured(studied_scenes[i], of_scene); });
-    const std::array tables{scene_table(of_scenes, options), mode_table(of_scenes)};
-    const std::string markdown = report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
-    write_file(options.out / "scenes.csv", report::csv_of(tables[0]));
-    write_file(options.out / "ways.csv", report::csv_of(tables[1]));
-    write_file(options.out / "pictures.md", markdown);
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.add("scenes", scene_table(of_scenes, options));
+    tables.add("ways", mode_table(of_scenes));
+    tables.finish("pictures", tables.markdown());
     base::print_note(options.quiet, fmt::format("tables: {0}/pictures.md; pictures: {0}/*.png", options.out.string()));
 }
 

@@ -12,11 +12,11 @@ struct PictureStudyOptions : base::StudyOutput {
     int jobs = 1;                         ///< scenes at once
 };
 
-/// How near the pictures of both renderers, with 1, 4 and 16 samples a pixel, come to 8 x 8 samples, over frames spread
-/// along the paths of six scenes: peak signal to noise, largest error, and how many pixels change falsely when the
-/// picture moves by half a pixel. Prints the tables and writes them to `out` as CSV and Markdown, with the last picture
-/// of each scene in every way, and how one of its tiles is painted, as PNG. The same options give the same bytes.
-/// Throws Error.
+/// Compares the pictures of both renderers with 1, 4 and 16 samples per pixel with references of 8 x 8 samples, over
+/// frames spread along the paths of six scenes: peak signal to noise ratio, largest error, and the number of pixels
+/// that change wrongly when the picture moves by half a pixel. Prints the tables and writes them to `out` as CSV and
+/// Markdown, with the last picture of each scene in every mode and its tile masks as PNG. The same options give the
+/// same bytes. Throws Error.
 void study_pictures(const PictureStudyOptions& options);
 
 } // namespace octant::ui::studies::draw_order

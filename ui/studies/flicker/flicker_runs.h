@@ -25,7 +25,7 @@ struct FlickerGround {
     visuals::terrain::BisectionMesher error_mesher;
 };
 
-/// The paper's letters.
+/// Parameters by the paper's letters.
 struct FlickerSettings {
     double roughness_weight = 5.0;            ///< c
     int target_triangles = 32000;             ///< N_target
@@ -39,14 +39,14 @@ struct CountedFrame {
     int triangles = 0;
     int fans = 0;
     double resolution = 0.0; ///< C; 0 for a way that has none
-    /// The N'(C) by which C is changed, triangles for a unit of C; 0 for a way that has none.
+    /// The N'(C) that the control uses, triangles per unit of C; 0 for a method without it.
     double estimated_gain = 0.0;
 };
 
 /// Makes the mesh of the next frame.
 using CountNextFrame = std::function<CountedFrame(const visuals::terrain::MeshView& view)>;
 
-/// A way of holding the number of triangles.
+/// A method that holds the number of triangles near the target.
 struct TriangleControl {
     const char* name;
     bool holds_target;
@@ -77,11 +77,12 @@ struct FlickerRun {
 FlickerRun run_along(const TriangleControl& triangle_control, FlickerGround& ground, const FlickerSettings& settings,
     std::span<const visuals::terrain::MeshView> views);
 
-/// 300 m over the ground, level but for 6 degrees down: that view of 25 places and eight headings in which the paper's
-/// rule makes most triangles at c = 5 and C = 16. 16:9, 45 degrees.
+/// A view 300 m above the ground, pitched 6 degrees down: of 25 positions and eight headings, the one in which the
+/// paper's rule makes most triangles at c = 5 and C = 16. Aspect 16:9, field of view 45 degrees.
 visuals::terrain::MeshView roughest_view(FlickerGround& ground);
 
-/// Once round an ellipse over the field, 300 m over the ground, looking ahead as above.
+/// Views once around an ellipse over the field, 300 m above the ground, looking along the path with the pitch of
+/// roughest_view().
 std::vector<visuals::terrain::MeshView> ellipse_views(const FlickerGround& ground, int frames);
 
 } // namespace octant::ui::studies::flicker

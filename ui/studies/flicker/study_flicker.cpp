@@ -6,7 +6,6 @@
 #include "ui/base/progress.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"
-#include "ui/report/table_text.h"
 #include "ui/studies/flicker/flicker_runs.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/mesh_measurement.h"
@@ -347,11 +346,10 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
     for (std::size_t k = 0; k < fields.size(); ++k) {
         for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
             const ControlStatistics& control_statistics = found[k][triangle_control];
-            table.rows.push_back({fields[k].name, fmt::format("{:.0f}", relief_m[k]),
+            table.add_row("{}\t{:.0f}\t{}\t{}\t{}\t{:.1f}\t{:.1f}\t{:.3f}", fields[k].name, relief_m[k],
                 triangle_controls()[shown_controls[triangle_control]].name, gain_text(control_statistics.mean_gain),
-                gain_text(control_statistics.max_gain), fmt::format("{:.1f}", control_statistics.fixed_change),
-                fmt::format("{:.1f}", control_statistics.path_change),
-                fmt::format("{:.3f}", 100.0 * control_statistics.path_change / as_asked.target_triangles)});
+                gain_text(control_statistics.max_gain), control_statistics.fixed_change, control_statistics.path_change,
+                100.0 * control_statistics.path_change / as_asked.target_triangles);
         }
     }
     table.note =
@@ -361,11 +359,6 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
             as_asked.triangles_per_resolution, last_frames, 2 * last_frames, terrain::max_tuned_meshes);
     return table;
 }
-
-struct NamedTable {
-    std::string file; ///< without folder and ending
-    report::HtmlTable table;
-};
 
 namespace terrain = visuals::terrain;
 
@@ -392,11 +385,10 @@ report::HtmlTable fixed_table(const FieldRuns& runs, const char* kind) {
             const FlickerRun& run = runs.fixed[weight][triangle_control];
             const auto changes =
                 terrain::change_statistics(run.triangles, std::max(run.triangles.size(), last + 1) - last);
-            table.rows.push_back(
-                {fmt::format("{:g}", flicker_weights[weight]), fmt::format("{:.2f}", runs.fixed_gains[weight]),
-                    triangle_controls()[triangle_control].name, fmt::format("{:.0f}", changes.mean), last_two(run.fans),
-                    frames_text(terrain::frames_until_constant(run.triangles, 10)),
-                    frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.005, 10))});
+            table.add_row("{:g}\t{:.2f}\t{}\t{:.0f}\t{}\t{}\t{}", flicker_weights[weight], runs.fixed_gains[weight],
+                triangle_controls()[triangle_control].name, changes.mean, last_two(run.fans),
+                frames_text(terrain::frames_until_constant(run.triangles, 10)),
+                frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.005, 10)));
         }
     }
     table.note =
@@ -427,11 +419,10 @@ void add_path_rows(const FieldRuns& runs, report::HtmlTable& table) {
         const FlickerRun& run = runs.path[triangle_control];
         if (run.triangles.empty()) { continue; }
         const terrain::ChangeStatistics changes = changes_of(run);
-        table.rows.push_back({runs.name, fmt::format("{:.2f}", gain), fmt::format("{:.2f}", most),
-            triangle_controls()[triangle_control].name, fmt::format("{:.1f}", changes.mean),
-            fmt::format("{}", changes.largest), fmt::format("{:.1f}", changes.flicker_triangles),
+        table.add_row("{}\t{:.2f}\t{:.2f}\t{}\t{:.1f}\t{}\t{:.1f}\t{}\t{}", runs.name, gain, most,
+            triangle_controls()[triangle_control].name, changes.mean, changes.largest, changes.flicker_triangles,
             frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.02, 10)),
-            changes.mean > 0.0 ? fmt::format("{:.1f}", before / changes.mean) : ""});
+            changes.mean > 0.0 ? fmt::format("{:.1f}", before / changes.mean) : "");
     }
 }
 
@@ -458,8 +449,8 @@ report::HtmlTable damping_table(const FlickerRuns& runs) {
     for (std::size_t k = 0; k < runs.damping_lengths.size(); ++k) {
         const auto changes = terrain::change_statistics(
             runs.damping_lengths[k].triangles, first_measured(runs.damping_lengths[k].triangles.size()));
-        table.rows.push_back({fmt::format("{}", damping_frame_counts[k]), fmt::format("{:.1f}", changes.mean),
-            fmt::format("{}", changes.largest), fmt::format("{:.1f}", changes.flicker_triangles)});
+        table.add_row("{}\t{:.1f}\t{}\t{:.1f}", damping_frame_counts[k], changes.mean, changes.largest,
+            changes.flicker_triangles);
     }
     table.note = "Equation (5) as printed, weights r + 1, ..., 2, 1; r = 0 is the previous control. The "
                  "paper: r = 4 is best.";
@@ -489,12 +480,6 @@ report::HtmlTable stability_table(const FlickerRuns& runs) {
                  "N_target, or one step of N(C) where that is higher. The exact way has neither g "
                  "nor C_0.";
     return table;
-}
-
-/// Fixed views, the path, damping over r and settling times.
-std::vector<NamedTable> flicker_tables(const FlickerRuns& runs) {
-    return {{"fixed-rugged", fixed_table(runs.rugged, "rugged")}, {"fixed-gentle", fixed_table(runs.gentle, "gentle")},
-        {"path", path_table(runs)}, {"damping", damping_table(runs)}, {"stability", stability_table(runs)}};
 }
 
 namespace terrain = visuals::terrain;
@@ -637,31 +622,27 @@ std::string changes_csv(const FieldRuns& runs) {
 } // namespace
 
 void study_flicker(const FlickerStudyOptions& options) {
-    make_folder(options.out);
+    report::StudyTables tables(options);
     const FlickerRuns runs = run_all(options);
-    std::string markdown;
-    std::vector<report::HtmlTable> tables;
-    std::vector<NamedTable> made_tables = flicker_tables(runs);
+    tables.add("fixed-rugged", fixed_table(runs.rugged, "rugged"));
+    tables.add("fixed-gentle", fixed_table(runs.gentle, "gentle"));
+    tables.add("path", path_table(runs));
+    tables.add("damping", damping_table(runs));
+    tables.add("stability", stability_table(runs));
     base::print_note(options.quiet, "grounds from flats to high mountains");
-    made_tables.push_back({"relief", relief_table(options)});
-    for (NamedTable& made : made_tables) {
-        write_file(options.out / (made.file + ".csv"), report::csv_of(made.table));
-        markdown += report::markdown_of(made.table) + "\n";
-        tables.push_back(std::move(made.table));
-    }
+    tables.add("relief", relief_table(options));
     write_file(options.out / "path-gentle.csv", changes_csv(runs.gentle));
     write_file(options.out / "path-rugged.csv", changes_csv(runs.rugged));
-    std::string with_figures = markdown;
+    std::string figures;
     for (const FlickerFigure& figure : flicker_figures(runs)) {
         if (figure.png.empty()) {
             base::print_note(options.quiet, figure.file + " not made: gnuplot is not installed");
             continue;
         }
         write_file(options.out / figure.file, figure.png);
-        with_figures += fmt::format("![{0}]({0})\n\n{1}\n\n", figure.file, figure.caption);
+        figures += fmt::format("![{0}]({0})\n\n{1}\n\n", figure.file, figure.caption);
     }
-    write_file(options.out / "flicker.md", with_figures);
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.finish("flicker", tables.markdown() + "\n", figures);
     base::print_note(
         options.quiet, fmt::format("tables and figures: {0}/flicker.md; each table and dn of the paths as .csv, each "
                                    "figure as .png",

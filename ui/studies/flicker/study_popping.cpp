@@ -8,9 +8,7 @@
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/statistics.h"
-#include "ui/report/table_text.h"
 #include "ui/terrain/ground_view.h"
-#include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/terrain_file.h"
 #include "ui/world/world.h"
@@ -147,9 +145,9 @@ struct Change {
 };
 
 void add_change(report::HtmlTable& table, const std::string& path, const Change& change) {
-    std::vector<std::string> row = {path, fmt::format("{}", change.pairs), fmt::format("{}", change.pixels)};
+    std::vector<std::string> row = report::cells("{}\t{}\t{}", path, change.pairs, change.pixels);
     for (const double sum : change.sum) {
-        row.push_back(fmt::format("{:.3f}", sum / static_cast<double>(change.pairs)));
+        report::append_cells(row, "{:.3f}", sum / static_cast<double>(change.pairs));
     }
     table.rows.push_back(row);
 }
@@ -316,10 +314,8 @@ double percentile_px(std::vector<double> jumps_px, int permille) {
 }
 
 void add_popping(report::HtmlTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
-    table.rows.push_back(
-        {path, way.name, fmt::format("{}", found.jumps_px.size()), fmt::format("{:.3f}", found.largest_px),
-            fmt::format("{}", found.largest_frame), fmt::format("{:.3f}", percentile_px(found.jumps_px, 999)),
-            fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
+    table.add_row("{}\t{}\t{}\t{:.3f}\t{}\t{:.3f}\t{:.3f}", path, way.name, found.jumps_px.size(), found.largest_px,
+        found.largest_frame, percentile_px(found.jumps_px, 999), percentile_px(found.jumps_px, 500));
 }
 
 using JumpsByMeshing = std::array<Jumps, meshings.size()>;
@@ -388,20 +384,12 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
 } // namespace
 
 void study_popping(const PoppingStudyOptions& options) {
-    make_folder(options.out);
-    std::vector<report::HtmlTable> tables = {popping_table(options)};
-    std::vector<std::string> files = {"popping"};
+    report::StudyTables tables(options);
+    tables.add("popping", popping_table(options));
     if (options.shimmer) {
-        tables.push_back(shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
-        files.emplace_back("shimmer");
+        tables.add("shimmer", shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
     }
-    std::string markdown;
-    for (std::size_t k = 0; k < tables.size(); ++k) {
-        write_file(options.out / (files[k] + ".csv"), report::csv_of(tables[k]));
-        markdown += (k == 0 ? "" : "\n") + report::markdown_of(tables[k]);
-    }
-    write_file(options.out / "popping.md", markdown);
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.finish("popping", tables.markdown());
 }
 
 } // namespace octant::ui::studies::flicker

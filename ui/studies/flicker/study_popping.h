@@ -13,7 +13,7 @@
 
 namespace octant::ui::studies::flicker {
 
-/// A pixel of one frame and where the ground that it shows was in the frame before.
+/// A pixel of one frame, and the position of its ground point in the previous frame.
 struct ReprojectedPixel {
     glm::ivec2 pixel{0};    ///< column and row from the upper left
     glm::dvec2 before{0.0}; ///< the same in the frame before, between pixels; whole = a centre
@@ -24,7 +24,7 @@ struct ReprojectedPixel {
 std::vector<ReprojectedPixel> reprojected_pixels(const visuals::terrain::GroundSamples& ground,
     const flight::FlightCamera& earlier, const flight::FlightCamera& later, const glm::ivec2& size_px, double radius_m);
 
-/// Mean absolute change of luminance (0 to 255) over the places; 0 without any.
+/// Mean absolute change of luminance (0 to 255) over the pixels; 0 if there are none.
 double mean_change(const visuals::scene::Picture& earlier, const visuals::scene::Picture& later,
     const std::vector<ReprojectedPixel>& matches);
 
@@ -49,11 +49,11 @@ struct PoppingStudyOptions : base::StudyOutput {
     int jobs = 1;   ///< flights at once
 };
 
-/// Along the four paths of the F-15, frame by frame: the largest jump of a vertex by change of level of detail, pixels,
-/// for the mid-point mesh with an exact budget and for the mesh by screen-space error without and with geomorphs; with
-/// near detail also for that with the detail that is drawn near the eye. With `shimmer` also how much the ground's
-/// pixels change between consecutive frames once the motion is taken out, for one and four samples a pixel, geomorphs
-/// off and on. Prints the tables and writes them to `out` as CSV and together as Markdown. Throws Error.
+/// Measures, frame by frame along the four paths of the F-15, the largest jump of a vertex in pixels when its level of
+/// detail changes: for the midpoint mesh with an exact budget, for the screen-error mesh without and with geomorphs,
+/// and on request with near detail. With `shimmer`, also measures the change of ground pixels between consecutive
+/// frames after motion compensation, for one and four samples per pixel, without and with geomorphs. Prints the tables
+/// and writes them to `out` as CSV and as one Markdown page. Throws Error.
 void study_popping(const PoppingStudyOptions& options);
 
 } // namespace octant::ui::studies::flicker

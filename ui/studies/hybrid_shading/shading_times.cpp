@@ -3,7 +3,6 @@
 #include "ui/base/progress.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
-#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
 #include <array>
@@ -135,17 +134,16 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
         const auto times = measured(each, quiet);
         for (std::size_t way = 0; way < shading_modes.size(); ++way) {
             const ShadingTimes& own = times[way];
-            std::vector<std::string> cells{std::filesystem::path(each).stem().string(), shading_modes[way].name,
-                fmt::format("{}", own.polygons), fmt::format("{}", own.smooth),
-                fmt::format("{:.3f}", median_of(own.plan_ms))};
+            std::vector<std::string> cells =
+                report::cells("{}\t{}\t{}\t{}\t{:.3f}", std::filesystem::path(each).stem().string(),
+                    shading_modes[way].name, own.polygons, own.smooth, median_of(own.plan_ms));
             for (std::size_t drawer = 0; drawer < renderer_modes.size(); ++drawer) {
                 const double ms = median_of(own.draw_ms[drawer]);
                 const double flat_ms = median_of(times[flat_way].draw_ms[drawer]);
-                cells.push_back(fmt::format("{:.2f}", ms));
-                cells.push_back(fmt::format("{:.2f}", ms / flat_ms));
+                report::append_cells(cells, "{:.2f}\t{:.2f}", ms, ms / flat_ms);
             }
-            cells.push_back(fmt::format(
-                "{:.2f}", median_of(own.draw_ms[depth_drawer]) / median_of(own.draw_ms[near_to_far_drawer])));
+            report::append_cells(
+                cells, "{:.2f}", median_of(own.draw_ms[depth_drawer]) / median_of(own.draw_ms[near_to_far_drawer]));
             table.rows.push_back(std::move(cells));
         }
     }

@@ -10,14 +10,11 @@
 #include "ui/base/progress.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
-#include "ui/report/frame_times.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"
 #include "ui/report/png_file.h"
 #include "ui/report/statistics.h"
-#include "ui/report/table_text.h"
 #include "ui/studies/hybrid_shading/shading_times.h"
-#include "ui/studies/picture_quality.h"
 #include "ui/studies/shading_pictures.h"
 #include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
@@ -395,8 +392,7 @@ report::HtmlTable operation_table() {
     table.title = fmt::format("Operations for a torus, table 2 ({} smooth)", smooth);
     table.header = {"what", "formula", "printed, n = 415", "computed, n = 415", "n = 416"};
     const auto add = [&](const char* what, const char* formula, int shown, int here, int all) {
-        table.rows.push_back({what, formula, fmt::format("{}{}", shown, shown == here ? "" : " (slip)"),
-            fmt::format("{}", here), fmt::format("{}", all)});
+        table.add_row("{}\t{}\t{}{}\t{}\t{}", what, formula, shown, shown == here ? "" : " (slip)", here, all);
     };
     add("deciding", "9 n", printed.selection, counts.selection, whole.selection);
     add("all flat", "9 n + n", printed.all_flat, counts.all_flat, whole.all_flat);
@@ -425,12 +421,11 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
             const auto& facing = run.rules[facing_rule].to_gouraud[step];
             const auto& ours = run.rules[error_rule].to_gouraud[step];
             const double gain_db = ours.psnr_db() - theirs.psnr_db();
-            table.rows.push_back(
-                {run.name, fmt::format("{}", run.polygons), fmt::format("{:.1f} %", 100.0 * run.facing_share),
-                    fmt::format("{} %", step * share_step_percent), decibels(random.psnr_db()),
-                    decibels(theirs.psnr_db()), decibels(facing.psnr_db()), decibels(ours.psnr_db()),
-                    gain_text(ours.psnr_db(), gain_db), gain_text(ours.psnr_db(), min_gain_db(ours, theirs)),
-                    gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db()), gain_db >= 2.0 ? "yes" : "no"});
+            table.add_row("{}\t{}\t{:.1f} %\t{} %\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", run.name, run.polygons,
+                100.0 * run.facing_share, step * share_step_percent, decibels(random.psnr_db()),
+                decibels(theirs.psnr_db()), decibels(facing.psnr_db()), decibels(ours.psnr_db()),
+                gain_text(ours.psnr_db(), gain_db), gain_text(ours.psnr_db(), min_gain_db(ours, theirs)),
+                gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db()), gain_db >= 2.0 ? "yes" : "no");
         }
     }
     table.note = "Share of all polygons of the model, those that face away included. Eight eyes around the "
@@ -458,7 +453,7 @@ report::HtmlTable quality_table(const ShadingRun& run) {
         for (const auto reference : {&RuleQuality::to_gouraud, &RuleQuality::to_per_pixel}) {
             for (const RuleQuality& rule : run.rules) { row.push_back(decibels((rule.*reference)[step].psnr_db())); }
             for (const RuleQuality& rule : run.rules) {
-                row.push_back(fmt::format("{:.4f}", (rule.*reference)[step].similarity));
+                report::append_cells(row, "{:.4f}", (rule.*reference)[step].similarity);
             }
         }
         table.rows.push_back(row);
@@ -476,11 +471,10 @@ report::HtmlTable control_table(std::span<const ControlRun> runs) {
     table.header = {"all smooth cost more, ms", "T, ms", "best share, a = 3 / 5 / 3 ms", "settled after, frames",
         "frames over T", "class changes per polygon and second", "flat gains"};
     for (const ControlRun& run : runs) {
-        table.rows.push_back({fmt::format("{:g}", run.machine.smooth_ms), fmt::format("{:g}", run.target_frame_ms),
-            fmt::format("{:.2f} / {:.2f} / {:.2f}", run.best_share[0], run.best_share[1], run.best_share[2]),
-            fmt::format("{} / {} / {}", run.settled_frames[0], run.settled_frames[1], run.settled_frames[2]),
-            fmt::format("{:.1f} %", 100.0 * run.over_share), fmt::format("{:.3f}", run.changes_per_second),
-            run.has_no_gain ? "nothing: all smooth" : "time"});
+        table.add_row("{:g}\t{:g}\t{:.2f} / {:.2f} / {:.2f}\t{} / {} / {}\t{:.1f} %\t{:.3f}\t{}", run.machine.smooth_ms,
+            run.target_frame_ms, run.best_share[0], run.best_share[1], run.best_share[2], run.settled_frames[0],
+            run.settled_frames[1], run.settled_frames[2], 100.0 * run.over_share, run.changes_per_second,
+            run.has_no_gain ? "nothing: all smooth" : "time");
     }
     const SimulatedMachine machine;
     table.note = fmt::format("A made clock, 416 polygons: all flat take {:g} ms and a; noise of {:g} % (deviation), "
@@ -566,11 +560,11 @@ double share_over(const std::vector<double>& times_ms, double budget_ms) {
 std::vector<std::string> cells_of(const std::string& aircraft, double budget_ms, const BudgetFlights& flights) {
     std::vector<std::string> cells{aircraft, fmt::format("{:.2f}", budget_ms)};
     for (std::size_t mode = 0; mode < budget_modes.size(); ++mode) {
-        cells.push_back(fmt::format("{:.2f}", flights.median_ms(mode)));
-        cells.push_back(fmt::format("{:.0f} %", 100.0 * share_over(flights.frame_ms[mode], budget_ms)));
+        report::append_cells(
+            cells, "{:.2f}\t{:.0f} %", flights.median_ms(mode), 100.0 * share_over(flights.frame_ms[mode], budget_ms));
     }
     const double smooth = report::statistics_of_times(flights.smooth_share).p50_ms;
-    cells.push_back(fmt::format("{:.0f} %", 100.0 * (1.0 - smooth)));
+    report::append_cells(cells, "{:.0f} %", 100.0 * (1.0 - smooth));
     cells.emplace_back(flights.has_no_gain ? "nothing: all smooth" : "time");
     return cells;
 }
@@ -712,7 +706,7 @@ std::string write_figures(
 
 void study_shading(const ShadingStudyOptions& options) {
     const std::vector<ShadedModel> models = shading_models(options.meshes);
-    make_folder(options.out);
+    report::StudyTables tables(options);
     std::vector<ShadingRun> runs(models.size());
     const bool quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     parallel_for(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
@@ -723,27 +717,17 @@ void study_shading(const ShadingStudyOptions& options) {
         runs[i] = run_shading(model, options.size_px, [&] { progress.show(++done); });
         progress.finish();
     });
-    std::vector<report::HtmlTable> tables{operation_table(), gain_table(runs), control_table(control_runs())};
-    std::vector<std::string> files{"operations", "gain", "control"};
-    for (const ShadingRun& run : runs) {
-        tables.push_back(quality_table(run));
-        files.push_back("quality-" + file_part(run.name));
-    }
+    tables.add("operations", operation_table());
+    tables.add("gain", gain_table(runs));
+    tables.add("control", control_table(control_runs()));
+    for (const ShadingRun& run : runs) { tables.add("quality-" + file_part(run.name), quality_table(run)); }
     if (options.times) {
         std::vector<std::string> aircraft{"f15", "500md"};
         for (const std::filesystem::path& mesh : options.meshes) { aircraft.push_back(mesh.string()); }
-        tables.push_back(shading_times_table(aircraft, options.quiet));
-        files.emplace_back("times");
-        tables.push_back(budget_times_table(aircraft, options.quiet));
-        files.emplace_back("held");
+        tables.add("times", shading_times_table(aircraft, options.quiet));
+        tables.add("held", budget_times_table(aircraft, options.quiet));
     }
-    std::string markdown;
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        write_file(options.out / (files[i] + ".csv"), report::csv_of(tables[i]));
-        markdown += report::markdown_of(tables[i]) + "\n";
-    }
-    write_file(options.out / "shading.md", markdown + write_figures(options, models, runs));
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.finish("shading", tables.markdown() + "\n", write_figures(options, models, runs));
     base::print_note(
         options.quiet, fmt::format("tables and figures: {0}/shading.md; each table as .csv, each figure as .png",
                            options.out.string()));

@@ -17,7 +17,7 @@
 
 namespace octant::ui::studies::hybrid_shading {
 
-/// A model as the shading study looks at it.
+/// A model of the shading study.
 struct ShadedModel {
     std::string name;
     visuals::shading::ShadedPolygons polygons;
@@ -31,7 +31,7 @@ models::TriangleMesh uneven_ball(int rings, int slices);
 /// triangles; mesh files (`more`), each as it is and refined for one eye. Throws Error.
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more);
 
-/// A way to choose the smooth polygons.
+/// A rule that selects the smooth polygons.
 struct StudiedRule {
     const char* name;
     visuals::shading::ShadingRule rule;

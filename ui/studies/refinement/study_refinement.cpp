@@ -4,8 +4,8 @@
 #include "models/simplify/simplify.h"
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
+#include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
-#include "ui/report/table_text.h"
 #include "ui/studies/refinement/refinement_tables.h"
 #include "ui/studies/shading_pictures.h"
 #include "ui/world/refine_mesh.h"
@@ -164,23 +164,18 @@ std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
 
 void study_refinement(const RefinementStudyOptions& options) {
     const std::vector<RefinedModel> models = read_models(options);
-    make_folder(options.out);
-    std::vector<report::HtmlTable> tables;
-    std::string markdown;
+    report::StudyTables tables(options);
     const auto add = [&](const char* file, report::HtmlTable table) {
-        write_file(options.out / (std::string(file) + ".csv"), report::csv_of(table));
-        markdown += report::markdown_of(table) + "\n";
-        tables.push_back(std::move(table));
+        tables.add(file, std::move(table));
         base::print_note(options.quiet, fmt::format("done: {}", file));
     };
     add("forced-splits", forced_splits_table(models));
     add("refinement-path", refinement_path_table(models, options.frames));
     add("refinement-speed", refinement_speed_table(models));
     // The made ground has z up, mesh files y.
-    markdown += write_refinement_pictures(models.back(), !options.meshes.empty(), options.out) + "\n";
+    const std::string pictures = write_refinement_pictures(models.back(), !options.meshes.empty(), options.out);
     base::print_note(options.quiet, "done: pictures");
-    write_file(options.out / "refinement.md", markdown);
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    tables.finish("refinement", tables.markdown() + "\n" + pictures + "\n");
 }
 
 } // namespace octant::ui::studies::refinement

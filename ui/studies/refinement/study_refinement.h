@@ -13,10 +13,10 @@ struct RefinementStudyOptions : base::StudyOutput {
     int frames = 600;                ///< of the path
 };
 
-/// What selective refinement costs beyond what was asked for: splits forced by the paper's rule and by the two earlier
-/// ones, for one base vertex and for spheres; faces turned over, and splits that mend them; splits a second and bytes;
-/// operations a frame along a path. Prints the tables and writes them to `out` as CSV and Markdown, and four pictures
-/// of the last model. All but times are the same in every run. Throws Error.
+/// Measures the cost of selective refinement: splits forced by the paper's rule and by two earlier rules, for one base
+/// vertex and for spheres; flipped faces, and the splits that repair them; splits per second and bytes; operations per
+/// frame along a path. Prints the tables and writes them to `out` as CSV and Markdown, and four pictures of the last
+/// model. All values except times are the same in every run. Throws Error.
 void study_refinement(const RefinementStudyOptions& options);
 
 } // namespace octant::ui::studies::refinement

@@ -13,7 +13,6 @@
 #include "ui/report/child_program.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"
-#include "ui/report/table_text.h"
 
 #include <algorithm>
 #include <array>
@@ -393,17 +392,15 @@ std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous
     const auto index = static_cast<std::size_t>(run.measure);
     const auto& sums = run.result.sums;
     const auto& before = previous.result.sums;
-    return {run.mesh, name_of(run.colour), name_of(run.measure),
-        paper == nullptr ? "" : fmt::format("{:.2e}", paper->errors[index]),
-        paper == nullptr ? "" : fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]),
-        fmt::format("{:.4e}", sums.triangle_m2), fmt::format("{:.3f}", sums.triangle_m2 / before.triangle_m2),
-        fmt::format("{:.4e}", sums.bidirectional_m2),
-        fmt::format("{:.3f}", sums.bidirectional_m2 / before.bidirectional_m2),
-        paper == nullptr ? "" : fmt::format("{}", paper->faces[index]),
-        fmt::format("{}", run.result.mesh.triangles.size()), fmt::format("{}", run.result.mesh.vertices_m.size()),
-        fmt::format("{}", run.defects.duplicate_faces), fmt::format("{}", run.defects.non_manifold_edges),
-        fmt::format("{:.3f}", 1e3 * run.distance.max_hausdorff_m() / run.diagonal_m),
-        fmt::format("{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m), fmt::format("{:.0f}", run.time_ms)};
+    return report::cells(
+        "{}\t{}\t{}\t{}\t{}\t{:.4e}\t{:.3f}\t{:.4e}\t{:.3f}\t{}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.0f}", run.mesh,
+        name_of(run.colour), name_of(run.measure), paper == nullptr ? "" : fmt::format("{:.2e}", paper->errors[index]),
+        paper == nullptr ? "" : fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]), sums.triangle_m2,
+        sums.triangle_m2 / before.triangle_m2, sums.bidirectional_m2, sums.bidirectional_m2 / before.bidirectional_m2,
+        paper == nullptr ? "" : fmt::format("{}", paper->faces[index]), run.result.mesh.triangles.size(),
+        run.result.mesh.vertices_m.size(), run.defects.duplicate_faces, run.defects.non_manifold_edges,
+        1e3 * run.distance.max_hausdorff_m() / run.diagonal_m, 1e4 * run.distance.rms_m() / run.diagonal_m,
+        run.time_ms);
 }
 
 /// Whether a result has the faces asked for, and not many more.
@@ -495,9 +492,9 @@ report::HtmlTable feet_table(std::span<const PaperRun> runs) {
     for (const PaperRun& run : runs) {
         if (run.measure != PaperMeasure::Bidirectional) { continue; }
         const Printed* paper = printed_of(run);
-        table.rows.push_back({run.mesh, name_of(run.colour),
+        table.add_row("{}\t{}\t{}\t{}", run.mesh, name_of(run.colour),
             paper == nullptr ? "" : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside),
-            share_text(run.result.feet_outside, run.result.feet)});
+            share_text(run.result.feet_outside, run.result.feet));
     }
     table.note = "Of the runs by both directions: three candidates for each edge, three points for "
                  "each face. The paper's numbers of perpendiculars can be divided by nine too.";
@@ -534,11 +531,10 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
     for (const QualityRun& run : runs) {
         const auto hausdorff = best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
         const auto rms = best_peer_value(runs, run, [](const QualityRun& r) { return r.rms; });
-        table.rows.push_back({run.mesh, run.method, fmt::format("{}", run.target_faces), fmt::format("{}", run.faces),
-            fmt::format("{:.3f}", 1e3 * run.hausdorff), fmt::format("{:.3f}", 1e4 * run.rms),
-            run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "", distance_ratio_text(run.hausdorff, hausdorff),
-            distance_ratio_text(run.rms, rms), fmt::format("{:.1f}", run.time_ms),
-            ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))});
+        table.add_row("{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{}\t{}\t{}\t{:.1f}\t{}", run.mesh, run.method, run.target_faces,
+            run.faces, 1e3 * run.hausdorff, 1e4 * run.rms, run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "",
+            distance_ratio_text(run.hausdorff, hausdorff), distance_ratio_text(run.rms, rms), run.time_ms,
+            ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run)));
     }
     table.note = "Both ways between result and repaired original, the larger one, as fractions of the "
                  "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
@@ -669,49 +665,30 @@ std::vector<QualityRun> all_quality_runs(
     return runs;
 }
 
-/// Tables by the names of their files.
-using FiledTables = std::vector<std::pair<std::string, report::HtmlTable>>;
-
-void write_and_print(const FiledTables& filed, const std::string& opening, const std::string& figure,
-    const SimplificationStudyOptions& options) {
-    std::string markdown = opening;
-    std::vector<report::HtmlTable> tables;
-    for (const auto& [file, table] : filed) {
-        write_file(options.out / (file + ".csv"), report::csv_of(table));
-        markdown += report::markdown_of(table) + "\n";
-        tables.push_back(table);
-    }
-    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    if (!figure.empty()) {
-        write_file(options.out / "rms.png", figure);
-        markdown += "![rms.png](rms.png)\n\nRMS distance to the original over the number of "
-                    "faces.\n";
-    }
-    write_file(options.out / "simplification.md", markdown);
-    base::print_note(
-        options.quiet, fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
-}
-
 } // namespace
 
 void study_simplification(const SimplificationStudyOptions& options) {
     const StudyMeshes given = meshes_of(options);
-    make_folder(options.out);
+    report::StudyTables tables(options);
     const QualityOptions quality = options.paper_only ? QualityOptions() : quality_options(options);
     const std::vector<PaperRun> paper = all_paper_runs(given.meshes, options.quiet);
-    FiledTables tables;
-    tables.emplace_back("table-1", feet_table(paper));
-    tables.emplace_back("table-2", paper_error_table(paper));
+    tables.add("table-1", feet_table(paper));
+    tables.add("table-2", paper_error_table(paper));
     std::string figure;
     if (!options.paper_only) {
         const std::vector<QualityRun> runs = all_quality_runs(given.meshes, options, quality);
-        tables.emplace_back("quality", quality_table(runs, !quality.peers.empty()));
-        figure = quality_figure(runs);
-        if (figure.empty()) {
+        tables.add("quality", quality_table(runs, !quality.peers.empty()));
+        const std::string png = quality_figure(runs);
+        if (png.empty()) {
             base::print_note(options.quiet, "rms.png not made: it takes gnuplot and more than one number of faces");
+        } else {
+            write_file(options.out / "rms.png", png);
+            figure = "![rms.png](rms.png)\n\nRMS distance to the original over the number of faces.\n";
         }
     }
-    write_and_print(tables, paper_reading_text() + given.left_out, figure, options);
+    tables.finish("simplification", paper_reading_text() + given.left_out + tables.markdown() + "\n", figure);
+    base::print_note(
+        options.quiet, fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
 }
 
 } // namespace octant::ui::studies::simplification

@@ -1,6 +1,5 @@
 #include "models/triangle_mesh.h"
 #include "ui/studies/hybrid_shading/study_shading.h"
-#include "ui/studies/picture_quality.h"
 #include "ui/studies/shading_pictures.h"
 #include "visuals/shading/vertex_normals.h"
 

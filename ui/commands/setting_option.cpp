@@ -1,12 +1,13 @@
-#include "ui/commands/settings_options.h"
+#include "ui/commands/setting_option.h"
 
-#include "ui/commands/value_option.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
+#include "ui/settings/settings_text.h"
 
 #include <fmt/format.h>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace octant::ui::commands {
 
@@ -62,8 +63,8 @@ void add_setting_options(std::vector<Option>& options, RunSettings& settings, st
     const std::size_t own = options.size();
     options.push_back({.name = "--settings",
         .form = "FILE",
-        .meaning = "take settings from FILE or from a recording (run.json, folder or packed file); other "
-                   "options override them",
+        .meaning = "read settings from FILE or from a recording (run.json, folder or packed file); other options "
+                   "override them",
         .read = [&settings](const Words& words) { settings = settings::read_settings(words.front()); }});
     settings::visit_settings(settings, OptionAdder(options));
     if (given != nullptr) { record_given_options(std::span(options).subspan(own), *given); }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "ui/commands/option.h"
+#include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
 
 #include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace octant::ui::commands {
 
@@ -20,8 +22,8 @@ std::string default_text(const std::optional<Value>& value) {
     return value ? settings::text_of(*value) : "";
 }
 
-/// An option that is read as a setting of the type is, within the bounds of `info`, under the name of `info` behind
-/// `dashes`. Its default is shown unless `info.meaning` ends with [words on it].
+/// An option that reads its word as a setting of this type, within the bounds of `info`. Its name is that of `info`
+/// after `dashes`. Help shows the default unless `info.meaning` ends with one in brackets.
 template <class Value>
 Option value_option(const settings::FieldInfo& info, Value& value, std::string_view dashes = "--") {
     const std::string name = fmt::format("{}{}", dashes, info.name);
@@ -36,5 +38,11 @@ Option value_option(const settings::FieldInfo& info, Value& value, std::string_v
             },
         .shown_default = info.meaning.ends_with(']') ? "" : default_text(value)};
 }
+
+/// Adds --settings FILE and then one option for every setting, each under the heading of its group. The file is read
+/// first, so that the others override it. The path is the argument without dashes. The names of given options are
+/// appended to `given` unless it is null.
+void add_setting_options(
+    std::vector<Option>& options, settings::RunSettings& settings, std::vector<std::string>* given = nullptr);
 
 } // namespace octant::ui::commands

@@ -1,0 +1,356 @@
+#include "ui/sweep/engine.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/parallel_for.h"
+#include "sim/base/text_file.h"
+#include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
+#include "ui/report/child_program.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <set>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+namespace octant::ui::sweep {
+
+namespace {
+
+constexpr int max_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody changed it
+
+/// The command that flies the run whose name is in the shell's `variable`.
+std::string fly_command(const EngineOptions& options, const std::string& variable) {
+    return fmt::format("{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet --swept "
+                       "{2}{3} "
+                       ">\"logs/{1}.log\" 2>&1",
+        shell_quoted(options.program), variable, shell_quoted(options.machine_sharing),
+        options.videos ? fmt::format(" --video \"videos/{}.mp4\"", variable) : std::string());
+}
+
+} // namespace
+
+std::string shell_quoted(const std::string& text) {
+    std::string word = "'";
+    for (const char letter : text) { word += letter == '\'' ? std::string("'\\''") : std::string(1, letter); }
+    return word + "'";
+}
+
+int tasks_of(const Sweep& sweep, const EngineOptions& options) {
+    const int runs = static_cast<int>(sweep.runs.size());
+    const int wanted = options.tasks > 0 ? options.tasks : max_tasks;
+    return std::clamp(wanted, 1, std::max(1, runs));
+}
+
+std::string sbatch_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options, int tasks) {
+    std::string text = "#!/bin/bash\n";
+    text += fmt::format("# Flies {} runs of the sweep {}. Submitted again (sbatch {}), it flies what is not "
+                        "done.\n",
+        sweep.runs.size(), sweep.name, "sweep.sbatch");
+    text += fmt::format("#SBATCH --job-name=octant-{}\n", sweep.name);
+    text +=
+        fmt::format("#SBATCH --array=0-{}{}\n", tasks - 1, options.jobs > 0 ? fmt::format("%{}", options.jobs) : "");
+    text += fmt::format("#SBATCH --time={}\n", options.minutes);
+    text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n";
+    const std::string place = folder.path().string();
+    std::string pattern; // in which % stands for more than itself
+    for (const char letter : place) { pattern += letter == '%' ? "%%" : std::string(1, letter); }
+    text += fmt::format("#SBATCH --chdir=\"{}\"\n#SBATCH --output=\"{}/logs/slurm-%a.log\"\n", place, pattern);
+    text += options.share_cores ? "" : "#SBATCH --exclusive\n";
+    for (const std::string& option : options.sbatch_options) { text += fmt::format("#SBATCH {}\n", option); }
+    text += "fault=0\nwhile read -r run; do\n  ";
+    text += fly_command(options, "$run");
+    text += fmt::format(" </dev/null || fault=$?\ndone < <(awk \"NR % {} == ($SLURM_ARRAY_TASK_ID + 1) % {}\" "
+                        "jobs.txt)\nexit $fault\n",
+        tasks, tasks);
+    return text;
+}
+
+std::string task_list(std::span<const std::size_t> runs, int tasks) {
+    std::set<std::size_t> numbers;
+    for (const std::size_t run : runs) { numbers.insert(run % static_cast<std::size_t>(tasks)); }
+    return fmt::format("{}", fmt::join(numbers, ","));
+}
+
+std::string parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options) {
+    std::string text = "#!/bin/bash\n";
+    text +=
+        fmt::format("# Flies the runs of the sweep {} that todo.txt names on the machines of a file.\n", sweep.name);
+    text += fmt::format("cd {} || exit 2\n", shell_quoted(folder.path().string()));
+    text += "exec parallel --will-cite --retries 3 --joblog logs/parallel.log --workdir \"$PWD\""
+            " --termseq TERM,120000,KILL,25";
+    text += fmt::format(" --timeout {}", 60 * options.minutes);
+    if (options.jobs > 0) {
+        text += fmt::format(" --jobs {}", options.jobs);
+    } else {
+        text += options.share_cores ? " --jobs 100%" : " --jobs 1";
+    }
+    if (!options.hosts.empty()) { text += " --sshloginfile " + shell_quoted(options.hosts.string()); }
+    // In place of its shell: one that dies of the signal at once would make GNU parallel kill the flight at once, too.
+    text += " --arg-file todo.txt " + shell_quoted("exec " + fly_command(options, "{}")) + "\n";
+    return text;
+}
+
+namespace {
+
+/// Starts a program whose words go into a log. Throws Error.
+pid_t start_child(const std::vector<std::string>& words, const std::filesystem::path& log) {
+    std::vector<char*> arguments;
+    for (const std::string& word : words) {
+        arguments.push_back(const_cast<char*>(word.c_str())); // spawn does not write to them
+    }
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files{};
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+    posix_spawnattr_t attributes{};
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // Ctrl-C reaches only us
+    pid_t process = -1;
+    const int code = posix_spawn(&process, arguments.front(), &files, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    if (code != 0) { throw Error(fmt::format("{} cannot be started: {}", words.front(), std::strerror(code))); }
+    return process;
+}
+
+class LocalEngine : public Engine {
+public:
+    LocalEngine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options)
+        : sweep_(sweep), folder_(folder), options_(std::move(options)) {
+        const int cores = core_count();
+        if (options_.jobs == 0) { options_.jobs = options_.share_cores ? cores : 1; }
+        if (options_.jobs > 1 && !options_.share_cores) {
+            throw Error(fmt::format("--jobs: expected --share-cores beside more than one at a time, as frame times "
+                                    "then "
+                                    "depend on each other, got {} without it",
+                options_.jobs));
+        }
+        options_.machine_sharing =
+            options_.jobs == 1
+                ? "one at a time"
+                : fmt::format("up to {} at a time on shared cores: compare no frame times", options_.jobs);
+    }
+
+    void fly(std::span<const std::size_t> runs) override;
+
+    std::string machine_sharing() const override { return options_.machine_sharing; }
+
+private:
+    void start(const SweepRun& run);
+    void wait_for_one();
+    void stop_all() const;
+
+    const Sweep& sweep_;
+    const SweepFolder& folder_;
+    EngineOptions options_;
+    std::map<pid_t, std::string> flying_;
+    std::string last_;
+};
+
+void LocalEngine::start(const SweepRun& run) {
+    std::vector<std::string> words = {options_.program, "fly", "--settings", folder_.job(run.name).string(), "--record",
+        folder_.recording(run.name).string(), "--if-new", "--quiet", "--swept", options_.machine_sharing};
+    if (options_.videos) { words.insert(words.end(), {"--video", folder_.video(run.name).string()}); }
+    const pid_t process = start_child(words, folder_.log(run.name));
+    flying_.emplace(process, run.name);
+}
+
+void LocalEngine::stop_all() const {
+    for (const auto& [process, name] : flying_) { ::kill(process, SIGTERM); }
+}
+
+/// Signals wake the wait, and are handed on.
+void LocalEngine::wait_for_one() {
+    constexpr auto look_every = std::chrono::milliseconds(20);
+    bool is_reported = false;
+    for (;;) {
+        for (const auto& [process, name] : flying_) {
+            if (::waitpid(process, nullptr, WNOHANG) == process) {
+                last_ = name;
+                flying_.erase(process);
+                return;
+            }
+        }
+        if (base::StopSignals::received() && !std::exchange(is_reported, true)) { stop_all(); }
+        std::this_thread::sleep_for(look_every);
+    }
+}
+
+void LocalEngine::fly(std::span<const std::size_t> runs) {
+    base::Progress progress(sweep_.name, static_cast<int>(runs.size()), options_.quiet, "flights");
+    std::size_t begun = 0;
+    int done = 0;
+    while (begun < runs.size() || !flying_.empty()) {
+        const bool may_begin = begun < runs.size() && !base::StopSignals::received();
+        if (!may_begin && flying_.empty()) { break; }
+        if (may_begin && flying_.size() < static_cast<std::size_t>(options_.jobs)) {
+            start(sweep_.runs[runs[begun++]]);
+        } else {
+            wait_for_one();
+            progress.show(++done, last_);
+        }
+    }
+    progress.finish();
+}
+
+} // namespace
+
+std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options) {
+    return std::make_unique<LocalEngine>(sweep, folder, std::move(options));
+}
+
+namespace {
+
+using report::ChildProgram;
+
+/// Runs a program that must be there and waits; gives its output. When a signal came, `stop` is called once with the
+/// program, and it is waited for all the same. What it says when it fails is a note: which runs are done is seen in
+/// their folders.
+std::string run_engine(
+    const std::vector<std::string>& words, bool quiet, const std::function<void(ChildProgram&)>& stop) {
+    constexpr auto look_every = std::chrono::milliseconds(50);
+    auto child = ChildProgram::start(words);
+    if (!child) { throw Error(fmt::format("expected the program {}, which is not installed", words.front())); }
+    child->end_input();
+    bool is_reported = false;
+    while (child->is_running()) {
+        if (base::StopSignals::received() && !std::exchange(is_reported, true)) {
+            base::print_note(quiet, fmt::format("note: {}: ending {}", base::StopSignals::name(), words.front()));
+            stop(*child);
+        }
+        std::this_thread::sleep_for(look_every);
+    }
+    const report::ProgramResult ending = child->finish();
+    if (!ending.succeeded && !is_reported) {
+        base::print_note(quiet, fmt::format("note: {}: {}", words.front(), ending.last_error_line));
+    }
+    return ending.output;
+}
+
+/// The number in "Submitted batch job 123"; empty where there is none.
+std::string job_in(const std::string& text) {
+    const auto words = split_words(text);
+    for (const std::string_view word : words) {
+        if (const auto number = whole_number(word.substr(0, word.find('\n')))) { return fmt::format("{}", *number); }
+    }
+    return {};
+}
+
+/// Waits until a job has left Slurm's queue: tasks that were on a node which died are there again when `sbatch --wait`
+/// takes the job for ended.
+void wait_for_queue(const std::string& job) {
+    constexpr auto look_every = std::chrono::seconds(2);
+    while (!job.empty()) {
+        auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
+        const report::ProgramResult ending = child ? child->finish() : report::ProgramResult();
+        if (!ending.succeeded || ending.output.empty()) { return; }
+        std::this_thread::sleep_for(look_every);
+    }
+}
+
+void check_installed(const std::string& program) {
+    auto child = ChildProgram::start({program, "--version"});
+    if (!child || !child->finish().succeeded) {
+        throw Error(fmt::format("expected the program {}, which is not installed", program));
+    }
+}
+
+class SlurmEngine : public Engine {
+public:
+    SlurmEngine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options)
+        : folder_(folder), options_(std::move(options)), tasks_(tasks_of(sweep, options_)) {
+        check_installed("sbatch");
+        options_.machine_sharing = options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
+                                                        : "by Slurm, each alone on its node";
+        write_file(script(), sbatch_script(sweep, folder, options_, tasks_));
+    }
+
+    void fly(std::span<const std::size_t> runs) override {
+        base::print_note(options_.quiet, fmt::format("{} flights by sbatch {}", runs.size(), script().string()));
+        // Tasks that wait are taken out of the queue; those that run end their flights in order.
+        const auto cancel = [](ChildProgram& sbatch) {
+            const std::string job = job_in(sbatch.output());
+            auto scancel = job.empty() ? std::nullopt : ChildProgram::start({"scancel", job});
+            if (scancel) {
+                scancel->finish();
+            } else {
+                sbatch.signal(SIGTERM);
+            }
+        };
+        wait_for_queue(job_in(
+            run_engine({"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet, cancel)));
+    }
+
+    std::string machine_sharing() const override { return options_.machine_sharing; }
+
+private:
+    std::filesystem::path script() const { return folder_.path() / "sweep.sbatch"; }
+
+    std::string array_of(std::span<const std::size_t> runs) const {
+        return task_list(runs, tasks_) + (options_.jobs > 0 ? fmt::format("%{}", options_.jobs) : std::string());
+    }
+
+    const SweepFolder& folder_;
+    EngineOptions options_;
+    int tasks_;
+};
+
+class ParallelEngine : public Engine {
+public:
+    ParallelEngine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options)
+        : sweep_(sweep), folder_(folder), options_(std::move(options)) {
+        check_installed("parallel");
+        options_.machine_sharing = options_.share_cores || options_.jobs > 1
+                                       ? "by GNU parallel, on shared cores: compare no frame times"
+                                       : "by GNU parallel, one at a time on each machine";
+        write_file(script(), parallel_script(sweep, folder, options_));
+    }
+
+    void fly(std::span<const std::size_t> runs) override {
+        std::string names;
+        for (const std::size_t run : runs) { names += sweep_.runs[run].name + "\n"; }
+        write_file(folder_.path() / "todo.txt", names);
+        base::print_note(options_.quiet, fmt::format("{} flights by {}", runs.size(), script().string()));
+        // The first signal: no more flights; the second: those that are flown end in order.
+        run_engine({"bash", script().string()}, options_.quiet, [](ChildProgram& parallel) {
+            constexpr auto between = std::chrono::milliseconds(500);
+            parallel.signal(SIGTERM);
+            std::this_thread::sleep_for(between);
+            parallel.signal(SIGTERM);
+        });
+    }
+
+    std::string machine_sharing() const override { return options_.machine_sharing; }
+
+private:
+    std::filesystem::path script() const { return folder_.path() / "sweep.parallel.sh"; }
+
+    const Sweep& sweep_;
+    const SweepFolder& folder_;
+    EngineOptions options_;
+};
+
+} // namespace
+
+std::unique_ptr<Engine> slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options) {
+    return std::make_unique<SlurmEngine>(sweep, folder, std::move(options));
+}
+
+std::unique_ptr<Engine> parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options) {
+    return std::make_unique<ParallelEngine>(sweep, folder, std::move(options));
+}
+
+} // namespace octant::ui::sweep
