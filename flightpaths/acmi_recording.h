@@ -34,9 +34,9 @@ inline constexpr std::size_t max_taped_aircraft = 256;
 /// Reads Tacview's ACMI 2.x text ("Technical Reference - ACMI flight recordings 2.2"): objects whose tags have Air
 /// among them, or that have none. What moves by fewer than 2 samples, lies more than 1,000 km from the first or is one
 /// of too many is left out, so are samples that would need more than 3,000 m/s. Missing attitudes and velocities are
-/// made from the motion (motion_fill.h). `file` names the tape in messages. Throws Error with file and line for other
-/// text, what is no number where one belongs, more than a day, more than a million objects or 20 million places, and a
-/// tape without any aircraft.
+/// derived from the motion (derived_motion.h). `file` names the tape in messages. Throws Error with file and line for
+/// other text, what is no number where one belongs, more than a day, more than a million objects or 20 million places,
+/// and a tape without any aircraft.
 AcmiRecording parse_acmi(std::string_view text, const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

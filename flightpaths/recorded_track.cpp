@@ -1,10 +1,7 @@
 #include "flightpaths/recorded_track.h"
 
 #include "flightpaths/derived_motion.h"
-#include "flightpaths/log_columns.h"
-#include "flightpaths/track_columns.h"
-#include "flightpaths/track_fields.h"
-#include "flightpaths/track_time.h"
+#include "flightpaths/track_table.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
@@ -273,12 +270,11 @@ private:
     LeftOut left_out_;
 };
 
-/// Reads another program's log of a flight (log_columns.h), whose lines are less regular than those of a recording:
-/// lines without time, place or height, of a moment that has been, or that only a jump faster than 3000 m/s leads to
-/// are left out and counted in the notes. Times begin at 0. Attitudes are the log's where it has roll and pitch in
-/// every line, with its true heading or else that of the motion; otherwise they are made from the motion. Throws Error
-/// with file and line for what is neither empty nor a number where there must be one, a place that is on no earth, more
-/// than a day, and fewer than 2 samples.
+/// Reads a log of another program (see log_columns()). Lines without time, position or altitude, lines whose time does
+/// not increase, and lines that imply a speed above 3000 m/s are left out and counted in the notes. Times begin at 0.
+/// Attitudes are the log's if every line has roll and pitch, with its true heading or else the heading of the motion;
+/// otherwise they are derived from the motion. Throws Error with file and line for what is neither empty nor a number
+/// where there must be one, a place that is on no earth, more than a day, and fewer than 2 samples.
 LoggedTrack logged_track(const LogText& log, const LogColumns& columns) {
     LogReader reader(log, columns);
     for (std::size_t i = log.header_line + 1; i < log.lines.size(); ++i) {

@@ -20,22 +20,23 @@ struct RecordedTrack {
     std::vector<std::string> notes;
 };
 
-/// Reads a recorded flight as text: a line of column names, then a line a sample, separated by commas, tabs or
-/// semicolons. Columns are found by name, in any order; others are passed over.
-///   own:    t_s, north_m, east_m, alt_m; optional roll_deg, pitch_deg, yaw_deg (all three),
+/// Reads a recorded flight from a text file: a line of column names, then one line per sample, separated by commas,
+/// tabs or semicolons. Columns are found by name, in any order and in upper or lower case; other columns are ignored.
+/// Empty lines and lines that begin with # may precede the names.
+///   Octant: t_s, north_m, east_m, alt_m; optional roll_deg, pitch_deg, yaw_deg (all three),
 ///           v_north_mps, v_east_mps, v_up_mps (all three), n_g; q_w, q_x, q_y, q_z (all four or
-///           none): the rotation from body to world, taken in place of the angles
+///           none): the rotation from body to world, used in place of the angles
 ///   JSBSim: Time, Latitude Geodetic (deg) or Latitude (deg), Longitude (deg), Altitude ASL (ft);
 ///           optional Phi (deg), Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s),
 ///           V_{Down} (ft/s)
-///   others: what log_columns.h knows of other programs' names, such as Timestamp, Latitude,
-///           Longitude, Altitude (ft) (logged_track.h)
-/// Files of flight recorders (IGC, igc_fixes.h) and GPX (gpx_points.h) are known by their content. Names are found in
-/// capitals, too; empty lines and lines that begin with # may stand before them. What is optional and missing is made
-/// from the motion (motion_fill.h). Throws Error with file and line for a missing or doubled column, too few or too
-/// many fields, what is no finite number, times that do not increase, span more than a day or lie more than 1e7 s from
-/// zero, fewer than 2 samples, a speed above 3000 m/s, a quaternion whose length is not 1 within 1e-6. One that is unit
-/// but for rounding is not touched: what exact_track_csv wrote comes back to the last bit.
+///   others: names that log_columns() of track_table.h knows, such as Timestamp, Latitude, Longitude,
+///           Altitude (ft)
+/// Flight recorder files (IGC) and GPX files are recognised by their content. Optional quantities that are missing are
+/// derived from the motion (derived_motion.h). A quaternion of unit length, rounding aside, is not normalised again, so
+/// a track that exact_track_csv wrote is read back to the last bit. Throws Error with file and line for a missing or
+/// doubled column, too few or too many fields, a value that is not a finite number, times that do not increase, span
+/// more than a day or are more than 1e7 s from zero, fewer than 2 samples, a speed above 3000 m/s, or a quaternion
+/// whose length differs from 1 by more than 1e-6.
 RecordedTrack read_recorded_track(const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

@@ -1,5 +1,5 @@
 #include "flightpaths/recorded_track.h"
-#include "flightpaths/track_time.h"
+#include "flightpaths/track_table.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "tests/flightpaths/track_fault.h"
