@@ -1,15 +1,14 @@
 // The ways that the walk from near to far is compared with, one sample a pixel: from far to near, each triangle over
 // what is there (painter's), and in any order by a depth for each pixel. Included once for each instruction set.
-#if defined(OCTANT_RASTER_COMPARED_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef OCTANT_RASTER_COMPARED_INL
-#undef OCTANT_RASTER_COMPARED_INL
+#if defined(OCTANT_RASTER_REFERENCE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_REFERENCE_INL
+#undef OCTANT_RASTER_REFERENCE_INL
 #else
-#define OCTANT_RASTER_COMPARED_INL
+#define OCTANT_RASTER_REFERENCE_INL
 #endif
 
-#include "visuals/raster/tile_depth-inl.h"
-#include "visuals/raster/tile_gouraud-inl.h"
-#include "visuals/raster/tile_transparent-inl.h"
+#include "visuals/raster/coverage-inl.h"
+#include "visuals/raster/gouraud-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,6 +17,7 @@ HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
 /// How a triangle's depths are compared.
 struct DepthRule {

@@ -1,5 +1,6 @@
-// Which samples of a strip of 32 pixels a triangle covers: whole strips at once, whatever the triangle's corners do
-// within the row. Included once for each instruction set.
+// Strips of a tile: 32 pixels of one row at once, or 16 where these fill a register. In this order: numbers of lanes;
+// the coverage masks of a strip from the edges of a triangle; colours and other planes over it; the loop over the
+// strips of a triangle. Included once for each instruction set.
 #if defined(OCTANT_RASTER_STRIP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_STRIP_INL
 #undef OCTANT_RASTER_STRIP_INL
@@ -7,18 +8,39 @@
 #define OCTANT_RASTER_STRIP_INL
 #endif
 
-#include "visuals/raster/lane_indices-inl.h"
+#include "visuals/raster/tile.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <hwy/highway.h>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// -- Lane numbers from a table. Highway's Iota becomes a loop where the compiler must not vectorize.
+
+/// From `first` on, which lies within a tile.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> lane_indices_from(Tag tag, std::size_t first) {
+    using Number = hn::TFromD<Tag>;
+    alignas(64) static constexpr auto numbers = [] {
+        std::array<Number, 2 * tile_width> values{};
+        for (std::size_t i = 0; i < values.size(); ++i) { values[i] = static_cast<Number>(i); }
+        return values;
+    }();
+    assert(first <= tile_width);
+    return hn::LoadU(tag, numbers.data() + first);
+}
+
+// -- Coverage masks of a strip of 32 pixels. The steps are the same for every shape of the triangle within the row.
 
 constexpr int strip_px = 32;
 
@@ -269,6 +291,174 @@ private:
     hn::Vec<Lanes> middle_;
     hn::Vec<Lanes> bottom_;
 };
+
+// -- Colour gradients over a strip, and the box of a tile that a triangle's strips cover.
+
+using StripSigned = hn::RebindToSigned<Strip>;
+constexpr std::size_t part_px = hn::MaxLanes(Strip());
+
+/// A bit for each pixel of so many parts of a strip.
+template <std::size_t parts>
+constexpr std::uint32_t bits_of_parts = ~0U >> (strip_px - parts * part_px);
+
+/// The part of a tile in which a triangle may cover something.
+struct TileBox {
+    int left;
+    int right;
+    int first_row;
+    int last_row;
+
+    HWY_INLINE TileBox(const Triangle& triangle, const TileJob& job)
+        : left(std::max(triangle.left - job.first_px.x, 0)),
+          right(std::min(triangle.right - job.first_px.x, job.size_px.x - 1)),
+          first_row(std::max(triangle.first_row - job.first_px.y, 0)),
+          last_row(std::min(triangle.last_row - job.first_px.y, job.size_px.y - 1)) {}
+
+    /// A bit for each column from `left_column` on that belongs to it.
+    std::uint32_t columns_of_strip(int left_column) const {
+        const int width = right - left_column + 1;
+        return width >= strip_px ? ~0U : (1U << width) - 1U;
+    }
+
+    std::uint32_t rows() const {
+        return static_cast<std::uint32_t>((std::uint64_t{2} << last_row) - (std::uint64_t{1} << first_row));
+    }
+};
+
+/// A plane's level at a column and row of the picture, 2^-16 level, with what rounds it to 1/128.
+HWY_INLINE std::uint32_t first_level(const ColourGradients& gradients, std::size_t k, const glm::ivec2& at) {
+    return static_cast<std::uint32_t>(gradients.base[k]) + 256U +
+           static_cast<std::uint32_t>(gradients.per_x[k]) * static_cast<std::uint32_t>(at.x) +
+           static_cast<std::uint32_t>(gradients.per_y[k]) * static_cast<std::uint32_t>(at.y);
+}
+
+/// From 1/128 level, counted from the level 128, to 1/16 level from 0.
+HWY_INLINE hn::Vec<Strip> from_level(hn::Vec<StripSigned> level) {
+    return hn::ShiftRight<3>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128 + 4)));
+}
+
+/// A level over a strip, row by row: 1/128 level from the level 128, wrapping.
+struct StripGradient {
+    std::uint32_t at; ///< where columns are counted from, 2^-16 level
+    std::uint32_t per_row;
+    hn::Vec<StripSigned> least;
+    hn::Vec<StripSigned> most;
+    std::array<hn::Vec<StripSigned>, strip_parts> steps;
+
+    /// The strip begins some columns right of a pixel from which columns are counted.
+    HWY_INLINE
+    StripGradient(const ColourGradients& gradients, std::size_t k, const glm::ivec2& from_px, int columns_right)
+        : at(first_level(gradients, k, from_px)), per_row(static_cast<std::uint32_t>(gradients.per_y[k])),
+          least(hn::Set(StripSigned(), gradients.least[k])), most(hn::Set(StripSigned(), gradients.most[k])) {
+        const StripSigned sign;
+        const auto per_column = hn::Set(sign, gradients.per_column[k]);
+        for (std::size_t i = 0; i < strip_parts; ++i) {
+            const std::size_t first = static_cast<std::size_t>(columns_right) + i * part_px;
+            steps[i] = hn::Mul(lane_indices_from(sign, first), per_column);
+        }
+    }
+
+    /// 1/128 level from the level 128.
+    HWY_INLINE hn::Vec<StripSigned> level(std::size_t part) const {
+        const auto first = static_cast<std::int16_t>(static_cast<std::int32_t>(at) >> 9);
+        const auto raw = hn::Add(hn::Set(StripSigned(), first), steps[part]);
+        return hn::Min(hn::Max(raw, least), most);
+    }
+
+    /// In 1/16 level from 0.
+    HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const { return from_level(level(part)); }
+};
+
+/// Red, green and blue of a triangle over a strip.
+HWY_INLINE std::array<StripGradient, 3> strip_gradients(
+    const ColourGradients& gradients, const glm::ivec2& from_px, int columns_right) {
+    const auto level = [&](std::size_t k) HWY_ATTR { return StripGradient(gradients, k, from_px, columns_right); };
+    return {level(0), level(1), level(2)};
+}
+
+/// A bit for each pixel of so many parts of a strip that has a value.
+template <std::size_t parts>
+HWY_INLINE std::uint32_t bits_equal_to(const std::array<hn::Vec<Strip>, parts>& values, std::uint16_t value) {
+    const auto is_equal = [&](std::size_t part) HWY_ATTR { return hn::Eq(values[part], hn::Set(Strip(), value)); };
+#if HWY_TARGET == HWY_AVX2
+    // Written to memory part by part and read as one, they would come late.
+    const __m256i bytes = _mm256_packs_epi16(
+        hn::VecFromMask(Strip(), is_equal(0)).raw, hn::VecFromMask(Strip(), is_equal(parts - 1)).raw);
+    constexpr int in_order = 0xd8; // of four times eight
+    const auto bits = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, in_order)));
+    return bits & bits_of_parts<parts>;
+#else
+    alignas(8) std::array<std::uint8_t, 16> bytes;
+    constexpr std::size_t bytes_a_part = part_px / 8;
+    for (std::size_t i = 0; i < parts; ++i) {
+        hn::StoreMaskBits(Strip(), is_equal(i), bytes.data() + i * bytes_a_part);
+    }
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes.data(), parts * bytes_a_part);
+    return bits;
+#endif
+}
+
+/// A bit for each pixel of so many parts of a strip whose value has all bits set.
+template <std::size_t parts>
+HWY_INLINE std::uint32_t full_bits(const std::array<hn::Vec<Strip>, parts>& values) {
+    return bits_equal_to(values, 0xffff);
+}
+
+// -- The loop over the rows of a strip, shared by Gouraud-shaded and textured triangles: marks the free samples as
+// covered.
+
+/// Whether half a strip fills a register: what is no wider takes half the work.
+constexpr bool has_half_strips = HWY_TARGET == HWY_AVX2;
+static_assert(!has_half_strips || strip_parts == 2);
+
+/// A value for each pixel in so many parts of a strip.
+template <std::size_t parts>
+using PartValues = std::array<hn::Vec<Strip>, parts>;
+
+/// Calls paint(how many parts of a strip a triangle may lie in), a constant.
+template <class Paint>
+HWY_INLINE void with_parts_of_strip(const TileBox& box, int left, const Paint& paint) {
+    if constexpr (has_half_strips) {
+        if (box.right - left < strip_px / 2) {
+            paint(std::integral_constant<std::size_t, 1>());
+            return;
+        }
+    }
+    paint(std::integral_constant<std::size_t, strip_parts>());
+}
+
+/// Covers what is free of a triangle in parts of the strip that begins at a column of the tile. Calls paint(row,
+/// samples of the parts, those of them that are fresh) where some may be, and next_row() after each row.
+template <std::size_t parts, class Paint, class NextRow>
+HWY_INLINE void walk_strip(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box,
+    int left, TileBuffer& buffer, const Paint& paint, const NextRow& next_row) {
+    const std::uint32_t columns = box.columns_of_strip(left);
+    const std::uint64_t wide_columns = std::uint64_t{columns} << left;
+    const std::uint64_t full_row = job.full_row();
+    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    StripCoverage coverage(triangle, first_px, columns, lanes);
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
+        if ((wide_columns & ~full) != 0) {
+            std::uint16_t* const covered = buffer.covered.data() + row * tile_width + left;
+            const auto masks = coverage.template samples<parts>();
+            PartValues<parts> fresh;
+            PartValues<parts> after;
+            for (std::size_t i = 0; i < parts; ++i) {
+                const auto before = hn::LoadU(Strip(), covered + i * part_px);
+                fresh[i] = hn::AndNot(before, masks[i]);
+                after[i] = hn::Or(before, masks[i]);
+                hn::StoreU(after[i], Strip(), covered + i * part_px);
+            }
+            paint(row, masks, fresh);
+            full |= std::uint64_t{full_bits(after)} << left;
+            buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
+        }
+        coverage.next_row();
+        next_row();
+    }
+}
 
 } // namespace HWY_NAMESPACE
 } // namespace octant::visuals::raster

@@ -1,0 +1,721 @@
+// Triangles of any fill, in two steps: coverage masks of 16 bits a pixel, then colour times newly covered samples. In
+// this order: coverage; colour; groups of triangles that share a depth buffer; transparent triangles, which are
+// recorded here and blended when the pixels behind them are known. Included once for each instruction set.
+#if defined(OCTANT_RASTER_COVERAGE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_COVERAGE_INL
+#undef OCTANT_RASTER_COVERAGE_INL
+#else
+#define OCTANT_RASTER_COVERAGE_INL
+#endif
+
+#include "visuals/raster/gouraud-inl.h"
+#include "visuals/raster/pixel_colour.h"
+#include "visuals/raster/strip-inl.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// -- Coverage: which samples of a tile a triangle covers, a mask of sixteen bits for each pixel.
+
+using Bytes = hn::FixedTag<std::uint8_t, 16>; ///< a lane for each sample
+
+/// Where the lanes of a row cross an edge, less where the row's middle does, with what rounds a crossing up to a
+/// column: 2^-16 pixel. The same in all rows.
+template <class Words, std::size_t registers = SamplePattern::lanes / hn::MaxLanes(Words())>
+struct LaneOffsets;
+
+template <class Words>
+struct LaneOffsets<Words, 2> {
+    hn::Vec<Words> first, second;
+
+    HWY_INLINE LaneOffsets(std::int32_t slope_32nd, const SampleLanes& lanes) {
+        // Packing takes four lanes from each in turn.
+        const Words words;
+        const auto offsets = [&](std::size_t from) HWY_ATTR {
+            const hn::Half<Words> half;
+            const auto spread = [&](const std::int32_t* table) HWY_ATTR {
+                return hn::Combine(words, hn::Load(half, table + from + 8), hn::Load(half, table + from));
+            };
+            return hn::Add(
+                hn::Mul(spread(lanes.down.data()), hn::Set(words, slope_32nd)), spread(lanes.round_up.data()));
+        };
+        first = offsets(0);
+        second = offsets(4);
+    }
+
+    /// The first column whose sample does not lie left of the edge, 0..255, for each lane.
+    HWY_INLINE hn::Vec<Bytes> columns(std::int32_t x) const {
+        const Words words;
+        const auto middle = hn::Set(words, x);
+        return hn::DemoteTo(
+            Bytes(), hn::ReorderDemote2To(hn::Repartition<std::int16_t, Words>(),
+                         hn::ShiftRight<16>(hn::Add(middle, first)), hn::ShiftRight<16>(hn::Add(middle, second))));
+    }
+};
+
+template <class Words>
+struct LaneOffsets<Words, 4> {
+    hn::Vec<Words> first, second, third, fourth;
+
+    HWY_INLINE LaneOffsets(std::int32_t slope_32nd, const SampleLanes& lanes) {
+        const Words words;
+        const auto offsets = [&](std::size_t from) HWY_ATTR {
+            return hn::Add(hn::Mul(hn::Load(words, lanes.down.data() + from), hn::Set(words, slope_32nd)),
+                hn::Load(words, lanes.round_up.data() + from));
+        };
+        first = offsets(0);
+        second = offsets(4);
+        third = offsets(8);
+        fourth = offsets(12);
+    }
+
+    HWY_INLINE hn::Vec<Bytes> columns(std::int32_t x) const {
+        const hn::Repartition<std::int16_t, Words> shorts;
+        const hn::FixedTag<std::uint8_t, 8> half;
+        const auto middle = hn::Set(Words(), x);
+        const auto at = [&](hn::Vec<Words> offset) HWY_ATTR { return hn::ShiftRight<16>(hn::Add(middle, offset)); };
+        const auto low = hn::ReorderDemote2To(shorts, at(first), at(second));
+        const auto high = hn::ReorderDemote2To(shorts, at(third), at(fourth));
+        return hn::Combine(Bytes(), hn::DemoteTo(half, high), hn::DemoteTo(half, low));
+    }
+};
+
+/// An edge in a tile, row by row.
+struct EdgeStepper {
+    std::int64_t x;     ///< at the middle of the tile's first row, from its first column, 2^-32 pixel
+    std::int64_t slope; ///< x a row
+    LaneOffsets<hn::CappedTag<std::int32_t, 8>> offsets;
+
+    /// `top`: of the edge, 1/256 pixel.
+    HWY_INLINE EdgeStepper(const Edge& edge, std::int32_t top, const glm::ivec2& tile_px, const SampleLanes& lanes)
+        : slope(edge.slope), offsets(static_cast<std::int32_t>(edge.slope >> 21), lanes) {
+        // Less than the least distance of a crossing from a column's middle where it is not on it.
+        constexpr std::uint64_t on_it = std::uint64_t{1} << 10;
+        const auto rows = static_cast<std::uint64_t>(std::int64_t{tile_px.y - first_row_of(top)});
+        x = static_cast<std::int64_t>(static_cast<std::uint64_t>(edge.x) + static_cast<std::uint64_t>(slope) * rows -
+                                      (static_cast<std::uint64_t>(std::int64_t{tile_px.x}) << 32) - on_it);
+    }
+
+    HWY_INLINE std::int64_t at(int row) const {
+        return static_cast<std::int64_t>(
+            static_cast<std::uint64_t>(x) +
+            static_cast<std::uint64_t>(slope) * static_cast<std::uint64_t>(std::int64_t{row}));
+    }
+
+    HWY_INLINE hn::Vec<Bytes> columns(int row) const {
+        return offsets.columns(static_cast<std::int32_t>(at(row) >> 16));
+    }
+};
+
+/// Bounds the columns of each lane by a line, too.
+HWY_INLINE void bound_by(const ClipLine& line, const SampleLanes& lanes, const glm::ivec2& tile_px, std::int32_t row,
+    hn::Vec<Bytes>& least, hn::Vec<Bytes>& end) {
+    alignas(16) std::array<std::uint8_t, 16> line_min{};
+    alignas(16) std::array<std::uint8_t, 16> line_end{};
+    const double at_tile = line.c + line.a * tile_px.x + line.b * row;
+    for (std::size_t lane = 0; lane < 16; ++lane) {
+        const double here =
+            at_tile + line.b * static_cast<double>(lanes.y_px[lane]) + line.a * static_cast<double>(lanes.x_px[lane]);
+        line_end[lane] = tile_width;
+        if (line.a == 0.0) {
+            line_end[lane] = here >= 0.0 ? tile_width : 0;
+            continue;
+        }
+        const double at = std::clamp(-here / line.a, -1.0, 1.0 + tile_width);
+        if (line.a > 0.0) {
+            line_min[lane] = static_cast<std::uint8_t>(std::max(std::ceil(at), 0.0));
+        } else {
+            line_end[lane] = static_cast<std::uint8_t>(std::clamp(std::floor(at) + 1.0, 0.0, 1.0 * tile_width));
+        }
+    }
+    least = hn::Max(least, hn::Load(Bytes(), line_min.data()));
+    end = hn::Min(end, hn::Load(Bytes(), line_end.data()));
+}
+
+/// Columns of a row.
+struct RowSpan {
+    int first; ///< that may be covered
+    int last;
+    int whole; ///< from here to `whole_end` - 1 all samples are
+    int whole_end;
+};
+
+/// Narrows a row to the columns that two edges cross or enclose, both of which go through the whole row.
+HWY_INLINE void narrow(const EdgeStepper& left, const EdgeStepper& right, int row, RowSpan& span) {
+    constexpr std::int64_t half_px = std::int64_t{1} << 31;
+    const std::int64_t left_reach = std::abs(left.slope) / 2 + half_px;
+    const std::int64_t right_reach = std::abs(right.slope) / 2 + half_px;
+    const std::int64_t left_x = left.at(row);
+    const std::int64_t right_x = right.at(row);
+    const auto column = [](std::int64_t x) {
+        return static_cast<int>(std::clamp<std::int64_t>(x >> 32, -1, tile_width));
+    };
+    span.first = std::max(span.first, column(left_x - left_reach));
+    span.last = std::min(span.last, column(right_x + right_reach) + 1);
+    span.whole = std::max(span.first, column(left_x + left_reach) + 1);
+    span.whole_end = std::min(span.last + 1, column(right_x - right_reach));
+}
+
+/// Sixteen bytes as often as they fit.
+template <class Wide>
+HWY_INLINE hn::Vec<Wide> repeated(Wide wide, hn::Vec<Bytes> bytes) {
+    if constexpr (hn::MaxLanes(Wide()) == 16) {
+        return bytes;
+    } else {
+        const hn::Half<Wide> half;
+        const auto once = repeated(half, bytes);
+        return hn::Combine(wide, once, once);
+    }
+}
+
+/// Writes the masks of a row's blocks. Those within `span.whole` .. `whole_end` - 1 are known.
+HWY_INLINE void write_masks(
+    hn::Vec<Bytes> least, hn::Vec<Bytes> end, const RowSpan& span, int blocks, std::uint16_t* masks) {
+    const hn::CappedTag<std::uint8_t, 64> wide;
+    const hn::RebindToSigned<decltype(wide)> sign;
+    constexpr std::size_t at_once = hn::MaxLanes(wide) / SamplePattern::lanes;
+    // Compared as signed numbers, both less 128.
+    const auto half = hn::Set(Bytes(), 128);
+    const auto from_all = repeated(wide, hn::Add(least, half));
+    const auto count_all = hn::BitCast(sign, repeated(wide, hn::Sub(hn::SaturatedSub(end, least), half)));
+    const auto pixels = hn::ShiftRight<4>(lane_indices_from(wide, 0));
+    for (int block = 0; block < blocks; ++block) {
+        const int first = span.first + 16 * block;
+        std::uint16_t* const to = masks + 16 * block;
+        if (first >= span.whole && first + 16 <= span.whole_end) {
+            const hn::CappedTag<std::uint16_t, 16> px;
+            for (std::size_t i = 0; i < 16; i += hn::Lanes(px)) { hn::StoreU(hn::Set(px, 0xffff), px, to + i); }
+            continue;
+        }
+        const auto column = hn::Add(hn::Set(wide, static_cast<std::uint8_t>(first)), pixels);
+        const auto from_first = hn::Sub(column, from_all);
+        HWY_UNROLL(8)
+        for (std::size_t i = 0; i < 16; i += at_once) {
+            const auto at = hn::Add(from_first, hn::Set(wide, static_cast<std::uint8_t>(i)));
+            const auto covers = hn::Lt(hn::BitCast(sign, at), count_all);
+            hn::StoreMaskBits(sign, covers, reinterpret_cast<std::uint8_t*>(to + i));
+        }
+    }
+}
+
+/// How many lanes of a row lie above a place, 1/256 pixel.
+HWY_INLINE int lanes_above(std::int32_t y, std::int32_t row, const SampleLanes& lanes) {
+    const std::int32_t place = std::clamp(y - row * 256, -128, 128);
+    return lanes.lanes_above[static_cast<std::size_t>(place + 128)];
+}
+
+/// Writes the masks of the samples that a triangle covers into TileBuffer::masks, for rows that are not covered whole
+/// by nearer ones.
+HWY_NOINLINE void cover(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const Triangle& triangle = *one.triangle;
+    const EdgeStepper whole(triangle.whole, triangle.top, job.first_px, lanes);
+    const EdgeStepper upper(triangle.upper, triangle.top, job.first_px, lanes);
+    const EdgeStepper lower(triangle.lower, triangle.middle, job.first_px, lanes);
+    const bool bends_left = triangle.middle_is_left;
+    const std::int32_t tile_row = job.first_px.y;
+    Coverage& coverage = buffer.coverage;
+    coverage.first_row = std::max(triangle.first_row - tile_row, 0);
+    coverage.last_row = std::min(triangle.last_row - tile_row, job.size_px.y - 1);
+    const int left = std::max(triangle.left - job.first_px.x, 0);
+    const int right = std::min(triangle.right - job.first_px.x, job.size_px.x - 1);
+    const auto rows_of_it =
+        static_cast<std::uint32_t>((std::uint64_t{2} << coverage.last_row) - (std::uint64_t{1} << coverage.first_row));
+    if ((rows_of_it & ~buffer.full_rows) == 0) {
+        coverage.last_row = -1;
+        return;
+    }
+    const bool is_cut = one.extra != nullptr && one.extra->cut_count > 0;
+    for (int at = coverage.first_row; at <= coverage.last_row; ++at) {
+        Coverage::Row& places = coverage.rows[static_cast<std::size_t>(at)];
+        places.blocks = 0;
+        const std::int32_t row = tile_row + at;
+        const std::int32_t above = row * 256 - 128;
+        const std::int32_t below = row * 256 + 128;
+        const bool is_upper = below <= triangle.middle;
+        const bool is_through =
+            above >= triangle.top && below <= triangle.bottom && (is_upper || above >= triangle.middle);
+        const EdgeStepper& bent = is_upper ? upper : lower;
+        RowSpan span{left, right, tile_width, 0};
+        if (is_through) {
+            narrow(bends_left ? bent : whole, bends_left ? whole : bent, at, span);
+            if (span.first > span.last) { continue; }
+        }
+        const std::uint64_t columns = (~std::uint64_t{0} << span.first) & (~std::uint64_t{0} >> (63 - span.last));
+        if ((columns & ~buffer.full[static_cast<std::size_t>(at)]) == 0) { continue; }
+        places.first = span.first;
+        places.last = span.last;
+        places.blocks = (span.last - span.first) / 16 + 1;
+        auto bent_columns = bent.columns(at);
+        const auto whole_columns = whole.columns(at);
+        auto within = hn::Set(Bytes(), tile_width);
+        if (!is_through) {
+            const auto lane = lane_indices_from(Bytes(), 0);
+            const auto is_before = [&](std::int32_t y) HWY_ATTR {
+                return hn::Lt(lane, hn::Set(Bytes(), static_cast<std::uint8_t>(lanes_above(y, row, lanes))));
+            };
+            bent_columns = hn::IfThenElse(is_before(triangle.middle), upper.columns(at), lower.columns(at));
+            within = hn::IfThenElseZero(hn::AndNot(is_before(triangle.top), is_before(triangle.bottom)), within);
+        }
+        auto least = bends_left ? bent_columns : whole_columns;
+        auto end = hn::Min(bends_left ? whole_columns : bent_columns, within);
+        if (is_cut) {
+            for (int k = 0; k < one.extra->cut_count; ++k) {
+                bound_by(one.extra->cuts[static_cast<std::size_t>(k)], lanes, job.first_px, row, least, end);
+            }
+        }
+        if (is_cut) { span.whole_end = 0; }
+        write_masks(least, end, span, places.blocks,
+            buffer.masks.data() + static_cast<std::size_t>(at) * TileBuffer::mask_row +
+                static_cast<std::size_t>(span.first));
+    }
+}
+
+// -- Colour of the samples that no nearer triangle covers.
+
+using Pixels = hn::CappedTag<std::uint16_t, 16>;
+using PixelsSigned = hn::RebindToSigned<Pixels>;
+using Counts = hn::Vec<Pixels>;
+
+constexpr int block_px = 16;
+
+/// Takes the samples of a few pixels that are still free: how many for each, and none at all as `false`. Covers them.
+HWY_INLINE bool take_free(const std::uint16_t* masks, std::uint16_t* covered, Counts& counts, std::uint64_t& full) {
+    const Pixels px;
+    const auto before = hn::LoadU(px, covered);
+    const auto fresh = hn::AndNot(before, hn::LoadU(px, masks));
+    if (hn::AllTrue(px, hn::Eq(fresh, hn::Zero(px)))) { return false; }
+    const auto after = hn::Or(before, fresh);
+    hn::StoreU(after, px, covered);
+    counts = hn::PopulationCount(fresh);
+    alignas(8) std::array<std::uint8_t, 8> bits{};
+    hn::StoreMaskBits(px, hn::Eq(after, hn::Set(px, 0xffff)), bits.data());
+    full = static_cast<std::uint64_t>(bits[0]) | static_cast<std::uint64_t>(bits[1]) << 8;
+    return true;
+}
+
+/// Levels along a row of pixels: 1/128 level from the level 128, wrapping.
+struct GradientStepper {
+    alignas(16) std::array<std::int32_t, 4> base; ///< at the first pixel of a block; 16 bits count
+    std::array<std::int16_t, 4> per_px;
+};
+
+HWY_INLINE void add_gradient(const GradientStepper& walk, const ColourGradients& gradients, std::size_t k,
+    std::size_t pixel_in_block, Counts counts, std::uint16_t* sums) {
+    const PixelsSigned sign;
+    const Pixels px;
+    const auto steps = lane_indices_from(sign, pixel_in_block);
+    const auto base = hn::Set(sign, static_cast<std::int16_t>(walk.base[k]));
+    const auto raw = hn::Add(base, hn::Mul(steps, hn::Set(sign, walk.per_px[k])));
+    const auto level = hn::Min(hn::Max(raw, hn::Set(sign, gradients.least[k])), hn::Set(sign, gradients.most[k]));
+    // To 1/16 level from 0, rounded.
+    const auto from_zero = hn::Add(hn::BitCast(px, level), hn::Set(px, 128 * 128 + 4));
+    const auto colour = hn::ShiftRight<3>(from_zero);
+    hn::StoreU(hn::Add(hn::LoadU(px, sums), hn::Mul(colour, counts)), px, sums);
+}
+
+/// The planes' levels at a column and row of the picture.
+HWY_INLINE void step_gradients(
+    const ColourGradients& gradients, std::int32_t column, std::int32_t row, GradientStepper& walk) {
+    const hn::FixedTag<std::int32_t, 4> four;
+    const auto across = hn::Mul(hn::Load(four, gradients.per_x.data()), hn::Set(four, column));
+    const auto down = hn::Mul(hn::Load(four, gradients.per_y.data()), hn::Set(four, row));
+    const auto at = hn::Add(hn::Add(hn::Load(four, gradients.base.data()), hn::Set(four, 256)), hn::Add(across, down));
+    hn::Store(hn::ShiftRight<9>(at), four, walk.base.data());
+    walk.per_px = gradients.per_column;
+}
+
+/// Levels corrected for perspective at the ends of a block and even in between. The ends lie within the columns that
+/// the triangle covers, where 1 / w is positive.
+HWY_INLINE void walk_perspective(
+    const TriangleExtra& extra, int column, int last_column, int row, GradientStepper& walk) {
+    const int end = std::max(std::min(column + block_px, last_column), column + 1);
+    const double w_here = 1.0 / std::max(extra.over_w[4].at(column, row), 1e-30);
+    const double w_end = 1.0 / std::max(extra.over_w[4].at(end, row), 1e-30);
+    for (std::size_t i = 0; i < walk.base.size(); ++i) {
+        const double here = extra.over_w[i].at(column, row) * w_here;
+        const double there = extra.over_w[i].at(end, row) * w_end;
+        const double per_px = (there - here) / (end - column);
+        walk.base[i] = static_cast<std::int32_t>(std::clamp((here - 128.0) * 128.0, -32000.0, 32000.0));
+        walk.per_px[i] = static_cast<std::int16_t>(std::clamp(per_px * 128.0, -2000.0, 2000.0));
+    }
+}
+
+/// The colour of each pixel by itself.
+HWY_INLINE void add_pixel_by_pixel(const TileTriangle& one, const TileJob& job, int column, int row,
+    const std::uint16_t* counts, std::size_t pixel, TileBuffer& buffer) {
+    for (std::size_t i = 0; i < hn::Lanes(Pixels()); ++i) {
+        if (counts[i] == 0) { continue; }
+        const PixelColour colour = colour_of(one, job, column + static_cast<int>(i), row);
+        for (std::size_t k = 0; k < 3; ++k) {
+            buffer.sums[k][pixel + i] = static_cast<std::uint16_t>(buffer.sums[k][pixel + i] + colour[k] * counts[i]);
+        }
+    }
+}
+
+/// Adds a triangle's colour where TileBuffer::masks has samples that are free.
+HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
+    const Coverage& coverage = buffer.coverage;
+    const Triangle& triangle = *one.triangle;
+    constexpr std::size_t px_at_once = hn::MaxLanes(Pixels());
+    for (int at = coverage.first_row; at <= coverage.last_row; ++at) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(at)];
+        const int row = job.first_px.y + at;
+        if (places.blocks == 0) { continue; }
+        for (int block = 0; block < places.blocks; ++block) {
+            const int in_tile = places.first + block * block_px;
+            const int column = job.first_px.x + in_tile;
+            const std::uint16_t* const masks = buffer.masks.data() +
+                                               static_cast<std::size_t>(at) * TileBuffer::mask_row +
+                                               static_cast<std::size_t>(in_tile);
+            const auto pixel = static_cast<std::size_t>(at * tile_width + in_tile);
+            bool walked = false;
+            GradientStepper walk;
+            for (std::size_t i = 0; i < block_px; i += px_at_once) {
+                Counts counts;
+                std::uint64_t full = 0;
+                if (!take_free(masks + i, buffer.covered.data() + pixel + i, counts, full)) { continue; }
+                const auto shift = static_cast<std::size_t>(in_tile) + i;
+                if (shift < tile_width) { buffer.full[static_cast<std::size_t>(at)] |= full << shift; }
+                if (job.detail_texture != nullptr && !triangle.has_detail_texture) {
+                    count_other_than_ground(Pixels(), pixel + i, counts, buffer);
+                }
+                if (triangle.fill != Fill::Gouraud && triangle.fill != Fill::Perspective) {
+                    alignas(32) std::array<std::uint16_t, px_at_once> each;
+                    hn::Store(counts, Pixels(), each.data());
+                    add_pixel_by_pixel(one, job, column + static_cast<int>(i), row, each.data(), pixel + i, buffer);
+                    continue;
+                }
+                if (!walked) {
+                    walked = true;
+                    if (triangle.fill == Fill::Gouraud) {
+                        step_gradients(triangle.gradients, column, row, walk);
+                    } else {
+                        walk_perspective(*one.extra, column, job.first_px.x + places.last, row, walk);
+                    }
+                }
+                for (std::size_t k = 0; k < 3; ++k) {
+                    add_gradient(walk, triangle.gradients, k, i, counts, buffer.sums[k].data() + pixel + i);
+                }
+                if (triangle.has_detail_texture) {
+                    const glm::ivec2 from(in_tile + static_cast<int>(i), at);
+                    put_ground(Pixels(), triangle, job, from, counts, buffer);
+                }
+            }
+        }
+        if ((buffer.full[static_cast<std::size_t>(at)] & job.full_row()) == job.full_row()) {
+            buffer.full_rows |= std::uint32_t{1} << at;
+        }
+    }
+}
+
+// -- Groups of triangles that share a depth buffer: each triangle is drawn sample by sample, from first to last. The
+// samples that a triangle wins are then coloured like those of any other triangle, where nothing nearer covers them.
+
+using Depths = hn::CappedTag<float, 16>;
+using Seen = hn::RebindToUnsigned<Depths>;
+constexpr std::size_t samples = SamplePattern::lanes;
+
+/// Pixels of a tile that a group may cover.
+struct GroupBox {
+    int left = tile_width;
+    int right = -1;
+    int first_row = tile_height;
+    int last_row = -1;
+};
+
+HWY_INLINE GroupBox box_of(std::span<const TileTriangle> group, const TileJob& job) {
+    GroupBox box;
+    for (const TileTriangle& one : group) {
+        const Triangle& triangle = *one.triangle;
+        box.left = std::min(box.left, triangle.left - job.first_px.x);
+        box.right = std::max(box.right, triangle.right - job.first_px.x);
+        box.first_row = std::min(box.first_row, triangle.first_row - job.first_px.y);
+        box.last_row = std::max(box.last_row, triangle.last_row - job.first_px.y);
+    }
+    box.left = std::max(box.left, 0);
+    box.right = std::min(box.right, job.size_px.x - 1);
+    box.first_row = std::max(box.first_row, 0);
+    box.last_row = std::min(box.last_row, job.size_px.y - 1);
+    return box;
+}
+
+HWY_INLINE void clear_group(const GroupBox& box, TileBuffer& buffer) {
+    buffer.depth.resize(TileBuffer::pixels * samples);
+    buffer.seen.resize(TileBuffer::pixels * samples);
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        const auto from = static_cast<std::size_t>(row * tile_width + box.left) * samples;
+        const auto count = static_cast<std::size_t>(box.right - box.left + 1) * samples;
+        std::fill_n(buffer.depth.data() + from, count, 0.0F);
+        std::fill_n(buffer.seen.data() + from, count, 0U);
+    }
+}
+
+/// The depths of a triangle at the samples of a pixel: its own plus one for each sample.
+struct DepthStepper {
+    AttributePlane middle; ///< at pixel middles, from the tile's first: steep planes cancel much
+    alignas(64) std::array<float, samples> of_sample{};
+
+    DepthStepper(const TriangleExtra& extra, const TileJob& job, const SampleLanes& lanes) {
+        const auto share = static_cast<double>(extra.depth_share);
+        middle.base = extra.depth.at(job.first_px.x, job.first_px.y) * share;
+        middle.per_x = extra.depth.per_x * share;
+        middle.per_y = extra.depth.per_y * share;
+        const auto per_x = static_cast<float>(middle.per_x);
+        const auto per_y = static_cast<float>(middle.per_y);
+        for (std::size_t lane = 0; lane < samples; ++lane) {
+            of_sample[lane] = per_x * lanes.x_px[lane] + per_y * lanes.y_px[lane];
+        }
+    }
+
+    float at(int column, int row) const { return static_cast<float>(middle.at(column, row)); }
+};
+
+/// Draws the covered samples of a pixel by depth.
+HWY_INLINE void draw_pixel(std::uint32_t mask, float pixel_depth, const DepthStepper& walk, scene::DepthUse use,
+    std::uint32_t name, float* depth, std::uint32_t* seen) {
+    using Use = scene::DepthUse;
+    const Depths real;
+    const Seen whole;
+    const std::size_t at_once = hn::Lanes(real);
+    for (std::size_t lane = 0; lane < samples; lane += at_once) {
+        const auto bit = hn::Shl(hn::Set(whole, 1U), lane_indices_from(whole, lane));
+        const auto covered = hn::RebindMask(real, hn::Ne(hn::And(hn::Set(whole, mask), bit), hn::Zero(whole)));
+        const auto before = hn::LoadU(real, depth + lane);
+        const auto here = hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
+        auto passes = covered;
+        if (use == Use::OnGround || use == Use::InfinitelyFar) {
+            passes = hn::And(covered, hn::Ge(here, before));
+        } else if (use != Use::None) {
+            passes = hn::And(covered, hn::Gt(here, before));
+        }
+        if (use != Use::None && use != Use::InfinitelyFar) {
+            hn::StoreU(hn::IfThenElse(passes, here, before), real, depth + lane);
+        }
+        if (use != Use::DepthOnly) {
+            const auto last = hn::LoadU(whole, seen + lane);
+            hn::StoreU(hn::IfThenElse(hn::RebindMask(whole, passes), hn::Set(whole, name), last), whole, seen + lane);
+        }
+    }
+}
+
+HWY_INLINE void draw_by_depth(
+    const TileTriangle& one, std::uint32_t name, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const DepthStepper walk(*one.extra, job, lanes);
+    const scene::DepthUse use = one.triangle->depth;
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            const std::uint32_t mask = masks[column];
+            if (mask == 0) { continue; }
+            const auto sample = static_cast<std::size_t>(row * tile_width + column) * samples;
+            draw_pixel(
+                mask, walk.at(column, row), walk, use, name, buffer.depth.data() + sample, buffer.seen.data() + sample);
+        }
+    }
+}
+
+/// The covered samples of a pixel where a clear triangle is nearer than what is there.
+HWY_INLINE std::uint32_t nearer_samples(
+    std::uint32_t mask, float pixel_depth, const DepthStepper& walk, const float* depth) {
+    const Depths real;
+    std::uint32_t nearer = 0;
+    for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(real)) {
+        alignas(8) std::array<std::uint8_t, 8> some{};
+        const auto here = hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
+        hn::StoreMaskBits(real, hn::Gt(here, hn::LoadU(real, depth + lane)), some.data());
+        nearer |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
+    }
+    return nearer & mask;
+}
+
+/// Notes where a clear triangle is seen: before its group, and not behind nearer ones.
+HWY_INLINE void record_transparent_surface(
+    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const DepthStepper walk(*one.extra, job, lanes);
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            const auto free = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
+            if (free == 0) { continue; }
+            const std::uint32_t seen =
+                nearer_samples(free, walk.at(column, row), walk, buffer.depth.data() + pixel * samples);
+            if (seen != 0) {
+                buffer.transparent_pixels.push_back(
+                    {static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                        colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
+                        TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
+            }
+        }
+    }
+}
+
+/// The samples of a pixel that show a triangle of its group.
+HWY_INLINE std::uint16_t samples_showing(std::uint32_t name, const std::uint32_t* seen) {
+    const Seen whole;
+    std::uint32_t bits = 0;
+    for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(whole)) {
+        alignas(8) std::array<std::uint8_t, 8> some{};
+        hn::StoreMaskBits(whole, hn::Eq(hn::LoadU(whole, seen + lane), hn::Set(whole, name)), some.data());
+        bits |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
+    }
+    return static_cast<std::uint16_t>(bits);
+}
+
+/// Makes what is seen of a triangle of a group its coverage.
+HWY_INLINE void cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
+    const TileBox box(*one.triangle, job);
+    buffer.coverage.first_row = box.first_row;
+    buffer.coverage.last_row = box.last_row;
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        int first = box.right + 1;
+        int last = box.left - 1;
+        for (int column = box.left; column <= box.right; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            masks[column] = samples_showing(name, buffer.seen.data() + pixel * samples);
+            first = masks[column] != 0 ? std::min(first, column) : first;
+            last = masks[column] != 0 ? column : last;
+        }
+        std::fill_n(masks + box.right + 1, block_px, std::uint16_t{0});
+        const int blocks = first <= last ? (last - first) / block_px + 1 : 0;
+        buffer.coverage.rows[static_cast<std::size_t>(row)] = {first, last, blocks};
+    }
+}
+
+/// Triangles first .. end - 1 of the job are a group.
+HWY_INLINE void paint_group(
+    const TileJob& job, const std::array<std::size_t, 2>& range, const SampleLanes& lanes, TileBuffer& buffer) {
+    const auto group = job.triangles.subspan(range[0], range[1] - range[0]);
+    const GroupBox box = box_of(group, job);
+    if (box.left > box.right || box.first_row > box.last_row) { return; }
+    clear_group(box, buffer);
+    const std::size_t clear_before = buffer.transparent_pixels.size();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        cover(group[i], job, lanes, buffer);
+        if (group[i].extra->opacity < 1.0F) {
+            record_transparent_surface(group[i], job, lanes, buffer);
+        } else {
+            draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
+        }
+    }
+    if (buffer.transparent_pixels.size() > clear_before) { buffer.group_first_transparent.push_back(clear_before); }
+    // Each of its samples shows one triangle: they are coloured in any order.
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
+        fill(group[i], job, buffer);
+    }
+}
+
+// -- Transparent triangles (clouds, ribbons, exhaust). The tile is painted from near to far, so a transparent triangle
+// covers nothing: its uncovered samples are recorded, and blended when the colours behind it are known.
+
+HWY_INLINE bool is_transparent_fill(const TileTriangle& one) { return one.triangle->fill == Fill::Transparent; }
+
+/// A plane of levels along a row of pixels, as overlay_colour_of() has it.
+struct TransparentColourStep {
+    std::int32_t at;
+    std::int32_t per_px;
+    std::int32_t least;
+    std::int32_t most;
+
+    HWY_INLINE TransparentColourStep(const ColourGradients& gradients, std::size_t k, int column, int row)
+        : at(static_cast<std::int32_t>(
+              static_cast<std::uint32_t>(gradients.base[k]) + 256U +
+              static_cast<std::uint32_t>(gradients.per_x[k]) * static_cast<std::uint32_t>(column) +
+              static_cast<std::uint32_t>(gradients.per_y[k]) * static_cast<std::uint32_t>(row))),
+          per_px(gradients.per_x[k]), least(gradients.least[k]), most(gradients.most[k]) {}
+
+    /// In 1/16 level, so many pixels on.
+    HWY_INLINE std::uint32_t sixteenths(int pixels) const {
+        const auto here = static_cast<std::int32_t>(
+            static_cast<std::uint32_t>(at) + static_cast<std::uint32_t>(per_px) * static_cast<std::uint32_t>(pixels));
+        const std::int32_t level = std::clamp(here >> 9, least, most);
+        return static_cast<std::uint32_t>(level + 128 * 128 + 4) >> 3;
+    }
+};
+
+/// Two triangles beside each other in one pixel, as one: no line shows where they meet.
+HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transparent) {
+    const std::uint32_t own = transparent.share;
+    const std::uint32_t all = own + neighbour.share;
+    transparent.mask = static_cast<std::uint16_t>(transparent.mask | neighbour.mask);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t sum = own * transparent.colour[k] + std::uint32_t{neighbour.share} * neighbour.colour[k];
+        transparent.colour[k] = static_cast<std::uint16_t>((sum + all / 2) / all);
+    }
+    transparent.share = static_cast<std::uint16_t>(all);
+}
+
+/// Notes where veils that follow each other in the tile's list are seen.
+HWY_NOINLINE void record_transparent(
+    std::span<const TileTriangle> transparents, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const std::size_t first = buffer.transparent_pixels.size();
+    buffer.group_first_transparent.push_back(first);
+    buffer.last_transparent.resize(TileBuffer::pixels, 0);
+    for (const TileTriangle& one : transparents) {
+        cover(one, job, lanes, buffer);
+        const Coverage& coverage = buffer.coverage;
+        for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+            const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+            const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
+            const std::uint16_t* const masks =
+                buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+            const ColourGradients& gradients = one.triangle->gradients;
+            const int first_column = job.first_px.x + places.first;
+            const std::array<TransparentColourStep, 4> level{
+                TransparentColourStep(gradients, 0, first_column, job.first_px.y + row),
+                TransparentColourStep(gradients, 1, first_column, job.first_px.y + row),
+                TransparentColourStep(gradients, 2, first_column, job.first_px.y + row),
+                TransparentColourStep(gradients, 3, first_column, job.first_px.y + row)};
+            for (int column = places.first; column < end; ++column) {
+                const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+                const auto seen = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
+                if (seen == 0) { continue; }
+                const int on = column - places.first;
+                const auto alpha = (level[3].sixteenths(on) * 4096U + 2040U) / 4080U;
+                const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
+                if (share == 0) { continue; }
+                TransparentPixel transparent;
+                transparent.pixel = static_cast<std::uint16_t>(pixel);
+                transparent.mask = static_cast<std::uint16_t>(seen);
+                transparent.share = static_cast<std::uint16_t>(share);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    transparent.colour[k] = static_cast<std::uint16_t>(level[k].sixteenths(on));
+                }
+                std::uint32_t& last = buffer.last_transparent[pixel];
+                if (last != 0 && (buffer.transparent_pixels[last - 1].mask & seen) == 0) {
+                    join(transparent, buffer.transparent_pixels[last - 1]);
+                } else {
+                    buffer.transparent_pixels.push_back(transparent);
+                    last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
+                }
+            }
+        }
+    }
+    for (std::size_t i = first; i < buffer.transparent_pixels.size(); ++i) {
+        buffer.last_transparent[buffer.transparent_pixels[i].pixel] = 0;
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,817 @@
+// The detail texture of ground, added when all triangles of a tile are painted. In this order: inverse depth between
+// the pixels that recorded it; positions in the pattern; the pattern looked up for a row; the contrast of each land
+// cover; the whole tile. Included once for each instruction set.
+#if defined(OCTANT_RASTER_DETAIL_TEXTURE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_DETAIL_TEXTURE_INL
+#undef OCTANT_RASTER_DETAIL_TEXTURE_INL
+#else
+#define OCTANT_RASTER_DETAIL_TEXTURE_INL
+#endif
+
+#include "visuals/raster/detail_image.h"
+#include "visuals/raster/strip-inl.h"
+#include "visuals/raster/triangle.h"
+#include "visuals/scene/detail_pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// -- Inverse depth of the ground at every second pixel of every second row. The pixels of a row have two phases:
+// positions in the pattern are computed for one pair of pixels in two, and for the pairs between them only where the
+// ground bends.
+
+/// A lane for two neighbouring pixels.
+using PixelPairs = hn::CappedTag<float, 16>;
+using PixelPairInts = hn::RebindToSigned<PixelPairs>;
+using PixelPairBits = hn::RebindToUnsigned<PixelPairs>;
+using PixelPairHalves = hn::Repartition<std::int16_t, PixelPairBits>;
+constexpr std::size_t pairs_at_once = hn::MaxLanes(PixelPairs());
+constexpr std::size_t pairs_per_row = tile_width / 2;
+constexpr std::size_t phases = 2; ///< pairs 0, 2, 4 ..., then 1, 3, 5 ...
+constexpr std::size_t pairs_per_phase = pairs_per_row / phases;
+
+HWY_INLINE hn::Vec<PixelPairs> pair_floats(float value) { return hn::Set(PixelPairs(), value); }
+
+HWY_INLINE hn::Vec<PixelPairBits> pair_bits(unsigned value) { return hn::Set(PixelPairBits(), value); }
+
+/// Of two changes the smaller one: at a rim the larger one leads to other ground.
+HWY_INLINE hn::Vec<PixelPairs> smaller_change(hn::Vec<PixelPairs> one, hn::Vec<PixelPairs> other) {
+    return hn::IfThenElse(hn::Lt(hn::Abs(one), hn::Abs(other)), one, other);
+}
+
+/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside and below.
+struct InverseDepthQuad {
+    hn::Vec<PixelPairs> here; ///< 1/m; 0: no ground
+    hn::Vec<PixelPairs> across;
+    hn::Vec<PixelPairs> down;
+};
+
+/// Pairs of pixels amid four others.
+struct InterpolatedPairs {
+    hn::Mask<PixelPairs> is_ground;
+    hn::Mask<PixelPairs> is_linear; ///< as near as the mean of these
+};
+
+/// The nearness of a tile's pairs by phases, in rows that stand for two of the tile's each. Right of the tile and below
+/// it the ground goes on as within it.
+class TileInverseDepths {
+public:
+    HWY_INLINE TileInverseDepths(const TileJob& job, const TileBuffer& buffer) : rows_((job.size_px.y + 1) / 2) {
+        for (int row = 0; row < rows_; ++row) { put_row(buffer.ground_of_row(2 * row), row); }
+        if (any_ != 0) {
+            extend(1, 0, -1, true);
+            extend(rows_ - 2, rows_ - 1, rows_, false);
+            std::fill_n(of_row(rows_ + 1), row_size, 0.0F);
+        }
+    }
+
+    int rows() const { return rows_; }
+
+    bool has_ground() const { return any_ != 0; }
+
+    /// Whether a pair of a row sees ground; beyond the last row as in it.
+    bool has_ground(int row) const { return (any_ >> std::min(row, rows_ - 1) & 1U) != 0; }
+
+    /// Of pairs of a row and phase, from one of them on. None below what is no ground: a pixel at the horizon may be
+    /// half sky.
+    HWY_INLINE InverseDepthQuad at(int row, std::size_t phase, std::size_t first) const {
+        const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
+        const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
+        const PixelPairs real;
+        return between(hn::LoadU(real, own), {hn::LoadU(real, before), hn::LoadU(real, before + 1)},
+            {hn::LoadU(real, own - row_size), hn::LoadU(real, own + row_size)});
+    }
+
+    /// Those of a phase amid the nearest ones of the first phase in rows of even number.
+    HWY_INLINE InterpolatedPairs interpolated_at(int row, std::size_t phase, std::size_t first) const {
+        const PixelPairs real;
+        const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
+        const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
+        const auto both = [&](const float* corner)
+                              HWY_ATTR { return hn::Add(hn::LoadU(real, corner), hn::LoadU(real, corner + phase)); };
+        const int away = row & 1;
+        const auto around = hn::Add(both(of_row(row - away) + first), both(of_row(row + away) + first));
+        const auto here = hn::LoadU(real, own);
+        constexpr float max_off = 1.0F / 64.0F; // of four times itself: a pixel's height
+        const auto off = hn::Sub(hn::Mul(here, pair_floats(4.0F)), around);
+        const auto above = hn::LoadU(real, own - row_size);
+        return {is_seen(here, above, hn::LoadU(real, before), hn::LoadU(real, before + 1)),
+            hn::Le(hn::Abs(off), hn::Mul(here, pair_floats(max_off)))};
+    }
+
+    /// Of what lies right of the tile, in rows from one on.
+    HWY_INLINE InverseDepthQuad right_of_tile(int first_row) const {
+        std::array<std::array<float, pairs_at_once>, 4> columns{};
+        for (std::size_t i = 0; i < pairs_at_once; ++i) {
+            const int row = first_row + static_cast<int>(i);
+            if (row < rows_) {
+                const float* const right = of_row(row) + pairs_per_phase;
+                columns[0][i] = right[0];
+                columns[1][i] = right[odd_pairs - 1];
+                columns[2][i] = right[-static_cast<std::ptrdiff_t>(row_size)];
+                columns[3][i] = right[row_size];
+            }
+        }
+        const auto column = [&](std::size_t which) HWY_ATTR { return hn::LoadU(PixelPairs(), columns[which].data()); };
+        return between(column(0), {column(1), hn::Zero(PixelPairs())}, {column(2), column(3)});
+    }
+
+private:
+    static constexpr std::size_t odd_pairs = 32; ///< from those of the first phase to the others
+    static constexpr std::size_t row_size = 2 * odd_pairs;
+    static constexpr std::size_t max_rows = tile_height / 2;
+    static_assert(pairs_per_phase + 1 < odd_pairs);
+
+    static HWY_INLINE hn::Mask<PixelPairs> is_seen(
+        hn::Vec<PixelPairs> own, hn::Vec<PixelPairs> above, hn::Vec<PixelPairs> before, hn::Vec<PixelPairs> next) {
+        const auto least = hn::Min(hn::Min(own, above), hn::Max(before, next));
+        return hn::Gt(least, hn::Zero(PixelPairs()));
+    }
+
+    static HWY_INLINE InverseDepthQuad between(hn::Vec<PixelPairs> own,
+        const std::array<hn::Vec<PixelPairs>, 2>& right_of_tile,
+        const std::array<hn::Vec<PixelPairs>, 2>& above_and_below) {
+        const auto& [before, next] = right_of_tile;
+        const auto& [above, below] = above_and_below;
+        const auto half = pair_floats(0.5F);
+        return {hn::IfThenElseZero(is_seen(own, above, before, next), own),
+            hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
+            hn::Mul(smaller_change(hn::Sub(below, own), hn::Sub(own, above)), half)};
+    }
+
+    const float* of_row(int row) const { return near_.data() + static_cast<std::size_t>(row + 1) * row_size; }
+
+    float* of_row(int row) { return const_cast<float*>(std::as_const(*this).of_row(row)); }
+
+    HWY_INLINE void put_row(const std::uint32_t* ground, int row) {
+        const PixelPairs real;
+        const PixelPairBits bits;
+        float* const to = of_row(row);
+        const auto near_bits = pair_bits(~PackedGround::cover_bits);
+        auto any = hn::Zero(bits);
+        for (std::size_t i = 0; i < pairs_per_phase; i += pairs_at_once) {
+            hn::Vec<PixelPairBits> even;
+            hn::Vec<PixelPairBits> odd;
+            hn::LoadInterleaved2(bits, ground + phases * i, even, odd);
+            hn::StoreU(hn::BitCast(real, hn::And(even, near_bits)), real, to + i);
+            hn::StoreU(hn::BitCast(real, hn::And(odd, near_bits)), real, to + odd_pairs + i);
+            any = hn::Or(any, hn::Or(even, odd));
+        }
+        const float last = to[odd_pairs + pairs_per_phase - 1];
+        const float before = to[pairs_per_phase - 1];
+        to[pairs_per_phase] = std::min(last, before) > 0.0F ? std::max(2.0F * last - before, 0.0F) : 0;
+        to[odd_pairs - 1] = 0.0F;
+        const std::uint32_t bit = std::uint32_t{1} << row;
+        any_ |= hn::AllTrue(bits, hn::Eq(any, hn::Zero(bits))) ? 0U : bit;
+    }
+
+    /// The row beyond one at the tile's border, by the one before it, which need not see ground.
+    HWY_INLINE void extend(int from, int last, int beyond, bool alone) {
+        const PixelPairs real;
+        const bool has_from = from >= 0 && from < rows_;
+        for (std::size_t i = 0; i < row_size; i += pairs_at_once) {
+            const auto own = hn::LoadU(real, of_row(last) + i);
+            const auto before = has_from ? hn::LoadU(real, of_row(from) + i) : own;
+            const auto is_ground = hn::Gt(before, hn::Zero(real));
+            const auto next = hn::Max(hn::Sub(hn::Add(own, own), before), hn::Mul(own, pair_floats(0.25F)));
+            const auto otherwise = alone ? own : hn::Zero(real);
+            hn::StoreU(hn::IfThenElse(is_ground, next, otherwise), real, of_row(beyond) + i);
+        }
+    }
+
+    int rows_;
+    std::uint32_t any_ = 0;
+    alignas(64) std::array<float, (max_rows + 3) * row_size> near_; ///< set as far as at() reads
+};
+
+// -- Position in the pattern and level of every second pixel, from its inverse depth and the change of the inverse
+// depth to the pixels right of it and below it.
+
+/// A part of the lines of sight over a tile.
+struct TileRayComponent {
+    float first; ///< of the tile's first pixel
+    float per_x; ///< from pixel to pixel
+    float per_y;
+
+    HWY_INLINE TileRayComponent(const AttributePlane& ray, const glm::ivec2& first_px)
+        : first(static_cast<float>(ray.at(first_px.x, first_px.y))), per_x(static_cast<float>(ray.per_x)),
+          per_y(static_cast<float>(ray.per_y)) {}
+
+    /// Of the first pixels of every second pair of a row of the tile, from one on.
+    HWY_INLINE hn::Vec<PixelPairs> in_row(std::size_t row, std::size_t first_two) const {
+        const auto columns = hn::Add(hn::Mul(lane_indices_from(PixelPairs(), 0), pair_floats(4.0F)),
+            pair_floats(static_cast<float>(2 * first_two)));
+        const float of_row = first + static_cast<float>(row) * per_y;
+        return hn::Add(pair_floats(of_row), hn::Mul(columns, pair_floats(per_x)));
+    }
+
+    /// Of the pixels right of the tile, in every second row from one on.
+    HWY_INLINE hn::Vec<PixelPairs> right_of_tile(std::size_t first_row) const {
+        const auto numbers = lane_indices_from(PixelPairs(), 0);
+        const auto rows = hn::Add(pair_floats(static_cast<float>(first_row)), hn::Add(numbers, numbers));
+        const float right = first + static_cast<float>(tile_width) * per_x;
+        return hn::Add(pair_floats(right), hn::Mul(rows, pair_floats(per_y)));
+    }
+};
+
+/// A part of the lines of sight at the first pixels of pairs.
+using PairRays = std::array<hn::Vec<PixelPairs>, 3>;
+
+/// The lines of sight of a tile: east, north and up.
+struct TileRays {
+    std::array<TileRayComponent, 3> part;
+
+    HWY_INLINE TileRays(const DetailRays& rays, const glm::ivec2& first_px)
+        : part{TileRayComponent(rays.direction[0], first_px), TileRayComponent(rays.direction[1], first_px),
+              TileRayComponent(rays.direction[2], first_px)} {}
+
+    HWY_INLINE PairRays in_row(std::size_t row, std::size_t first_two) const {
+        return {part[0].in_row(row, first_two), part[1].in_row(row, first_two), part[2].in_row(row, first_two)};
+    }
+
+    HWY_INLINE PairRays right_of_tile(std::size_t first_row) const {
+        return {part[0].right_of_tile(first_row), part[1].right_of_tile(first_row), part[2].right_of_tile(first_row)};
+    }
+
+    /// How far away ground one unit deep is in the middle of a tile.
+    HWY_INLINE float length() const {
+        float squares = 0.0F;
+        for (const TileRayComponent& ray : part) {
+            const float middle = ray.first + 0.5F * (tile_width * ray.per_x + tile_height * ray.per_y);
+            squares += middle * middle;
+        }
+        return std::sqrt(squares);
+    }
+};
+
+/// Where pairs of pixels look in the pattern: at a scale at the level of their size, and at the next coarser scale at
+/// its finest level.
+struct DetailPositions {
+    // 1/256 texel of the finest level.
+    hn::Vec<PixelPairInts> fine_x;
+    hn::Vec<PixelPairInts> fine_y;
+    hn::Vec<PixelPairInts> coarse_x;
+    hn::Vec<PixelPairInts> coarse_y;
+    /// The level, counted through all scales, 2^-24; its lowest bits are `ground` and `sides`.
+    hn::Vec<PixelPairBits> level;
+    /// What the haze leaves, 2^-15; 0: no ground, or nothing is left.
+    hn::Vec<PixelPairBits> left;
+
+    static constexpr unsigned ground = 4; ///< there is some
+    static constexpr unsigned sides = 3;  ///< from which the pattern is laid over it
+    static constexpr int scale_shift = 26;
+};
+
+/// Finds them.
+class DetailSampler {
+public:
+    HWY_INLINE DetailSampler(
+        const DetailRays& rays, const TileRays& tile_rays, const PairRays& direction, const InverseDepthQuad& near)
+        : is_ground_(hn::Gt(near.here, hn::Zero(PixelPairs()))),
+          depth_(hn::Div(pair_floats(1.0F), hn::Max(near.here, pair_floats(1e-9F)))) {
+        PairRays across;
+        PairRays down;
+        for (std::size_t i = 0; i < 3; ++i) {
+            at_[i] = hn::Mul(direction[i], depth_);
+            const auto moves = [&](float per_px, hn::Vec<PixelPairs> change)
+                                   HWY_ATTR { return hn::Sub(pair_floats(per_px), hn::Mul(at_[i], change)); };
+            across[i] = moves(tile_rays.part[i].per_x, near.across);
+            down[i] = moves(tile_rays.part[i].per_y, near.down);
+        }
+        // The pattern's finest features are two texels wide: half a level finer than usual will do.
+        const auto widest = hn::Max(square(across), hn::Mul(square(down), pair_floats(0.5F)));
+        const auto depth2 = hn::Mul(depth_, depth_);
+        choose_level(hn::Mul(widest, depth2));
+        choose_sides(across, down);
+        look_at(rays);
+    }
+
+    /// `haze_per_depth`: by how much ground one unit deep dims.
+    HWY_INLINE DetailPositions places(const DetailRays& rays, float haze_per_depth) const {
+        const PixelPairBits bits;
+        const auto of = [&](hn::Mask<PixelPairs> which, unsigned bit)
+                            HWY_ATTR { return hn::IfThenElseZero(hn::RebindMask(bits, which), pair_bits(bit)); };
+        const auto flags =
+            hn::Or(of(is_ground_, DetailPositions::ground), hn::Or(of(upright_in_x_, 1), of(upright_in_y_, 2)));
+        const auto left = hn::IfThenElseZero(hn::RebindMask(bits, is_ground_), left_of_haze(rays, haze_per_depth));
+        return {fine_.x, fine_.y, coarse_.x, coarse_.y, hn::Or(hn::AndNot(pair_bits(7), level_), flags), left};
+    }
+
+private:
+    /// As DetailPositions has it.
+    struct Place {
+        hn::Vec<PixelPairInts> x;
+        hn::Vec<PixelPairInts> y;
+    };
+
+    struct PlaceM {
+        hn::Vec<PixelPairs> x;
+        hn::Vec<PixelPairs> y;
+    };
+
+    static HWY_INLINE hn::Vec<PixelPairs> square(const PairRays& direction) {
+        return hn::Add(hn::Add(hn::Mul(direction[0], direction[0]), hn::Mul(direction[1], direction[1])),
+            hn::Mul(direction[2], direction[2]));
+    }
+
+    /// As scene::Haze, by polynomials: the pattern need not fade to the bit.
+    HWY_INLINE hn::Vec<PixelPairBits> left_of_haze(const DetailRays& rays, float haze_per_depth) const {
+        const auto haze_density_exponent = hn::Mul(at_[2], pair_floats(-rays.haze_falloff_per_m));
+        const auto within = hn::Min(hn::Max(haze_density_exponent, pair_floats(-1.5F)), pair_floats(6.0F));
+        auto density = hn::Add(pair_floats(1.0F / 24.0F), hn::Mul(within, pair_floats(1.0F / 120.0F)));
+        for (const float factor : {1.0F / 6.0F, 1.0F / 2.0F, 1.0F}) {
+            density = hn::Add(pair_floats(factor), hn::Mul(within, density));
+        }
+        const auto haze = hn::Mul(hn::Mul(depth_, pair_floats(haze_per_depth)), density);
+        // (1 - x / 16)^16
+        const auto sixteenth = hn::Mul(haze, pair_floats(1.0F / 16.0F));
+        auto share = hn::Max(hn::Sub(pair_floats(1.0F), sixteenth), hn::Zero(PixelPairs()));
+        for (int i = 0; i < 4; ++i) { share = hn::Mul(share, share); }
+        return hn::BitCast(PixelPairBits(), hn::ConvertTo(PixelPairInts(), hn::Mul(share, pair_floats(32767.0F))));
+    }
+
+    /// From which side the pattern is laid over steep ground: by the normal of what is seen, which lies across both
+    /// changes.
+    HWY_INLINE void choose_sides(const PairRays& across, const PairRays& down) {
+        const auto normal2 = [&](std::size_t one, std::size_t other) HWY_ATTR {
+            const auto part = hn::Sub(hn::Mul(across[one], down[other]), hn::Mul(across[other], down[one]));
+            return hn::Mul(part, part);
+        };
+        const auto east2 = normal2(1, 2);
+        const auto north2 = normal2(2, 0);
+        constexpr float least2 = scene::DetailPattern::min_upright_slope * scene::DetailPattern::min_upright_slope;
+        const auto is_steep = hn::Gt(hn::Add(east2, north2), hn::Mul(normal2(0, 1), pair_floats(least2)));
+        const auto is_east = hn::Ge(east2, north2);
+        upright_in_x_ = hn::And(is_steep, is_east);
+        upright_in_y_ = hn::AndNot(is_east, is_steep);
+        any_upright_ = !hn::AllFalse(PixelPairs(), is_steep);
+    }
+
+    /// By half the logarithm of the squared width of what is seen, straight between powers of two.
+    HWY_INLINE void choose_level(hn::Vec<PixelPairs> width2_m) {
+        using scene::DetailPattern;
+        constexpr std::int32_t of_one = 127 << 23; // the bits of 1.0
+        constexpr int levels = DetailPattern::levels_per_scale * (DetailPattern::scales - 1);
+        constexpr std::int32_t most = (levels << 24) - 1;
+        constexpr float texels2_per_m2 = DetailPattern::texels_per_m * DetailPattern::texels_per_m;
+        const auto texels2 = hn::Mul(width2_m, pair_floats(texels2_per_m2));
+        const auto exponent = hn::Sub(hn::BitCast(PixelPairInts(), texels2), hn::Set(PixelPairInts(), of_one));
+        level_ = hn::BitCast(
+            PixelPairBits(), hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), most)));
+    }
+
+    /// At odd scales the pattern is turned by a right angle, and leans the other way.
+    HWY_INLINE void look_at(const DetailRays& rays) {
+        using scene::DetailPattern;
+        const auto lean_east = hn::Mul(at_[2], pair_floats(DetailPattern::shift_per_height.x));
+        const auto lean_north = hn::Mul(at_[2], pair_floats(DetailPattern::shift_per_height.y));
+        PlaceM even{hn::Add(at_[0], lean_east), hn::Add(at_[1], lean_north)};
+        PlaceM odd{hn::Sub(at_[1], lean_north), hn::Sub(lean_east, at_[0])};
+        if (any_upright_) {
+            even.x = hn::IfThenElse(upright_in_x_, at_[2], even.x);
+            even.y = hn::IfThenElse(upright_in_y_, at_[2], even.y);
+            odd.x = hn::IfThenElse(upright_in_y_, at_[2], odd.x);
+            odd.y = hn::IfThenElse(upright_in_x_, hn::Neg(at_[2]), odd.y);
+        }
+        fine_ = {hn::Zero(PixelPairInts()), hn::Zero(PixelPairInts())};
+        coarse_ = fine_;
+        const auto scale_of_each = hn::ShiftRight<DetailPositions::scale_shift>(level_);
+        // Pairs beside each other seldom see different scales.
+        for (std::size_t scale = 0; scale + 1 < DetailPattern::scales; ++scale) {
+            const auto is_it =
+                hn::RebindMask(PixelPairInts(), hn::Eq(scale_of_each, pair_bits(static_cast<unsigned>(scale))));
+            if (hn::AllFalse(PixelPairInts(), is_it)) { continue; }
+            const bool is_odd = scale % 2 != 0;
+            const Place fine = place_of(rays, scale, is_odd ? odd : even);
+            const Place coarse = place_of(rays, scale + 1, is_odd ? even : odd);
+            fine_.x = hn::IfThenElse(is_it, fine.x, fine_.x);
+            fine_.y = hn::IfThenElse(is_it, fine.y, fine_.y);
+            coarse_.x = hn::IfThenElse(is_it, coarse.x, coarse_.x);
+            coarse_.y = hn::IfThenElse(is_it, coarse.y, coarse_.y);
+        }
+    }
+
+    HWY_INLINE Place place_of(const DetailRays& rays, std::size_t scale, const PlaceM& at_m) const {
+        const DetailRays::Scale& of = rays.scales[scale];
+        const auto fixed = [&](hn::Vec<PixelPairs> place_m, hn::Vec<PixelPairs> eye) HWY_ATTR {
+            const auto parts = hn::Add(hn::Mul(place_m, pair_floats(of.parts_per_m)), eye);
+            return hn::ConvertTo(PixelPairInts(), parts);
+        };
+        auto eye_x = pair_floats(of.eye.x);
+        auto eye_y = pair_floats(of.eye.y);
+        if (any_upright_) {
+            const bool is_odd = scale % 2 != 0;
+            const auto in_x = is_odd ? upright_in_y_ : upright_in_x_;
+            const auto in_y = is_odd ? upright_in_x_ : upright_in_y_;
+            eye_x = hn::IfThenElse(in_x, pair_floats(of.eye_up), eye_x);
+            eye_y = hn::IfThenElse(in_y, pair_floats(is_odd ? -of.eye_up : of.eye_up), eye_y);
+        }
+        return {fixed(at_m.x, eye_x), fixed(at_m.y, eye_y)};
+    }
+
+    hn::Mask<PixelPairs> is_ground_;
+    hn::Vec<PixelPairs> depth_;
+    PairRays at_;                  ///< metres from the eye
+    hn::Vec<PixelPairBits> level_; ///< as DetailPositions, but for its flags
+    Place fine_;
+    Place coarse_;
+    hn::Mask<PixelPairs> upright_in_x_; ///< at even scales the pattern's east is up
+    hn::Mask<PixelPairs> upright_in_y_; ///< its north is
+    bool any_upright_ = false;
+};
+
+// -- The pattern sampled for one row of a tile.
+
+/// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1. Places are as
+/// DetailPositions::fine_x.
+HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
+    const DetailImage& image, hn::Vec<PixelPairBits> x, hn::Vec<PixelPairBits> y, hn::Vec<PixelPairBits> level) {
+    const PixelPairBits bits;
+    const hn::Repartition<std::uint16_t, PixelPairBits> halves;
+    const auto last = hn::Shr(pair_bits(DetailImage::side - 1), level);
+    const auto column = hn::And(hn::ShiftRight<8>(x), last);
+    const auto in_level = hn::And(hn::ShiftRight<8>(y), last);
+    const auto first_row = hn::Sub(pair_bits(2 * DetailImage::side), hn::Shr(pair_bits(2 * DetailImage::side), level));
+    const auto row = hn::Add(first_row, in_level);
+    static_assert(DetailImage::stride == (1 << 9) + 1);
+    const auto texel = hn::Add(hn::Add(hn::ShiftLeft<9>(row), row), column);
+    const auto four = hn::GatherOffset(bits, reinterpret_cast<const std::uint32_t*>(image.texels()),
+        hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
+    const auto byte_of_each = pair_bits(0x00ff00ff);
+    const auto own = hn::BitCast(halves, hn::And(four, byte_of_each));
+    const auto above = hn::BitCast(halves, hn::And(hn::ShiftRight<8>(four), byte_of_each));
+    const auto up = hn::And(y, pair_bits(0xff));
+    const auto ups = hn::BitCast(halves, hn::Or(up, hn::ShiftLeft<16>(up)));
+    const auto both = hn::BitCast(bits, hn::Add(hn::ShiftLeft<8>(own), hn::Mul(hn::Sub(above, own), ups)));
+    const auto left = hn::BitCast(PixelPairInts(), hn::And(both, pair_bits(0xffff)));
+    const auto right = hn::BitCast(PixelPairInts(), hn::ShiftRight<16>(both));
+    const auto rightwards = hn::BitCast(PixelPairInts(), hn::And(x, pair_bits(0xff)));
+    const auto mean = hn::Add(left, hn::ShiftRight<8>(hn::Mul(hn::Sub(right, left), rightwards)));
+    return hn::Sub(mean, hn::Set(PixelPairInts(), 128 * 256));
+}
+
+/// Places of every second pair of a row, and of the one right of the tile.
+struct DetailPositionRow {
+    using Each = std::array<std::uint32_t, pairs_per_phase + 16>;
+
+    alignas(64) std::array<Each, 6> value; ///< as DetailPositions
+
+    HWY_INLINE DetailPositions places(std::size_t at) const {
+        const auto whole = [&](std::size_t which) HWY_ATTR {
+            return hn::BitCast(PixelPairInts(), hn::LoadU(PixelPairBits(), &value[which][at]));
+        };
+        return {whole(0), whole(1), whole(2), whole(3), hn::LoadU(PixelPairBits(), &value[4][at]),
+            hn::LoadU(PixelPairBits(), &value[5][at])};
+    }
+
+    HWY_INLINE void put(const DetailPositions& places, std::size_t at) {
+        const auto put_one = [&](std::size_t which, auto values) HWY_ATTR {
+            hn::StoreU(hn::BitCast(PixelPairBits(), values), PixelPairBits(), &value[which][at]);
+        };
+        put_one(0, places.fine_x);
+        put_one(1, places.fine_y);
+        put_one(2, places.coarse_x);
+        put_one(3, places.coarse_y);
+        put_one(4, places.level);
+        put_one(5, places.left);
+    }
+
+    /// No ground.
+    void clear() {
+        for (Each& each : value) { each.fill(0); }
+    }
+};
+
+/// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the lower half what the
+/// haze leaves of it, likewise; 0: no ground. Of both scales together: the squares of their shares are about one, so
+/// that the contrast stays while one gives way to the other while its levels are gone through. Most pixels take one
+/// level: the next one comes in over a third of the way only.
+HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const DetailPositions& places) {
+    const PixelPairBits bits;
+    const PixelPairInts whole;
+    const auto share_of = [&](hn::Vec<PixelPairInts> value, hn::Vec<PixelPairInts> share)
+                              HWY_ATTR { return hn::ShiftRight<8>(hn::Mul(value, share)); };
+    const auto half_texel = pair_bits(128);
+    const auto all = hn::Set(whole, 256);
+    const auto part = hn::BitCast(whole, hn::And(hn::ShiftRight<16>(places.level), pair_bits(0xff)));
+    const auto from_band = hn::Sub(part, hn::Set(whole, 85));
+    const auto thrice = hn::Add(hn::Add(from_band, from_band), from_band);
+    const auto share = hn::Min(hn::Max(thrice, hn::Zero(whole)), all);
+    // What has the next level whole has it alone.
+    const auto is_next = hn::ShiftRight<8>(hn::BitCast(bits, share));
+    static_assert(scene::DetailPattern::levels_per_scale == 4);
+    const auto level = hn::Add(hn::And(hn::ShiftRight<24>(places.level), pair_bits(3)), is_next);
+    const auto at_level = [&](hn::Vec<PixelPairBits> of) HWY_ATTR {
+        const auto place = [&](hn::Vec<PixelPairInts> fine_coord)
+                               HWY_ATTR { return hn::Sub(hn::Shr(hn::BitCast(bits, fine_coord), of), half_texel); };
+        return sample_detail_level(image, place(places.fine_x), place(places.fine_y), of);
+    };
+    const auto coarse = sample_detail_level(image, hn::Sub(hn::BitCast(bits, places.coarse_x), half_texel),
+        hn::Sub(hn::BitCast(bits, places.coarse_y), half_texel), hn::Zero(bits));
+    auto fine = at_level(level);
+    const auto next_level = hn::And(hn::BitCast(bits, share), pair_bits(0xff));
+    if (!hn::AllTrue(bits, hn::Eq(next_level, hn::Zero(bits)))) {
+        const auto next = at_level(hn::Add(level, pair_bits(1)));
+        fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, next_level)));
+    }
+    const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<18>(places.level), pair_bits(0xff)));
+    const auto before = hn::Sub(all, through);
+    const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),
+        share_of(coarse, hn::Sub(all, share_of(before, before))));
+    const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
+    const auto seen = hn::Or(hn::ShiftLeft<16>(hn::BitCast(bits, limited)), places.left);
+    return hn::IfThenZeroElse(hn::Eq(places.left, hn::Zero(bits)), seen);
+}
+
+/// What a row's pairs of pixels see, and what the one beside it does.
+struct DetailRow {
+    alignas(64) std::array<std::uint32_t, pairs_per_row + 16> seen;
+
+    /// Between two rows.
+    HWY_INLINE void put_between(const DetailRow& above, const DetailRow& below) {
+        for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
+            const auto of = [&](const DetailRow& row) HWY_ATTR { return hn::Load(PixelPairBits(), &row.seen[two]); };
+            hn::Store(seen_between(of(above), of(below)), PixelPairBits(), &seen[two]);
+        }
+        seen[pairs_per_row] = below.seen[pairs_per_row];
+    }
+
+private:
+    /// In the middle between pairs that see ground; none between others. The mean of places that differ varies less
+    /// than the pattern does: as much is added as they differ by.
+    static HWY_INLINE hn::Vec<PixelPairBits> seen_between(hn::Vec<PixelPairBits> one, hn::Vec<PixelPairBits> other) {
+        const PixelPairBits bits;
+        const PixelPairHalves halves;
+        const auto half = [&](hn::Vec<PixelPairBits> of)
+                              HWY_ATTR { return hn::ShiftRight<1>(hn::BitCast(halves, of)); };
+        const auto mean = hn::Add(half(one), half(other));
+        const auto apart = hn::Abs(hn::Sub(half(one), half(other)));
+        const auto more = hn::ShiftLeft<1>(hn::MulHigh(mean, apart));
+        const auto pattern = hn::BitCast(halves, pair_bits(0xffff0000U));
+        const auto both = hn::SaturatedAdd(mean, hn::And(more, pattern));
+        const auto is_none = hn::Or(hn::Eq(one, hn::Zero(bits)), hn::Eq(other, hn::Zero(bits)));
+        return hn::IfThenZeroElse(is_none, hn::BitCast(bits, both));
+    }
+};
+
+/// Finds what the pairs of every second row of a tile see, and those of the row below it. Where they look is found by
+/// how near the ground is for one pair in four, the first phase of rows of even number; the others look in the middle
+/// of these where the ground goes on evenly from one to the other.
+class TileDetailSampler {
+public:
+    HWY_INLINE TileDetailSampler(const TileJob& job, const TileInverseDepths& inverse_depth)
+        : job_(job), inverse_depths_(inverse_depth), tile_rays_(*job.detail_texture, job.first_px),
+          haze_per_depth_(job.detail_texture->haze_per_m * tile_rays_.length()) {
+        for (std::size_t row = 0; row < right_edge_values_.size(); row += pairs_at_once) {
+            const InverseDepthQuad near = inverse_depths_.right_of_tile(static_cast<int>(row));
+            const DetailSampler look(*job_.detail_texture, tile_rays_, tile_rays_.right_of_tile(2 * row), near);
+            const DetailPositions places = look.places(*job_.detail_texture, haze_per_depth_);
+            right_edge_.put(places, row);
+            hn::Store(sample_detail(detail_image(), places), PixelPairBits(), &right_edge_values_[row]);
+        }
+    }
+
+    /// Places of a row of even number.
+    HWY_NOINLINE void find(int in_tile, DetailPositionRow& detail_texture) const {
+        const std::size_t row = right_edge_row(in_tile);
+        for (std::size_t which = 0; which < detail_texture.value.size(); ++which) {
+            detail_texture.value[which][pairs_per_phase] = right_edge_.value[which][row];
+        }
+        for (std::size_t i = 0; i < pairs_per_phase; i += pairs_at_once) {
+            detail_texture.put(found(in_tile, 0, i), i);
+        }
+    }
+
+    /// Looks up a row between two of even number; one of these is its own above and below.
+    HWY_NOINLINE void look(
+        int row, const DetailPositionRow& above, const DetailPositionRow& below, DetailRow& detail_texture) const {
+        const DetailImage& image = detail_image();
+        for (std::size_t i = 0; i < pairs_per_phase; i += pairs_at_once) {
+            const bool is_found = row % 2 == 0;
+            const auto even =
+                sample_detail(image, is_found ? above.places(i) : interpolated_at({row, 0, i}, above, below));
+            const auto odd = sample_detail(image, interpolated_at({row, 1, i}, above, below));
+            hn::StoreInterleaved2(even, odd, PixelPairBits(), &detail_texture.seen[phases * i]);
+        }
+        detail_texture.seen[pairs_per_row] = right_edge_values_[right_edge_row(row)];
+    }
+
+private:
+    /// Pairs from one on.
+    struct PairStart {
+        int row;
+        std::size_t phase;
+        std::size_t first;
+    };
+
+    std::size_t right_edge_row(int row) const {
+        return static_cast<std::size_t>(std::min(row, inverse_depths_.rows() - 1));
+    }
+
+    HWY_INLINE DetailPositions found(int row, std::size_t phase, std::size_t first) const {
+        const auto direction = tile_rays_.in_row(static_cast<std::size_t>(2 * row), phases * first + phase);
+        const DetailSampler look(*job_.detail_texture, tile_rays_, direction, inverse_depths_.at(row, phase, first));
+        return look.places(*job_.detail_texture, haze_per_depth_);
+    }
+
+    /// Of pairs in the middle of others that are found.
+    HWY_INLINE DetailPositions interpolated_at(
+        const PairStart& from, const DetailPositionRow& above, const DetailPositionRow& below) const {
+        const PixelPairBits bits;
+        const PixelPairInts whole;
+        const InterpolatedPairs pairs = inverse_depths_.interpolated_at(from.row, from.phase, from.first);
+        const auto is_ground = hn::RebindMask(bits, pairs.is_ground);
+        const DetailPositions a = above.places(from.first);
+        const DetailPositions b = above.places(from.first + from.phase);
+        const DetailPositions c = below.places(from.first);
+        const DetailPositions d = below.places(from.first + from.phase);
+        const auto differs =
+            hn::And(hn::Or(hn::Xor(a.level, b.level), hn::Or(hn::Xor(a.level, c.level), hn::Xor(a.level, d.level))),
+                pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground | DetailPositions::sides));
+        const auto has_none = hn::AndNot(a.level, pair_bits(DetailPositions::ground));
+        const auto is_alike =
+            hn::And(hn::RebindMask(bits, pairs.is_linear), hn::Eq(hn::Or(differs, has_none), hn::Zero(bits)));
+        const auto mean = [&](auto i, auto j, auto k, auto l)
+                              HWY_ATTR { return hn::ShiftRight<2>(hn::Add(hn::Add(i, j), hn::Add(k, l))); };
+        const auto flags = hn::And(a.level, pair_bits(7));
+        const auto level = hn::AndNot(pair_bits(7), mean(a.level, b.level, c.level, d.level));
+        DetailPositions places{mean(a.fine_x, b.fine_x, c.fine_x, d.fine_x),
+            mean(a.fine_y, b.fine_y, c.fine_y, d.fine_y), mean(a.coarse_x, b.coarse_x, c.coarse_x, d.coarse_x),
+            mean(a.coarse_y, b.coarse_y, c.coarse_y, d.coarse_y), hn::Or(level, flags),
+            hn::IfThenElseZero(is_ground, mean(a.left, b.left, c.left, d.left))};
+        const auto is_other = hn::AndNot(is_alike, is_ground);
+        if (!hn::AllFalse(bits, is_other)) {
+            const DetailPositions own = found(from.row, from.phase, from.first);
+            const auto is_own = hn::RebindMask(whole, is_other);
+            places.fine_x = hn::IfThenElse(is_own, own.fine_x, places.fine_x);
+            places.fine_y = hn::IfThenElse(is_own, own.fine_y, places.fine_y);
+            places.coarse_x = hn::IfThenElse(is_own, own.coarse_x, places.coarse_x);
+            places.coarse_y = hn::IfThenElse(is_own, own.coarse_y, places.coarse_y);
+            places.level = hn::IfThenElse(is_other, own.level, places.level);
+            places.left = hn::IfThenElse(is_other, own.left, places.left);
+        }
+        return places;
+    }
+
+    const TileJob& job_;
+    const TileInverseDepths& inverse_depths_;
+    TileRays tile_rays_;
+    float haze_per_depth_;
+    // Of what lies right of the tile, by rows.
+    DetailPositionRow right_edge_;
+    alignas(64) std::array<std::uint32_t, tile_height / 2> right_edge_values_;
+};
+
+// -- Change of colour of each pixel, from its land cover and its sample of the pattern.
+
+/// By how much each part of the colours of pairs of pixels changes, 2^-15 of itself.
+struct PairContrast {
+    std::array<hn::Vec<PixelPairHalves>, 3> part;
+
+    /// `seen`: as sample_detail(), of the pairs and of those after them. `ground`: PackedGround.
+    HWY_INLINE PairContrast(hn::Vec<PixelPairBits> seen, hn::Vec<PixelPairBits> seen_beside,
+        hn::Vec<PixelPairBits> ground, const std::uint32_t* table) {
+        const PixelPairBits bits;
+        const PixelPairInts whole;
+        static_assert(
+            scene::LandCoverContrast::pattern_step_count == 64 && scene::LandCoverContrast::mixture_count == 128);
+        // From 0 to 2^16.
+        const auto pattern_of = [&](hn::Vec<PixelPairBits> from)
+                                    HWY_ATTR { return hn::Xor(hn::ShiftRight<16>(from), pair_bits(0x8000)); };
+        const auto here = pattern_of(seen);
+        const auto is_none = hn::Eq(seen_beside, hn::Zero(bits));
+        const auto next = hn::IfThenElse(is_none, here, pattern_of(seen_beside));
+        const auto kind = hn::ShiftLeft<6>(hn::And(ground, pair_bits(PackedGround::cover_bits)));
+        const auto entry = [&](hn::Vec<PixelPairBits> pattern) HWY_ATTR {
+            return hn::GatherIndex(bits, table, hn::BitCast(whole, hn::Or(kind, pattern)));
+        };
+        const auto first = entry(hn::ShiftRight<10>(here));
+        const auto second = entry(hn::ShiftRight<11>(hn::Add(here, next)));
+        const auto low = pair_bits(0xffc0);
+        const auto high = pair_bits(0xffc00000U);
+        const auto both = [&](hn::Vec<PixelPairBits> of_first, hn::Vec<PixelPairBits> of_second) HWY_ATTR {
+            return hn::BitCast(PixelPairHalves(), hn::Or(hn::And(of_first, low), hn::And(of_second, high)));
+        };
+        part[0] = both(hn::ShiftRight<16>(first), second);
+        part[1] = both(hn::ShiftRight<6>(first), hn::ShiftLeft<10>(second));
+        part[2] = both(hn::ShiftLeft<4>(first), hn::ShiftLeft<20>(second));
+    }
+};
+
+// -- The whole tile. The pattern is sampled at every second pixel of every second row and interpolated linearly between
+// them.
+
+/// Changes colours of a row of pixels of a tile by the pattern. `ground`: of its pairs of pixels.
+HWY_INLINE void change_row(const DetailRow& detail_texture, const std::uint32_t* ground, const std::uint32_t* table,
+    int row, TileBuffer& buffer) {
+    const PixelPairBits bits;
+    const PixelPairHalves halves;
+    const hn::RebindToUnsigned<PixelPairHalves> values;
+    const auto white = hn::Set(values, std::uint16_t{255 * 256});
+    const auto middle = hn::Set(values, std::uint16_t{0x8000});
+    const auto all = hn::Set(values, std::uint16_t{16});
+    const bool is_full = (buffer.full_rows >> row & 1U) != 0;
+    for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
+        const auto seen = hn::Load(bits, &detail_texture.seen[two]);
+        if (hn::AllTrue(bits, hn::Eq(seen, hn::Zero(bits)))) { continue; }
+        const std::size_t at = static_cast<std::size_t>(row) * tile_width + 2 * two;
+        const PairContrast contrast(
+            seen, hn::LoadU(bits, &detail_texture.seen[two + 1]), hn::LoadU(bits, ground + two), table);
+        const auto left = hn::And(seen, pair_bits(0x7fff));
+        auto of_ground = hn::BitCast(values, hn::Or(left, hn::ShiftLeft<16>(left)));
+        // Where other things than ground cover some samples, only the ground's share changes.
+        const auto other_than_ground = hn::LoadU(values, buffer.sums[3].data() + at);
+        if (!is_full || !hn::AllTrue(values, hn::Eq(other_than_ground, hn::Zero(values)))) {
+            const auto covered = hn::LoadU(values, buffer.covered.data() + at);
+            const auto count = hn::Sub(hn::PopulationCount(covered), other_than_ground);
+            const auto of_some = hn::MulHigh(of_ground, hn::ShiftLeft<12>(count));
+            of_ground = hn::IfThenElse(hn::Eq(count, all), of_ground, of_some);
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint16_t* const sums = buffer.sums[k].data() + at;
+            const auto change = hn::MulFixedPoint15(contrast.part[k], hn::BitCast(halves, of_ground));
+            const auto half = hn::MulHigh(hn::LoadU(values, sums), hn::Xor(hn::BitCast(values, change), middle));
+            hn::StoreU(hn::Min(hn::SaturatedAdd(half, half), white), values, sums);
+        }
+    }
+}
+
+/// Changes rows of pixels by what pairs in rows one after the other see.
+class DetailApplier {
+public:
+    HWY_INLINE DetailApplier(const TileJob& job, const TileInverseDepths& inverse_depth, TileBuffer& buffer)
+        : job_(job), inverse_depths_(inverse_depth), buffer_(buffer) {}
+
+    /// The pixels between a row of pairs and the one above it, and its own.
+    HWY_NOINLINE void change(int row, const DetailRow& above, const DetailRow& own) {
+        const bool is_seen = inverse_depths_.has_ground(row);
+        if (is_seen && row > 0 && inverse_depths_.has_ground(row - 1)) {
+            DetailRow between;
+            between.put_between(above, own);
+            change_pixels(2 * row - 1, between);
+        }
+        if (is_seen && 2 * row < job_.size_px.y) { change_pixels(2 * row, own); }
+    }
+
+private:
+    HWY_INLINE void change_pixels(int row, const DetailRow& detail_texture) {
+        change_row(detail_texture, buffer_.ground_of_row(row & ~1), job_.detail_texture->contrast, row, buffer_);
+    }
+
+    const TileJob& job_;
+    const TileInverseDepths& inverse_depths_;
+    TileBuffer& buffer_;
+};
+
+/// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are painted.
+HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
+    const TileInverseDepths inverse_depth(job, buffer);
+    if (!inverse_depth.has_ground()) { return; }
+    const TileDetailSampler look(job, inverse_depth);
+    std::array<DetailPositionRow, 2> places;
+    std::array<DetailRow, tile_height / 2 + 1> seen;
+    DetailPositionRow* above = &places[0];
+    DetailPositionRow* below = &places[1];
+    const int last = job.size_px.y / 2;
+    const auto look_up = [&](int row) HWY_ATTR {
+        if (inverse_depth.has_ground(row)) {
+            look.look(row, *above, row % 2 == 0 ? *above : *below, seen[static_cast<std::size_t>(row)]);
+        }
+    };
+    // Places are written a while before they are read.
+    for (int row = 0; row < last + 2; row += 2) {
+        if (row <= last && inverse_depth.has_ground(row)) {
+            look.find(row, *below);
+        } else {
+            below->clear();
+        }
+        if (row > 0) {
+            look_up(row - 2);
+            look_up(row - 1);
+        }
+        std::swap(above, below);
+    }
+    if (last % 2 == 0) { look_up(last); }
+    DetailApplier walk(job, inverse_depth, buffer);
+    for (int row = 0; row <= last; ++row) {
+        const auto at = static_cast<std::size_t>(row);
+        walk.change(row, seen[row == 0 ? 0 : at - 1], seen[at]);
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif
