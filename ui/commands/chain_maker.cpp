@@ -1,7 +1,7 @@
 #include "ui/commands/chain_maker.h"
 
 #include "models/measure/mesh_distance.h"
-#include "models/polygons/mesh_polygons.h"
+#include "models/polygons/polygon_model.h"
 
 #include <algorithm>
 #include <array>

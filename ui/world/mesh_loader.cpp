@@ -1,7 +1,7 @@
 #include "ui/world/mesh_loader.h"
 
 #include "models/meshfile/mesh_file.h"
-#include "models/polygons/mesh_polygons.h"
+#include "models/polygons/polygon_model.h"
 #include "models/procedural/background60.h"
 #include "models/procedural/globe.h"
 #include "models/procedural/machined_part.h"

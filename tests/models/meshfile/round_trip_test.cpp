@@ -1,7 +1,7 @@
 #include "models/invalid_index.h"
-#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/repair/repair.h"
 #include "sim/base/text_file.h"
 #include "tests/models/meshfile/mesh_samples.h"

@@ -1,4 +1,4 @@
-#include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_model.h"
 #include "models/procedural/background60.h"
 
 #include <catch2/catch.hpp>
