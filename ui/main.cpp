@@ -4,8 +4,7 @@
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
 #include "ui/report/packed_recording.h"
-#include "ui/window/listen_command.h"
-#include "ui/window/view_command.h"
+#include "ui/window/window_commands.h"
 #include "visuals/gl/platform_tuning.h"
 #include "visuals/groundfile/tile_damage_log.h"
 

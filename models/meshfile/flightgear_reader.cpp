@@ -1,14 +1,10 @@
 // FlightGear's model files: a PropertyList that names a mesh, other models with their offsets, and animations, which
 // are read as at rest: all properties 0, but for what turns in flight. Its axes are x back, y right, z up; AC3D files
 // lie in them as (x, -z, y).
-#include "models/meshfile/affine_transform.h"
-#include "models/meshfile/flightgear_paths.h"
-#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/mesh_parts.h"
-#include "models/meshfile/rotating_model.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/meshfile/word_scanner.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
@@ -482,8 +478,6 @@ FlightGearAnimations flightgear_animations(const std::filesystem::path& file, co
     expand(animated.hidden, groups);
     return animated;
 }
-
-namespace fs = std::filesystem;
 
 constexpr int max_model_depth = 8;
 constexpr std::size_t max_models = 500;

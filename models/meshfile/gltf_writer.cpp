@@ -1,5 +1,6 @@
 #include "models/material.h"
 #include "models/meshfile/base64.h"
+#include "models/meshfile/binary_file.h"
 #include "models/meshfile/byte_writer.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
@@ -16,7 +17,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int float_type = 5126;
 constexpr int index_type = 5125;
@@ -71,8 +72,8 @@ public:
         : mesh_(mesh), split_(split_by_corners(mesh)), origin_m_(gltf_origin_m(bounds_of(mesh))) {
         json_["asset"] = {{"version", "2.0"}};
         json_["scene"] = 0;
-        json_["scenes"] = Json::array({{{"nodes", {0}}}});
-        json_["nodes"] = Json::array({{{"mesh", 0}}});
+        json_["scenes"] = OrderedJson::array({{{"nodes", {0}}}});
+        json_["nodes"] = OrderedJson::array({{{"mesh", 0}}});
         if (origin_m_ != glm::dvec3(0.0)) {
             json_["nodes"][0]["translation"] = {origin_m_.x, origin_m_.y, origin_m_.z};
         }
@@ -82,11 +83,11 @@ public:
             add_primitive(material);
             add_material(mesh.materials[material]);
         }
-        json_["meshes"] = Json::array({{{"primitives", primitives_}}});
-        json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
+        json_["meshes"] = OrderedJson::array({{{"primitives", primitives_}}});
+        json_["buffers"] = OrderedJson::array({{{"byteLength", bytes_.size()}}});
     }
 
-    Json& json() { return json_; }
+    OrderedJson& json() { return json_; }
 
     const std::string& bytes() const { return bytes_; }
 
@@ -180,7 +181,7 @@ private:
         if (bytes_.size() == first) {
             return; // glTF has no empty lists
         }
-        Json primitive{{"attributes", attributes_}};
+        OrderedJson primitive{{"attributes", attributes_}};
         primitive["indices"] = add_accessor(first, (bytes_.size() - first) / 4, index_type, "SCALAR");
         if (material != invalid_index) { primitive["material"] = material; }
         primitives_.push_back(primitive);
@@ -191,12 +192,14 @@ private:
     glm::dvec3 origin_m_;
     std::map<std::string, std::size_t> textures_; ///< by their pictures
     std::string bytes_;
-    Json json_;
-    Json attributes_;
-    Json primitives_ = Json::array();
+    OrderedJson json_;
+    OrderedJson attributes_;
+    OrderedJson primitives_ = OrderedJson::array();
 };
 
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string text_of(const OrderedJson& json) {
+    return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
 
 } // namespace
 

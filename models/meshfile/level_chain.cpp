@@ -1,8 +1,6 @@
 #include "models/meshfile/level_chain.h"
 
-#include "models/meshfile/byte_reader.h"
-#include "models/meshfile/byte_writer.h"
-#include "models/polygons/polygon_check.h"
+#include "models/meshfile/binary_file.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/error.h"

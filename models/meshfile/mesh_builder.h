@@ -1,9 +1,11 @@
 #pragma once
 
+#include "models/heights/image.h"
+#include "models/invalid_index.h"
 #include "models/meshfile/baked_pictures.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/meshfile/mesh_limits.h"
 #include "models/meshfile/mesh_parts.h"
-#include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>
@@ -13,32 +15,99 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace octant::models::meshfile {
 
+/// Returns the path of a texture picture that a mesh names. Searches for the whole name, then for its last component,
+/// in `folder` (empty: not searched) and in the mesh's folder; returns a path in the mesh's folder if no file exists.
+std::filesystem::path picture_file(
+    const std::filesystem::path& mesh_file, const std::string& name, const std::filesystem::path& folder = {});
+
+/// The texture pictures of a mesh, and the vertex colours computed from them.
+class BakedPictures {
+public:
+    /// The index of no picture.
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    /// `folder` is searched for pictures before the mesh's own folder; empty: only that one.
+    explicit BakedPictures(std::filesystem::path mesh_file, std::filesystem::path folder = {})
+        : mesh_file_(std::move(mesh_file)), folder_(std::move(folder)) {}
+
+    /// Loads a picture by its name as picture_file finds it. Returns its index; `none` if it cannot be read.
+    std::uint32_t picture(const std::string& name);
+
+    /// Loads a picture from its encoded bytes. `name` is only used in notes.
+    std::uint32_t picture(const std::string& name, std::string_view bytes);
+
+    /// Adds the next triangle of the mesh: its picture or `none`, and the positions of its corners in the picture, 0..1
+    /// from the upper left corner. The picture repeats outside 0..1.
+    void add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places);
+
+    /// The opacity of a picture over a triangle.
+    struct Cover {
+        float opacity = 1.0F;   ///< mean
+        bool is_uniform = true; ///< nearly constant over the triangle
+    };
+
+    /// Returns one entry for each triangle added.
+    std::vector<Cover> covers() const;
+
+    /// Removes triangles; `gone` has one entry for each triangle added.
+    void take_out(const std::vector<bool>& gone);
+
+    bool is_empty() const { return pictures_.empty(); }
+
+    /// Sets each vertex colour to the mean colour around the vertex: picture times material colour, or the material
+    /// colour alone. Vertices at one position get one colour. The mesh's triangles must be those added.
+    void bake(TriangleMesh& mesh) const;
+
+    /// One line for each picture that could not be used.
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    struct TexturedTriangle {
+        std::uint32_t picture = none;
+        std::array<glm::vec2, 3> places{};
+    };
+
+    template <typename Read>
+    std::uint32_t kept(const std::string& name, Read&& read);
+
+    std::filesystem::path mesh_file_;
+    std::filesystem::path folder_;
+    std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
+    std::vector<bool> is_opaque_;                                 ///< for each picture: it has no transparent pixel
+    std::map<std::string, std::uint32_t> known_;
+    std::vector<TexturedTriangle> triangles_;
+    std::vector<std::string> notes_;
+};
+
 /// One corner of a polygon as a file names it.
 struct CornerIndices {
     std::uint32_t vertex = invalid_index;
     std::uint32_t normal = invalid_index;
-    std::uint32_t texture = invalid_index; ///< of add_texture_coordinates
+    std::uint32_t texture = invalid_index; ///< result of add_texture_coordinates
 };
 
-/// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its readers have checked
-/// what they add: finite numbers, indices in range, 3 to max_polygon_corners corners.
+/// Builds a mesh for all readers: cuts polygons into triangles, replaces faulty normals, adds missing materials.
+/// Readers must check what they add: finite numbers, indices in range, 3 to max_polygon_corners corners.
 class MeshBuilder {
 public:
-    /// The mesh is called after the file.
+    /// The mesh gets the name of the file.
     explicit MeshBuilder(const std::filesystem::path& path, const ReadOptions& options = {});
 
     bool uses_pictures() const { return options_.pictures; }
 
     bool adds_back_faces() const { return options_.backs; }
 
-    /// Whether polygons from now on are two-sided.
+    /// Sets whether the polygons added next are two-sided.
     void set_two_sided(bool two_sided) { is_two_sided_ = two_sided; }
 
     BakedPictures& pictures() { return pictures_; }
@@ -53,35 +122,36 @@ public:
 
     std::uint32_t add_vertex(const glm::dvec3& position_m);
 
-    /// Vertices that get no colour are white once any other has one.
+    /// Vertices without a colour are white if any vertex has one.
     void set_colour(std::uint32_t vertex, const glm::vec3& colour);
 
-    /// Makes it a unit vector, unless it is one already; one without a length is replaced at each corner by the
+    /// Normalizes the vector unless it is a unit vector already. A zero vector is replaced at each corner by the
     /// triangle's own normal.
     std::uint32_t add_normal(const glm::dvec3& normal);
 
-    /// From a picture's lower left corner. A triangle with a corner that has none, or none that is finite, is read
-    /// without.
+    /// Coordinates count from the picture's lower left corner. A triangle gets none if one of its corners has none or
+    /// has coordinates that are not finite.
     std::uint32_t add_texture_coordinates(const glm::vec2& coordinates);
 
     std::size_t texture_coordinates_count() const { return mesh_.texture_coordinates.size(); }
 
-    /// `opacity`: how much it hides of what lies behind, 0..1.
+    /// `opacity` is 0..1.
     std::uint32_t add_material(Material material, float opacity = 1.0F);
 
-    /// The group of the options that polygons from now on belong to; invalid_index: none.
+    /// Sets the group (index into ReadOptions::groups) of the polygons added next; invalid_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
-    /// Adds a polygon, cut into triangles by polygons::triangulate_polygon. `picture`: a number of pictures().
+    /// Cuts a polygon into triangles (polygons::triangulate_polygon) and adds them. `picture` is an index of
+    /// pictures().
     void add_polygon(std::span<const CornerIndices> corners, std::uint32_t material = invalid_index,
         std::uint32_t picture = BakedPictures::none);
 
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
 
-    /// The finished mesh. Throws Error when it has no triangle.
+    /// Returns the finished mesh. Throws Error if it has no triangle.
     TriangleMesh finish();
 
-    /// The same with its parts apart.
+    /// Returns the finished mesh as separate parts. Throws Error if it has no triangle.
     MeshParts finish_parts();
 
 private:
@@ -107,14 +177,14 @@ private:
     BakedPictures pictures_;
     TriangleMesh mesh_;
     std::vector<bool> faulty_normals_;
-    std::vector<glm::dvec3> places_m_;         ///< corners of the polygon at hand
-    std::vector<float> opacities_;             ///< one a material
-    std::vector<bool> two_sided_;              ///< one a triangle
-    std::vector<std::uint32_t> groups_;        ///< one a triangle
-    std::vector<BakedPictures::Cover> covers_; ///< one a triangle, once they are looked for
+    std::vector<glm::dvec3> places_m_;         ///< corners of the polygon being added
+    std::vector<float> opacities_;             ///< one for each material
+    std::vector<bool> two_sided_;              ///< one for each triangle
+    std::vector<std::uint32_t> groups_;        ///< one for each triangle
+    std::vector<BakedPictures::Cover> covers_; ///< one for each triangle, once computed
     std::uint32_t group_ = invalid_index;
     bool is_two_sided_ = false;
-    bool is_part_ = false; ///< of a larger mesh
+    bool is_part_ = false; ///< this builds a part of a larger mesh
     bool has_normals_ = false;
     bool has_texture_coordinates_ = false;
     bool has_materials_ = false;

@@ -13,15 +13,30 @@
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string_view>
 #include <vector>
 
 namespace octant::models::meshfile {
 
+std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file) {
+    const std::string ending = extension_of(file);
+    if (ending == ".ac") { return polygons::FileAxes::from_text("back,up,left"); }
+    if (ending == ".gltf" || ending == ".glb") { return polygons::FileAxes::from_text("left,up,forward"); }
+    if (ending == ".xml") { return polygons::FileAxes::from_text("back,right,up"); }
+    return std::nullopt;
+}
+
+std::optional<polygons::FileAxes> default_axes_of_format(const std::filesystem::path& file) {
+    constexpr std::array<std::string_view, 5> scenes{".flt", ".ive", ".osg", ".osgb", ".osgt"};
+    return std::ranges::find(scenes, extension_of(file)) == scenes.end()
+               ? std::nullopt
+               : std::optional(polygons::FileAxes::from_text("right,forward,up"));
+}
+
 namespace {
 
-/// Names pictures as seen from the folder of a file that is about to be written; those that stand in the mesh's former
-/// file are written beside it.
+/// Makes picture names relative to the folder of the file to be written, and writes embedded pictures into that folder.
 TriangleMesh with_named_pictures(const std::filesystem::path& path, const TriangleMesh& mesh) {
     TriangleMesh named = mesh;
     const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
@@ -207,6 +222,33 @@ bool is_mesh_file(const std::filesystem::path& path) { return find_format(path) 
 bool is_writable_mesh_file(const std::filesystem::path& path) {
     const Format* format = find_format(path);
     return format != nullptr && format->write != nullptr;
+}
+
+namespace {
+
+std::string without_marks(std::string_view name) {
+    std::string out(name);
+    for (char& c : out) {
+        const bool is_control = static_cast<unsigned char>(c) < 0x20;
+        if (is_control || c == '"' || c == '\\' || c == 0x7f) { c = '_'; }
+    }
+    out.erase(0, out.find_first_not_of(' '));
+    return out.substr(0, out.find_last_not_of(' ') + 1);
+}
+
+} // namespace
+
+std::vector<std::string> unique_material_names(std::span<const Material> materials) {
+    std::vector<std::string> names;
+    std::set<std::string> taken;
+    for (const Material& material : materials) {
+        const std::string wanted = without_marks(material.name);
+        const std::string base = wanted.empty() ? "material" : wanted;
+        std::string name = base;
+        for (int number = 2; !taken.insert(name).second; ++number) { name = fmt::format("{}_{}", base, number); }
+        names.push_back(name);
+    }
+    return names;
 }
 
 } // namespace octant::models::meshfile

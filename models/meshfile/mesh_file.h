@@ -1,40 +1,70 @@
 #pragma once
 
-#include "models/meshfile/read_options.h"
+#include "models/meshfile/mesh_parts.h"
+#include "models/polygons/file_axes.h"
 #include "models/triangle_mesh.h"
 
+#include <glm/vec3.hpp>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace octant::models::meshfile {
 
-/// Reads a triangle mesh; the file's ending says its format: .obj (with vertex colours), .ply (ascii, binary of both
-/// byte orders), .stl (ascii, binary), .off (ascii, read only), .gltf and .glb, .ac (AC3D), .wrl (VRML 2.0
-/// IndexedFaceSet), .xml (FlightGear's model with its sub-models, or an aircraft's
-/// -set.xml, which names its model; read only). Polygons are cut into triangles; nothing else is
-/// changed: see repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round again), axes and
-/// units as the file has them. Whole-number colours stand for 0..1. Colours are display values (models/material.h);
-/// those of glTF, linear in its files, are converted.
+/// Reads a triangle mesh. The file's extension selects the format: .obj (with vertex colours), .ply (ASCII, binary of
+/// both byte orders), .stl (ASCII, binary), .off (ASCII, read only), .gltf and .glb, .ac (AC3D), .wrl (VRML 2.0
+/// IndexedFaceSet), .xml (a FlightGear model with its sub-models, or an aircraft's -set.xml, which names its model;
+/// read only). Polygons are cut into triangles; repair::repaired makes further changes. Scene nodes are placed, and
+/// mirrored nodes get their orientation back. Axes and units are those of the file. Integer colours are scaled to 0..1.
+/// Colours are display values (models/material.h); the linear colours of glTF are converted.
 ///
-/// Texture coordinates and the names of materials' pictures are read from .obj, .ac and glTF files, texture coordinates
-/// alone from .ply and .off; pictures themselves only as `options` say. Left out, where a file has it: lines and
-/// points, attributes that a mesh does not have, texture coordinates of VRML, normals of STL, inner nodes of unknown
-/// kinds; of two-sided surfaces the back but for `options`. TriangleMesh::notes says what may be missed. A normal
-/// without a length becomes its triangle's own.
+/// Texture coordinates and picture names are read from .obj, .ac and glTF files, texture coordinates alone from .ply
+/// and .off, pictures only if `options` ask for them. Ignored: lines, points, attributes that TriangleMesh does not
+/// have, texture coordinates of VRML, normals of STL, nodes of unknown types, and the back of two-sided surfaces unless
+/// `options` ask for it. TriangleMesh::notes lists what was left out. A zero normal is replaced by the triangle's own.
 ///
 /// Throws Error "file:line: expected ..., got ..." (binary files "file: at byte N: ...", glTF "file: nodes[3].mesh:
-/// ..."), also for a file without triangles. Memory is bounded by the file's size (16 to 30 times that for JSON and
-/// VRML): a header that promises more than the file can hold is refused before anything is made room for, scenes that
-/// show one thing again and again end at 2^27 corners and vertices.
+/// ..."), also for a file without triangles. Memory is bounded by the file's size (16 to 30 times for JSON and VRML): a
+/// header that promises more than the file can contain is refused before memory is allocated, and scenes that repeat a
+/// mesh are limited to 2^27 corners and vertices.
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Writes a mesh in the format that the ending says, whole or not at all: .obj with .mtl beside it, .ply and .stl
-/// binary, .gltf with its data inside, .glb, .ac, .wrl. read_mesh gives the same mesh as far as the format holds it:
-///     .obj        all; pictures inside the mesh's former file become files beside it
+/// As read_mesh, but returns transparent surfaces (.ac, .obj, glTF) and groups of objects (.ac) separately. With
+/// pictures, triangles with a uniform picture opacity of 0.05 to 0.5 are transparent too; other triangles whose picture
+/// is mostly transparent, and invisible surfaces, are left out. Throws Error.
+MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The axis of a rotation in flight; file axes, metres.
+struct RotationAxis {
+    glm::dvec3 point_m{0.0};
+    glm::dvec3 direction{1.0, 0.0, 0.0}; ///< unit; positive turns follow the right-hand rule
+    double turns_per_s = 0.0;
+};
+
+/// A propeller or a rotor, at its position at time 0.
+struct RotatingPart {
+    TriangleMesh mesh;
+    RotationAxis about;
+};
+
+/// A model with its rotating parts and its transparent surfaces as separate meshes.
+struct RotatingModel {
+    TriangleMesh body; ///< never empty
+    std::vector<RotatingPart> parts;
+    TransparentSurfaces clear;
+};
+
+/// As read_mesh, for the same files; only FlightGear's models have parts. Throws Error.
+RotatingModel read_rotating_model(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Writes a mesh in the format of the extension, completely or not at all: .obj with an .mtl file, binary .ply and
+/// .stl, .gltf with embedded data, .glb, .ac, .wrl. read_mesh returns the same mesh within the limits of the format:
+///     .obj        all; embedded pictures become files in the same folder
 ///     .ply        no materials; normals where each vertex has only one
-///     .stl        places in float; vertices in the order of their first corners, nothing else
-///     .gltf .glb  places in float, from the middle of the mesh where it is far from 0 (the
+///     .stl        positions in float; vertices in the order of their first corners, nothing else
+///     .gltf .glb  positions in float, relative to the mesh's centre where it is far from 0 (the
 ///                 node's translation); colours of vertices to one step of a float; a vertex of
 ///                 several normals or texture coordinates becomes several; PNG and JPEG pictures
 ///     .ac         no colours of vertices, no normals; texture coordinates where all materials
@@ -44,18 +74,26 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 /// lose materials that no triangle has. Throws Error.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-/// What write_mesh leaves out of a mesh in the format that the ending says, a line each: "FILE: the format holds no
-/// ..., which are left out". Empty where the file holds all.
+/// Lists what write_mesh would leave out in the format of the extension, one line each: "FILE: the format holds no ...,
+/// which are left out".
 std::vector<std::string> write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-/// No coordinate within `bounds` moves farther than this when write_mesh rounds it, metres: 0 where the format keeps
-/// double precision.
+/// The largest rounding of a coordinate within `bounds` by write_mesh, metres; 0 for formats in double precision.
 double rounding_m(const std::filesystem::path& path, const BoundingBox& bounds);
 
-/// Whether read_mesh knows the ending.
+/// Whether read_mesh knows the extension.
 bool is_mesh_file(const std::filesystem::path& path);
 
-/// Whether write_mesh knows it, too.
+/// Whether write_mesh knows the extension.
 bool is_writable_mesh_file(const std::filesystem::path& path);
+
+/// The axes of aircraft in a file format, by the file's extension: AC3D x back, y up, z left (as FlightGear uses it),
+/// FlightGear models (.xml) x back, y right, z up, glTF x left, y up, z forward (its specification). Nothing for
+/// formats without a convention.
+std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file);
+
+/// The usual axes of formats that prescribe only the upward axis: OpenFlight and OpenSceneGraph x right, y forward, z
+/// up. Nothing for others.
+std::optional<polygons::FileAxes> default_axes_of_format(const std::filesystem::path& file);
 
 } // namespace octant::models::meshfile

@@ -1,14 +1,19 @@
 #pragma once
 
 #include "models/meshfile/mesh_parts.h"
-#include "models/meshfile/read_options.h"
+#include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace octant::models::meshfile {
+
+/// Names of materials as text formats can hold them: not empty, one line, no quotes, none twice.
+std::vector<std::string> unique_material_names(std::span<const Material> materials);
 
 /// The readers behind read_mesh, one a format; all throw Error.
 TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options);

@@ -1,6 +1,6 @@
 #include "models/meshfile/word_scanner.h"
 
-#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_join.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -56,11 +56,11 @@ double WordScanner::number(std::string_view what) {
     return *value;
 }
 
-long WordScanner::whole(std::string_view what, long least, long most) {
+long WordScanner::whole(std::string_view what, long min, long max) {
     const std::string_view found = word(what);
     const auto value = whole_number(found);
-    if (!value || *value < least || *value > most) {
-        refuse(fmt::format("{} of {} to {}", what, least, most), in_quotes(found));
+    if (!value || *value < min || *value > max) {
+        refuse(fmt::format("{} of {} to {}", what, min, max), in_quotes(found));
     }
     return *value;
 }

@@ -7,30 +7,30 @@
 
 namespace octant::models::meshfile {
 
-/// Words of a text that are parted by blanks and line ends, with the line each stands in.
+/// Reads the words of a text, which blanks and line ends separate, and counts lines.
 class WordScanner {
 public:
-    /// Keeps a view into `text`, whose first line is line `line` of the file.
+    /// Keeps a view into `text`. Its first line is line `line` of the file.
     WordScanner(const std::filesystem::path& path, std::string_view text, int line)
         : path_(path), text_(text), line_(line) {}
 
-    /// Throws Error at the end of the text; `what` is what it then expected.
+    /// Reads the next word. Throws Error at the end of the text; `what` names the expected word.
     std::string_view word(std::string_view what);
 
-    /// The next word; empty at the end of the text.
+    /// Reads the next word; empty at the end of the text.
     std::string_view word_or_end();
 
-    /// What is left of the line at hand, without blanks at either end; the next word is in the line below.
+    /// Reads the rest of the current line without blanks at either end. The next word is on a later line.
     std::string_view rest_of_line();
 
-    /// Passes over so many bytes. Throws Error when there are fewer.
+    /// Skips `count` bytes. Throws Error if there are fewer.
     void skip_bytes(std::size_t count, std::string_view what);
 
-    /// The next word as a finite number within max_coordinate. Throws Error.
+    /// Reads a finite number within max_coordinate. Throws Error.
     double number(std::string_view what);
 
-    /// The next word as a whole number of `least` to `most`. Throws Error.
-    long whole(std::string_view what, long least, long most);
+    /// Reads an integer from `min` to `max`. Throws Error.
+    long whole(std::string_view what, long min, long max);
 
     int line() const { return line_; }
 
@@ -44,7 +44,7 @@ private:
     int line_ = 1;
 };
 
-/// Text from outside in quotes, fit for a message.
+/// Quotes text from outside for a message: one line, printable, shortened.
 std::string in_quotes(std::string_view text);
 
 } // namespace octant::models::meshfile

@@ -1,10 +1,8 @@
 #include "models/planar/planar_model.h"
 
 #include "models/planar/incidences.h"
-#include "models/planar/vertex_grid.h"
-#include "models/polygons/convex_pieces.h"
-#include "models/polygons/polygon_check.h"
 #include "models/polygons/polygon_model.h"
+#include "models/polygons/polygon_outlines.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,22 +22,133 @@
 
 namespace octant::models::planar {
 
-// Points into planes by successive projections (S. Kaczmarz, "Angenaeherte Aufloesung von Systemen linearer
-// Gleichungen", 1937, here with planes that follow the points): polygon after polygon, all that must lie on its plane
-// is moved there, until nothing moves any more. A model of quadrangles has more unknowns than conditions, so that
-// nearby planar shapes exist; where they do not, polygons give up and the rest begins again. It is not those that fail
-// that give up: among a failing one and those that share a point with it, it is the one that was least flat as given.
-// So what is planar in the file stays so, decals in one plane with it, beside neighbours that are bent.
+namespace {
+
+using polygons::PolygonModel;
+
+/// A corner within the reach of a side and the side itself may both have been moved since, when their polygons were
+/// made planar.
+constexpr double in_reaches = 2.0;
+
+/// The corners of one turning part, or of all that stands still.
+struct PartCorners {
+    std::vector<std::uint32_t> vertices; ///< each once
+    std::vector<glm::dvec3> places_m;
+};
+
+std::vector<PartCorners> corners_of_parts(const PolygonModel& model) {
+    std::vector<PartCorners> parts(model.pivots.size() + 1);
+    std::vector<std::size_t> last_part(model.vertices_m.size(), parts.size());
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const auto pivot = polygons::pivot_of(model, i);
+        const std::size_t part = pivot ? *pivot + 1 : 0;
+        for (const std::uint32_t vertex : model.corners(i)) {
+            if (std::exchange(last_part[vertex], part) != part) {
+                parts[part].vertices.push_back(vertex);
+                parts[part].places_m.push_back(model.vertices_m[vertex]);
+            }
+        }
+    }
+    return parts;
+}
+
+/// Half the diagonal of the box around all corners.
+double radius_m_of(const PolygonModel& model) {
+    glm::dvec3 min_m(std::numeric_limits<double>::max());
+    glm::dvec3 max_m(std::numeric_limits<double>::lowest());
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        min_m = glm::min(min_m, model.vertices_m[vertex]);
+        max_m = glm::max(max_m, model.vertices_m[vertex]);
+    }
+    return model.corner_vertices.empty() ? 0.0 : glm::distance(min_m, max_m) / 2.0;
+}
+
+/// Finds the corners that lie on sides of other polygons.
+class Search {
+public:
+    explicit Search(const PolygonModel& model)
+        : model_(model), reach_m_(in_reaches * touching_reach * radius_m_of(model)), parts_(corners_of_parts(model)) {
+        for (const PartCorners& part : parts_) { near_.emplace_back(part.places_m); }
+    }
+
+    std::vector<TJunction> all() {
+        for (std::size_t i = 0; i < model_.polygons.size(); ++i) {
+            const auto pivot = polygons::pivot_of(model_, i);
+            const polygons::Polygon& polygon = model_.polygons[i];
+            for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
+                const std::uint32_t next = k + 1 < polygon.corner_count ? k + 1 : 0;
+                add_on_side(
+                    pivot ? *pivot + 1 : 0, model_.corners(i), polygon.first_corner + k, polygon.first_corner + next);
+            }
+        }
+        return std::move(found_);
+    }
+
+private:
+    const glm::dvec3& place_m(std::uint32_t vertex) const { return model_.vertices_m[vertex]; }
+
+    /// Whether a place is as good as that of one of a polygon's own corners.
+    bool is_own(std::span<const std::uint32_t> corners, const glm::dvec3& at_m) const {
+        return std::ranges::any_of(
+            corners, [&](std::uint32_t vertex) { return glm::distance(place_m(vertex), at_m) <= reach_m_; });
+    }
+
+    void add_on_side(std::size_t part, std::span<const std::uint32_t> own, std::size_t from, std::size_t to) {
+        const glm::dvec3& from_m = place_m(model_.corner_vertices[from]);
+        const glm::dvec3& to_m = place_m(model_.corner_vertices[to]);
+        const glm::dvec3 along_m = to_m - from_m;
+        const double length2 = glm::dot(along_m, along_m);
+        if (length2 == 0.0) { return; }
+        boxed_.clear();
+        near_[part].append_near_segment(from_m, to_m, reach_m_, boxed_);
+        const std::size_t first = found_.size();
+        for (const std::uint32_t number : boxed_) {
+            const std::uint32_t vertex = parts_[part].vertices[number];
+            const glm::dvec3& at_m = place_m(vertex);
+            const double share = glm::dot(at_m - from_m, along_m) / length2;
+            if (share > 0.0 && share < 1.0 && glm::distance(at_m, from_m + along_m * share) <= reach_m_ &&
+                !is_own(own, at_m)) {
+                found_.push_back({from, vertex, share});
+            }
+        }
+        const auto begin = found_.begin() + static_cast<std::ptrdiff_t>(first);
+        std::sort(begin, found_.end(), [](const TJunction& a, const TJunction& b) {
+            return std::pair(a.share, a.vertex) < std::pair(b.share, b.vertex);
+        });
+        const auto in_one_place = [&](const TJunction& a, const TJunction& b) {
+            return place_m(a.vertex) == place_m(b.vertex);
+        };
+        found_.erase(std::unique(begin, found_.end(), in_one_place), found_.end());
+    }
+
+    const PolygonModel& model_;
+    double reach_m_;
+    std::vector<PartCorners> parts_;
+    std::vector<VertexGrid> near_; ///< of each part
+    std::vector<std::uint32_t> boxed_;
+    std::vector<TJunction> found_;
+};
+
+} // namespace
+
+std::vector<TJunction> t_junctions(const PolygonModel& model) { return Search(model).all(); }
+
+// Moves points into planes by successive projections (S. Kaczmarz, "Angenaeherte Aufloesung von Systemen linearer
+// Gleichungen", 1937; here the planes follow the points): for one polygon after the other, all its points are projected
+// onto its plane, until no point moves. A model of quadrangles has more unknowns than conditions, so a planar solution
+// exists nearby. Where none exists, polygons lose their plane and the iteration restarts. Among a failing polygon and
+// those that share a point with it, the one that was least flat in the input loses its plane. This keeps polygons that
+// are planar in the file planar, and decals in one plane with them, next to bent neighbours.
 
 namespace {
 
 constexpr int max_sweeps = 2'000;
-constexpr std::size_t max_visits = 1'000'000; ///< Of polygons, in one round.
+constexpr std::size_t max_visits = 1'000'000; ///< projections onto polygons in one round
 constexpr std::size_t max_visits_in_all = 4 * max_visits;
 constexpr int max_rounds = 8;
-/// A polygon whose corners lie farther from their plane than they may move, so many times, gives up at once.
+/// A polygon loses its plane at once if a corner is farther from it than this many times the largest move.
 constexpr double hopeless_moves = 2.0;
-constexpr double at_rest = 1e-14; ///< Smaller moves count as none.
+constexpr double at_rest = 1e-14; ///< smaller moves are ignored
 
 /// One run of planarize().
 class Planarizing {
@@ -175,8 +284,8 @@ private:
         return alone_[polygon] ? misfits_[polygon].of_corners : misfits_[polygon].of_all;
     }
 
-    /// Whether a polygon was less flat than another as given, by more than rounding: of mirrored ones, which are alike,
-    /// the same gives up however the model is turned.
+    /// Whether a polygon was less flat than another in the input, by more than rounding. The margin makes the choice
+    /// between mirrored polygons independent of the model's attitude.
     bool is_less_flat(std::size_t polygon, std::size_t other) const {
         constexpr double alike = 1e-6;
         return misfit(polygon) > misfit(other) * (1.0 + alike) + planar_noise * alike;
@@ -242,8 +351,8 @@ private:
         return worst;
     }
 
-    /// Lets polygons give up where some are not planar yet or have moved a point too far; says whether there were any.
-    /// What touches a polygon is given up first, then its own plane.
+    /// Removes conditions where polygons are not planar or moved a point too far: first the touching points of a
+    /// polygon, then its plane. Returns whether any were removed.
     bool give_up() {
         const PolygonsOfPoints polygons_of = polygons_of_points();
         const std::vector<std::size_t> by = stirred_by(polygons_of);
@@ -371,7 +480,8 @@ glm::dvec3 best_of(const std::vector<glm::dvec3>& directions, const std::vector<
     return best;
 }
 
-/// The directions of sides with what they have along an axis taken away: those across it or, where there are none, all.
+/// The directions of the sides perpendicular to an axis, or of all sides if there are none, without their components
+/// along the axis.
 std::vector<glm::dvec3> across(const glm::dvec3& axis, const std::vector<Side>& tried) {
     std::vector<glm::dvec3> exactly;
     std::vector<glm::dvec3> about;
@@ -443,7 +553,6 @@ double decimal_grid(std::span<const glm::dvec3> points) {
 namespace {
 
 using polygons::Pivot;
-using polygons::PolygonModel;
 using Outline = std::vector<std::uint32_t>;
 
 /// No point moves farther than so many times the reach.
@@ -572,7 +681,7 @@ std::vector<Outline> pieces_of(const PolygonModel& model, const Outline& outline
     return pieces;
 }
 
-/// Replaces bent and dented polygons by pieces and leaves those without an area out.
+/// Replaces bent and concave polygons by pieces and leaves out those without an area.
 void triangulated_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
     PolygonModel& model = planar.model;
     PolygonModel out;

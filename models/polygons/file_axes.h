@@ -1,23 +1,26 @@
 #pragma once
 
+#include "models/triangle_mesh.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace octant::models::polygons {
 
-/// The axes of a model file against the body axes (x forward, y right, z down). Files are right-handed: the conversion
-/// is a rotation by quarter turns, exact in both directions.
+/// The axes of a model file relative to the body axes (x forward, y right, z down). Files are right-handed: the
+/// conversion is a rotation by quarter turns, exact in both directions.
 class FileAxes {
 public:
     /// The usual axes of OBJ files: x right, y up, -z forward.
     FileAxes() = default;
 
-    /// Axes from text: where the file's x, y and z axes point, each one of right, left, up, down, forward, back, such
-    /// as "right,up,back" (the default) or "forward,left,up". Throws Error for other text, for axes that do not span
-    /// space and for left-handed ones.
+    /// Reads axes from text: the directions of the file's x, y and z axes, each one of right, left, up, down, forward,
+    /// back, such as "right,up,back" (the default) or "forward,left,up". Throws Error for other text, for axes that do
+    /// not span space and for left-handed ones.
     static FileAxes from_text(std::string_view text);
 
     glm::dvec3 body_from_file(const glm::dvec3& in_file) const;
@@ -31,5 +34,10 @@ private:
     /// Unit vectors of the file's axes, in body axes.
     std::array<glm::dvec3, 3> axes_{glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)};
 };
+
+/// Guesses the axes of an aircraft's mesh from its shape: an aircraft is symmetric left to right, longer than high, and
+/// has its fin at the tail. Nothing where the shape is ambiguous. Time is linear in the number of triangles, plus a
+/// grid of at most 64 cells a side.
+std::optional<FileAxes> guess_axes(const TriangleMesh& mesh);
 
 } // namespace octant::models::polygons

@@ -1,26 +1,25 @@
 #include "models/polygons/obj_reader.h"
 
-#include "models/polygons/convex_pieces.h"
-#include "models/polygons/mtl_reader.h"
-#include "models/polygons/obj_limits.h"
-#include "models/polygons/obj_line_reader.h"
-#include "models/polygons/obj_pivots.h"
-#include "models/polygons/polygon_check.h"
 #include "models/polygons/polygon_model.h"
-#include "models/polygons/polygon_triangulation.h"
+#include "models/polygons/polygon_outlines.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -29,8 +28,203 @@ namespace octant::models::polygons {
 
 namespace {
 
-/// How many polygons of a file are named in PolygonModel::notes; one more note counts the others.
+bool is_comment(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t");
+    return first != std::string_view::npos && line[first] == '#';
+}
+
+/// Takes the backslash off the end; false when there is none.
+bool goes_on(std::string_view& line) {
+    if (!line.ends_with('\\')) { return false; }
+    line.remove_suffix(1);
+    return true;
+}
+
+} // namespace
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) { text.remove_prefix(3); }
+    return text;
+}
+
+ObjLineReader::ObjLineReader(std::string_view text) : rest_(without_byte_order_mark(text)) {}
+
+/// Takes the next line off the rest, which must not be empty.
+std::string_view ObjLineReader::next_line() {
+    ++lines_;
+    const std::size_t end = rest_.find('\n');
+    std::string_view line = rest_.substr(0, end);
+    if (line.ends_with('\r')) { line.remove_suffix(1); }
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    return line;
+}
+
+bool ObjLineReader::next() {
+    if (rest_.empty()) { return false; }
+    text_ = next_line();
+    number_ = lines_;
+    if (is_comment(text_) || !goes_on(text_)) { return true; }
+    joined_ = text_;
+    bool more = true;
+    while (more && !rest_.empty()) {
+        std::string_view part = next_line();
+        more = goes_on(part);
+        joined_ += ' ';
+        joined_ += part;
+    }
+    text_ = joined_;
+    return true;
+}
+
+std::string_view after_first_word(std::string_view line) {
+    constexpr std::string_view blanks = " \t\r";
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_of(blanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    return line.substr(0, line.find_last_not_of(blanks) + 1);
+}
+
+double obj_number(std::string_view word, const std::filesystem::path& path, int line) {
+    const auto value = finite_number(word);
+    if (!value) {
+        throw_error_at(path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
+    }
+    if (std::abs(*value) > max_obj_coordinate_m) {
+        throw_error_at(path, line,
+            fmt::format("expected a number within {:g}, got '{}'", max_obj_coordinate_m, printable(std::string(word))));
+    }
+    return *value;
+}
+
+namespace {
+
+constexpr std::size_t largest_mtl_bytes = std::size_t{16} << 20U;
+
+class MtlReading {
+public:
+    explicit MtlReading(const std::filesystem::path& path) : path_(path) {}
+
+    std::vector<Material> read() {
+        const std::string text = read_text_file(path_, largest_mtl_bytes);
+        for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
+            ++line_;
+            const auto words = split_words(line);
+            if (!words.empty() && words[0] == "newmtl") {
+                add_material(std::string(after_first_word(line)));
+            } else if (!words.empty() && words[0] == "Kd") {
+                set_colour(words, line);
+            }
+        }
+        return std::move(materials_);
+    }
+
+private:
+    void add_material(const std::string& name) {
+        if (name.empty()) { throw_error_at(path_, line_, "expected a material name after newmtl, got none"); }
+        if (!names_.insert(name).second) {
+            throw_error_at(path_, line_, fmt::format("expected a new material name, got '{}' again", printable(name)));
+        }
+        materials_.push_back({.name = name});
+    }
+
+    void set_colour(const std::vector<std::string_view>& words, std::string_view line) {
+        if (materials_.empty()) { throw_error_at(path_, line_, "expected newmtl before Kd, got Kd"); }
+        glm::vec3 colour(0.0F);
+        bool good = words.size() == 4;
+        for (int part = 0; good && part < 3; ++part) {
+            const auto value = finite_number(words[static_cast<std::size_t>(part) + 1]);
+            good = value && *value >= 0.0 && *value <= 1.0;
+            colour[part] = good ? static_cast<float>(*value) : 0.0F;
+        }
+        if (!good) {
+            throw_error_at(path_, line_,
+                fmt::format("expected Kd and three numbers 0..1, got '{}'", printable(std::string(line))));
+        }
+        materials_.back().colour = colour;
+    }
+
+    std::filesystem::path path_;
+    std::vector<Material> materials_;
+    std::set<std::string> names_;
+    int line_ = 0;
+};
+
+} // namespace
+
+std::vector<Material> read_mtl(const std::filesystem::path& path) { return MtlReading(path).read(); }
+
+std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, largest_mtl_bytes);
+    std::map<std::string, std::string> pictures;
+    std::string material;
+    for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
+        const auto words = split_words(line);
+        if (!words.empty() && words[0] == "newmtl") {
+            material = std::string(after_first_word(line));
+        } else if (words.size() >= 2 && words[0] == "map_Kd") {
+            const bool has_options = words[1].starts_with('-'); // else the name may have blanks
+            pictures.insert_or_assign(material, std::string(has_options ? words.back() : after_first_word(line)));
+        }
+    }
+    return pictures;
+}
+
+std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, largest_mtl_bytes);
+    std::map<std::string, float> by_d;
+    std::map<std::string, float> all; // by Tr at first
+    std::string material;
+    for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
+        const auto words = split_words(line);
+        if (!words.empty() && words[0] == "newmtl") { material = std::string(after_first_word(line)); }
+        const auto value = words.size() == 2 ? finite_number(words[1]) : std::nullopt;
+        if (!value || *value < 0.0 || *value > 1.0) { continue; }
+        if (words[0] == "d") {
+            by_d.insert_or_assign(material, static_cast<float>(*value));
+        } else if (words[0] == "Tr" && *value < 1.0) {
+            all.insert_or_assign(material, 1.0F - static_cast<float>(*value));
+        }
+    }
+    for (const auto& [name, opacity] : by_d) { all.insert_or_assign(name, opacity); }
+    std::erase_if(all, [](const auto& one) { return one.second >= 1.0F; });
+    return all;
+}
+
+namespace {
+
+/// The number of polygons of a file that PolygonModel::notes names; one more note counts the others.
 constexpr std::size_t max_notes_of_cuts = 10;
+
+/// A comment of an OBJ file that makes a part rotate: # pivot NAME X Y Z axis AX AY AZ [rpm N]
+struct PivotLine {
+    std::string part;
+    Pivot pivot; ///< in body axes; Pivot::part is not set
+    int line = 0;
+};
+
+/// Reads a comment; nothing if it does not begin with "# pivot" or lacks the word axis. Throws Error "file:line: ...".
+std::optional<PivotLine> pivot_line(
+    std::string_view comment, const FileAxes& axes, const std::filesystem::path& path, int line) {
+    const auto words = split_words(comment);
+    const bool pivot =
+        words.size() > 2 && words[0] == "#" && words[1] == "pivot" && std::ranges::find(words, "axis") != words.end();
+    if (!pivot) { return std::nullopt; }
+    const auto refuse = [&](std::string_view expected) {
+        throw_error_at(path, line, fmt::format("expected {}, got '{}'", expected, printable(std::string(comment))));
+    };
+    const bool has_rate = words.size() == 12 && words[10] == "rpm";
+    if ((words.size() != 10 && !has_rate) || words[6] != "axis") { refuse("# pivot NAME X Y Z axis AX AY AZ [rpm N]"); }
+    const auto number = [&](std::size_t word) { return obj_number(words[word], path, line); };
+    PivotLine read{.part = std::string(words[2]), .pivot = {}, .line = line};
+    read.pivot.point_m = axes.body_from_file({number(3), number(4), number(5)});
+    const glm::dvec3 axis = axes.body_from_file({number(7), number(8), number(9)});
+    const double length = glm::length(axis);
+    if (length < 1e-6) { refuse("an axis with a length"); }
+    // A unit vector stays as written, bit for bit.
+    read.pivot.axis = std::abs(length - 1.0) < 1e-14 ? axis : axis / length;
+    read.pivot.turns_per_s = has_rate ? number(11) / 60.0 : 0.0;
+    return read;
+}
 
 using CornerVertices = std::vector<std::uint32_t>;
 
@@ -141,13 +335,11 @@ private:
     std::size_t changed_polygons_ = 0;
 };
 
-/// Makes all polygons of a model that was read from a file convex and planar within flatness_tolerance_m. A dented or
-/// bent one is replaced, where it stands, by its convex_pieces; then model.parents is filled and model.notes says
-/// "file:line: polygon of N corners is dented|bent: cut into K". One that meets itself, as around a hole, becomes
-/// triangles by triangulate_polygon, one without an area is left out; corners in the place of the one before do not
-/// count. Notes say so. `lines` are the polygons' lines in the file.
-///
-/// Throws Error "file: expected ..., got ..." when no polygon is left.
+/// Makes all polygons of a model from a file convex and planar within flatness_tolerance_m. Replaces a concave or bent
+/// polygon by its convex_pieces, fills model.parents and adds the note "file:line: polygon of N corners is dented|bent:
+/// cut into K". A self-intersecting polygon, for example around a hole, becomes triangles (triangulate_polygon), a
+/// polygon without an area is left out, and repeated corners are removed, each with a note. `lines` are the polygons'
+/// lines in the file. Throws Error "file: expected ..., got ..." if no polygon is left.
 void triangulate_faulty_polygons(PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines) {
     assert(lines.size() == model.polygons.size());
     PolygonCutting(model, path, lines).cut();

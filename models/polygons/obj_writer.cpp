@@ -1,16 +1,43 @@
 #include "models/polygons/obj_writer.h"
 
-#include "models/polygons/obj_pivots.h"
 #include "sim/base/format_once.h"
 #include "sim/base/output_file.h"
 
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 namespace octant::models::polygons {
 
 namespace {
+
+constexpr double seconds_per_minute = 60.0;
+
+/// Returns the turns per minute that the reader converts back to exactly this rate, if that number exists.
+double rpm_of(double turns_per_s) {
+    const double rpm = turns_per_s * seconds_per_minute;
+    for (const double towards : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}) {
+        const double neighbour = std::nextafter(rpm, towards);
+        if (rpm / seconds_per_minute != turns_per_s && neighbour / seconds_per_minute == turns_per_s) {
+            return neighbour;
+        }
+    }
+    return rpm;
+}
+
+/// Returns the pivot comment of a part, with a line end. The reader gets back the same pivot bit for bit if the pivot
+/// came from a file; other rates up to rounding.
+std::string pivot_text(const Pivot& pivot, std::string_view part, const FileAxes& axes) {
+    const glm::dvec3 point = axes.file_from_body(pivot.point_m);
+    const glm::dvec3 axis = axes.file_from_body(pivot.axis);
+    std::string text =
+        fmt::format("# pivot {} {} {} {} axis {} {} {}", part, point.x, point.y, point.z, axis.x, axis.y, axis.z);
+    if (pivot.turns_per_s != 0.0) { text += fmt::format(" rpm {}", rpm_of(pivot.turns_per_s)); }
+    return text + '\n';
+}
 
 std::string mtl_text(const PolygonModel& model) {
     std::string text;

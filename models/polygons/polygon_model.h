@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/material.h"
+#include "models/triangle_mesh.h"
 #include "sim/base/plane.h"
 
 #include <glm/vec3.hpp>
@@ -13,8 +14,8 @@
 
 namespace octant::models::polygons {
 
-/// A convex planar polygon seen from its front side only: its corners run counter-clockwise seen from there. `corners`
-/// is a range of PolygonModel::corner_vertices.
+/// A convex planar polygon, visible from its front side only, where its corners run counter-clockwise. Its corners are
+/// a range of PolygonModel::corner_vertices.
 struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0; ///< at least 3
@@ -22,16 +23,16 @@ struct Polygon {
     std::uint32_t part = 0;         ///< index into PolygonModel::parts
 };
 
-/// A part that turns about an axis of its own: a rotor, a propeller.
+/// The axis of a part that rotates: a rotor or a propeller.
 struct Pivot {
     std::uint32_t part = 0;  ///< index into PolygonModel::parts
     glm::dvec3 point_m{0.0}; ///< a point of the axis, body axes
     /// Unit vector along the axis, body axes; positive turns follow the right-hand rule.
     glm::dvec3 axis{0.0, 0.0, 1.0};
-    double turns_per_s = 0.0; ///< how fast it turns in flight; the file shows it at angle 0
+    double turns_per_s = 0.0; ///< in flight; the vertices are at angle 0
 };
 
-/// A polygon model with its n-gons kept, in body axes: x forward, y right, z down, metres.
+/// A model of convex polygons in body axes: x forward, y right, z down, metres.
 struct PolygonModel {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
@@ -40,9 +41,9 @@ struct PolygonModel {
     std::vector<Material> materials;            ///< at least one
     std::vector<std::string> parts;             ///< OBJ groups in file order, at least one
     std::vector<Pivot> pivots;                  ///< at most one for each part
-    /// Polygon of the file of which each polygon is a piece; empty: each is whole.
+    /// For each polygon the index of the file's polygon of which it is a piece; empty where none was cut.
     std::vector<std::uint32_t> parents;
-    std::vector<std::string> notes; ///< what its file lacks, each "file:line: ..."; often none
+    std::vector<std::string> notes; ///< what the reader guessed or left out, each "file:line: ..."
 
     std::uint32_t parent_of(std::size_t polygon) const {
         return parents.empty() ? static_cast<std::uint32_t>(polygon) : parents[polygon];
@@ -55,20 +56,54 @@ struct PolygonModel {
     }
 };
 
-/// Unit normal of a polygon, pointing to the side from which it is seen (Newell's sum, so that no single corner
-/// decides).
+/// Unit normal of a polygon towards its front side, by Newell's method.
 glm::dvec3 normal_of(const PolygonModel& model, std::size_t polygon);
 
-/// The plane of a polygon through the middle of its corners; its front is where it is seen from.
+/// The plane of a polygon through the mean of its corners; its front is the polygon's front.
 Plane plane_of(const PolygonModel& model, std::size_t polygon);
 
-/// Index into PolygonModel::pivots of the pivot that turns a polygon; nothing for a fixed one.
+/// Index into PolygonModel::pivots of the pivot that rotates a polygon; nothing for a fixed polygon.
 std::optional<std::uint32_t> pivot_of(const PolygonModel& model, std::size_t polygon);
 
-/// Where a point (body axes, file position) of a part lies once the part has turned.
+/// The position of a point of a rotating part (body axes, given at angle 0) after a rotation by `angle_rad`.
 glm::dvec3 turned(const Pivot& pivot, const glm::dvec3& point_m, double angle_rad);
 
-/// Radius of the smallest sphere around the origin that holds all vertices, metres.
+/// Radius of the smallest sphere around the origin that contains all vertices, metres.
 double radius_m(const PolygonModel& model);
+
+/// Converts each triangle of a mesh to a polygon. The model has one part, and one material for all colours that differ
+/// by less than 1/31.
+PolygonModel polygons_from_mesh(const TriangleMesh& mesh);
+
+/// Cuts the polygons into triangle fans without colours, for the measurement of distances.
+TriangleMesh mesh_from_polygons(const PolygonModel& polygons);
+
+/// Returns the indices of a model's polygons, ascending, without those that a later polygon repeats: the same corner
+/// positions, the same front side and the same pivot. Of two equal polygons the later one in the file must be visible.
+/// A depth buffer cannot decide between them, so the earlier one must not be drawn.
+std::vector<std::uint32_t> distinct_polygons(const PolygonModel& model);
+
+/// Returns the distance, metres, that a corner may have from its polygon's plane or from an edge's line before the
+/// polygon counts as bent or concave: 1e-4 of the diameter of the sphere about the mean of all vertices that contains
+/// them. Rotations do not change it. Files with four digits stay within it; a larger error would be visible.
+double flatness_tolerance_m(const PolygonModel& model);
+
+/// Returns the first fault of a polygon as "expected ..., got ..."; nothing for a valid polygon. Checks in this order:
+/// two corners at one position, no area, corners off the plane of Newell's normal through their mean, corners outside
+/// the line of an edge (concave polygons and stars). Corners inside a straight side are allowed. The polygon must have
+/// at least 3 corners, all finite. Messages number the corners from 1.
+std::optional<std::string> polygon_fault(const PolygonModel& model, std::size_t polygon, double tolerance_m);
+
+/// As polygon_fault, for a polygon given by its corners.
+std::optional<std::string> corners_fault(std::span<const glm::dvec3> corners_m, double tolerance_m);
+
+/// Returns the fault of corners that cannot be cut into convex planar pieces: two corners at one position, or no area.
+std::optional<std::string> outline_fault(std::span<const glm::dvec3> corners_m);
+
+/// True when all corners lie on one line or at one position.
+bool is_line(std::span<const glm::dvec3> corners_m);
+
+/// True when all corners lie on the plane of Newell's normal through their mean.
+bool is_planar(std::span<const glm::dvec3> corners_m, double tolerance_m);
 
 } // namespace octant::models::polygons

@@ -2,8 +2,6 @@
 
 #include "models/mesh_edges.h"
 #include "models/repair/consistent_orientation.h"
-#include "models/repair/edge_joints.h"
-#include "models/repair/vertex_welding.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/common.hpp>
@@ -11,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -25,6 +24,160 @@
 #include <vector>
 
 namespace octant::models::repair {
+
+namespace {
+
+constexpr double behind = 1e-5; ///< of the diagonal
+
+/// The triangles by the first vertex at each place.
+std::vector<Triangle> welded(const TriangleMesh& mesh, std::span<const std::uint32_t> firsts) {
+    std::vector<Triangle> triangles = mesh.triangles;
+    for (Triangle& triangle : triangles) {
+        for (std::uint32_t& vertex : triangle) { vertex = firsts[vertex]; }
+    }
+    return triangles;
+}
+
+/// For each vertex whether its connected piece has an edge of one triangle only.
+std::vector<bool> in_open_piece(std::span<const Triangle> triangles, std::size_t vertices) {
+    DisjointSets pieces(vertices);
+    for (const Triangle& triangle : triangles) {
+        pieces.join(triangle[0], triangle[1]);
+        pieces.join(triangle[0], triangle[2]);
+    }
+    std::vector<bool> is_open(vertices, false);
+    const std::vector<TriangleEdge> sides = sorted_triangle_edges(triangles);
+    for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
+        if (edge.size() == 1 && edge[0].least != edge[0].most) { is_open[pieces.group_of(edge[0].least)] = true; }
+    });
+    for (std::uint32_t v = 0; v < vertices; ++v) { is_open[v] = is_open[pieces.group_of(v)]; }
+    return is_open;
+}
+
+class Backs {
+public:
+    Backs(TriangleMesh& mesh, std::vector<glm::dvec3> fronts)
+        : mesh_(mesh), fronts_(std::move(fronts)), behind_m_(behind * diagonal_m(mesh)),
+          backs_(mesh.vertices_m.size(), invalid_index), normals_(mesh.normals.size(), invalid_index) {}
+
+    void add(std::size_t t) {
+        const Triangle front = mesh_.triangles[t];
+        mesh_.triangles.push_back({back_of(front[0]), back_of(front[2]), back_of(front[1])});
+        if (!mesh_.corner_normals.empty()) {
+            const Triangle normals = mesh_.corner_normals[t];
+            mesh_.corner_normals.push_back({turned(normals[0]), turned(normals[2]), turned(normals[1])});
+        }
+        if (!mesh_.corner_texture_coordinates.empty()) {
+            const auto [a, b, c] = mesh_.corner_texture_coordinates[t];
+            mesh_.corner_texture_coordinates.push_back({a, c, b});
+        }
+        if (!mesh_.triangle_materials.empty()) {
+            mesh_.triangle_materials.push_back(std::uint32_t{mesh_.triangle_materials[t]});
+        }
+    }
+
+private:
+    std::uint32_t back_of(std::uint32_t vertex) {
+        if (backs_[vertex] == invalid_index) {
+            backs_[vertex] = static_cast<std::uint32_t>(mesh_.vertices_m.size());
+            const double length = glm::length(fronts_[vertex]);
+            const glm::dvec3 off_m = length > 0.0 ? fronts_[vertex] * (behind_m_ / length) : glm::dvec3(behind_m_);
+            mesh_.vertices_m.push_back(mesh_.vertices_m[vertex] - off_m);
+            if (!mesh_.colours.empty()) { mesh_.colours.push_back(glm::vec3(mesh_.colours[vertex])); }
+        }
+        return backs_[vertex];
+    }
+
+    std::uint32_t turned(std::uint32_t normal) {
+        if (normals_[normal] == invalid_index) {
+            normals_[normal] = static_cast<std::uint32_t>(mesh_.normals.size());
+            mesh_.normals.push_back(-mesh_.normals[normal]);
+        }
+        return normals_[normal];
+    }
+
+    TriangleMesh& mesh_;
+    std::vector<glm::dvec3> fronts_; ///< of each vertex, the sum of the area vectors around it
+    double behind_m_;
+    std::vector<std::uint32_t> backs_;
+    std::vector<std::uint32_t> normals_;
+};
+
+} // namespace
+
+std::size_t add_back_faces(TriangleMesh& mesh, const std::vector<bool>& two_sided) {
+    const std::size_t count = mesh.triangles.size();
+    const std::vector<std::uint32_t> firsts =
+        first_duplicates(mesh.vertices_m, {}, std::vector<bool>(mesh.vertices_m.size(), true));
+    const std::vector<Triangle> triangles = welded(mesh, firsts);
+    const std::vector<bool> is_open = in_open_piece(triangles, mesh.vertices_m.size());
+    std::vector<glm::dvec3> sums(mesh.vertices_m.size(), glm::dvec3(0.0));
+    for (std::size_t t = 0; t < count; ++t) {
+        for (const std::uint32_t vertex : triangles[t]) { sums[vertex] += area_vector(mesh, triangles[t]); }
+    }
+    for (std::size_t v = 0; v < sums.size(); ++v) { sums[v] = sums[firsts[v]]; }
+    Backs backs(mesh, std::move(sums));
+    for (std::size_t t = 0; t < count; ++t) {
+        if (two_sided[t] && is_open[triangles[t][0]]) { backs.add(t); }
+    }
+    return mesh.triangles.size() - count;
+}
+
+namespace {
+
+struct Key {
+    std::array<std::uint64_t, 3> place{};
+    std::array<std::uint32_t, 3> colour{};
+
+    bool operator==(const Key&) const = default;
+};
+
+struct KeyHash {
+    std::size_t operator()(const Key& key) const {
+        std::uint64_t hash = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            hash = (hash ^ key.place[k]) * 0x9e3779b97f4a7c15ULL;
+            hash ^= hash >> 29U;
+            hash = (hash ^ key.colour[k]) * 0xbf58476d1ce4e5b9ULL;
+            hash ^= hash >> 32U;
+        }
+        return hash;
+    }
+};
+
+} // namespace
+
+std::vector<std::uint32_t> first_duplicates(
+    std::span<const glm::dvec3> vertices_m, std::span<const glm::vec3> colours, const std::vector<bool>& used) {
+    std::unordered_map<Key, std::uint32_t, KeyHash> first_of;
+    first_of.reserve(vertices_m.size());
+    std::vector<std::uint32_t> firsts(vertices_m.size(), invalid_index);
+    for (std::uint32_t v = 0; v < firsts.size(); ++v) {
+        if (!used[v]) { continue; }
+        Key key;
+        for (int k = 0; k < 3; ++k) {
+            const auto part = static_cast<std::size_t>(k);
+            key.place[part] = std::bit_cast<std::uint64_t>(vertices_m[v][k] + 0.0); // -0 + 0 is 0
+            if (!colours.empty()) { key.colour[part] = std::bit_cast<std::uint32_t>(colours[v][k] + 0.0F); }
+        }
+        firsts[v] = first_of.try_emplace(key, v).first->second;
+    }
+    return firsts;
+}
+
+void average_colours(std::vector<glm::vec3>& colours, std::span<const std::uint32_t> welded) {
+    std::vector<glm::vec3> sums(colours.size(), glm::vec3(0.0F));
+    std::vector<std::uint32_t> counts(colours.size(), 0);
+    for (std::uint32_t v = 0; v < colours.size(); ++v) {
+        if (welded[v] != invalid_index) {
+            sums[welded[v]] += colours[v];
+            ++counts[welded[v]];
+        }
+    }
+    for (std::uint32_t v = 0; v < colours.size(); ++v) {
+        if (counts[v] > 1) { colours[v] = sums[v] / static_cast<float>(counts[v]); }
+    }
+}
 
 std::vector<std::string> describe_counts(const RepairCounts& counts) {
     std::vector<std::string> lines;
@@ -420,9 +573,9 @@ private:
         turn_triangles();
     }
 
-    /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere, so that a side would
-    /// come twice: then a pair of triangles is divided at the middle of the side, so that nothing opens, and a triangle
-    /// without a neighbour there stays apart.
+    /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere, which would
+    /// duplicate a side. Then a pair of triangles is split at the middle of the side, so that the mesh stays closed,
+    /// and a triangle without a neighbour there stays separate.
     void join_fans() {
         is_apart_.assign(mesh_.triangles.size(), false);
         const std::size_t split_before = counts_.split_edges;

@@ -2,8 +2,8 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/level_chain.h"
-#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/polygons/obj_reader.h"
 #include "models/repair/repair.h"
 #include "models/simplify/attribute_seams.h"

@@ -28,7 +28,7 @@ struct MaterialSurface {
     bool two_sided = false;
 };
 
-/// A picture inside the file, else one beside it.
+/// Loads a surface's embedded picture or picture file.
 std::uint32_t picture_of(const aiScene& scene, const aiMaterial& from, MeshBuilder& mesh) {
     aiString name;
     if (from.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&
@@ -44,7 +44,7 @@ std::uint32_t picture_of(const aiScene& scene, const aiMaterial& from, MeshBuild
         name.C_Str(), std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
 }
 
-/// The file of a picture beside the mesh; empty where it has none or the picture stands in the mesh's file.
+/// Returns the path of a surface's picture file; empty if there is none or the picture is embedded.
 std::string picture_file_of(const aiScene& scene, const aiMaterial& from, const std::filesystem::path& mesh_file) {
     aiString name;
     if ((from.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&

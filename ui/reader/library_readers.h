@@ -6,14 +6,15 @@
 
 namespace octant::ui::reader {
 
-// The libraries' readers: each adds all polygons of a file to a builder, nodes placed, in the file's own axes, with
-// materials, normals and pictures. They run in a process of their own, which a fault of theirs may end. They throw
-// Error where the library refuses the file.
+// Each reader adds all polygons of a file to a builder, with node transforms applied, in the file's axes, with
+// materials, normals and pictures. Readers run in a separate process, because a library may crash. They throw Error if
+// the library refuses the file.
 
 /// By Assimp: FBX, Collada, 3DS, LightWave, DirectX and others.
 void read_by_assimp(const std::filesystem::path& file, models::meshfile::MeshBuilder& mesh);
 
-/// By OpenSceneGraph: OpenFlight and its own formats. Of levels of detail the finest, of switches what is on.
+/// By OpenSceneGraph: OpenFlight and its own formats. Reads the finest level of detail and the active children of
+/// switches.
 void read_by_osg(const std::filesystem::path& file, models::meshfile::MeshBuilder& mesh);
 
 } // namespace octant::ui::reader

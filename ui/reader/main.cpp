@@ -1,6 +1,6 @@
 // octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as OBJ, which holds all
-// of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It runs beside octant, so that a file which makes the
-// library crash, hang or eat memory ends this program alone.
+// of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It is a separate program because a file may
+// make the library crash, hang or use all memory.
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"

@@ -3,16 +3,164 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/text_file.h"
-#include "ui/window/key_names.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <fmt/format.h>
+#include <span>
 
 namespace octant::ui::window {
+
+namespace {
+
+constexpr std::array default_view_keys{
+    ViewKey{ViewCommand::Cockpit, GLFW_KEY_1, "cockpit", "cockpit view, with head-up display"},
+    ViewKey{ViewCommand::Chase, GLFW_KEY_2, "chase", "chase view"},
+    ViewKey{ViewCommand::Tower, GLFW_KEY_3, "tower", "tower view"},
+    ViewKey{ViewCommand::Orbit, GLFW_KEY_4, "orbit", "orbit view"},
+    ViewKey{ViewCommand::Free, GLFW_KEY_5, "free", "free camera"},
+    ViewKey{ViewCommand::NextInset, GLFW_KEY_I, "second view", "second view in a corner: next one, or none"},
+    ViewKey{ViewCommand::ResetLook, GLFW_KEY_V, "look straight", "look straight again"},
+    ViewKey{ViewCommand::PlayOrPause, GLFW_KEY_SPACE, "play", "play or pause"},
+    ViewKey{ViewCommand::StepFrame, GLFW_KEY_PERIOD, "one frame", "one frame on", true},
+    ViewKey{ViewCommand::Slower, GLFW_KEY_LEFT_BRACKET, "slower", "half as fast", true},
+    ViewKey{ViewCommand::Faster, GLFW_KEY_RIGHT_BRACKET, "faster", "twice as fast", true},
+    ViewKey{ViewCommand::Loop, GLFW_KEY_L, "loop", "begin again at the path's end, or stop there"},
+    ViewKey{ViewCommand::ToBeginning, GLFW_KEY_HOME, "beginning", "back to the beginning"},
+    ViewKey{ViewCommand::Back, GLFW_KEY_COMMA, "back", "two seconds back", true},
+    ViewKey{ViewCommand::Forward, GLFW_KEY_SLASH, "forward", "two seconds on", true},
+    ViewKey{ViewCommand::ManualFlight, GLFW_KEY_H, "by hand", "fly by hand from here, or back to the path"},
+    ViewKey{ViewCommand::LevelOff, GLFW_KEY_T, "level off", "by hand: fly it level, until it is or the stick is moved"},
+    ViewKey{ViewCommand::Record, GLFW_KEY_F9, "record", "start or stop a recording"},
+    ViewKey{ViewCommand::Screenshot, GLFW_KEY_F12, "screenshot", "the picture as PNG, without panels"},
+    ViewKey{ViewCommand::ShowMesh, GLFW_KEY_M, "mesh", "the ground's mesh: edges, levels, or none"},
+    ViewKey{ViewCommand::FullScreen, GLFW_KEY_F11, "full screen", "full screen, or back"},
+    ViewKey{ViewCommand::Panels, GLFW_KEY_TAB, "panels", "hide or show all panels"},
+    ViewKey{ViewCommand::FlightPanel, GLFW_KEY_F2, "flight panel", "panel: path, time, recording"},
+    ViewKey{ViewCommand::TimingPanel, GLFW_KEY_F3, "timing panel", "panel: frame times"},
+    ViewKey{ViewCommand::TerrainPanel, GLFW_KEY_F4, "terrain panel", "panel: terrain"},
+    ViewKey{ViewCommand::DrawOrderPanel, GLFW_KEY_F5, "draw order panel", "panel: draw order"},
+    ViewKey{ViewCommand::AircraftPanel, GLFW_KEY_F6, "aircraft panel", "panel: aircraft"},
+    ViewKey{ViewCommand::ScenePanel, GLFW_KEY_F7, "scene panel", "panel: scene, light, haze"},
+    ViewKey{ViewCommand::SettingsPanel, GLFW_KEY_F8, "settings panel", "panel: every setting, save and load"},
+    ViewKey{ViewCommand::Help, GLFW_KEY_F1, "keys panel", "this help"},
+    ViewKey{ViewCommand::Leave, GLFW_KEY_ESCAPE, "leave", "close the help, or leave"}};
+
+constexpr std::array while_held{HeldKey{HeldAction::Pull, GLFW_KEY_DOWN, "stick back", ""},
+    HeldKey{HeldAction::Push, GLFW_KEY_UP, "stick forward", ""},
+    HeldKey{HeldAction::RollLeft, GLFW_KEY_LEFT, "stick left", ""},
+    HeldKey{HeldAction::RollRight, GLFW_KEY_RIGHT, "stick right", "by hand: stick back, forward, left, right"},
+    HeldKey{HeldAction::ThrottleUp, GLFW_KEY_PAGE_UP, "throttle up", ""},
+    HeldKey{HeldAction::ThrottleDown, GLFW_KEY_PAGE_DOWN, "throttle down", "by hand: throttle, collective"},
+    HeldKey{HeldAction::YawLeft, GLFW_KEY_Z, "rudder left", ""},
+    HeldKey{HeldAction::YawRight, GLFW_KEY_X, "rudder right", "by hand: rudder, pedals"},
+    HeldKey{HeldAction::CameraAhead, GLFW_KEY_W, "camera ahead", ""},
+    HeldKey{HeldAction::CameraBack, GLFW_KEY_S, "camera back", ""},
+    HeldKey{HeldAction::CameraLeft, GLFW_KEY_A, "camera left", ""},
+    HeldKey{HeldAction::CameraRight, GLFW_KEY_D, "camera right", ""},
+    HeldKey{HeldAction::CameraDown, GLFW_KEY_Q, "camera down", ""},
+    HeldKey{HeldAction::CameraUp, GLFW_KEY_E, "camera up", ""},
+    HeldKey{HeldAction::CameraFast, GLFW_KEY_LEFT_SHIFT, "camera fast",
+        "free camera: ahead, back, left, right, down, up; faster"}};
+
+} // namespace
+
+std::span<const ViewKey> view_keys() { return default_view_keys; }
+
+std::span<const HeldKey> held_keys() { return while_held; }
+
+namespace {
+
+struct NamedCode {
+    int number;
+    std::string_view name;
+};
+
+constexpr std::array named_keys{NamedCode{GLFW_KEY_SPACE, "Space"}, NamedCode{GLFW_KEY_APOSTROPHE, "'"},
+    NamedCode{GLFW_KEY_COMMA, ","}, NamedCode{GLFW_KEY_MINUS, "-"}, NamedCode{GLFW_KEY_PERIOD, "."},
+    NamedCode{GLFW_KEY_SLASH, "/"}, NamedCode{GLFW_KEY_SEMICOLON, ";"}, NamedCode{GLFW_KEY_LEFT_BRACKET, "["},
+    NamedCode{GLFW_KEY_BACKSLASH, "\\"}, NamedCode{GLFW_KEY_RIGHT_BRACKET, "]"}, NamedCode{GLFW_KEY_GRAVE_ACCENT, "`"},
+    NamedCode{GLFW_KEY_ESCAPE, "Esc"}, NamedCode{GLFW_KEY_ENTER, "Enter"}, NamedCode{GLFW_KEY_TAB, "Tab"},
+    NamedCode{GLFW_KEY_BACKSPACE, "Backspace"}, NamedCode{GLFW_KEY_INSERT, "Insert"},
+    NamedCode{GLFW_KEY_DELETE, "Delete"}, NamedCode{GLFW_KEY_RIGHT, "Right"}, NamedCode{GLFW_KEY_LEFT, "Left"},
+    NamedCode{GLFW_KEY_DOWN, "Down"}, NamedCode{GLFW_KEY_UP, "Up"}, NamedCode{GLFW_KEY_PAGE_UP, "Page Up"},
+    NamedCode{GLFW_KEY_PAGE_DOWN, "Page Down"}, NamedCode{GLFW_KEY_HOME, "Home"}, NamedCode{GLFW_KEY_END, "End"},
+    NamedCode{GLFW_KEY_PAUSE, "Pause"}, NamedCode{GLFW_KEY_LEFT_SHIFT, "Shift"},
+    NamedCode{GLFW_KEY_RIGHT_SHIFT, "Right Shift"}, NamedCode{GLFW_KEY_LEFT_CONTROL, "Ctrl"},
+    NamedCode{GLFW_KEY_RIGHT_CONTROL, "Right Ctrl"}, NamedCode{GLFW_KEY_LEFT_ALT, "Alt"},
+    NamedCode{GLFW_KEY_RIGHT_ALT, "Right Alt"}, NamedCode{GLFW_KEY_KP_ADD, "Keypad +"},
+    NamedCode{GLFW_KEY_KP_SUBTRACT, "Keypad -"}, NamedCode{GLFW_KEY_KP_ENTER, "Keypad Enter"}};
+
+constexpr std::array buttons{NamedCode{GLFW_MOUSE_BUTTON_LEFT, "left"}, NamedCode{GLFW_MOUSE_BUTTON_RIGHT, "right"},
+    NamedCode{GLFW_MOUSE_BUTTON_MIDDLE, "middle"}};
+
+constexpr std::array pad_buttons{NamedCode{GLFW_GAMEPAD_BUTTON_A, "a"}, NamedCode{GLFW_GAMEPAD_BUTTON_B, "b"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_X, "x"}, NamedCode{GLFW_GAMEPAD_BUTTON_Y, "y"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "left bumper"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "right bumper"}, NamedCode{GLFW_GAMEPAD_BUTTON_BACK, "back"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_START, "start"}, NamedCode{GLFW_GAMEPAD_BUTTON_GUIDE, "guide"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_LEFT_THUMB, "left stick"}, NamedCode{GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, "right stick"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_UP, "up"}, NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "right"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "down"}, NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "left"}};
+
+constexpr std::array axis_names{NamedCode{GLFW_GAMEPAD_AXIS_LEFT_X, "left x"},
+    NamedCode{GLFW_GAMEPAD_AXIS_LEFT_Y, "left y"}, NamedCode{GLFW_GAMEPAD_AXIS_RIGHT_X, "right x"},
+    NamedCode{GLFW_GAMEPAD_AXIS_RIGHT_Y, "right y"}, NamedCode{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, "left trigger"},
+    NamedCode{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER, "right trigger"}};
+
+bool same_letters(std::string_view a, std::string_view b) {
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::ranges::equal(a, b, {}, small, small);
+}
+
+std::string name_in(std::span<const NamedCode> table, int number) {
+    const auto found = std::ranges::find(table, number, &NamedCode::number);
+    return found == table.end() ? std::string() : std::string(found->name);
+}
+
+std::optional<int> number_in(std::span<const NamedCode> table, std::string_view name) {
+    const auto found =
+        std::ranges::find_if(table, [name](const NamedCode& each) { return same_letters(each.name, name); });
+    return found == table.end() ? std::nullopt : std::optional(found->number);
+}
+
+constexpr bool is_letter_or_digit(int key) {
+    return (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9);
+}
+
+} // namespace
+
+std::string name_of_key(int key) {
+    if (is_letter_or_digit(key)) {
+        return std::string(1, static_cast<char>(key)); // GLFW numbers them as ASCII does
+    }
+    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25) { return "F" + std::to_string(key - GLFW_KEY_F1 + 1); }
+    return name_in(named_keys, key);
+}
+
+std::optional<int> key_of_name(std::string_view name) {
+    for (int key = GLFW_KEY_0; key <= GLFW_KEY_F25; ++key) {
+        const std::string each = name_of_key(key);
+        if (!each.empty() && same_letters(each, name)) { return key; }
+    }
+    return number_in(named_keys, name);
+}
+
+std::string name_of_button(int button) { return name_in(buttons, button); }
+
+std::optional<int> button_of_name(std::string_view name) { return number_in(buttons, name); }
+
+std::string name_of_axis(int axis) { return name_in(axis_names, axis); }
+
+std::optional<int> axis_of_name(std::string_view name) { return number_in(axis_names, name); }
+
+std::string name_of_pad_button(int button) { return name_in(pad_buttons, button); }
+
+std::optional<int> pad_button_of_name(std::string_view name) { return number_in(pad_buttons, name); }
 
 namespace {
 

@@ -1,26 +1,97 @@
 #include "ui/window/setting_widgets.h"
 
 #include "sim/base/error.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/window/panel_widgets.h"
-#include "ui/window/setting_style.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <type_traits>
 #include <utility>
 
 namespace octant::ui::window {
 
+std::vector<std::string> with_aircraft_count(std::vector<std::string> aircraft, int count) {
+    const std::string first = settings::aircraft_shape(aircraft.front());
+    aircraft.resize(static_cast<std::size_t>(std::max(count, 1)), first);
+    return aircraft;
+}
+
+std::vector<std::string> with_lead_aircraft(std::vector<std::string> aircraft, const std::string& leader) {
+    const std::string before = aircraft.front();
+    std::ranges::replace(aircraft, before, leader);
+    return aircraft;
+}
+
+namespace {
+
+constexpr double three_decades = 1000.0;
+
+bool is_wide(const settings::FieldInfo& info) {
+    const double smallest = info.min_value > 0.0 ? info.min_value : 1.0;
+    return info.max_value / smallest >= three_decades;
+}
+
+} // namespace
+
+NumberStyle number_style(const settings::SettingInfo& info) {
+    if (info.change >= settings::SettingsChange::World) { return NumberStyle::Typed; }
+    if (info.min_value < 0.0) {
+        return info.max_value - info.min_value > three_decades ? NumberStyle::Drag : NumberStyle::Slider;
+    }
+    return is_wide(info) ? NumberStyle::LogSlider : NumberStyle::Slider;
+}
+
+double start_value(const settings::SettingInfo& info) { return std::clamp(info.start, info.min_value, info.max_value); }
+
+std::string_view unset_meaning(const settings::FieldInfo& info) {
+    const std::size_t from = info.meaning.rfind('[');
+    const std::size_t to = info.meaning.rfind(']');
+    if (from == std::string_view::npos || to == std::string_view::npos || to < from) { return {}; }
+    return info.meaning.substr(from + 1, to - from - 1);
+}
+
+std::string_view unset_word(const settings::FieldInfo& info) {
+    const std::string_view meaning = unset_meaning(info);
+    return meaning.empty() || meaning == "none" ? "none" : "auto";
+}
+
+std::string tooltip_of(const settings::FieldInfo& info) {
+    std::string text = fmt::format("{}\n--{}", info.meaning, info.name);
+    if (!info.form.empty()) { text += fmt::format(" {}", info.form); }
+    if (info.min_value < info.max_value) { text += fmt::format(", {} to {}", info.min_value, info.max_value); }
+    return text;
+}
+
+std::string comma_separated(std::span<const std::string> names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+std::vector<std::string> split_at_commas(std::string_view text) {
+    std::vector<std::string> names;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(','), text.size());
+        const std::string_view field = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const std::size_t from = field.find_first_not_of(' ');
+        if (from != std::string_view::npos) {
+            names.emplace_back(field.substr(from, field.find_last_not_of(' ') - from + 1));
+        }
+    }
+    return names;
+}
+
 using settings::RunSettings;
 
 namespace {
 
-/// Makes the name of a setting beside the widget of its value, which is made while this object lives. Both show what
-/// the setting means as a tooltip.
+/// Makes the row of a setting: the widget of its value, made while this object lives, then its name. Both show the
+/// meaning of the setting as a tooltip.
 class Row {
 public:
     explicit Row(const settings::SettingInfo& info) : info_(info) {
@@ -293,6 +364,20 @@ void edit_group(RunSettings& settings, settings::SettingGroup group) {
     settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
         if (info.group == group) { row(info, value); }
     });
+}
+
+void count_slider(std::vector<std::string>& aircraft) {
+    constexpr int most = 100;
+    const int count = static_cast<int>(aircraft.size());
+    int& wanted_count = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wanted count"), count);
+    ImGui::SetNextItemWidth(value_width());
+    ImGui::SliderInt("aircraft", &wanted_count, 1, std::max(most, count), "%d", ImGuiSliderFlags_AlwaysClamp);
+    show_tooltip_on_hover("the leader and wingmen of the same kind beside it");
+    if (ImGui::IsItemDeactivatedAfterEdit()) {
+        aircraft = with_aircraft_count(std::move(aircraft), wanted_count);
+    } else if (!ImGui::IsItemActive()) {
+        wanted_count = count;
+    }
 }
 
 } // namespace octant::ui::window

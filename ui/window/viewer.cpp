@@ -1,12 +1,24 @@
+// What the viewer reads and writes for a person: the places of panels, keys, settings.
 #include "ui/window/viewer.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/base/progress.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/flight/id_comparison.h"
 #include "ui/flight/make_renderer.h"
+#include "ui/report/png_file.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_change.h"
+#include "ui/settings/settings_file.h"
 #include "ui/window/camera_control.h"
 #include "ui/window/gui.h"
+#include "ui/window/key_map.h"
 #include "ui/window/panels.h"
+#include "ui/world/input_files.h"
 #include "ui/world/sun_at_time.h"
 #include "visuals/gl/make_renderer.h"
 #include "visuals/gl/picture_painter.h"
@@ -16,11 +28,18 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <exception>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
+
+// A viewer's recordings: of a path, of a flight by hand and of what others fly.
+
+// A viewer whose aircraft others fly.
 
 namespace octant::ui::window {
 
@@ -290,6 +309,417 @@ void Viewer::wait_for_display(double turn_began_s) const {
     if (!state_.vsync) { return; }
     const double left_s = 1.0 / refresh_hz_ - (clock_.s() - turn_began_s);
     if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double skip_s = 2.0;
+
+void next_inset(settings::RunSettings& settings) {
+    using scene::View;
+    constexpr std::array<std::optional<View>, 4> turns{std::nullopt, View::Chase, View::Cockpit, View::Tower};
+    const auto at = std::ranges::find(turns, settings.view.inset);
+    settings.view.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
+}
+
+void next_mesh_look(settings::RunSettings& settings) {
+    using scene::MeshDisplay;
+    settings.ground.show_mesh = settings.ground.show_mesh == MeshDisplay::None    ? MeshDisplay::Edges
+                                : settings.ground.show_mesh == MeshDisplay::Edges ? MeshDisplay::Levels
+                                                                                  : MeshDisplay::None;
+}
+
+} // namespace
+
+void Viewer::press(const WindowEvents::Key& key) {
+    if (const auto what = state_.keys.command_of(key.key, key.repeats)) { command(*what); }
+}
+
+/// Whoever uses a key has begun: the first steps no longer cover the picture.
+void Viewer::command(ViewCommand what) {
+    state_.open.first_steps = false;
+    if (!view_command(what) && !panel_command(what)) { flight_command(what); }
+}
+
+/// Carries out a command that changes the view. Returns false for any other command.
+bool Viewer::view_command(ViewCommand what) {
+    using C = ViewCommand;
+    using scene::View;
+    constexpr std::array<std::pair<C, View>, 5> views{{{C::Cockpit, View::Cockpit}, {C::Chase, View::Chase},
+        {C::Tower, View::Tower}, {C::Orbit, View::Orbit}, {C::Free, View::Free}}};
+    const auto view = std::ranges::find(views, what, &std::pair<C, View>::first);
+    if (view != views.end()) {
+        state_.next_settings = with_view(state_.next_settings, view->second, session_->camera());
+    } else if (what == C::NextInset) {
+        next_inset(state_.next_settings);
+    } else if (what == C::ResetLook) {
+        state_.next_settings = with_straight_look(state_.next_settings);
+    } else if (what == C::ShowMesh) {
+        next_mesh_look(state_.next_settings);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// Carries out a command that opens or closes panels. Returns false for any other command.
+bool Viewer::panel_command(ViewCommand what) {
+    using C = ViewCommand;
+    constexpr std::array<std::pair<C, bool OpenPanels::*>, 8> panels{{{C::FlightPanel, &OpenPanels::flight},
+        {C::TimingPanel, &OpenPanels::timing}, {C::TerrainPanel, &OpenPanels::terrain},
+        {C::DrawOrderPanel, &OpenPanels::draw_order}, {C::AircraftPanel, &OpenPanels::aircraft},
+        {C::ScenePanel, &OpenPanels::scene}, {C::SettingsPanel, &OpenPanels::settings}, {C::Help, &OpenPanels::help}}};
+    OpenPanels& open = state_.open;
+    const auto panel = std::ranges::find(panels, what, &std::pair<C, bool OpenPanels::*>::first);
+    if (panel != panels.end()) {
+        bool& is_open = open.*panel->second;
+        is_open = !(is_open && open.shown);
+        open.shown = open.shown || is_open;
+    } else if (what == C::Panels) {
+        open.shown = !open.shown;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void Viewer::flight_command(ViewCommand what) {
+    using C = ViewCommand;
+    Playback& playback = state_.playback;
+    ViewRequests& requests = state_.requests;
+    const bool at_the_end = playback.time_s >= playback.end_s && !session_->simulation().by_hand();
+    switch (what) {
+    case C::PlayOrPause:
+        playback.playing = !playback.playing;
+        if (playback.playing && at_the_end) { requests.go_to_s = playback.begin_s; }
+        return;
+    case C::StepFrame:
+        requests.step_frame = true;
+        return;
+    case C::Slower:
+        return playback.change_speed(-1);
+    case C::Faster:
+        return playback.change_speed(1);
+    case C::Loop:
+        playback.loops = !playback.loops;
+        return;
+    case C::ToBeginning:
+        requests.go_to_s = playback.begin_s;
+        return;
+    case C::Back:
+        requests.go_to_s = playback.time_s - skip_s;
+        return;
+    case C::Forward:
+        requests.go_to_s = playback.time_s + skip_s;
+        return;
+    case C::ManualFlight:
+        requests.toggle_manual_flight = true;
+        return;
+    case C::LevelOff:
+        requests.level_off = true;
+        return;
+    case C::Record:
+        requests.toggle_recording = true;
+        return;
+    case C::Screenshot:
+        requests.screenshot = true;
+        return;
+    case C::FullScreen:
+        requests.toggle_full_screen = true;
+        return;
+    case C::Leave:
+        requests.leave = !std::exchange(state_.open.leave_question, false) && !std::exchange(state_.open.help, false);
+        return;
+    default:
+        return;
+    }
+}
+
+void Viewer::handle_requests() {
+    const ViewRequests requests = std::exchange(state_.requests, ViewRequests());
+    state_.requests.leave = requests.leave;
+    state_.requests.leave_recording = requests.leave_recording;
+    handle_flight_requests(requests);
+    if (requests.toggle_recording) { toggle_recording(); }
+    if (requests.screenshot) { take_screenshot(); }
+    if (requests.toggle_full_screen) { toggle_full_screen(); }
+    if (requests.count_wrong_pixels) { count_wrong_pixels(); }
+    handle_file_requests(requests);
+}
+
+void Viewer::handle_flight_requests(const ViewRequests& requests) {
+    if (listener_) {
+        if (requests.toggle_manual_flight || requests.go_to_s) { show_message("others fly this aircraft"); }
+        return;
+    }
+    if (requests.toggle_manual_flight) { toggle_manual_flight(); }
+    flight::Simulation& simulation = session_->simulation();
+    if (requests.level_off && simulation.by_hand()) {
+        simulation.level_off();
+        state_.playback.playing = true;
+    }
+    if (requests.step_frame) { state_.playback.step_frame(1.0 / session_->rate_hz(), simulation.by_hand()); }
+    if (requests.go_to_s && recording_) {
+        show_message("a recording goes on in time: stop it first (F9)");
+    } else if (requests.go_to_s && simulation.by_hand()) {
+        show_message("by hand there is no path to go along: H gives it back to its path");
+    } else if (requests.go_to_s) {
+        go_to(*requests.go_to_s);
+    }
+}
+
+void Viewer::go_to(double time_s) {
+    Playback& playback = state_.playback;
+    playback.time_s = std::clamp(time_s, playback.begin_s, playback.end_s);
+    if (recording_) { toggle_recording(); }
+    session_->begin_at(playback.time_s);
+    shown_s_ = playback.time_s;
+}
+
+/// Gives the aircraft to the pilot or back to the path, which goes on from where it is at that time.
+void Viewer::toggle_manual_flight() {
+    flight::Simulation& simulation = session_->simulation();
+    if (!simulation.by_hand()) {
+        simulation.advance_to(simulation.time_s());
+        const std::string aircraft = settings::aircraft_shape(session_->settings().path.aircraft.front());
+        const sim::AircraftKind& kind = base::aircraft_kind_of(aircraft);
+        simulation.take_over(kind);
+        state_.playback.playing = true;
+        const KeyMap& keys = state_.keys;
+        show_message(fmt::format("by hand{}: {}, {}, {} and {} are the stick, {} and {} the throttle, {} gives it back",
+            aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name), keys.name_of(HeldAction::Pull),
+            keys.name_of(HeldAction::Push), keys.name_of(HeldAction::RollLeft), keys.name_of(HeldAction::RollRight),
+            keys.name_of(HeldAction::ThrottleUp), keys.name_of(HeldAction::ThrottleDown),
+            keys.name_of(ViewCommand::ManualFlight)));
+        return;
+    }
+    go_to(state_.playback.time_s);
+}
+
+/// Returns the first of the paths stem-1, stem-2, ... that does not exist yet.
+fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
+    for (int number = 1;; ++number) {
+        const fs::path path = options_.recordings_folder / fmt::format("{}-{}{}", stem, number, ending);
+        if (!path_exists(path)) { return path; }
+    }
+}
+
+void Viewer::take_screenshot() {
+    const fs::path file = unused_path("picture", ".png");
+    try {
+        session_->read_picture();
+        report::write_png(file, flight::pixel_view_of(session_->picture()));
+        show_message(fmt::format("picture: {}", file.string()));
+    } catch (const Error& fault) { show_message(fault.what()); }
+}
+
+void Viewer::count_wrong_pixels() {
+    try {
+        const flight::PixelCheck check = flight::check_pixels(*session_);
+        state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
+    } catch (const Error& fault) { show_message(fault.what()); }
+}
+
+void Viewer::toggle_full_screen() {
+    GLFWwindow* const window = this->window();
+    if (glfwGetWindowMonitor(window) != nullptr) {
+        glfwSetWindowMonitor(window, nullptr, windowed_position_.x, windowed_position_.y, windowed_size_.x,
+            windowed_size_.y, GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+    if (mode == nullptr) {
+        show_message("expected a monitor to fill, got none");
+        return;
+    }
+    glfwGetWindowPos(window, &windowed_position_.x, &windowed_position_.y);
+    glfwGetWindowSize(window, &windowed_size_.x, &windowed_size_.y);
+    glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+/// Before the first picture: a replay begins there, too. Pictures are drawn again without a window.
+void Viewer::start_live_recording(const fs::path& folder) {
+    settings::RunSettings settings = world::with_absolute_paths(session_->settings());
+    settings.drawing.context = settings::ContextKind::OsMesa;
+    live_recorder_.emplace(flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .batch_context = {}},
+        settings, *session_);
+    listener_->start_packet_recording(folder);
+    state_.recording = folder;
+    show_message(fmt::format("recording into {}: the view stays as it is", folder.string()));
+}
+
+std::string Viewer::finish_live_recording() {
+    listener_->finish();
+    const flight::FlightResult end = live_recorder_->finish(*session_);
+    live_recorder_.reset();
+    state_.recording.reset();
+    return end.notes.back();
+}
+
+void Viewer::start_recording(const fs::path& folder) {
+    if (listener_) {
+        start_live_recording(folder);
+        return;
+    }
+    recording_.emplace(folder, *session_);
+    state_.recording = recording_->folder();
+    show_message(fmt::format("recording into {}", folder.string()));
+}
+
+std::optional<std::string> Viewer::finish_recording() {
+    if (live_recorder_) { return finish_live_recording(); }
+    if (!recording_) { return std::nullopt; }
+    const std::string line = recording_->finish(*session_);
+    recording_.reset();
+    state_.recording.reset();
+    return line;
+}
+
+void Viewer::toggle_recording() {
+    if (listener_ && !live_recorder_) {
+        show_message("flights of others are recorded from their first picture on: octant listen --record");
+        return;
+    }
+    try {
+        if (const auto report = finish_recording()) {
+            show_message(*report);
+        } else {
+            start_recording(unused_path("flight", ""));
+        }
+    } catch (const Error& fault) {
+        drop_recording();
+        show_message(fault.what());
+    }
+}
+
+/// Gives up the recording. The files that it has written so far stay.
+void Viewer::drop_recording() {
+    recording_.reset();
+    live_recorder_.reset();
+    if (listener_) { listener_->drop_recording(); }
+    state_.recording.reset();
+    session_->simulation().stop_log();
+}
+
+void Viewer::record_frame(const report::FrameRecord& record) {
+    try {
+        if (recording_) { recording_->add(record, *session_); }
+        if (live_recorder_) {
+            session_->read_picture();
+            live_recorder_->add(record, *session_);
+        }
+    } catch (const Error& fault) {
+        drop_recording();
+        show_message(fault.what());
+    }
+}
+
+namespace {
+
+constexpr std::size_t largest_layout_bytes = std::size_t{64} << 10;
+
+fs::path layout_file(const fs::path& folder) { return folder.empty() ? fs::path() : folder / "layout.ini"; }
+
+} // namespace
+
+/// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is kept and the viewer
+/// works all the same.
+void Viewer::read_layout() {
+    if (options_.config_folder.empty()) { return; }
+    const fs::path file = layout_file(options_.config_folder);
+    try {
+        make_folder(options_.config_folder);
+        state_.open.first_steps = !path_exists(file);
+        if (!state_.open.first_steps) {
+            saved_layout_ = layout_from(read_text_file(file, largest_layout_bytes));
+            state_.columns.restore_user_placed(*saved_layout_);
+        }
+    } catch (const Error&) {
+        // Panels lie where they lie for a new user; the file is written anew.
+    }
+}
+
+/// Lines of the file of keys that are wrong are told and left out.
+void Viewer::read_keys() {
+    if (options_.config_folder.empty()) { return; }
+    state_.keys_file = options_.config_folder / "keys";
+    state_.keys_file_exists = path_exists(state_.keys_file);
+    KeyMapFile read = read_key_map(state_.keys_file);
+    state_.keys = std::move(read.keys);
+    state_.key_errors = std::move(read.errors);
+    input_->set_look_button(state_.keys.look_button);
+    for (const std::string& fault : state_.key_errors) { base::print_note(false, fault); }
+}
+
+void Viewer::save_layout() noexcept {
+    layout_saved_s_ = last_frame_s_;
+    if (options_.config_folder.empty()) { return; }
+    try {
+        saved_layout_ = state_.columns.user_placed();
+        write_file(layout_file(options_.config_folder), text_of_layout(*saved_layout_));
+    } catch (const std::exception&) { options_.config_folder.clear(); }
+}
+
+void Viewer::handle_file_requests(const ViewRequests& requests) {
+    try {
+        if (requests.write_keys) {
+            write_file(state_.keys_file, text_of_key_map(state_.keys));
+            state_.keys_file_exists = true;
+            show_message(fmt::format("keys: {}", state_.keys_file.string()));
+        }
+        if (requests.save_settings) {
+            settings::RunSettings saved = world::with_absolute_paths(session_->settings());
+            saved.drawing.context = settings::ContextKind::OsMesa;
+            write_file(*requests.save_settings, settings::settings_json(saved).dump(2) + "\n");
+            show_message(fmt::format("settings: {}", requests.save_settings->string()));
+        }
+        if (requests.load_settings) {
+            state_.next_settings = settings::read_settings(*requests.load_settings);
+            state_.next_settings.drawing.context = settings::ContextKind::Window;
+            fit_to_window();
+        }
+    } catch (const Error& fault) { show_message(fault.what()); }
+}
+
+/// Lets others fly what is loaded now, where there are others.
+void Viewer::restart_live_flight() {
+    if (listener_) {
+        listener_->attach(*session_);
+        state_.playback.playing = true;
+    }
+}
+
+/// The time that is shown now. A recording that can no longer be written ends; the window does not.
+double Viewer::receive_packets() {
+    try {
+        return *listener_->take(*session_); // not in steps: always a picture
+    } catch (const Error& fault) {
+        if (!live_recorder_) { throw; }
+        drop_recording();
+        show_message(fault.what());
+        return *listener_->take(*session_);
+    }
+}
+
+/// Shows what has come up to now.
+void Viewer::draw_live() {
+    const double time_s = receive_packets();
+    for (const std::string& line : listener_->take_new_messages()) { base::print_note(options_.quiet, line); }
+    state_.next_settings.air = session_->settings().air; // a host may have told another
+    const bool records = live_recorder_.has_value();
+    session_->pictures().set_reads_before_presenting(records);
+    session_->pictures().set_window_target(records && !painter_ ? glm::ivec2(0) : input_->size_px());
+    report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
+    listener_->finish_picture(record);
+    const double now_s = clock_.s();
+    record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
+    presented_s_ = now_s;
+    sender_.send(*session_);
+    state_.history.add(record);
+    record_frame(record);
 }
 
 } // namespace octant::ui::window

@@ -1,7 +1,7 @@
 #include "ui/world/aircraft_axes.h"
 
-#include "models/meshfile/format_axes.h"
-#include "models/polygons/axes_guess.h"
+#include "models/meshfile/mesh_file.h"
+#include "models/polygons/file_axes.h"
 
 #include <fmt/format.h>
 #include <string_view>

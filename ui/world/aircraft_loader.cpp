@@ -1,11 +1,8 @@
 #include "ui/world/aircraft_loader.h"
 
 #include "models/measure/mesh_distance.h"
-#include "models/meshfile/rotating_model.h"
+#include "models/meshfile/mesh_file.h"
 #include "models/polygons/file_axes.h"
-#include "models/polygons/mesh_polygons.h"
-#include "models/polygons/mtl_reader.h"
-#include "models/polygons/obj_line_reader.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_model.h"
 #include "models/repair/repair.h"

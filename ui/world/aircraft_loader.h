@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/meshfile/level_chain.h"
-#include "models/meshfile/rotating_model.h"
+#include "models/meshfile/mesh_file.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "ui/settings/settings.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/meshfile/read_options.h"
+#include "models/meshfile/mesh_file.h"
 #include "models/triangle_mesh.h"
 
 #include <filesystem>

@@ -2,6 +2,10 @@
 
 #include "models/meshfile/mesh_file.h"
 #include "models/polygons/mesh_polygons.h"
+#include "models/polygons/polygon_model.h"
+#include "models/procedural/background60.h"
+#include "models/procedural/globe.h"
+#include "models/procedural/machined_part.h"
 #include "models/procedural/procedural_models.h"
 #include "sim/base/file_status.h"
 #include "ui/base/data_files.h"

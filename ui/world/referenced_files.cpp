@@ -1,6 +1,5 @@
 #include "ui/world/referenced_files.h"
 
-#include "models/meshfile/flightgear_paths.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -68,7 +67,7 @@ private:
         return true;
     }
 
-    /// As models/meshfile/baked_pictures.cpp looks for one.
+    /// Searches as models::meshfile::picture_file does.
     void add_picture(const fs::path& folder, std::string name) {
         std::ranges::replace(name, '\\', '/');
         if (!name.empty() && !add(folder / name)) { add(folder / fs::path(name).filename()); }

@@ -9,7 +9,7 @@
 //   apart.
 #include "visuals/bsp/partial_bsp_tree.h"
 
-#include "models/polygons/separating_edge.h"
+#include "models/polygons/polygon_outlines.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 // to hide one another; shrinking each outline by an inset that is larger than the rounding prevents that.
 #include "visuals/draworder/face.h"
 
-#include "models/polygons/separating_edge.h"
+#include "models/polygons/polygon_outlines.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 // rounding decides what is seen.
 #include "visuals/draworder/order_ray_test.h"
 
-#include "models/polygons/inside_outline.h"
+#include "models/polygons/polygon_outlines.h"
 #include "sim/base/random_generator.h"
 #include "visuals/draworder/proof_walk.h"
 #include "visuals/draworder/search_budget.h"

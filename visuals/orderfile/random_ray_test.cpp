@@ -3,7 +3,7 @@
 // how wrong an inexact order is: the share of wrong pixels.
 #include "visuals/orderfile/random_ray_test.h"
 
-#include "models/polygons/inside_outline.h"
+#include "models/polygons/polygon_outlines.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "visuals/draworder/octant_order.h"

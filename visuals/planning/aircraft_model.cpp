@@ -1,8 +1,8 @@
 #include "visuals/planning/aircraft_model.h"
 
 #include "models/colour_vertex.h"
-#include "models/planar/t_junctions.h"
-#include "models/polygons/distinct_polygons.h"
+#include "models/planar/planar_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-#include "models/polygons/mtl_reader.h"
+#include "models/polygons/obj_reader.h"
 #include "tests/fuzz/formats/target.h"
 
 namespace octant::tests::formats::mtl_format {

@@ -1,6 +1,6 @@
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
-#include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_model.h"
 #include "tests/fuzz/formats/target.h"
 
 namespace octant::tests::formats::obj_polygons_format {

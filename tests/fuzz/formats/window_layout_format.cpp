@@ -1,6 +1,6 @@
 #include "sim/base/text_file.h"
 #include "tests/fuzz/formats/target.h"
-#include "ui/window/panel_layout.h"
+#include "ui/window/panel_columns.h"
 
 namespace octant::tests::formats::window_layout_format {
 

@@ -1,6 +1,6 @@
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
-#include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/models/aircraft/detailed_aircraft.h"

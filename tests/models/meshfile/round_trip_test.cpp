@@ -1,6 +1,8 @@
+#include "models/invalid_index.h"
 #include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/text_file.h"

@@ -1,5 +1,4 @@
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/rotating_model.h"
 #include "models/repair/repair.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"

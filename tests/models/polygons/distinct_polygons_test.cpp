@@ -1,4 +1,4 @@
-#include "models/polygons/distinct_polygons.h"
+#include "models/polygons/polygon_model.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,3 @@
-#include "models/polygons/polygon_check.h"
 #include "models/polygons/polygon_model.h"
 
 #include <catch2/catch.hpp>

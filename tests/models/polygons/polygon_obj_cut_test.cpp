@@ -1,7 +1,7 @@
-#include "models/polygons/convex_pieces.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
-#include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_model.h"
+#include "models/polygons/polygon_outlines.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,4 +1,3 @@
-#include "models/polygons/obj_limits.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/output_file.h"
 

@@ -4,8 +4,7 @@
 #include "tests/ui/commands/documented_lines.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
-#include "ui/window/listen_command.h"
-#include "ui/window/view_command.h"
+#include "ui/window/window_commands.h"
 
 #include <catch2/catch.hpp>
 

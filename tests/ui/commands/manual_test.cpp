@@ -1,7 +1,6 @@
 #include "ui/commands/commands.h"
 #include "ui/commands/manual.h"
-#include "ui/window/listen_command.h"
-#include "ui/window/view_command.h"
+#include "ui/window/window_commands.h"
 
 #include <catch2/catch.hpp>
 

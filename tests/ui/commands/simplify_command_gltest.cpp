@@ -1,5 +1,5 @@
-#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/output_file.h"

@@ -1,7 +1,7 @@
 #include "small_flight.h"
 
 #include "models/heights/height_field.h"
-#include "models/polygons/mesh_polygons.h"
+#include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/axes.h"
 #include "visuals/draworder/draw_order.h"

@@ -1,7 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/window/key_map.h"
-#include "ui/window/key_names.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,4 @@
 #include "ui/window/panel_columns.h"
-#include "ui/window/panel_layout.h"
 #include "ui/window/panels.h"
 
 #include <catch2/catch.hpp>

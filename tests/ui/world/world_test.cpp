@@ -1,7 +1,7 @@
 #include "models/heights/height_field_export.h"
 #include "models/measure/mesh_distance.h"
-#include "models/polygons/mesh_polygons.h"
 #include "models/polygons/obj_reader.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"

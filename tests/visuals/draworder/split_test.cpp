@@ -1,4 +1,4 @@
-#include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_model.h"
 #include "tests/order_shapes.h"
 #include "visuals/draworder/cut_pieces.h"
 #include "visuals/draworder/octant_order.h"

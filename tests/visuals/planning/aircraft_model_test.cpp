@@ -1,4 +1,4 @@
-#include "models/planar/t_junctions.h"
+#include "models/planar/planar_model.h"
 #include "models/polygons/obj_reader.h"
 #include "tests/visuals/planning/small_world.h"
 #include "visuals/planning/aircraft_model.h"

@@ -1,0 +1,281 @@
+#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/word_scanner.h"
+#include "models/polygons/obj_reader.h"
+#include "sim/base/error.h"
+#include "sim/base/format_once.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+#include <optional>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+constexpr std::size_t largest_obj_bytes = std::size_t{1} << 30U;
+
+using Words = std::vector<std::string_view>;
+
+class ObjMeshReading {
+public:
+    ObjMeshReading(const std::filesystem::path& path, const ReadOptions& options) : path_(path), mesh_(path, options) {}
+
+    /// What the file holds, to be finished.
+    MeshBuilder read() {
+        const std::string text = read_text_file(path_, largest_obj_bytes);
+        polygons::ObjLineReader lines(text);
+        while (lines.next()) {
+            line_ = lines.number();
+            take(lines.text());
+        }
+        note_missing_files();
+        return std::move(mesh_);
+    }
+
+private:
+    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
+        throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+    }
+
+    /// Lines of other keywords say nothing about triangles.
+    void take(std::string_view line) {
+        const Words words = split_words(line);
+        if (words.empty() || words[0].starts_with('#')) { return; }
+        if (words[0] == "v") {
+            take_vertex(words);
+        } else if (words[0] == "vn") {
+            mesh_.add_normal(vector(words, 1));
+        } else if (words[0] == "vt") {
+            take_texture_coordinates(words);
+        } else if (words[0] == "f") {
+            take_polygon(words);
+        } else if (words[0] == "usemtl") {
+            material_name_ = std::string(polygons::after_first_word(line));
+            material_ = invalid_index;
+            picture_ = BakedPictures::none;
+        } else if (words[0] == "mtllib") {
+            take_material_files(std::string(polygons::after_first_word(line)), words);
+        }
+    }
+
+    double number(std::string_view word) const {
+        const auto value = finite_number(word);
+        if (!value) { refuse("a number", in_quotes(word)); }
+        if (std::abs(*value) > max_coordinate) {
+            refuse(fmt::format("a number within {:g}", max_coordinate), in_quotes(word));
+        }
+        return *value;
+    }
+
+    glm::dvec3 vector(const Words& words, std::size_t first) const {
+        if (words.size() < first + 3) { refuse("three numbers", std::to_string(words.size() - first)); }
+        return {number(words[first]), number(words[first + 1]), number(words[first + 2])};
+    }
+
+    /// v x y z, v x y z w or v x y z r g b.
+    void take_vertex(const Words& words) {
+        const std::uint32_t vertex = mesh_.add_vertex(vector(words, 1));
+        if (words.size() >= 7) {
+            const glm::dvec3 colour = vector(words, 4);
+            for (int part = 0; part < 3; ++part) {
+                if (colour[part] < 0.0 || colour[part] > 1.0) {
+                    refuse(
+                        "a vertex colour of three numbers 0..1", in_quotes(words[static_cast<std::size_t>(part) + 4]));
+                }
+            }
+            mesh_.set_colour(vertex, glm::vec3(colour));
+        }
+    }
+
+    /// vt u v, from the lower left corner of a picture.
+    void take_texture_coordinates(const Words& words) {
+        const auto part = [&](std::size_t place) {
+            return place < words.size() ? static_cast<float>(finite_number(words[place]).value_or(0.0)) : 0.0F;
+        };
+        mesh_.add_texture_coordinates({part(1), part(2)});
+    }
+
+    std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) const {
+        const auto value = whole_number(word);
+        const long most = static_cast<long>(count);
+        if (!value || *value == 0 || *value > most || *value < -most) {
+            refuse(fmt::format("a {} 1 to {} (or -{} to -1)", what, most, most), in_quotes(word));
+        }
+        return static_cast<std::uint32_t>(*value > 0 ? *value - 1 : most + *value);
+    }
+
+    /// A corner written as 7, 7/1, 7//3 or 7/1/3.
+    CornerIndices corner(std::string_view word) const {
+        const std::size_t slash = word.find('/');
+        const std::size_t second = word.find('/', std::min(slash, word.size() - 1) + 1);
+        CornerIndices found;
+        found.vertex = index(word.substr(0, slash), mesh_.vertex_count(), "vertex");
+        if (second != std::string_view::npos && second + 1 < word.size()) {
+            found.normal = index(word.substr(second + 1), mesh_.normal_count(), "normal");
+        }
+        const std::size_t places = mesh_.texture_coordinates_count();
+        if (places > 0 && slash < word.size() && slash + 1 < std::min(second, word.size())) {
+            const std::string_view place = word.substr(slash + 1, second - slash - 1);
+            found.texture = index(place, places, "place on a picture");
+        }
+        return found;
+    }
+
+    void take_polygon(const Words& words) {
+        const std::size_t count = words.size() - 1;
+        if (count < 3 || count > max_polygon_corners) {
+            refuse(fmt::format("a polygon of 3 to {} corners", max_polygon_corners), std::to_string(count));
+        }
+        corners_.clear();
+        for (std::size_t i = 1; i < words.size(); ++i) { corners_.push_back(corner(words[i])); }
+        const std::uint32_t used = material();
+        mesh_.add_polygon(corners_, used, picture_);
+    }
+
+    /// Of the materials that have one; BakedPictures::none for the others.
+    std::uint32_t picture_of(const std::string& material) {
+        const auto named = picture_names_.find(material);
+        return named == picture_names_.end() || !mesh_.uses_pictures() ? BakedPictures::none
+                                                                       : mesh_.pictures().picture(named->second);
+    }
+
+    /// Of the polygons from here on; materials come in the order of their first polygon.
+    std::uint32_t material() {
+        if (!material_name_ || material_ != invalid_index) { return material_; }
+        picture_ = picture_of(*material_name_);
+        const auto used = materials_.find(*material_name_);
+        if (used != materials_.end()) { return material_ = used->second; }
+        const auto known = colours_.find(*material_name_);
+        Material made{.name = *material_name_};
+        if (known != colours_.end()) { made.colour = known->second; }
+        if (picture_ != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
+            made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
+        }
+        if (const auto named = picture_names_.find(*material_name_); named != picture_names_.end()) {
+            made.picture = picture_file(path_, named->second);
+        }
+        const auto opacity = opacities_.find(*material_name_);
+        material_ = mesh_.add_material(made, opacity == opacities_.end() ? 1.0F : opacity->second);
+        materials_.emplace(*material_name_, material_);
+        return material_;
+    }
+
+    /// `all` is one name with blanks or, where there is no such file, a name a word.
+    void take_material_files(const std::string& all, const Words& words) {
+        if (take_material_file(all)) { return; }
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            if (!take_material_file(std::string(words[i]))) { missing_.emplace(std::string(words[i]), line_); }
+        }
+    }
+
+    bool take_material_file(const std::string& name) {
+        const std::filesystem::path file = path_.parent_path() / name;
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored)) { return false; }
+        for (const Material& material : polygons::read_mtl(file)) {
+            colours_.insert_or_assign(material.name, material.colour);
+        }
+        for (const auto& [material, opacity] : polygons::opacities_of_mtl(file)) {
+            opacities_.insert_or_assign(material, opacity);
+        }
+        for (const auto& [material, picture] : polygons::pictures_of_mtl(file)) {
+            picture_names_.insert_or_assign(material, picture);
+        }
+        return true;
+    }
+
+    void note_missing_files() {
+        for (const auto& [name, line] : missing_) {
+            mesh_.add_note(fmt::format("{}:{}: material file {} is missing, its materials are drawn grey",
+                path_.string(), line, printable(name)));
+        }
+    }
+
+    std::filesystem::path path_;
+    MeshBuilder mesh_;
+    std::optional<std::string> material_name_;
+    std::uint32_t material_ = invalid_index; ///< of material_name_, once a polygon has it
+    std::map<std::string, std::uint32_t> materials_;
+    std::map<std::string, glm::vec3> colours_;
+    std::map<std::string, float> opacities_;           ///< of materials that are not opaque
+    std::map<std::string, std::string> picture_names_; ///< of materials
+    std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
+    std::map<std::string, int> missing_;               ///< with the line that names them first
+    std::vector<CornerIndices> corners_;
+    int line_ = 0;
+};
+
+} // namespace
+
+TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    return ObjMeshReading(path, options).read().finish();
+}
+
+MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& options) {
+    return ObjMeshReading(path, options).read().finish_parts();
+}
+
+namespace {
+
+std::string mtl_text(const TriangleMesh& mesh, const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t m = 0; m < names.size(); ++m) {
+        const glm::vec3& colour = mesh.materials[m].colour;
+        text += fmt::format("newmtl {}\nKd {} {} {}\n", names[m], colour.x, colour.y, colour.z);
+        if (!mesh.materials[m].picture.empty()) { text += fmt::format("map_Kd {}\n", mesh.materials[m].picture); }
+    }
+    return text;
+}
+
+void append_vertices(std::string& text, const TriangleMesh& mesh) {
+    auto out = std::back_inserter(text);
+    for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v) {
+        const glm::dvec3& place_m = mesh.vertices_m[v];
+        fmt::format_to(out, "v {} {} {}", place_m.x, place_m.y, place_m.z);
+        if (!mesh.colours.empty()) {
+            const glm::vec3& colour = mesh.colours[v];
+            fmt::format_to(out, " {} {} {}", colour.x, colour.y, colour.z);
+        }
+        text += '\n';
+    }
+    for (const glm::vec2& place : mesh.texture_coordinates) { fmt::format_to(out, "vt {} {}\n", place.x, place.y); }
+    for (const glm::vec3& normal : mesh.normals) { fmt::format_to(out, "vn {} {} {}\n", normal.x, normal.y, normal.z); }
+}
+
+} // namespace
+
+ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name) {
+    const std::vector<std::string> names = unique_material_names(mesh.materials);
+    ObjMeshText text;
+    text.mtl = mtl_text(mesh, names);
+    text.obj = fmt::format("# {} vertices, {} triangles\n", mesh.vertices_m.size(), mesh.triangles.size());
+    if (!names.empty()) { text.obj += fmt::format("mtllib {}\n", mtl_name); }
+    append_vertices(text.obj, mesh);
+    const auto out = std::back_inserter(text.obj);
+    std::uint32_t material = invalid_index;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!mesh.triangle_materials.empty() && mesh.triangle_materials[t] != material) {
+            material = mesh.triangle_materials[t];
+            text.obj += fmt::format("usemtl {}\n", names[material]);
+        }
+        text.obj += 'f';
+        for (std::size_t k = 0; k < 3; ++k) {
+            fmt::format_to(out, " {}", mesh.triangles[t][k] + 1);
+            const bool has_texture =
+                !mesh.corner_texture_coordinates.empty() && mesh.corner_texture_coordinates[t][k] != invalid_index;
+            if (has_texture) { fmt::format_to(out, "/{}", mesh.corner_texture_coordinates[t][k] + 1); }
+            if (!mesh.corner_normals.empty()) {
+                fmt::format_to(out, "{}{}", has_texture ? "/" : "//", mesh.corner_normals[t][k] + 1);
+            }
+        }
+        text.obj += '\n';
+    }
+    return text;
+}
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,114 @@
+#include "models/polygons/file_axes.h"
+#include "models/polygons/obj_reader.h"
+#include "models/polygons/polygon_model.h"
+#include "sim/base/error.h"
+#include "tests/sample_meshes.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <string>
+
+using octant::models::polygons::FileAxes;
+
+namespace {
+
+const std::array<std::string, 6> names{"right", "left", "up", "down", "forward", "back"};
+
+std::string message(const std::string& text) {
+    try {
+        FileAxes::from_text(text);
+    } catch (const octant::Error& error) { return error.what(); }
+    return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("usual OBJ axes become body axes: right to y, up to -z, -z ahead to x") {
+    const FileAxes axes;
+    CHECK(axes.text() == "right,up,back");
+    CHECK(axes.body_from_file({1, 0, 0}) == glm::dvec3(0, 1, 0));
+    CHECK(axes.body_from_file({0, 1, 0}) == glm::dvec3(0, 0, -1));
+    CHECK(axes.body_from_file({0, 0, -1}) == glm::dvec3(1, 0, 0));
+    CHECK(axes.file_from_body({1, 2, 3}) == glm::dvec3(2, -3, -1));
+}
+
+TEST_CASE("axes written as body axes change nothing") {
+    const FileAxes axes = FileAxes::from_text(" forward, right ,down");
+    CHECK(axes.body_from_file({1, 2, 3}) == glm::dvec3(1, 2, 3));
+    CHECK(axes.text() == "forward,right,down");
+}
+
+TEST_CASE("of all 216 triples 24 are right-handed, and each of them converts there and back") {
+    int accepted = 0;
+    for (const auto& x : names) {
+        for (const auto& y : names) {
+            for (const auto& z : names) {
+                const std::string text = fmt::format("{},{},{}", x, y, z);
+                if (message(text) != "accepted") { continue; }
+                ++accepted;
+                const FileAxes axes = FileAxes::from_text(text);
+                CHECK(axes.text() == text);
+                const glm::dvec3 p(0.1, -2.3, 1e9);
+                CHECK(axes.file_from_body(axes.body_from_file(p)) == p);
+                CHECK(axes.body_from_file(axes.file_from_body(p)) == p);
+            }
+        }
+    }
+    CHECK(accepted == 24);
+}
+
+TEST_CASE("zero stays a plain zero") {
+    const glm::dvec3 zero = FileAxes().body_from_file({0, 0, 0});
+    for (int i = 0; i < 3; ++i) { CHECK_FALSE(std::signbit(zero[i])); }
+}
+
+TEST_CASE("wrong axes are refused with what was expected") {
+    const std::string expected =
+        "axes: expected where x, y and z point, such as right,up,back (of right, left, up, down, "
+        "forward, back), got ";
+    CHECK(message("") == expected + "''");
+    CHECK(message("right,up") == expected + "'right,up'");
+    CHECK(message("right,up,aft") == expected + "'right,up,aft'");
+    CHECK(message("x,y,-z") == expected + "'x,y,-z'");
+    CHECK(message("right,up,left") == expected + "'right,up,left', where two axes lie on one line");
+    CHECK(message("right,up,forward") == expected + "'right,up,forward', which is left-handed");
+}
+
+using namespace octant::models;
+using namespace octant::models::polygons;
+
+namespace {
+
+TriangleMesh in_file(const PolygonModel& body, const FileAxes& axes) {
+    TriangleMesh mesh = mesh_from_polygons(body);
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = axes.file_from_body(vertex_m); }
+    return mesh;
+}
+
+TriangleMesh box(const glm::dvec3& half_m) {
+    TriangleMesh mesh = octant::tests::cube();
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = half_m * (2.0 * vertex_m - 1.0); }
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("nose and top of the F-15 are found whichever way its file turns it") {
+    const PolygonModel body = read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
+    for (const std::string axes :
+        {"right,up,back", "back,up,left", "left,up,forward", "forward,left,up", "right,forward,up", "back,right,up"}) {
+        CAPTURE(axes);
+        const auto guess = guess_axes(in_file(body, FileAxes::from_text(axes)));
+        REQUIRE(guess.has_value());
+        CHECK(guess->text() == axes);
+    }
+}
+
+TEST_CASE("shapes without nose or top are not guessed at") {
+    CHECK_FALSE(guess_axes(TriangleMesh()).has_value());
+    CHECK_FALSE(guess_axes(box({1.0, 1.0, 1.0})).has_value());
+    CHECK_FALSE(guess_axes(box({5.0, 3.0, 1.0})).has_value());
+}
