@@ -15,7 +15,7 @@
 #include "ui/settings/terrain_name.h"
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/map_picture.h"
-#include "ui/world/terrain_file.h"
+#include "ui/world/scene_ground.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include "ui/report/statistics.h"
 #include "ui/window/viewer.h"
 #include "ui/world/input_files.h"
-#include "ui/world/near_detail_warnings.h"
+#include "ui/world/world.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "visuals/planning/smooth_choice.h"
 
-#include "visuals/planning/shading_rule_of.h"
+#include "visuals/planning/refined_aircraft.h"
 #include "visuals/shading/smooth_count.h"
 
 #include <glm/geometric.hpp>

@@ -8,7 +8,7 @@
 #include "ui/report/plots.h"
 #include "ui/report/table_text.h"
 #include "ui/studies/flicker/flicker_runs.h"
-#include "ui/world/terrain_file.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/terrain/count_statistics.h"
 #include "visuals/terrain/resolution_for_target.h"
 

@@ -19,7 +19,7 @@
 #include "ui/studies/hybrid_shading/shading_times.h"
 #include "ui/studies/picture_quality.h"
 #include "ui/studies/shading_pictures.h"
-#include "ui/world/refine_mesh.h"
+#include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/shading/operation_counts.h"

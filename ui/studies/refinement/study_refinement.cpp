@@ -8,7 +8,7 @@
 #include "ui/report/table_text.h"
 #include "ui/studies/refinement/refinement_tables.h"
 #include "ui/studies/shading_pictures.h"
-#include "ui/world/refine_mesh.h"
+#include "ui/world/mesh_loader.h"
 #include "visuals/refine/partition_mesh.h"
 #include "visuals/refine/refine_region.h"
 #include "visuals/shading/vertex_normals.h"
