@@ -15,7 +15,7 @@
 #include "ui/settings/frame_part.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "ui/world/near_detail_warnings.h"
+#include "ui/world/world.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,6 @@
 #include "ui/commands/commands.h"
 #include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
-#include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/refine_criterion.h"

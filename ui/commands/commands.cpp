@@ -1,7 +1,7 @@
 #include "ui/commands/commands.h"
 
 #include "ui/base/version.h"
-#include "ui/world/library_mesh.h"
+#include "ui/world/mesh_loader.h"
 
 #include <cstddef>
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "ui/flight/flight_cameras.h"
 
 #include "ui/flight/simulation.h"
-#include "ui/world/picture_times.h"
 #include "ui/world/world.h"
 #include "visuals/scene/camera_rig.h"
 

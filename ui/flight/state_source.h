@@ -2,7 +2,7 @@
 
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
-#include "visuals/planning/articulated_part.h"
+#include "visuals/planning/placed_aircraft.h"
 #include "visuals/scene/camera.h"
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include "ui/base/progress.h"
 #include "ui/terrain/ground_view.h"
 #include "visuals/gl/make_renderer.h"
-#include "visuals/planning/front_facing.h"
+#include "visuals/planning/ground_frame.h"
 #include "visuals/planning/step_writer.h"
 #include "visuals/terrain/ground_query.h"
 

@@ -15,7 +15,7 @@
 #include "ui/window/viewer.h"
 #include "ui/world/entity_table.h"
 #include "ui/world/input_files.h"
-#include "ui/world/near_detail_warnings.h"
+#include "ui/world/world.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,8 +2,7 @@
 
 #include "models/heights/runway_strip.h"
 #include "ui/settings/settings.h"
-#include "ui/world/loaded_path.h"
-#include "ui/world/placed_flight.h"
+#include "ui/world/flight.h"
 #include "ui/world/scene_ground.h"
 
 #include <memory>

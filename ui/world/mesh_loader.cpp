@@ -1,5 +1,4 @@
 #include "ui/world/mesh_loader.h"
-
 #include "models/meshfile/mesh_file.h"
 #include "models/polygons/mesh_polygons.h"
 #include "models/polygons/polygon_model.h"
@@ -7,16 +6,230 @@
 #include "models/procedural/globe.h"
 #include "models/procedural/machined_part.h"
 #include "models/procedural/procedural_models.h"
+#include "models/repair/repair.h"
+#include "models/simplify/simplify.h"
+#include "sim/base/error.h"
 #include "sim/base/file_status.h"
+#include "sim/base/text_file.h"
+#include "sim/base/utf8.h"
 #include "ui/base/data_files.h"
-#include "ui/world/library_mesh.h"
+#include "ui/base/progress.h"
+#include "ui/report/child_program.h"
+#include "visuals/refine/packed_attributes.h"
+#include "visuals/refine/progressive_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace octant::ui::world {
+
+namespace refine = visuals::refine;
+
+namespace {
+
+/// Colours are vertices' in a hierarchy: those of the materials around each, where it has none.
+void colour_by_materials(models::TriangleMesh& mesh) {
+    if (!mesh.colours.empty()) { return; }
+    std::vector<glm::vec3> sums(mesh.vertices_m.size(), glm::vec3(0.0F));
+    std::vector<int> counts(mesh.vertices_m.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::vec3 colour = models::material_colour(mesh, t);
+        for (const std::uint32_t vertex : mesh.triangles[t]) {
+            sums[vertex] += colour;
+            ++counts[vertex];
+        }
+    }
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        mesh.colours.push_back(counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : models::Material().colour);
+    }
+}
+
+/// Whether a hierarchy has the colour of a mesh without materials everywhere, as one has that was saved of a mesh
+/// without colours.
+bool is_all_grey(const refine::ProgressiveMesh& mesh) {
+    const refine::PackedColour grey = refine::packed_rgb16(models::Material().colour);
+    for (std::uint32_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
+        if (refine::unpacked(mesh.packed_colour(leaf)) != refine::unpacked(grey)) { return false; }
+    }
+    return mesh.has_colours();
+}
+
+void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
+    using refine::ProgressiveMesh;
+    if (mesh.triangles.size() > ProgressiveMesh::max_faces || mesh.vertices_m.size() > ProgressiveMesh::max_leaves) {
+        throw_error_in(file, fmt::format("expected at most {} triangles and {} vertices to refine, got {} and {} "
+                                         "(octant simplify makes fewer of them)",
+                                 ProgressiveMesh::max_faces, ProgressiveMesh::max_leaves, mesh.triangles.size(),
+                                 mesh.vertices_m.size()));
+    }
+}
+
+} // namespace
+
+void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh) {
+    for (const std::string& line : mesh.repairs) { mesh.notes.push_back(input.file + ": " + line); }
+}
+
+RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh) {
+    models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
+    RefineMesh result;
+    result.notes = repaired.mesh.notes;
+    result.repairs = models::repair::describe_counts(repaired.counts);
+    note_repairs(input, result);
+    if (repaired.mesh.triangles.empty()) { throw_error_in(input.file, "expected a mesh with triangles, got none"); }
+    refuse_too_many(input.file, repaired.mesh);
+    result.has_material_colours = repaired.mesh.colours.empty();
+    colour_by_materials(repaired.mesh);
+    constexpr int steps = 1000;
+    base::Progress progress("collapsing edges", steps, input.quiet, "thousandths");
+    models::simplify::SimplifyOptions options;
+    options.length_share = 0.03;
+    if (input.base > 0) { options.goal.vertices = input.base; }
+    options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
+    const models::CollapseSequence sequence = models::simplify::fast_sequence(std::move(repaired.mesh), options);
+    progress.finish();
+    result.mesh = std::make_shared<const refine::ProgressiveMesh>(sequence);
+    return result;
+}
+
+RefineMesh read_refine_mesh(const RefineMeshOptions& input) {
+    RefineMesh result;
+    if (refine::is_progressive_file(input.file)) {
+        result.mesh =
+            std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(input.file, input.max_vertices));
+        if (result.mesh->face_count() == 0) { throw_error_in(input.file, "expected a mesh with triangles, got none"); }
+        result.notes = result.mesh->parts().notes;
+        result.has_material_colours = is_all_grey(*result.mesh);
+    } else {
+        result = make_refine_mesh(input, load_mesh(input.file, {.pictures = true, .backs = true}));
+    }
+    return result;
+}
+
+RefineMesh load_refine_mesh(const RefineMeshOptions& input) {
+    RefineMesh result = read_refine_mesh(input);
+    for (const std::string& note : result.notes) { base::print_note(input.quiet, "note: " + note); }
+    return result;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Library {
+    /// What octant-read-mesh calls it.
+    std::string_view word;
+    std::string_view name;
+    std::string_view endings;
+};
+
+/// As with Octant's own readers. Of larger files the libraries read for a minute and then find no room for them.
+constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 30U;
+
+constexpr std::array libraries{
+    Library{"assimp", "Assimp", ".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .x"},
+    Library{"osg", "OpenSceneGraph", ".flt .ive .osg .osgb .osgt"}};
+
+const Library* library_of(const fs::path& file) {
+    const std::string ending = extension_of(file);
+    for (const Library& library : libraries) {
+        const auto endings = split_words(library.endings);
+        if (std::ranges::find(endings, ending) != endings.end()) { return &library; }
+    }
+    return nullptr;
+}
+
+/// In the reader's own words where it told what it expected; else it crashed or met its limits.
+[[noreturn]] void refuse(const fs::path& file, const Library& library, std::string_view error_line) {
+    if (const std::string named = file.string() + ": "; error_line.starts_with(named)) {
+        error_line.remove_prefix(named.size());
+    }
+    constexpr std::size_t longest = 300;
+    const std::string words = one_line(error_line.substr(0, longest));
+    throw_error_in(file, words.starts_with("expected ")
+                             ? words
+                             : fmt::format("expected a mesh that {} can read; its reader: {}", library.name, words));
+}
+
+/// Beside this program; empty where it was not built.
+fs::path reader_program() {
+    std::error_code ignored;
+    const fs::path reader = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "octant-read-mesh";
+    return fs::is_regular_file(reader, ignored) ? reader : fs::path();
+}
+
+/// A folder that goes with what lies in it.
+class ShortFolder {
+public:
+    ShortFolder() {
+        std::string name = (fs::temp_directory_path() / "octant-mesh-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) {
+            throw Error(fmt::format("{}: expected a folder that can be made, got none", name));
+        }
+        path_ = name;
+    }
+
+    ~ShortFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+
+    ShortFolder(const ShortFolder&) = delete;
+    ShortFolder& operator=(const ShortFolder&) = delete;
+    ShortFolder(ShortFolder&&) = delete;
+    ShortFolder& operator=(ShortFolder&&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+} // namespace
+
+bool is_library_file(const fs::path& file) { return library_of(file) != nullptr; }
+
+models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& options) {
+    const Library& library = *library_of(file);
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) { throw_error_in(file, "expected a file that can be read, got none"); }
+    if (fs::file_size(file, ignored) > largest_bytes) {
+        throw_error_in(file, fmt::format("expected at most {} bytes, got more", largest_bytes));
+    }
+    const fs::path program = reader_program();
+    if (program.empty()) {
+        throw_error_in(file,
+            fmt::format("expected a build with {} for {} files, got one without", library.name, extension_of(file)));
+    }
+    const ShortFolder folder;
+    const fs::path out = folder.path() / "mesh.obj";
+    auto child = report::ChildProgram::start({program.string(), std::string(library.word),
+        options.pictures ? "pictures" : "-", options.backs ? "backs" : "-", file.string(), out.string()});
+    if (!child) { throw_error_in(program, "expected a program that can be run, got another file"); }
+    const report::ProgramResult ending = child->finish();
+    if (!ending.succeeded) { refuse(file, library, ending.last_error_line); }
+    models::TriangleMesh mesh = models::meshfile::read_mesh(out);
+    mesh.name = file.stem().string();
+    return mesh;
+}
+
+std::string library_formats() {
+    if (reader_program().empty()) { return "no formats by libraries: built without Assimp and OpenSceneGraph"; }
+    std::string text;
+    for (const Library& library : libraries) {
+        text += fmt::format("{}by {}: {}", text.empty() ? "" : "\n", library.name, library.endings);
+    }
+    return text;
+}
 
 std::string built_in_mesh_names() {
     return fmt::format("globe, torus, machined-part, {}", fmt::join(base::built_in_models, ", "));

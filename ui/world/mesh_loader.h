@@ -1,11 +1,62 @@
 #pragma once
 
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
+#include "visuals/refine/progressive_mesh.h"
 
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace octant::ui::world {
+
+struct RefineMeshOptions {
+    /// A triangle mesh or a progressive mesh (.pm).
+    std::string file;
+    /// Of meshes: vertices of the base mesh, at least; 0 = as few as can be.
+    std::size_t base = 0;
+    /// The most vertices that are read of a .pm file.
+    std::size_t max_vertices = std::numeric_limits<std::size_t>::max();
+    bool quiet = false;
+};
+
+/// A hierarchy, and what a person should be told of its making.
+struct RefineMesh {
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
+    std::vector<std::string> notes;
+    /// What repair has changed, in words; in the notes, too, behind the name of the file.
+    std::vector<std::string> repairs;
+    /// The mesh has no colours; those of the hierarchy are its materials', grey where it has none.
+    bool has_material_colours = false;
+};
+
+/// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
+RefineMesh read_refine_mesh(const RefineMeshOptions& input);
+
+/// Adds its repairs to the notes of a mesh.
+void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh);
+
+/// Makes a hierarchy of a mesh that has been read from the input's file. Throws Error.
+RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh);
+
+/// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws Error.
+RefineMesh load_refine_mesh(const RefineMeshOptions& input);
+
+/// Whether a file's ending is one that a library's reader takes: Assimp's or OpenSceneGraph's.
+bool is_library_file(const std::filesystem::path& file);
+
+/// Reads a mesh by a library in a process of its own, with limits of time (25 s) and memory (4 GiB). Of the options
+/// `pictures` and `backs` count. Throws Error "file: ..." in one line, also where the library crashes and where the
+/// program was built without it.
+models::TriangleMesh read_library_mesh(
+    const std::filesystem::path& file, const models::meshfile::ReadOptions& options = {});
+
+/// The endings that this build reads by libraries, a line each; said by octant --version.
+std::string library_formats();
 
 /// Names that load_mesh takes, as help lists them: "globe, torus, ...".
 std::string built_in_mesh_names();

@@ -1,5 +1,4 @@
 #include "ui/world/world.h"
-
 #include "flightpaths/limits_check.h"
 #include "flightpaths/placement.h"
 #include "sim/aircraft_kind.h"
@@ -9,15 +8,14 @@
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/airfield.h"
-#include "ui/world/loaded_path.h"
-#include "ui/world/placed_flight.h"
+#include "ui/world/flight.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_at_time.h"
-#include "ui/world/terrain_file.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <future>
 #include <iterator>
@@ -271,6 +269,86 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
                                  "aircraft begins; --eye X,Y,Z puts it elsewhere");
     }
     return world;
+}
+
+using settings::RunSettings;
+
+namespace {
+
+double first_time_s(const RunSettings& settings, const sim::Trajectory& path) {
+    const double length_s = path.end_s() - path.start_s();
+    if (settings.time.start_s > 0.0 && settings.time.start_s >= length_s) {
+        throw Error(
+            fmt::format("--start: expected less than the path's {} s, got {}", length_s, settings.time.start_s));
+    }
+    return path.start_s() + settings.time.start_s;
+}
+
+} // namespace
+
+void PictureTimes::truncate_to(std::size_t frames) {
+    if (frames < times_s.size()) {
+        times_s.resize(frames);
+        last_step_s = times_s.back();
+    }
+}
+
+PictureTimes picture_times_of(const RunSettings& settings, const Flight& flight) {
+    const sim::Trajectory& path = flight.trajectory;
+    const double from_s = first_time_s(settings, path);
+    PictureTimes times;
+    times.rate_hz = settings.time.frame_per_sample ? flight.rate_hz : settings.time.rate_hz;
+    times.last_step_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds) : path.end_s();
+    if (settings.time.frame_per_sample) {
+        const double half_frame_s = 0.5 / times.rate_hz;
+        for (const sim::AircraftState& sample : path.samples()) {
+            if (sample.time_s >= from_s && sample.time_s <= times.last_step_s + half_frame_s) {
+                times.times_s.push_back(sample.time_s);
+            }
+        }
+    } else {
+        const auto count = static_cast<long>(std::floor((times.last_step_s - from_s) * times.rate_hz + 1e-6)) + 1;
+        for (long frame = 0; frame < count; ++frame) {
+            times.times_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
+        }
+    }
+    if (settings.time.frames) { times.truncate_to(static_cast<std::size_t>(*settings.time.frames)); }
+    return times;
+}
+
+namespace {
+
+/// Why a ground shows neither; empty where it does.
+std::string reason_for_no_near_detail(const World& world, const visuals::scene::GroundSettings& settings) {
+    if (world.scene.ground->spacing_m() <= 0.0) {
+        return fmt::format("{} has no samples between which there could be any", world.ground_name);
+    }
+    if (visuals::scene::ground_metric(settings) != visuals::scene::GroundMetric::ScreenError) {
+        return "only ground that is refined by screen-error shows any";
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<std::string> near_detail_warnings(
+    const World& world, const visuals::scene::GroundSettings& settings, std::span<const std::string> given) {
+    const std::string why = reason_for_no_near_detail(world, settings);
+    const Ellipsoid below = ellipsoid_below(world.ground_place);
+    const std::string textured = world.scene.ground_texture ? "where a texture colours the ground there is none"
+                                 : !below.is_earth()
+                                     ? fmt::format("nothing grows or is built on {}", name_of_body(below))
+                                     : "";
+    std::vector<std::string> notes;
+    const auto note = [&](const std::string& option, bool is_on, const std::string& reason) {
+        if (is_on && !reason.empty() && std::ranges::find(given, option) != given.end()) {
+            notes.push_back(fmt::format("{} shows nothing: {}", option, reason));
+        }
+    };
+    note("--near-detail", settings.near_detail, why);
+    note("--scenery", settings.scenery, why.empty() ? textured : why);
+    note("--roads", settings.roads, why.empty() ? textured : why);
+    return notes;
 }
 
 } // namespace octant::ui::world

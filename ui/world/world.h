@@ -8,7 +8,6 @@
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/flight.h"
 #include "ui/world/formation.h"
-#include "ui/world/ground_texture_file.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/camera_rig.h"
@@ -64,5 +63,25 @@ void check_clouds(const visuals::scene::AirSettings& air, const visuals::landsca
 /// settings mesh and colour it alike. Throws Error.
 World load_world(const settings::RunSettings& settings, RenderDevice device = RenderDevice::Cpu,
     const World* shared_world = nullptr);
+
+/// When the pictures of a run are taken.
+struct PictureTimes {
+    /// At least one.
+    std::vector<double> times_s;
+    double rate_hz = 0.0;
+    /// The time of the last simulation step of the run.
+    double last_step_s = 0.0;
+
+    /// Leaves the first so many, at least one; does nothing where there are no more.
+    void truncate_to(std::size_t frames);
+};
+
+/// Throws Error when the run would start behind the path's end.
+PictureTimes picture_times_of(const settings::RunSettings& settings, const Flight& flight);
+
+/// What a person should be told who asked for detail or scenery near the eye on ground that cannot show it. `given`:
+/// names of the options that stand on the command line.
+std::vector<std::string> near_detail_warnings(
+    const World& world, const visuals::scene::GroundSettings& settings, std::span<const std::string> given);
 
 } // namespace octant::ui::world

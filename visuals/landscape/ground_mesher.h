@@ -1,18 +1,54 @@
 #pragma once
 
-#include "visuals/landscape/background_task.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/vec3.hpp>
 
+#include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 namespace octant::visuals::landscape {
+
+/// Runs work on an idle thread of a thread pool. Returns false without running it when no thread is idle. The work must
+/// not throw.
+using IdleThreadRunner = std::function<bool(std::function<void()> work)>;
+
+/// Runs one function at a time on a thread of its own or of a thread pool, while the owner goes on.
+class BackgroundTask {
+public:
+    BackgroundTask() = default;
+    BackgroundTask(const BackgroundTask&) = delete;
+    BackgroundTask& operator=(const BackgroundTask&) = delete;
+    BackgroundTask(BackgroundTask&&) = delete;
+    BackgroundTask& operator=(BackgroundTask&&) = delete;
+    ~BackgroundTask(); ///< waits
+
+    /// Waits for the previous work, then begins this one: on an idle thread of the pool, else on a thread of its own,
+    /// which is created on first use.
+    void begin(std::function<void()> work, const IdleThreadRunner& on_idle_thread);
+
+    /// Returns when no work is running. Rethrows what the work threw.
+    void wait();
+
+private:
+    void run(const std::stop_token& stop);
+    void run_work();
+
+    std::mutex mutex_;
+    std::condition_variable_any state_changed_;
+    std::function<void()> work_;       ///< empty: nothing to do
+    bool runs_on_pool_thread_ = false; ///< another's thread does it
+    std::exception_ptr exception_;
+    std::jthread thread_;
+};
 
 class Ground;
 
@@ -50,8 +86,18 @@ struct GroundCounts {
     int scenery_triangles = 0;
 };
 
-/// One view's meshes of a ground, frame after frame: the detail control and the memory that its plans point into. Each
-/// view has a mesher of its own; the ground is shared. Keeps its ground.
+/// One view's meshes of a ground, frame after frame: the detail control and the memory that its frame plans refer to.
+/// Each view has its own mesher; the ground is shared and owned by each of its meshers. Calls, in this order:
+///
+///     loading      reset_detail(request)                     once, before the first frame
+///     each frame   triangles(request, counts)                the mesh; advances the detail control by one frame
+///                  triangles_in(box_test, numbers)           any number of times, about that mesh
+///                  begin_next_mesh(next_request, runner)     optional: prepares the next triangles() on another thread
+///     between      wait()                                     ends begin_next_mesh()
+///     frames       apply_settings(settings), switch_ground(ground)
+///
+/// From begin_next_mesh() until the next triangles() nothing may be asked about triangles. The triangles of the last
+/// call stay valid until the next triangles().
 class GroundMesher {
 public:
     virtual ~GroundMesher() = default;
@@ -65,35 +111,34 @@ public:
     /// Sets the detail so that the first frame meets its target. Loading work.
     virtual void reset_detail(const MeshRequest& /*request*/) {}
 
-    /// Meshes by other settings from the next frame on; the detail control goes on from where it is. The ground
-    /// has_mesh_settings() they say (asserted by reuse_or_make_mesher).
+    /// Uses other settings from the next frame on; the state of the detail control stays. The ground must support the
+    /// settings: has_mesh_settings(), asserted by reuse_or_make_mesher().
     virtual void apply_settings(const MeshSettings& /*settings*/) {}
 
-    /// Goes on over another ground from the next frame on, where that has the same heights in the same memory and only
-    /// other colours. Otherwise returns false and has changed nothing.
+    /// Uses another ground from the next frame on, if it has the same heights in the same memory and differs only in
+    /// colours. Otherwise returns false and changes nothing.
     virtual bool switch_ground(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
 
-    /// Begins the work of the next triangles() beside the caller, which should then ask for the same, on a thread that
-    /// is spared for it or on another one; a second call before that one does nothing. Until that call nothing else may
-    /// be asked about triangles; those of the last one stay valid. May be left out: changes no mesh.
-    virtual void begin_next_mesh(const MeshRequest& /*request*/, const IdleThreadRunner& /*beside*/) {}
+    /// Begins the work of the next triangles() on another thread; that call should have the same request. A second
+    /// begin_next_mesh() before it does nothing. Only saves time: the mesh is the same without this call.
+    virtual void begin_next_mesh(const MeshRequest& /*request*/, const IdleThreadRunner& /*on_idle_thread*/) {}
 
-    /// Returns when nothing is being prepared. Throws what that work threw; the mesh is then made when it is asked for.
+    /// Returns when no mesh is being prepared. Rethrows what that work threw; triangles() then makes the mesh itself.
     virtual void wait() {}
 
     /// The triangles of one frame in painting order, farthest first, valid until the next call, and what they cost.
     /// Advances the detail control by one frame.
     virtual scene::TriangleDraw triangles(const MeshRequest& request, GroundCounts& counts) = 0;
 
-    /// Radius of the earth by which what is drawn sinks with the square of its distance, metres; 0
-    /// = flat. Heights asked of the ground are those above datum all the same.
+    /// Radius of the earth, metres, by which drawn vertices are lowered with the square of their distance; 0 = flat.
+    /// Heights that Ground returns stay heights above datum.
     virtual double earth_radius_m() const { return 0.0; }
 
-    /// Whether something between two corners (world axes, metres) is looked for.
+    /// Whether the triangles in the box between two corners (world axes, metres) are wanted.
     using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
     /// Appends the numbers of those triangles of the last triangles() (3 i is the first index of triangle i), in
-    /// painting order, that lie in boxes of which `wanted` says yes; more may come.
+    /// painting order, that lie in boxes for which `wanted` is true; others may be among them.
     virtual void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const = 0;
 
 protected:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/heights/height_field.h"
 #include "sim/base/geo_position.h"
 #include "visuals/nature/climate.h"
 #include "visuals/nature/daylight.h"
@@ -9,11 +10,13 @@
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_query.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace octant::visuals::landscape {
 
@@ -89,5 +92,25 @@ private:
     std::shared_ptr<const nature::ReliefShadows> terrain_shadows_;
     float water_m_;
 };
+
+/// A sample of the ground; its normal is from the heights `step` samples away on each side, fewer at the border: 1 for
+/// the full-resolution ground, else the mean slope of so wide a surrounding.
+TerrainPoint ground_point(const terrain::GroundSamples& ground, int column, int row, int step);
+
+/// The ground as seen: one packed colour a sample (layout of the field: row 0 south, column 0 west), coloured by
+/// height, slope and water level and lit by the sun with the full-resolution normals, so that the level of detail never
+/// changes the light.
+std::vector<std::uint32_t> ground_colours(
+    const models::heights::HeightField& field, const scene::AirSettings& settings);
+
+/// The sample nearest to a place, world axes, with the mean slope over about `footprint_m`.
+TerrainPoint nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m);
+
+/// Its colour as the mean over about `footprint_m`.
+glm::vec3 nearest_colour(
+    const terrain::GroundSamples& ground, const GroundPalette& palette, const glm::dvec2& at_m, double footprint_m);
+
+/// Mean of packed colours, display values 0..1.
+glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours);
 
 } // namespace octant::visuals::landscape

@@ -1,7 +1,7 @@
 #include "visuals/landscape/ground_texture_maker.h"
 
 #include "sim/base/parallel_for.h"
-#include "visuals/landscape/ground_colours.h"
+#include "visuals/landscape/ground_palette.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,5 @@
 #include "sim/base/units.h"
 #include "visuals/landscape/ground.h"
-#include "visuals/landscape/ground_colours.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/terrain/detail_controller.h"

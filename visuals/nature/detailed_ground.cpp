@@ -2,7 +2,6 @@
 
 #include "sim/base/geometry2d.h"
 #include "sim/base/hash.h"
-#include "visuals/nature/near_detail_view.h"
 #include "visuals/nature/scenery.h"
 
 #include <glm/common.hpp>

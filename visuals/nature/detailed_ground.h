@@ -1,7 +1,6 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "visuals/nature/near_detail_view.h"
 #include "visuals/nature/scenery.h"
 #include "visuals/terrain/ground_mesh.h"
 

@@ -5,7 +5,7 @@
 #include "models/triangle_mesh.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
-#include "visuals/planning/articulated_part.h"
+#include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/bounding_box.h"
 #include "visuals/planning/transparent_geometry.h"
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
+#include "sim/aircraft_limits.h"
 #include "visuals/draworder/draw_order.h"
+#include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/bounding_box.h"
 #include "visuals/planning/mesh_levels.h"
 #include "visuals/refine/progressive_mesh.h"
@@ -17,6 +19,11 @@
 #include <vector>
 
 namespace octant::visuals::planning {
+
+/// The dials that a cockpit's model (body axes, from the pilot's eye) has room for: one where its first part named
+/// dial_speed, dial_altitude, dial_attitude, dial_heading or dial_load begins, as large as fits into that polygon,
+/// which lies ahead and square to the x axis. Scales hold what `limits` allow. Loading work.
+overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimits& limits);
 
 /// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where another polygon's
 /// corner lies on a side; one index buffer that holds the polygons of the order's flat list and, behind them, all

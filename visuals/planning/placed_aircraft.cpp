@@ -1,5 +1,4 @@
 #include "visuals/planning/placed_aircraft.h"
-
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>

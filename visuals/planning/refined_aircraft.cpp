@@ -1,6 +1,4 @@
 #include "visuals/planning/refined_aircraft.h"
-
-#include "visuals/planning/shading_rule_of.h"
 #include "visuals/scene/model_display.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +9,12 @@
 #include <utility>
 
 namespace octant::visuals::planning {
+
+shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& settings) {
+    shading::ShadingRuleSettings rule;
+    rule.rule = settings.rule == scene::HybridRule::Paper ? shading::ShadingRule::Paper : shading::ShadingRule::Error;
+    return rule;
+}
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
 #include "visuals/shading/dynamic_mesh_shading.h"
+#include "visuals/shading/shading_rule.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -15,6 +16,9 @@
 #include <vector>
 
 namespace octant::visuals::planning {
+
+/// The rule by which visuals/shading is to choose the polygons, or the triangles of a refined mesh, that are smooth.
+shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& settings);
 
 /// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its memory; what stays
 /// from frame to frame is not worked out again.

@@ -1,6 +1,5 @@
 #include "visuals/planning/scene_painter.h"
-
-#include "visuals/planning/front_facing.h"
+#include "visuals/planning/ground_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

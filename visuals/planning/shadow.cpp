@@ -1,7 +1,7 @@
 #include "visuals/planning/shadow.h"
 
 #include "sim/base/units.h"
-#include "visuals/planning/ground_in_front.h"
+#include "visuals/planning/ground_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

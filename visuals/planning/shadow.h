@@ -4,10 +4,8 @@
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/planning/bounding_box.h"
 #include "visuals/planning/frame_view.h"
-#include "visuals/planning/ground_decals.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/placed_aircraft.h"
-#include "visuals/planning/view_polygon.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "visuals/planning/ground_frame.h"
-#include "visuals/planning/ground_in_front.h"
-#include "visuals/planning/view_polygon.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
 #include "tests/ui/world/user_cache.h"
-#include "ui/world/terrain_file.h"
+#include "ui/world/scene_ground.h"
 
 #include <catch2/catch.hpp>
 

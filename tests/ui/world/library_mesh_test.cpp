@@ -1,5 +1,5 @@
 #include "tests/scratch.h"
-#include "ui/world/library_mesh.h"
+#include "ui/world/mesh_loader.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "ui/world/terrain_file.h"
+#include "ui/world/scene_ground.h"
 
 #include <catch2/catch.hpp>
 

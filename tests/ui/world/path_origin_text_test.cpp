@@ -1,5 +1,5 @@
 #include "sim/base/transverse_mercator.h"
-#include "ui/world/placed_flight.h"
+#include "ui/world/flight.h"
 
 #include <catch2/catch.hpp>
 

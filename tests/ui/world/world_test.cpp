@@ -7,7 +7,6 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/base/data_files.h"
-#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 

@@ -1,4 +1,4 @@
-#include "visuals/landscape/ground_colours.h"
+#include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "models/polygons/obj_reader.h"
 #include "sim/aircraft_kind.h"
-#include "visuals/planning/cockpit_dials.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <catch2/catch.hpp>
 

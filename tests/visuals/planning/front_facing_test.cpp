@@ -1,4 +1,4 @@
-#include "visuals/planning/front_facing.h"
+#include "visuals/planning/ground_frame.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 #include "sim/base/units.h"
-#include "visuals/landscape/ground_colours.h"
+#include "visuals/landscape/ground_palette.h"
 #include "visuals/planning/sky.h"
 
 #include <catch2/catch.hpp>

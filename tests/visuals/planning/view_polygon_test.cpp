@@ -1,4 +1,4 @@
-#include "visuals/planning/view_polygon.h"
+#include "visuals/planning/bounding_box.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

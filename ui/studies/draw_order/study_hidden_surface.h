@@ -6,7 +6,6 @@
 #include "ui/flight/id_comparison.h"
 #include "ui/settings/settings.h"
 #include "ui/studies/draw_order/study_renderer.h"
-#include "ui/world/picture_times.h"
 #include "ui/world/world.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/model_buffers.h"

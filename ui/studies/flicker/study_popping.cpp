@@ -10,7 +10,7 @@
 #include "ui/report/statistics.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/mesh_maker.h"
-#include "ui/world/terrain_file.h"
+#include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/terrain/frustum.h"

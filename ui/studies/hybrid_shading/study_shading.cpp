@@ -16,7 +16,7 @@
 #include "ui/report/statistics.h"
 #include "ui/studies/hybrid_shading/shading_times.h"
 #include "ui/studies/shading_pictures.h"
-#include "ui/world/refine_mesh.h"
+#include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/shading/shading_controller.h"

@@ -1,4 +1,4 @@
-#include "visuals/landscape/background_task.h"
+#include "visuals/landscape/ground_mesher.h"
 
 #include <utility>
 
