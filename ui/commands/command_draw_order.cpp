@@ -14,15 +14,12 @@
 #include "ui/world/order_model.h"
 #include "visuals/certificate/order_certificate.h"
 #include "visuals/draworder/draw_order.h"
-#include "visuals/draworder/octant_path.h"
+#include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/draworder/with_min_distance.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/orderfile/order_check.h"
-#include "visuals/orderfile/order_table.h"
 #include "visuals/orderfile/order_text.h"
-#include "visuals/separation/separation.h"
-#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
 #include <array>
@@ -263,7 +260,6 @@ bool verify_certificate(const std::string& file, bool quiet, base::JsonValue& re
 
 } // namespace
 
-namespace separation = visuals::separation;
 namespace draworder = visuals::draworder;
 namespace ordercache = visuals::ordercache;
 namespace orderfile = visuals::orderfile;
@@ -375,7 +371,7 @@ void export_files(const PreparedOrder& work, const DrawOrderOptions& options) {
     if (options.export_file.empty()) { return; }
     orderfile::CellOrders orders = work.orders;
     for (orderfile::ListedCell& cell : orders.cells) {
-        if (cell.directions.empty()) { cell.planes = separation::without_redundant(cell.planes); }
+        if (cell.directions.empty()) { cell.planes = orderfile::without_redundant(cell.planes); }
     }
     write_file(options.export_file, orderfile::order_text(orders, work.axes));
     base::print_note(options.quiet, "orders: " + options.export_file);

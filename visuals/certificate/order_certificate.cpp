@@ -5,7 +5,6 @@
 #include "sim/base/format_once.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/proof_walk.h"
-#include "visuals/separation/local_model.h"
 #include "visuals/separation/separating_plane_proof.h"
 
 #include <cstddef>

@@ -3,14 +3,11 @@
 // kept.
 #include "visuals/draworder/cell_search.h"
 
-#include "visuals/draworder/candidate_planes.h"
-#include "visuals/draworder/components.h"
 #include "visuals/draworder/draw_order.h"
+#include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/octant_order.h"
-#include "visuals/draworder/octant_path.h"
 #include "visuals/draworder/view_cell.h"
 #include "visuals/draworder/view_space_tree.h"
-#include "visuals/draworder/working_model.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

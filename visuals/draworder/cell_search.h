@@ -3,7 +3,7 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/search_budget.h"
-#include "visuals/draworder/working_model.h"
+#include "visuals/draworder/view_cell.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,14 +1,106 @@
 #pragma once
 
-#include "visuals/draworder/face.h"
+#include "models/planar/planar_model.h"
+#include "models/polygons/polygon_model.h"
+#include "sim/base/plane.h"
+#include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/view_region.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace octant::visuals::draworder {
+
+/// What is compared in place of a polygon: its outline, shrunk by a hair so that polygons which only touch do not hide
+/// one another, or a body that a turning polygon sweeps (turning_parts.h). Lengths are in the unit of ViewRegion.
+struct Face {
+    /// Before shrinking; in order around an outline, in any order for a body.
+    std::vector<glm::dvec3> outline;
+    std::vector<glm::dvec3> corners; ///< After shrinking.
+    /// The plane of an outline, its front where it is seen from; a body has none.
+    std::optional<Plane> plane;
+    /// The corners in the coordinates (right, up), counter-clockwise.
+    std::vector<glm::dvec2> flat;
+    std::vector<glm::dvec2> edge_directions; ///< The unit directions from each of them to the next one.
+    glm::dvec3 right{0.0};
+    glm::dvec3 up{0.0};                 ///< Equal to cross(normal, right).
+    std::optional<std::uint32_t> pivot; ///< The index in PolygonModel::pivots of what turns it.
+};
+
+/// Tolerances of hiding tests, in the unit of ViewRegion.
+struct Tolerances {
+    /// Outlines are shrunk by this distance.
+    double inset = models::planar::planar_tolerance;
+    /// A point within this distance of a plane counts as on it.
+    double on_plane = inset / 10.0;
+};
+
+/// The face of a convex outline that lies in `plane` but for rounding. Its corners are projected onto the plane, and
+/// every edge is moved inwards by the inset, but by no more than a fifth of the least distance between a corner and the
+/// centroid.
+Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, double inset);
+
+/// The part of a convex outline in front of a plane that it straddles. Corners within `on_plane` of the plane belong to
+/// it as they are, so that no two corners lie closer together than those of the outline.
+std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane);
+
+/// Whether all corners of a face lie behind a plane or on it.
+bool behind_or_on(const Face& face, const Plane& plane, double on_plane);
+
+/// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap there. Not those that
+/// turn.
+bool overlap_in_plane(const Face& a, const Face& b, double on_plane);
+
+/// The face that stands for a polygon of a turning part, chosen so that an order holds at every angle.
+///
+/// At any angle the polygon lies within what it sweeps, and the stand-in contains that. The hiding test is monotone in
+/// both faces: what hides or is hidden at some angle also does so in the test. So an order that keeps the precedences
+/// of the stand-ins is right at every angle, though it may keep some that no angle needs.
+///
+/// A polygon whose plane is perpendicular to the axis sweeps a ring of that plane. Its stand-in is a regular polygon of
+/// 24 corners around the ring's outer circle, seen from the same side. Any other polygon sweeps a solid of revolution.
+/// Its stand-in is the convex hull of regular polygons around the circles of its corners: a body, which is seen from
+/// all sides because the polygon turns.
+///
+/// Polygons of one part keep their places to one another while, in their frame, the eye goes round them. They are
+/// compared as they stand in the file, with eyes everywhere (ModelFaces::rigid).
+///
+/// `scale` converts metres about `origin_m` to the unit of the face; `inset` is that of Tolerances.
+Face swept_face(const models::polygons::PolygonModel& model, std::size_t polygon, const models::polygons::Pivot& pivot,
+    const glm::dvec3& origin_m, double scale, double inset);
+
+/// A model prepared for hiding tests: face i stands for polygon i. The unit of length is the model's radius about
+/// `origin_m`, which is the origin; axes are the body's.
+struct ModelFaces {
+    std::vector<Face> faces;
+    Tolerances tolerances;
+    glm::dvec3 origin_m{0.0};
+    double unit_m = 1.0;
+    /// Edges within turning parts, whose polygons keep their places to each other, and from each polygon to later ones
+    /// that overlap it in its plane. They hold for every eye and have no cycles.
+    OcclusionGraph rigid;
+    /// Pairs that collide as they turn, in both directions; no order can be right for them.
+    OcclusionGraph ignored;
+    /// Messages about turning parts whose polygons no order paints correctly.
+    std::vector<std::string> notes;
+
+    /// Converts a plane of the faces' space to body axes, metres.
+    Plane in_model(const Plane& plane) const;
+
+    /// Converts a plane in body axes to the faces' space.
+    Plane to_face_space(const Plane& plane) const;
+};
+
+/// Prepares a planar model (models/planar/planar_model.h). Outlines are shrunk by planar_tolerance times the radius.
+ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m);
 
 /// Whether one face hides part of another for some eye of a region: the exact test on which the orders of trees and
 /// cells rest. Its memory is reused.
@@ -56,6 +148,55 @@ private:
     std::vector<glm::dvec3> behind_;
     /// Generators of C, homogeneous, in the coordinates of b's plane.
     std::vector<glm::dvec3> crossings_;
+};
+
+/// Where polygons lie to a plane that cuts a region, seen from one of its sides.
+struct PlaneSideSets {
+    PolygonSet front_or_on;
+    PolygonSet back_or_on;
+};
+
+/// Builds the hiding graphs of a model's faces over regions of eye space. Keeps a reference to the faces; its memory is
+/// reused.
+class OcclusionGraphBuilder {
+public:
+    explicit OcclusionGraphBuilder(const ModelFaces& faces) : faces_(faces), test_(faces.tolerances) {}
+
+    const ModelFaces& model() const { return faces_; }
+
+    /// The graph of all pairs for all eyes of a region. Pairs that collide as they turn are left out.
+    OcclusionGraph all(const ViewRegion& region);
+
+    /// Those edges of `parent`, the graph of a larger region, that remain in this region, for the rows `among`. Nothing
+    /// else needs a test, because a polygon that hides nothing of another for any eye of a region does not do so for a
+    /// part of it.
+    OcclusionGraph surviving(
+        const ViewRegion& region, const OcclusionGraph& parent, std::span<const std::uint32_t> among);
+
+    /// The edges of `parent` that remain in front of a plane, by where polygons lie to it alone: what is behind the
+    /// plane or in it hides nothing that is in front of it or in it. For the rows `among`.
+    OcclusionGraph remaining_in_front(
+        const OcclusionGraph& parent, std::span<const std::uint32_t> among, const PlaneSideSets& sides) const;
+
+    /// The edges of `parent` that remain for a single eye, for the rows `among`.
+    OcclusionGraph at_eye(const glm::dvec3& eye, const OcclusionGraph& parent, std::span<const std::uint32_t> among);
+
+    /// The polygons that face some eye of a region.
+    PolygonSet listed(const ViewRegion& region) const;
+
+private:
+    /// Prepares occludes() for a region and a face `a`: cuts the region to the front of `a`. Returns false when nothing
+    /// is left, so that no eye sees `a`.
+    bool clip_to_front(const ViewRegion& region, const Face& a);
+    /// Whether `b` hides part of `a` for some eye of the prepared region.
+    bool occludes(std::size_t b, std::size_t a);
+
+    const ModelFaces& faces_;
+    OcclusionTest test_;
+    /// The part of the region that sees face `a` from its front.
+    std::optional<ViewRegion> region_in_front_of_a_;
+    std::vector<glm::dvec4> generators_of_a_;
+    std::vector<glm::dvec4> generators_;
 };
 
 } // namespace octant::visuals::draworder

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "visuals/draworder/precedence.h"
-
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +7,48 @@
 #include <vector>
 
 namespace octant::visuals::draworder {
+
+/// Polygon `first` must be painted before polygon `later`.
+struct Precedence {
+    std::uint32_t first = 0;
+    std::uint32_t later = 0;
+};
+
+/// A painting order that was made from precedences.
+struct TopologicalOrder {
+    std::vector<std::uint32_t> order; ///< First painted first.
+    int broken_cycles = 0;            ///< How often a polygon came before one that it should follow.
+};
+
+/// Sorts 0 to count - 1 topologically: an order that keeps all precedences (each between two of these numbers,
+/// asserted), with the lowest number first wherever there is a choice. In a cycle the polygon that waits for the fewest
+/// others goes ahead, the lowest number among equals; each such step counts as a broken cycle.
+TopologicalOrder topological_order(std::size_t count, std::span<const Precedence> precedences);
+
+/// The number of bits that are set in both of two rows of equal length. It adds up bytes of eight bits each (H. S.
+/// Warren, "Hacker's Delight", 2003, section 5-1), because without a processor's own instruction std::popcount is a
+/// function call for every word.
+inline std::size_t count_common_bits(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
+    constexpr std::uint64_t pairs = 0x5555555555555555;
+    constexpr std::uint64_t nibbles = 0x3333333333333333;
+    constexpr std::uint64_t bytes = 0x0f0f0f0f0f0f0f0f;
+    constexpr std::size_t max_words = 31; // A byte of `sums` can count 31 words of at most 8 bits.
+    std::size_t count = 0;
+    for (std::size_t word = 0; word < a.size();) {
+        std::uint64_t sums = 0;
+        const std::size_t end = a.size() - word > max_words ? word + max_words : a.size();
+        for (; word < end; ++word) {
+            std::uint64_t bits = a[word] & b[word];
+            bits -= (bits >> 1) & pairs;
+            bits = (bits & nibbles) + ((bits >> 2) & nibbles);
+            sums += (bits + (bits >> 4)) & bytes;
+        }
+        constexpr std::uint64_t every_other = 0x00ff00ff00ff00ff;
+        sums = (sums & every_other) + ((sums >> 8) & every_other);
+        count += static_cast<std::size_t>((sums * 0x0001000100010001) >> 48);
+    }
+    return count;
+}
 
 /// A set of polygon numbers, one bit each.
 class PolygonSet {
@@ -19,7 +59,17 @@ public:
 
     void add(std::size_t polygon) { words_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
 
+    /// Adds all polygons of another set of the same size.
+    void add(const PolygonSet& other) {
+        for (std::size_t i = 0; i < words_.size(); ++i) { words_[i] |= other.words_[i]; }
+    }
+
     void remove(std::size_t polygon) { words_[polygon / 64] &= ~(std::uint64_t{1} << (polygon % 64)); }
+
+    /// Removes all polygons of another set of the same size.
+    void remove(const PolygonSet& other) {
+        for (std::size_t i = 0; i < words_.size(); ++i) { words_[i] &= ~other.words_[i]; }
+    }
 
     std::span<const std::uint64_t> words() const { return words_; }
 
@@ -68,5 +118,68 @@ void for_each_bit(std::span<const std::uint64_t> words, Visit visit) {
         }
     }
 }
+
+/// The cyclic part of a hiding graph: its strongly connected components of two or more polygons, and the edges within
+/// them.
+struct CyclicPart {
+    std::vector<std::uint32_t> polygons; ///< The polygons of all components, ascending.
+    /// The polygons of each component, ascending.
+    std::vector<std::vector<std::uint32_t>> components;
+    OcclusionGraph inner;  ///< The edges within components.
+    std::size_t edges = 0; ///< The number of these edges.
+};
+
+/// Finds the cyclic part by R. Tarjan, "Depth-first search and linear graph algorithms", 1972. Only the polygons
+/// `among` and the edges between them are looked at.
+CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
+
+/// The cyclic part among all polygons.
+CyclicPart cyclic_part_of(const OcclusionGraph& graph);
+
+/// A cycle with the fewest polygons ("ring"): each is hidden by the next, and the last by the first. Empty when there
+/// is no cycle. The search starts from the polygons `among`.
+std::vector<std::uint32_t> shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
+
+/// Counts the edges that lie within strongly connected components, for many variants of one graph in turn. Its memory
+/// is reused.
+class CyclicEdgeCounter {
+public:
+    /// The number of such edges in `graph` restricted to the polygons `among`, without edges into or out of `removed`,
+    /// and without those by which a polygon of `occluders` hides one of `occluded`.
+    std::size_t count(const OcclusionGraph& graph, std::span<const std::uint32_t> among, const PolygonSet& occluders,
+        const PolygonSet& occluded, const PolygonSet& removed);
+
+    /// For each polygon of `among` the number of its component, after count().
+    std::span<const std::uint32_t> component_of() const { return component_; }
+
+private:
+    /// A polygon on the stack of the depth-first search, and which of its edges are left.
+    struct Visit {
+        std::uint32_t polygon = 0;
+        std::size_t word = 0;
+        std::uint64_t left = 0;
+    };
+
+    /// One word of a polygon's row in the restricted graph.
+    std::uint64_t row_word(std::uint32_t polygon, std::size_t word) const;
+    /// Searches depth first from a polygon.
+    void search_from(std::uint32_t root);
+    void close(std::uint32_t polygon);
+
+    const OcclusionGraph* graph_ = nullptr;
+    const PolygonSet* hiding_ = nullptr;
+    const PolygonSet* hidden_ = nullptr;
+    std::vector<std::uint64_t> allowed_;
+    std::vector<std::uint32_t> number_;
+    std::vector<std::uint32_t> lowlink_;
+    std::vector<std::uint32_t> component_;
+    std::vector<std::uint64_t> members_;
+    std::vector<std::uint64_t> row_;
+    std::vector<std::uint32_t> open_;
+    std::vector<Visit> visits_;
+    std::uint32_t next_number_ = 0;
+    std::uint32_t next_component_ = 0;
+    std::size_t edges_ = 0;
+};
 
 } // namespace octant::visuals::draworder

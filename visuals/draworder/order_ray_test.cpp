@@ -4,9 +4,9 @@
 
 #include "models/polygons/polygon_outlines.h"
 #include "sim/base/random_generator.h"
+#include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/proof_walk.h"
 #include "visuals/draworder/search_budget.h"
-#include "visuals/draworder/with_min_distance.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

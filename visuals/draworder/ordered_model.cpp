@@ -6,12 +6,10 @@
 #include "visuals/bsp/partial_bsp_tree.h"
 #include "visuals/bsp/polygon_pieces.h"
 #include "visuals/draworder/cell_search.h"
-#include "visuals/draworder/cut_pieces.h"
-#include "visuals/draworder/model_faces.h"
-#include "visuals/draworder/precedence.h"
+#include "visuals/draworder/occlusion.h"
+#include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/split.h"
-#include "visuals/draworder/swept_face.h"
-#include "visuals/draworder/working_model.h"
+#include "visuals/draworder/view_cell.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The walk need not be trusted: visuals/verify checks what is written of it, with none of its code.
 #include "visuals/draworder/proof_walk.h"
 
-#include "visuals/separation/polygon_pair_set.h"
+#include "visuals/draworder/occlusion_graph.h"
 
 #include <glm/geometric.hpp>
 
@@ -19,8 +19,6 @@ namespace {
 using separation::DecidingPolygon;
 using separation::LocalModel;
 using separation::LocalPolygon;
-using separation::PolygonBitset;
-using separation::PolygonPairSet;
 using separation::SeparatingPlaneProof;
 using Polygons = std::vector<std::uint32_t>;
 
@@ -52,12 +50,12 @@ private:
         bool in_plane = false;
     };
 
-    /// A child of a choice, or the first choice: a place for claims about the eyes before its walls and all that is
-    /// known for them.
+    /// A child of a view split, or the first view split: statements about all eyes in front of its region planes are
+    /// reported for this child.
     struct Level {
         int child = 0;
         std::size_t region_planes = 0;
-        PolygonPairSet known;
+        std::vector<PolygonSet> proved; ///< By the later polygon: the earlier ones of the pairs that are proved.
     };
 
     void look_at(const Task& task) {
@@ -83,13 +81,13 @@ private:
 
     /// Of a list below choices the pairs that no plane of a polygon and no wall decides.
     void check_unproved_pairs(const Task& task, std::span<const std::uint32_t> list) {
-        PolygonBitset painted = levels_.back().known.none();
+        PolygonSet painted(model_.polygons.size());
         for (const std::uint32_t later : list) {
-            Polygons unproved_pairs;
-            levels_.back().known.for_each_missing(
-                painted, later, [&](std::uint32_t earlier) { unproved_pairs.push_back(earlier); });
-            for (const std::uint32_t earlier : unproved_pairs) { find_proof_for_eyes(task, earlier, later); }
-            separation::add(painted, later);
+            PolygonSet unproved = painted;
+            unproved.remove(levels_.back().proved[later]);
+            for_each_bit(unproved.words(),
+                [&](std::size_t earlier) { find_proof_for_eyes(task, static_cast<std::uint32_t>(earlier), later); });
+            painted.add(later);
         }
     }
 
@@ -103,7 +101,7 @@ private:
             region_planes.resize(levels_[level].region_planes);
         }
         sink_.add_plane_proof(levels_[level].child, plane_proof, earlier, later);
-        for (; level < levels_.size(); ++level) { levels_[level].known.add(earlier, later); }
+        for (; level < levels_.size(); ++level) { levels_[level].proved[later].add(earlier); }
     }
 
     void check_node(const Task& task) {
@@ -144,7 +142,8 @@ private:
     void check_view_split(const Task& task, const DrawOrder::Node& node) {
         const bool is_first = levels_.empty();
         if (is_first) {
-            levels_.push_back({task.child, task.region_planes.size(), PolygonPairSet(model_.polygons.size())});
+            const PolygonSet none(model_.polygons.size());
+            levels_.push_back({task.child, task.region_planes.size(), {model_.polygons.size(), none}});
             const Polygons below = contents(task.child);
             for (const std::uint32_t later : below) { check_row(task.child, below, later); }
         }
@@ -160,22 +159,22 @@ private:
         }
         Task side{child, task.region_planes, task.expected, false};
         side.region_planes.push_back(wall);
-        Level level{child, side.region_planes.size(), levels_.back().known};
-        PolygonBitset behind = level.known.none();
+        Level level{child, side.region_planes.size(), levels_.back().proved};
+        PolygonSet behind(model_.polygons.size());
         Polygons before;
         for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
-            if (is_behind(local_, i, wall, true)) { separation::add(behind, i); }
+            if (is_behind(local_, i, wall, true)) { behind.add(i); }
             if (is_before(local_, i, wall, true)) { before.push_back(i); }
         }
         for (const std::uint32_t later : before) {
             if (!local_.polygons[later].axis) {
-                level.known.add(behind, later);
+                level.proved[later].add(behind);
                 continue;
             }
             for (std::uint32_t earlier = 0; earlier < model_.polygons.size(); ++earlier) {
                 // Polygons that turn together see the wall turn.
-                if (separation::has(behind, earlier) && local_.polygons[earlier].axis != local_.polygons[later].axis) {
-                    level.known.add(earlier, later);
+                if (behind.has(earlier) && local_.polygons[earlier].axis != local_.polygons[later].axis) {
+                    level.proved[later].add(earlier);
                 }
             }
         }
@@ -230,7 +229,7 @@ private:
             if (by == DecidingPolygon::Neither) {
                 unproved_pairs.push_back(polygon);
             } else if (!levels_.empty()) {
-                levels_.back().known.add(polygon, later);
+                levels_.back().proved[later].add(polygon);
             }
             sink_.add_pair(by);
             last = by;

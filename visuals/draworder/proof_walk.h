@@ -3,7 +3,6 @@
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
-#include "visuals/separation/local_model.h"
 #include "visuals/separation/separating_plane_proof.h"
 
 #include <cstddef>

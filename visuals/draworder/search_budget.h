@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fmt/format.h>
 #include <functional>
 #include <string>
 #include <utility>
@@ -25,7 +26,13 @@ public:
     explicit SearchBudget(double seconds, Progress progress = {}) : seconds_(seconds), progress_(std::move(progress)) {}
 
     /// Counts work, before it is done or after. Throws SearchGivenUp when the budget is spent.
-    void spend(std::uint64_t units);
+    void spend(std::uint64_t units) {
+        spent_s_ += static_cast<double>(units) * 1e-9;
+        if (spent_s_ > seconds_) {
+            throw SearchGivenUp{fmt::format("the search for cells took more than {:g} s", seconds_)};
+        }
+        if (progress_) { progress_(spent_s_ / seconds_); }
+    }
 
 private:
     double seconds_;

@@ -1,19 +1,27 @@
-// The step from a region to a smaller one. Precedences only disappear when a region shrinks, so a child tests no more
-// than the cyclic edges of its parent; and an acyclic graph over a region gives, by topological sorting, one list that
-// is right for all of its eyes.
+// The last resort of both exact methods: where no division of eye space gives an order, a polygon is split (section IV
+// and figure 14 of the 1989 paper), and all that was found before is kept up to date.
 #include "visuals/draworder/view_cell.h"
 
-#include "visuals/draworder/bit_count.h"
+#include "sim/base/plane.h"
+#include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/search_budget.h"
+#include "visuals/draworder/split.h"
 
+#include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
 #include <functional>
 #include <numeric>
 #include <queue>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::draworder {
+
+// The step from a region to a smaller one. Precedences only disappear when a region shrinks, so a child tests no more
+// than the cyclic edges of its parent; and an acyclic graph over a region gives, by topological sorting, one list that
+// is right for all of its eyes.
 
 namespace {
 
@@ -127,6 +135,154 @@ std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuild
         clusters.push_back(std::move(sets[next]));
     }
     return clusters;
+}
+
+// Splitting of polygons that hide one another in a ring: E. K. Kim, J. A. Park, C. Song, J. H. Kim, 1989, section IV
+// and figure 14.
+//
+// Deviations: the paper splits polygons that pass through one another (split.cpp does that); here the same cut serves
+// polygons that overlap cyclically, such as three bars each over the next. Which one to split is not in the paper.
+
+namespace {
+
+/// The hiding graph among the polygons of a deadlock, for its eye or for its region.
+OcclusionGraph graph_of(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
+    const auto& among = persistent_cycle.polygons;
+    OcclusionGraph pairs(graphs.model().faces.size());
+    for (const std::uint32_t a : among) {
+        for (const std::uint32_t b : among) {
+            if (a != b && !graphs.model().ignored.occludes(b, a)) { pairs.add(b, a); }
+        }
+    }
+    return persistent_cycle.eye ? graphs.at_eye(*persistent_cycle.eye, pairs, among)
+                                : graphs.surviving(persistent_cycle.region, pairs, among);
+}
+
+/// Whether a face reaches more than `margin` to both sides of a plane.
+bool straddles(const Face& face, const Plane& plane, double margin) {
+    const auto heights = [&](const glm::dvec3& corner) { return distance_m(plane, corner); };
+    const auto [least, most] = std::ranges::minmax(face.outline, {}, heights);
+    return heights(least) < -margin && heights(most) > margin;
+}
+
+/// The number of cyclic edges among the ring's polygons once one of them has been cut.
+std::size_t left_after(const ModelFaces& model, const PersistentCycle& persistent_cycle,
+    const std::vector<std::uint32_t>& ring, const PolygonCut& cut) {
+    const Plane plane = *model.faces[cut.cut_by].plane;
+    const Face& whole = model.faces[cut.polygon];
+    const std::size_t count = ring.size() + 1;
+    ModelFaces pieces{.faces = {},
+        .tolerances = model.tolerances,
+        .rigid = OcclusionGraph(count),
+        .ignored = OcclusionGraph(count),
+        .notes = {}};
+    for (const std::uint32_t polygon : ring) {
+        pieces.faces.push_back(polygon == cut.polygon
+                                   ? outline_face(front_part(whole.outline, plane, model.tolerances.inset),
+                                         *whole.plane, model.tolerances.inset)
+                                   : model.faces[polygon]);
+    }
+    pieces.faces.push_back(outline_face(
+        front_part(whole.outline, turned_over(plane), model.tolerances.inset), *whole.plane, model.tolerances.inset));
+    PersistentCycle among{std::vector<std::uint32_t>(count), persistent_cycle.region, persistent_cycle.eye};
+    std::iota(among.polygons.begin(), among.polygons.end(), 0U);
+    OcclusionGraphBuilder graphs(pieces);
+    return cyclic_part_of(graph_of(graphs, among)).edges;
+}
+
+} // namespace
+
+std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
+    const ModelFaces& model = graphs.model();
+    std::vector<std::uint32_t> ring = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
+    std::ranges::sort(ring);
+    std::optional<PolygonCut> best;
+    std::size_t fewest = 0;
+    for (const std::uint32_t polygon : ring) {
+        for (const std::uint32_t cut_by : ring) {
+            const Face& face = model.faces[polygon];
+            const auto& plane = model.faces[cut_by].plane;
+            if (face.pivot || !plane || !straddles(face, *plane, 2.0 * model.tolerances.inset)) { continue; }
+            const std::size_t left = left_after(model, persistent_cycle, ring, {polygon, cut_by});
+            if (!best || left < fewest) {
+                best = PolygonCut{polygon, cut_by};
+                fewest = left;
+            }
+        }
+    }
+    return best;
+}
+
+std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
+    const auto ring = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
+    const auto& faces = graphs.model().faces;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t next = ring[(i + 1) % ring.size()];
+        if (faces[ring[i]].pivot || faces[next].pivot) { return Precedence{ring[i], next}; }
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+/// A model that needs more than 100 + 2 splits a polygon is not suited to painting orders.
+constexpr std::uint32_t max_splits_a_polygon = 2;
+constexpr std::uint32_t splits_always_allowed = 100;
+
+} // namespace
+
+void WorkingModel::resolve(const PersistentCycle& persistent_cycle) {
+    OcclusionGraphBuilder graphs(faces);
+    if (const auto cut = best_polygon_cut(graphs, persistent_cycle)) {
+        if (sibling_pieces.size() > splits_always_allowed + max_splits_a_polygon * first_count) {
+            throw SearchGivenUp{fmt::format("cells need more than {} splits", sibling_pieces.size() - 1)};
+        }
+        // Faces keep the planes of whole polygons. That of a sliver, from its corners, may be any.
+        const Plane plane = *faces.faces[cut->cut_by].plane;
+        split_polygon(model, cut->polygon, faces.in_model(plane));
+        sibling_pieces.push_back(cut->polygon);
+        const Face whole = faces.faces[cut->polygon];
+        const double inset = faces.tolerances.inset;
+        faces.faces[cut->polygon] = outline_face(front_part(whole.outline, plane, inset), *whole.plane, inset);
+        const Plane back = turned_over(plane);
+        faces.faces.push_back(outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
+        faces.rigid.add_sibling(cut->polygon);
+        faces.ignored.add_sibling(cut->polygon);
+        end_overlaps(cut->polygon);
+        end_overlaps(faces.faces.size() - 1);
+        return;
+    }
+    const auto weakest = pair_to_drop(graphs, persistent_cycle);
+    if (!weakest) { throw SearchGivenUp{"polygons hide one another in a ring that no cut resolves"}; }
+    const Precedence pair = *weakest;
+    faces.ignored.add(pair.later, pair.first);
+    notes.push_back(fmt::format("{} and {} hide one another as they turn; no order is right at every angle",
+        model.parts[model.polygons[pair.first].part], model.parts[model.polygons[pair.later].part]));
+}
+
+/// A piece overlaps no more polygons of its plane than the whole did, and often fewer.
+void WorkingModel::end_overlaps(std::size_t piece) {
+    const Face& face = faces.faces[piece];
+    for (std::size_t other = 0; other < faces.faces.size(); ++other) {
+        if (!overlap_in_plane(face, faces.faces[other], faces.tolerances.inset)) {
+            faces.rigid.remove(piece, other);
+            faces.rigid.remove(other, piece);
+        }
+    }
+}
+
+bool WorkingModel::add_new_pieces(ViewCell& node) const {
+    const std::size_t before = node.graph.count();
+    while (node.graph.count() < faces.faces.size()) {
+        node.graph.add_sibling(sibling_pieces[node.graph.count() - first_count]);
+    }
+    if (node.graph.count() > before) { node.cycles = cyclic_part_of(node.graph); }
+    return node.graph.count() > before;
+}
+
+void WorkingModel::add_new_pieces(std::vector<std::uint32_t>& list, std::size_t polygons) const {
+    insert_cut_pieces(
+        list, std::span(sibling_pieces).subspan(polygons - first_count), static_cast<std::uint32_t>(polygons));
 }
 
 } // namespace octant::visuals::draworder

@@ -28,17 +28,6 @@ glm::dvec4 front_of(const Plane& plane) { return {plane.normal, plane.offset_m};
 
 } // namespace
 
-ViewRegion::Facets ViewRegion::Facets::operator&(const Facets& other) const {
-    Facets both;
-    for (std::size_t i = 0; i < words.size(); ++i) { both.words[i] = words[i] & other.words[i]; }
-    return both;
-}
-
-bool ViewRegion::Facets::more_than_one() const {
-    const auto [low, high] = words;
-    return (low != 0 && high != 0) || (low & (low - 1)) != 0 || (high & (high - 1)) != 0;
-}
-
 ViewRegion ViewRegion::all_space() {
     ViewRegion all;
     all.lines_ = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
@@ -96,10 +85,10 @@ ViewRegion ViewRegion::cut_across_line(const glm::dvec4& front, std::size_t line
     out.lines_.erase(out.lines_.begin() + static_cast<std::ptrdiff_t>(line));
     for (glm::dvec4& other : out.lines_) { other = slid(other); }
     Ray added{inward, {}};
-    for (std::size_t facet = 0; facet < facets_.size(); ++facet) { added.on.add(facet); }
+    for (std::size_t facet = 0; facet < facets_.size(); ++facet) { added.on[facet] = true; }
     for (Ray& ray : out.rays_) {
         ray.at = slid(ray.at);
-        ray.on.add(facets_.size());
+        ray.on[facets_.size()] = true;
     }
     out.rays_.push_back(added);
     out.facets_.push_back(front);
@@ -121,7 +110,7 @@ void ViewRegion::straighten() {
 /// Two rays of a cone span an edge of it unless a third one lies on all facets on which both lie.
 bool ViewRegion::adjacent(std::size_t a, std::size_t b) const {
     const Facets both = rays_[a].on & rays_[b].on;
-    const bool share_enough = lines_.empty() ? both.more_than_one() : lines_.size() > 1 || both.any();
+    const bool share_enough = lines_.empty() ? both.count() > 1 : lines_.size() > 1 || both.any();
     if (!share_enough) { return false; }
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         if (i != a && i != b && (both & rays_[i].on) == both) { return false; }
@@ -140,7 +129,7 @@ ViewRegion ViewRegion::cut_rays(const glm::dvec4& front, const std::vector<doubl
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         if (heights[i] >= -on_plane) {
             out.rays_.push_back(rays_[i]);
-            if (heights[i] <= on_plane) { out.rays_.back().on.add(facets_.size()); }
+            if (heights[i] <= on_plane) { out.rays_.back().on[facets_.size()] = true; }
         }
     }
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -150,7 +139,7 @@ ViewRegion ViewRegion::cut_rays(const glm::dvec4& front, const std::vector<doubl
                 const double length = glm::length(at);
                 out.is_well_conditioned_ = out.is_well_conditioned_ && length > min_slope * (heights[i] - heights[j]);
                 Ray added{at / length, rays_[i].on & rays_[j].on};
-                added.on.add(facets_.size());
+                added.on[facets_.size()] = true;
                 out.rays_.push_back(added);
             }
         }
@@ -179,7 +168,7 @@ std::vector<Plane> ViewRegion::planes() const {
     for (std::size_t i = 1; i < facets_.size(); ++i) {
         for (std::size_t other = 0; other < facets_.size() && kept[i]; ++other) {
             bool within = other != i && kept[other];
-            for (const Ray& ray : rays_) { within = within && (!ray.on.has(i) || ray.on.has(other)); }
+            for (const Ray& ray : rays_) { within = within && (!ray.on[i] || ray.on[other]); }
             kept[i] = !within;
         }
     }

@@ -5,9 +5,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <array>
+#include <bitset>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -53,20 +52,7 @@ public:
 
 private:
     /// A set of facets, by their indices in facets_.
-    struct Facets {
-        std::array<std::uint64_t, (max_planes + 2) / 64> words{};
-
-        bool has(std::size_t facet) const { return ((words[facet / 64] >> (facet % 64)) & 1U) != 0; }
-
-        void add(std::size_t facet) { words[facet / 64] |= std::uint64_t{1} << (facet % 64); }
-
-        Facets operator&(const Facets& other) const;
-        bool operator==(const Facets&) const = default;
-
-        bool any() const { return words != Facets{}.words; }
-
-        bool more_than_one() const;
-    };
+    using Facets = std::bitset<max_planes + 2>;
 
     /// A generating point or direction, and the facets on which it lies.
     struct Ray {

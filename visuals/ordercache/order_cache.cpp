@@ -6,7 +6,7 @@
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "visuals/draworder/octant_path.h"
+#include "visuals/draworder/octant_order.h"
 #include "visuals/ordercache/binary_file.h"
 
 #include <glm/vec3.hpp>

@@ -3,9 +3,8 @@
 #include "visuals/orderfile/cell_orders.h"
 
 #include "sim/base/plane.h"
-#include "visuals/draworder/model_faces.h"
+#include "visuals/draworder/occlusion.h"
 #include "visuals/draworder/octant_order.h"
-#include "visuals/draworder/octant_path.h"
 #include "visuals/draworder/view_region.h"
 
 #include <glm/common.hpp>

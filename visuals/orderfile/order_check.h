@@ -1,14 +1,19 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
+#include "sim/base/plane.h"
 #include "visuals/orderfile/cell_orders.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace octant::visuals::orderfile {
+
+/// The planes, in their order, without those that the others imply.
+std::vector<Plane> without_redundant(std::span<const Plane> planes);
 
 /// Something that could not be proved.
 struct UnprovedPair {

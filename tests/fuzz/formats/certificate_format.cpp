@@ -2,7 +2,7 @@
 #include "tests/fuzz/formats/target.h"
 #include "visuals/certificate/order_certificate.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
 namespace octant::tests::formats::certificate_format {

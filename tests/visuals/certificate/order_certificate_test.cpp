@@ -4,7 +4,7 @@
 #include "tests/scratch.h"
 #include "visuals/certificate/order_certificate.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
 #include <catch2/catch.hpp>

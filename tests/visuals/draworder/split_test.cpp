@@ -1,6 +1,5 @@
 #include "models/polygons/polygon_model.h"
 #include "tests/order_shapes.h"
-#include "visuals/draworder/cut_pieces.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/split.h"
 

@@ -1,11 +1,9 @@
 #include "tests/order_shapes.h"
-#include "visuals/draworder/bit_count.h"
-#include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/cell_search.h"
-#include "visuals/draworder/components.h"
+#include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/search_budget.h"
+#include "visuals/draworder/view_cell.h"
 #include "visuals/draworder/view_space_tree.h"
-#include "visuals/draworder/working_model.h"
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,6 @@
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_text.h"
 #include "visuals/orderfile/random_ray_test.h"
-#include "visuals/separation/separation.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -16,7 +15,6 @@
 
 using namespace octant;
 using namespace octant::visuals::orderfile;
-using namespace octant::visuals::separation;
 using visuals::draworder::ordered;
 using visuals::draworder::OrderedModel;
 using visuals::draworder::OrderMethod;

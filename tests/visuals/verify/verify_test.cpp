@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
 #include <catch2/catch.hpp>

@@ -8,11 +8,11 @@
 #include "ui/settings/settings_text.h"
 #include "ui/studies/draw_order/surface_race.h"
 #include "ui/world/order_model.h"
-#include "visuals/draworder/octant_path.h"
+#include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/orderfile/bsp_tree.h"
 #include "visuals/orderfile/order_check.h"
-#include "visuals/orderfile/order_table.h"
+#include "visuals/orderfile/order_text.h"
 #include "visuals/orderfile/random_ray_test.h"
 
 #include <algorithm>

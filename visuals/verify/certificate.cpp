@@ -1,10 +1,9 @@
 // Reads certificates of painting orders; README.md has their format. Lines that tell of the model and its order
 // (structure_reader.cpp) come before the claims (claim_reader.cpp).
-#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/certificate.h"
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "visuals/verify/certificate.h"
 
 #include <algorithm>
 #include <cmath>
