@@ -1,5 +1,3 @@
-#include "models/invalid_index.h"
-#include "models/meshfile/affine_transform.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"

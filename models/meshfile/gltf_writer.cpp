@@ -1,7 +1,5 @@
 #include "models/material.h"
-#include "models/meshfile/base64.h"
 #include "models/meshfile/binary_file.h"
-#include "models/meshfile/byte_writer.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 

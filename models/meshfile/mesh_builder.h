@@ -1,10 +1,7 @@
 #pragma once
 
 #include "models/heights/image.h"
-#include "models/invalid_index.h"
-#include "models/meshfile/baked_pictures.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/mesh_limits.h"
 #include "models/meshfile/mesh_parts.h"
 #include "models/triangle_mesh.h"
 

@@ -26,11 +26,10 @@
 #include "ui/terrain/terrain_check.h"
 #include "ui/terrain/terrain_query.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/terrain_file.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/mesh_surface.h"
+#include "visuals/terrain/mesh_measurement.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "ui/commands/shared_border.h"
 
-#include "models/meshfile/mesh_append.h"
+#include "models/meshfile/mesh_join.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/world/mesh_loader.h"

@@ -3,7 +3,7 @@
 
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
-#include "models/polygons/mesh_polygons.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/error.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"

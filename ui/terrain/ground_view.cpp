@@ -5,7 +5,7 @@
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
 #include "ui/settings/terrain_name.h"
-#include "ui/world/terrain_file.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/ground_query.h"

@@ -5,10 +5,9 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/mesh_measurement.h"
-#include "visuals/terrain/perspective_view.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

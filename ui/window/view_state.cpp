@@ -1,6 +1,6 @@
 #include "ui/window/view_state.h"
 
-#include "ui/report/frame_times.h"
+#include "ui/report/statistics.h"
 
 #include <algorithm>
 #include <cmath>

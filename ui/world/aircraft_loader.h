@@ -2,7 +2,6 @@
 
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/rotating_model.h"
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"

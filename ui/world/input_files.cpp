@@ -1,7 +1,6 @@
 #include "ui/world/input_files.h"
 #include "models/heights/map_inputs.h"
-#include "models/heights/raster_file.h"
-#include "models/meshfile/flightgear_paths.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"

@@ -1,10 +1,6 @@
 #include "ui/world/mesh_loader.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/polygons/mesh_polygons.h"
 #include "models/polygons/polygon_model.h"
-#include "models/procedural/background60.h"
-#include "models/procedural/globe.h"
-#include "models/procedural/machined_part.h"
 #include "models/procedural/procedural_models.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
@@ -15,7 +11,7 @@
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/report/child_program.h"
-#include "visuals/refine/packed_attributes.h"
+#include "visuals/refine/progressive_mesh.h"
 #include "visuals/refine/progressive_file.h"
 
 #include <algorithm>

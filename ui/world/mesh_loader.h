@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/read_options.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/triangle_mesh.h"
 #include "visuals/refine/progressive_mesh.h"
 

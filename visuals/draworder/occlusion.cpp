@@ -2,7 +2,7 @@
 // avoids cutting the region where a cheaper question decides.
 #include "visuals/draworder/occlusion.h"
 
-#include "models/polygons/separating_edge.h"
+#include "models/polygons/polygon_outlines.h"
 #include "sim/base/units.h"
 #include "visuals/draworder/occlusion_graph.h"
 #include "visuals/separation/convex_separation.h"

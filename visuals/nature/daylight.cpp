@@ -1,6 +1,5 @@
 #include "visuals/nature/daylight.h"
 #include "models/material.h"
-#include "models/srgb.h"
 #include "sim/base/units.h"
 
 #include <glm/common.hpp>

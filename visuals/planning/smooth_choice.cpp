@@ -1,9 +1,7 @@
 #include "visuals/planning/smooth_choice.h"
 
 #include "visuals/planning/refined_aircraft.h"
-#include "visuals/planning/shading_rule_of.h"
 #include "visuals/shading/shading_rule.h"
-#include "visuals/shading/smooth_count.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>

@@ -6,9 +6,7 @@
 
 #include "visuals/terrain/ground_query.h"
 
-#include "models/heights/bilinear.h"
 #include "models/heights/height_field.h"
-#include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/frustum.h"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,4 @@
 #include "models/material.h"
-#include "models/meshfile/base64.h"
 #include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_file.h"
 #include "tests/models/meshfile/mesh_samples.h"

@@ -1,5 +1,3 @@
-#include "models/invalid_index.h"
-#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"

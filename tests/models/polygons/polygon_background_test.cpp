@@ -1,6 +1,4 @@
-#include "models/polygons/polygon_check.h"
 #include "models/polygons/polygon_model.h"
-#include "models/procedural/background60.h"
 #include "models/procedural/procedural_models.h"
 #include "sim/base/random_generator.h"
 

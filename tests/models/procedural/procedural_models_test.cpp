@@ -1,4 +1,4 @@
-#include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_model.h"
 #include "models/procedural/procedural_models.h"
 
 #include <catch2/catch.hpp>

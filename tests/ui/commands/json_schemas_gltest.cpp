@@ -6,9 +6,6 @@
 #include "tests/ui/flight/small_ground.h"
 #include "ui/commands/commands.h"
 #include "ui/report/html_text.h"
-#include "ui/report/table_text.h"
-#include "ui/window/listen_command.h"
-#include "ui/window/view_command.h"
 #include "ui/window/window_commands.h"
 
 #include <catch2/catch.hpp>

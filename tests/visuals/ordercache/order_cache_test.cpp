@@ -1,6 +1,6 @@
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_model.h"
-#include "models/procedural/background60.h"
+#include "models/procedural/procedural_models.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"

@@ -1,8 +1,6 @@
 #include "ui/studies/refinement/refinement_tables.h"
 
-#include "ui/studies/refinement/model_bounds.h"
 #include "visuals/refine/refine_criterion.h"
-#include "visuals/refine/refine_region.h"
 #include "visuals/refine/selective_refiner.h"
 #include "visuals/refine/view_refiner.h"
 

@@ -9,11 +9,8 @@
 #include "ui/studies/refinement/refinement_tables.h"
 #include "ui/studies/shading_pictures.h"
 #include "ui/world/mesh_loader.h"
-#include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
-#include "visuals/refine/partition_mesh.h"
 #include "visuals/refine/refine_criterion.h"
-#include "visuals/refine/refine_region.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
