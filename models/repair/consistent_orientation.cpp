@@ -4,7 +4,6 @@
 
 #include "models/repair/consistent_orientation.h"
 
-#include "models/repair/edge_joints.h"
 #include "models/triangle_mesh.h"
 
 #include <algorithm>

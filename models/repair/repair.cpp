@@ -48,7 +48,7 @@ std::vector<bool> in_open_piece(std::span<const Triangle> triangles, std::size_t
     std::vector<bool> is_open(vertices, false);
     const std::vector<TriangleEdge> sides = sorted_triangle_edges(triangles);
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
-        if (edge.size() == 1 && edge[0].least != edge[0].most) { is_open[pieces.group_of(edge[0].least)] = true; }
+        if (edge.size() == 1 && edge[0].min_vertex != edge[0].max_vertex) { is_open[pieces.group_of(edge[0].min_vertex)] = true; }
     });
     for (std::uint32_t v = 0; v < vertices; ++v) { is_open[v] = is_open[pieces.group_of(v)]; }
     return is_open;
