@@ -1,3 +1,4 @@
+#include "models/heights/gdal_session.h"
 #include "models/heights/height_field_export.h"
 #include "models/heights/height_field_import.h"
 #include "models/heights/local_frame.h"
