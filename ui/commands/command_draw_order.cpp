@@ -213,9 +213,9 @@ bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& pe
     results["tolerance_sizes"] = verdict.tolerance_sizes;
     results["pairs"] = verdict.pairs;
     results["pairs_by_partings"] = verdict.by_node_planes;
-    results["claims_by_polygons"] = verdict.claims.by_polygons;
-    results["claims_by_sums"] = verdict.claims.by_sums;
-    results["claims_never_seen"] = verdict.claims.never_both_visible;
+    results["claims_by_polygons"] = verdict.statements.by_polygons;
+    results["claims_by_sums"] = verdict.statements.by_sums;
+    results["claims_never_seen"] = verdict.statements.never_both_visible;
     results["unlisted"] = verdict.unlisted;
     results["unproved"] = verdict.unproved;
     results["every_eye"] = verdict.covers_every_eye;

@@ -3,7 +3,7 @@
 //
 // Deviations:
 // - Before a set is divided, what hides what for eyes anywhere is looked at (clusters.h). Only
-//   rings of pieces are divided; a convex shell becomes one list without any cut.
+//   cycles of pieces are divided; a convex shell becomes one list without any cut.
 // - Planes need not be those of polygons.
 // - Polygons that lie in a node's plane stay in the node, in file order, those of either facing
 //   apart.
@@ -478,7 +478,7 @@ namespace {
 
 /// Larger sets are divided before their graph is looked at, because its time is quadratic.
 constexpr std::size_t max_samples_at_once = 1'500;
-/// Sets of more pieces that came out of a ring are looked at only once they are a quarter of it.
+/// Sets of more pieces that came out of a cycle are looked at only once they are a quarter of it.
 constexpr std::size_t always_looked_at = 150;
 
 using Items = std::vector<std::uint32_t>;
@@ -514,7 +514,7 @@ private:
         int parent = -1;
         int Node::*place = nullptr;
         int depth = 1;
-        bool is_ring = false; ///< One component, which has to be parted.
+        bool is_cycle = false; ///< One component, which has to be parted.
         /// How many pieces the last set had whose graph was looked at and out of which this came.
         std::size_t looked_at = std::numeric_limits<std::size_t>::max();
     };
@@ -523,7 +523,7 @@ private:
         if (task.items.empty()) { return PartialBspTree::nothing; }
         if (task.items.size() == 1) { return list_of(std::move(task.items)); }
         const std::size_t count = task.items.size();
-        const bool looks = by_clusters_ && !task.is_ring && count <= max_samples_at_once &&
+        const bool looks = by_clusters_ && !task.is_cycle && count <= max_samples_at_once &&
                            (count <= always_looked_at || count <= task.looked_at / 4);
         if (!looks) { return choose_split(task); }
         task.looked_at = count;
@@ -545,16 +545,16 @@ private:
 
     /// Components from `first` to `end` painted one after the other. Depth grows with the logarithm of their number.
     int sequence_of(const std::vector<Items>& components, std::size_t first, std::size_t end, int depth) {
-        const auto is_ring = [&](std::size_t i) { return components[i].size() > 1; };
-        std::size_t ring = first;
-        while (ring < end && !is_ring(ring)) { ++ring; }
-        if (ring == end) {
+        const auto is_cycle = [&](std::size_t i) { return components[i].size() > 1; };
+        std::size_t cycle = first;
+        while (cycle < end && !is_cycle(cycle)) { ++cycle; }
+        if (cycle == end) {
             Items list;
             for (std::size_t i = first; i < end; ++i) { list.push_back(components[i].front()); }
             return list_of(std::move(list));
         }
         const int node = new_node({});
-        if (end - first == 1) { // a ring alone: nothing is painted before it
+        if (end - first == 1) { // a cycle alone: nothing is painted before it
             to_do_.push_back({components[first], node, &Node::back, depth + 1, true, components[first].size()});
             return node;
         }

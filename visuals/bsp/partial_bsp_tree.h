@@ -136,7 +136,7 @@ bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t
 
 /// Divides pieces into the strongly connected components of the graph of what hides what for eyes anywhere (R. Tarjan,
 /// "Depth-first search and linear graph algorithms", 1972), in painting order: painted one after the other they are
-/// right for every eye. Components of several pieces, which hide one another in a ring, are ascending. The time grows
+/// right for every eye. Components of several pieces, which hide one another in a cycle, are ascending. The time grows
 /// with the square of the number of items.
 std::vector<std::vector<std::uint32_t>> occlusion_components(
     const PolygonPieces& pieces, std::span<const std::uint32_t> items);

@@ -30,7 +30,7 @@ public:
     void add_model(const models::polygons::PolygonModel& model, const separation::LocalModel& local,
         const models::polygons::FileAxes& axes);
 
-    /// The lists and nodes. Where a choice has nothing on a side, its eyes are left unclaimed.
+    /// The lists and nodes. Where a view split has nothing on a side, the line says `unclaimed` for its eyes.
     void add_tree(
         const draworder::DrawOrder& order, const separation::LocalModel& local, const models::polygons::FileAxes& axes);
 

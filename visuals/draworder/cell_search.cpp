@@ -1,4 +1,4 @@
-// The searches for cells, and the choice among their results. As the searches are greedy, small models are searched
+// The searches for cells, and the selection among their results. As the searches are greedy, small models are searched
 // several times with other weights or other centres; the result with the fewest splits, then with the fewest cells, is
 // kept.
 #include "visuals/draworder/cell_search.h"
@@ -28,8 +28,8 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-// Method::Cells: the octants of the 1989 paper, divided as its section IV asks, with the exact hiding test (hiding.h)
-// instead of the paper's rule. octant_cells.h describes the division.
+// OrderMethod::Cells: the octants of the 1989 paper, divided as its section IV asks, with the exact occlusion test
+// instead of the paper's rule. octant_cells() describes the division.
 
 /// The octants about the faces' origin, each divided until its cells have orders. Planes are in the faces' space.
 struct OctantCells {
@@ -232,9 +232,9 @@ constexpr std::size_t max_axis_planes = 3'000;
 std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const CyclicPart& cycles) {
     const PolygonsByPlaneSide sides = sides_of(plane, work.faces, cycles.polygons);
     const auto& [front, back] = sides.sets;
-    CyclicEdgeCounter rings;
-    return rings.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front) +
-           rings.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
+    CyclicEdgeCounter counter;
+    return counter.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front) +
+           counter.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
 }
 
 /// The best coordinate along each axis, in the faces' space.

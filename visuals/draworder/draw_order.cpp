@@ -162,7 +162,7 @@ public:
     }
 
 private:
-    /// Copies a child; `signs` are those of the octant as far as the choices above tell.
+    /// Copies a child; `signs` are those of the octant, as far as the view splits above determine them.
     int copy(int child, const glm::dvec3& signs, int above) {
         if (above == axes) {
             const int made = add({plane_of(signs), 0, DrawOrder::nothing});

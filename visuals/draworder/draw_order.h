@@ -17,13 +17,13 @@ namespace octant::visuals::draworder {
 /// Painting orders as a renderer uploads them: one flat list of polygon numbers, and a tree that says for each eye
 /// which ranges of it are painted one after the other. At run time an eye needs plane tests and no sorting. Three kinds
 /// of nodes:
-/// - a choice divides eye space by a plane, and the eye's side alone says what is painted;
-/// - a parting divides the polygons by a plane (a node of a BSP tree): first what lies on the other
-///   side of it than the eye, then what lies in it and faces the eye, then what lies on the eye's
-///   side;
+/// - a view split divides eye space by a plane: only the child on the eye's side is painted;
+/// - a polygon split divides the polygons by a plane, as a node of a BSP tree does: painted are first the polygons on
+/// the far
+///   side from the eye, then those in the plane that face the eye, then those on the eye's side;
 /// - a sequence paints two parts one after the other, for every eye.
-/// The leaves are cells with a list each. Where all nodes are choices, each eye lies in one cell, and its list is one
-/// range.
+/// The leaves are cells with a list each. Where all nodes are view splits, each eye lies in one cell, and its list is
+/// one range.
 class DrawOrder {
 public:
     /// Polygons first to first + count - 1 of the flat list.
@@ -41,11 +41,12 @@ public:
     /// A child >= 0 is another node, a child < 0 is the cell ~child or `nothing`.
     struct Node {
         Plane plane;   ///< Not of a sequence.
-        int front = 0; ///< Where dot(normal, .) + offset >= 0; of a sequence what is painted first.
+        int front = 0; ///< Where dot(normal, .) + offset >= 0; of a sequence the child that is painted first.
         int back = 0;  ///< The other one.
         Kind kind = Kind::ViewSplit;
-        int coplanar_front = nothing; ///< Of a parting: the cell of what lies in it and faces as it does.
-        int coplanar_back = nothing;  ///< Of a parting: the cell of what lies in it and faces back.
+        int coplanar_front =
+            nothing;                 ///< Of a polygon split: the cell of the polygons in the plane that face its front.
+        int coplanar_back = nothing; ///< Of a polygon split: the cell of the polygons in the plane that face its back.
     };
 
     /// The ranges that an eye paints, and memory that is used on the way to them.
@@ -79,7 +80,7 @@ public:
 
     std::span<const Node> nodes() const { return nodes_; }
 
-    /// Whether all nodes are choices, so that every eye lies in one cell.
+    /// Whether all nodes are view splits, so that every eye lies in one cell.
     bool has_one_cell_per_eye() const { return has_one_cell_per_eye_; }
 
     /// The cell in which an eye (body axes, metres) lies, 0 to cell_count - 1. Every eye must lie in one

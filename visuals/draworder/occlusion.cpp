@@ -1,5 +1,5 @@
-// Hiding graphs over regions: applies the exact test of hiding.h to all pairs or to those that may have changed, and
-// avoids cutting the region where a cheaper question decides.
+// From a model to the graph of what occludes what for the eyes of a region: faces of polygons and of turning parts, the
+// exact test of a pair, then the test applied to all pairs or to those that may have changed.
 #include "visuals/draworder/occlusion.h"
 
 #include "models/polygons/polygon_outlines.h"
@@ -17,15 +17,12 @@
 
 namespace octant::visuals::draworder {
 
-// From a model in metres to faces in units of its radius, with what is known about turning parts before any eye is
-// looked at: which polygons of one part hide which, and which parts collide; and with what is known about polygons that
-// overlap in one plane.
+//
 
-// Rotors in painting orders. The 1989 paper's 500MD has a rotor, but its orders are for rigid objects; turning_parts.h
-// explains the stand-ins that make one order right at every angle.
+//
 
-// Outlines for the hiding test. Polygons of a model share edges, and rounding would let them overlap a little and seem
-// to hide one another; shrinking each outline by an inset that is larger than the rounding prevents that.
+// Outlines for the occlusion test. Polygons of a model share edges, and rounding would let them overlap a little and
+// seem to hide one another; shrinking each outline by an inset that is larger than the rounding prevents that.
 
 namespace {
 
@@ -291,8 +288,8 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
     return out;
 }
 
-// The exact hiding test; its derivation stands at OcclusionTest. It replaces steps 2 to 4 of the 1989 paper
-// (paper_rule.cpp), which compare two polygons as seen from one viewpoint, by a test that is right for every eye of a
+// The exact occlusion test; OcclusionTest has its derivation. It replaces steps 2 to 4 of the 1989 paper
+// (octant_order.cpp), which compare two polygons as seen from one viewpoint, by a test that is right for every eye of a
 // region.
 
 namespace {

@@ -19,8 +19,9 @@
 
 namespace octant::visuals::draworder {
 
-/// What is compared in place of a polygon: its outline, shrunk by a hair so that polygons which only touch do not hide
-/// one another, or a body that a turning polygon sweeps (turning_parts.h). Lengths are in the unit of ViewRegion.
+/// The shape that occlusion tests use for a polygon: its outline, shrunk a little so that polygons which only touch do
+/// not occlude one another, or the body that a turning polygon sweeps (swept_face). Lengths are in the unit of
+/// ViewRegion.
 struct Face {
     /// Before shrinking; in order around an outline, in any order for a body.
     std::vector<glm::dvec3> outline;
@@ -32,10 +33,10 @@ struct Face {
     std::vector<glm::dvec2> edge_directions; ///< The unit directions from each of them to the next one.
     glm::dvec3 right{0.0};
     glm::dvec3 up{0.0};                 ///< Equal to cross(normal, right).
-    std::optional<std::uint32_t> pivot; ///< The index in PolygonModel::pivots of what turns it.
+    std::optional<std::uint32_t> pivot; ///< The index in PolygonModel::pivots of the pivot that turns it.
 };
 
-/// Tolerances of hiding tests, in the unit of ViewRegion.
+/// Tolerances of occlusion tests, in the unit of ViewRegion.
 struct Tolerances {
     /// Outlines are shrunk by this distance.
     double inset = models::planar::planar_tolerance;
@@ -55,29 +56,29 @@ std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const
 /// Whether all corners of a face lie behind a plane or on it.
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane);
 
-/// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap there. Not those that
-/// turn.
+/// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap there. False for
+/// polygons that turn.
 bool overlap_in_plane(const Face& a, const Face& b, double on_plane);
 
 /// The face that stands for a polygon of a turning part, chosen so that an order holds at every angle.
 ///
-/// At any angle the polygon lies within what it sweeps, and the stand-in contains that. The hiding test is monotone in
-/// both faces: what hides or is hidden at some angle also does so in the test. So an order that keeps the precedences
-/// of the stand-ins is right at every angle, though it may keep some that no angle needs.
+/// The face contains the polygon at every angle. The occlusion test is monotone in both faces: a polygon that occludes
+/// another at some angle does so in the test. So an order that keeps the precedences of these faces is right at every
+/// angle, though it may keep some that no angle needs.
 ///
-/// A polygon whose plane is perpendicular to the axis sweeps a ring of that plane. Its stand-in is a regular polygon of
-/// 24 corners around the ring's outer circle, seen from the same side. Any other polygon sweeps a solid of revolution.
-/// Its stand-in is the convex hull of regular polygons around the circles of its corners: a body, which is seen from
-/// all sides because the polygon turns.
+/// A polygon whose plane is perpendicular to the axis sweeps a ring of that plane. Its face is a regular polygon of 24
+/// corners around the ring's outer circle, seen from the same side. Any other polygon sweeps a solid of revolution. Its
+/// face is the convex hull of regular polygons around the circles of its corners: a body, which is seen from all sides
+/// because the polygon turns.
 ///
-/// Polygons of one part keep their places to one another while, in their frame, the eye goes round them. They are
-/// compared as they stand in the file, with eyes everywhere (ModelFaces::rigid).
+/// Polygons of one part keep their places relative to one another; in their frame the eye moves around them. They are
+/// compared at the angle of the file, with eyes everywhere (ModelFaces::rigid).
 ///
 /// `scale` converts metres about `origin_m` to the unit of the face; `inset` is that of Tolerances.
 Face swept_face(const models::polygons::PolygonModel& model, std::size_t polygon, const models::polygons::Pivot& pivot,
     const glm::dvec3& origin_m, double scale, double inset);
 
-/// A model prepared for hiding tests: face i stands for polygon i. The unit of length is the model's radius about
+/// A model prepared for occlusion tests: face i stands for polygon i. The unit of length is the model's radius about
 /// `origin_m`, which is the origin; axes are the body's.
 struct ModelFaces {
     std::vector<Face> faces;
@@ -150,14 +151,14 @@ private:
     std::vector<glm::dvec3> crossings_;
 };
 
-/// Where polygons lie to a plane that cuts a region, seen from one of its sides.
+/// The polygons on each side of a plane that cuts a region, as seen from one of its sides.
 struct PlaneSideSets {
     PolygonSet front_or_on;
     PolygonSet back_or_on;
 };
 
-/// Builds the hiding graphs of a model's faces over regions of eye space. Keeps a reference to the faces; its memory is
-/// reused.
+/// Builds the occlusion graphs of a model's faces over regions of eye space. Keeps a reference to the faces; its memory
+/// is reused.
 class OcclusionGraphBuilder {
 public:
     explicit OcclusionGraphBuilder(const ModelFaces& faces) : faces_(faces), test_(faces.tolerances) {}
@@ -173,8 +174,8 @@ public:
     OcclusionGraph surviving(
         const ViewRegion& region, const OcclusionGraph& parent, std::span<const std::uint32_t> among);
 
-    /// The edges of `parent` that remain in front of a plane, by where polygons lie to it alone: what is behind the
-    /// plane or in it hides nothing that is in front of it or in it. For the rows `among`.
+    /// The edges of `parent` that remain in front of a plane, judged only by the sides on which polygons lie: a polygon
+    /// behind the plane or in it occludes none in front of it or in it. For the rows `among`.
     OcclusionGraph remaining_in_front(
         const OcclusionGraph& parent, std::span<const std::uint32_t> among, const PlaneSideSets& sides) const;
 

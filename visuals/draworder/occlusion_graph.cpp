@@ -1,4 +1,4 @@
-// Strongly connected components of hiding graphs: R. Tarjan, "Depth-first search and linear graph algorithms", 1972,
+// Strongly connected components of occlusion graphs: R. Tarjan, "Depth-first search and linear graph algorithms", 1972,
 // with a stack of its own instead of recursion and with rows of bits as adjacency. A painting order exists exactly when
 // there is no component of two or more polygons; the 1989 paper does not mention cycles.
 #include "visuals/draworder/occlusion_graph.h"
@@ -233,10 +233,10 @@ std::vector<std::uint32_t> shortest_cycle(const OcclusionGraph& graph, std::span
             });
         }
         if (came_from[start] == unseen) { continue; }
-        std::vector<std::uint32_t> ring{start};
-        for (std::uint32_t at = came_from[start]; at != start; at = came_from[at]) { ring.push_back(at); }
-        std::reverse(ring.begin() + 1, ring.end());
-        if (best.empty() || ring.size() < best.size()) { best = std::move(ring); }
+        std::vector<std::uint32_t> cycle{start};
+        for (std::uint32_t at = came_from[start]; at != start; at = came_from[at]) { cycle.push_back(at); }
+        std::reverse(cycle.begin() + 1, cycle.end());
+        if (best.empty() || cycle.size() < best.size()) { best = std::move(cycle); }
     }
     return best;
 }

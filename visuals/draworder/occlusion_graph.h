@@ -119,8 +119,8 @@ void for_each_bit(std::span<const std::uint64_t> words, Visit visit) {
     }
 }
 
-/// The cyclic part of a hiding graph: its strongly connected components of two or more polygons, and the edges within
-/// them.
+/// The cyclic part of a occlusion graph: its strongly connected components of two or more polygons, and the edges
+/// within them.
 struct CyclicPart {
     std::vector<std::uint32_t> polygons; ///< The polygons of all components, ascending.
     /// The polygons of each component, ascending.
@@ -136,8 +136,8 @@ CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint
 /// The cyclic part among all polygons.
 CyclicPart cyclic_part_of(const OcclusionGraph& graph);
 
-/// A cycle with the fewest polygons ("ring"): each is hidden by the next, and the last by the first. Empty when there
-/// is no cycle. The search starts from the polygons `among`.
+/// A cycle with the fewest polygons: each is hidden by the next, and the last by the first. Empty when there is no
+/// cycle. The search starts from the polygons `among`.
 std::vector<std::uint32_t> shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
 
 /// Counts the edges that lie within strongly connected components, for many variants of one graph in turn. Its memory

@@ -1,6 +1,6 @@
 // E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989,
-// section III.1, steps 1, 5 and 6, equations (1)-(4), and section III.2, equations (30)-(36). Steps 2 to 4 are in
-// paper_rule.cpp. Deviations:
+// section III.1, steps 1, 5 and 6, equations (1)-(4), and section III.2, equations (30)-(36). Steps 2 to 4 have their
+// own list of deviations below. Deviations:
 // - "Any point P of the octant" is one stated point, (1, 1, 1) * 3 R with the octant's signs.
 // - The normal is Newell's sum over all corners, not u x v of the first three, which may lie on one
 //   line.

@@ -52,8 +52,8 @@ enum class ScreenProjection {
 /// stay straight. Near the origin coordinates are in units of `scale_m`.
 class ScreenView {
 public:
-    /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With Screen::Perspective every point that is
-    /// mapped must be in front of the viewpoint (asserted).
+    /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With ScreenProjection::Perspective every point
+    /// that is mapped must be in front of the viewpoint (asserted).
     ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m);
 
     glm::dvec3 screen_from_body(const glm::dvec3& point_m) const;
@@ -99,10 +99,10 @@ enum class ListingRule {
     FromPoint   ///< Those that face the octant's viewpoint P, as printed (step 1).
 };
 
-/// How the paper is read where it leaves a choice.
+/// Options where the paper allows several readings.
 struct PaperOrderOptions {
     /// The viewpoint P of octant +++, in units of the model's radius R; for the other octants its signs change. Each
-    /// component must be > 0, and with Screen::Perspective its length > 1 (asserted).
+    /// component must be > 0, and with ScreenProjection::Perspective its length > 1 (asserted).
     glm::dvec3 viewpoint_radii{3.0};
     ScreenProjection screen = ScreenProjection::Parallel;
     ListingRule listed = ListingRule::FromOctant;

@@ -1,4 +1,4 @@
-// Every order is tried before it is used. Rays that pass a side of a polygon within a hair are not counted: there
+// Every order is tested before it is used. Rays that pass a side of a polygon within a hair are not counted: there
 // rounding decides what is seen.
 #include "visuals/draworder/order_ray_test.h"
 
@@ -215,7 +215,7 @@ constexpr std::size_t min_rays_a_pair = 4;
 /// Polygons whose corners are all nearer than this to one another's planes lie in one plane.
 constexpr double in_plane = 1e-9;
 
-/// One trial at one angle of the turning parts.
+/// One ray test at one angle of the turning parts.
 class RayTester {
 public:
     RayTester(const PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope)
@@ -380,7 +380,7 @@ private:
     std::vector<std::uint32_t> place_;
 };
 
-/// Casts the rays of a trial, those at pairs too; what it saw of the proof stays as it is.
+/// Casts the rays of a test, those at unproved pairs too; the results of the proof stay as they are.
 void cast_rays(
     RayTester& trying, std::span<const double> angles_rad, const OrderProof& proof, RayTestResult& ray_test) {
     const std::size_t comparisons = max_comparisons / angles_rad.size();

@@ -12,7 +12,7 @@
 
 namespace octant::visuals::draworder {
 
-/// A polygon of a model as the rays of a trial meet it, in radii of the model about its middle.
+/// A polygon of a model as the rays of a test meet it, in radii of the model about its middle.
 struct RayTarget {
     std::uint32_t polygon = 0;
     glm::dvec3 normal{0.0};
@@ -36,7 +36,7 @@ struct RayHit {
 class RayTargets {
 public:
     /// In radii of the model: what lies nearer to a side than this is not counted, nor differences of depth below it. A
-    /// little more than the inset of hiding tests (Tolerances).
+    /// little more than the inset of occlusion tests (Tolerances).
     static constexpr double ray_tolerance = 3e-9;
 
     explicit RayTargets(const models::polygons::PolygonModel& model);
@@ -93,7 +93,7 @@ struct OrderProof {
 /// counted, not timed: the same model and order give the same proof.
 OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds);
 
-/// Which eyes and polygons a trial looks at.
+/// Which eyes and polygons a ray test covers.
 struct RayTestOptions {
     /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can be right for them.
     bool turning_parts = true;
@@ -104,19 +104,19 @@ struct RayTestOptions {
     double proof_s = 0.4;
 };
 
-/// What a trial saw.
+/// The result of a ray test.
 struct RayTestResult {
     long rays = 0;  ///< Rays that meet the front of a polygon away from its sides.
     long wrong = 0; ///< Of these, rays along which a polygon farther away was painted last.
-    /// Pairs and polygons for which no proof was found (prove_order.h).
+    /// Pairs and polygons for which no proof was found (prove_order).
     std::uint64_t unproved = 0;
     bool is_proof_complete = false; ///< Whether the proof came to the end of the order.
 };
 
-/// Tries an order before it is used, with none of the code that made it: from eyes far and near, close to the planes of
+/// Tests an order before it is used, with none of the code that made it: from eyes far and near, close to the planes of
 /// its nodes and close to polygons, at points of polygons; and by a proof. Pairs that it leaves open are looked at by
 /// rays that one of the two would hide the other along. The work is bounded, some tenths of a second and the proof; the
-/// same model and order give the same trial.
+/// same model and order give the same result.
 RayTestResult ray_test_order(
     const models::polygons::PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope);
 

@@ -1,5 +1,6 @@
-// The three ways to the orders of a model, and the choice among several results. The exact methods first cut polygons
-// that pass through one another (split.cpp), then search over regions of eyes (cell_search.cpp).
+// Finds the orders of a model by the paper, by cells of eye space or by splitting polygons, and selects among the
+// results. The exact methods first cut polygons that pass through one another (split.cpp), then search over regions of
+// eyes (cell_search.cpp).
 #include "visuals/draworder/ordered_model.h"
 
 #include "models/planar/planar_model.h"
@@ -23,7 +24,7 @@
 
 namespace octant::visuals::draworder {
 
-// The way to an order that never fails: polygons are divided by planes (a BSP tree of clusters).
+// The method that never fails: polygons are divided by planes (a BSP tree of clusters).
 
 namespace {
 
@@ -55,7 +56,7 @@ public:
     BspOrder order() {
         find_turning_parts();
         tree_ = bsp::partial_bsp_tree(pieces_, items(), way_ == BspLeaves::Clusters);
-        for (const Polygons& ring : tree_.unsplit_cycles) { add_note(ring); }
+        for (const Polygons& cycle : tree_.unsplit_cycles) { add_note(cycle); }
         const auto splits = static_cast<int>(pieces_.added());
         pieces_.write_to(model_);
         if (tree_.root >= 0) {
@@ -95,7 +96,7 @@ private:
         std::vector<Run> runs;
         for (const Polygons& set : sets) {
             const bool is_single = set.size() == 1;
-            if (is_single && !runs.empty() && !runs.back().is_ring) {
+            if (is_single && !runs.empty() && !runs.back().is_cycle) {
                 runs.back().polygons.push_back(set.front());
             } else {
                 runs.push_back({set, !is_single});
@@ -104,16 +105,16 @@ private:
         return sequence_of(runs);
     }
 
-    /// A ring, or polygons that are painted one after the other.
+    /// A cycle, or polygons that are painted one after the other.
     struct Run {
         Polygons polygons;
-        bool is_ring = false;
+        bool is_cycle = false;
     };
 
     int sequence_of(std::span<const Run> runs) {
         if (runs.size() == 1) {
             const Run& run = runs.front();
-            return run.is_ring ? parted(run.polygons) : add_list(run.polygons, model_.polygons.size());
+            return run.is_cycle ? parted(run.polygons) : add_list(run.polygons, model_.polygons.size());
         }
         const std::size_t node = nodes_.size(); // before its children
         nodes_.push_back({.plane = {}, .kind = DrawOrder::Kind::Sequence});
@@ -156,7 +157,7 @@ private:
     int parted(Polygons set) {
         add_new_pieces(set, model_.polygons.size());
         tree_ = bsp::partial_bsp_tree(pieces_, std::move(set), true);
-        for (const Polygons& ring : tree_.unsplit_cycles) { add_note(ring); }
+        for (const Polygons& cycle : tree_.unsplit_cycles) { add_note(cycle); }
         if (tree_.root >= 0) {
             const std::size_t first = nodes_.size();
             write_nodes();
@@ -206,8 +207,8 @@ private:
         return items;
     }
 
-    void add_note(const Polygons& ring) {
-        for (const std::uint32_t item : ring) {
+    void add_note(const Polygons& cycle) {
+        for (const std::uint32_t item : cycle) {
             if (const auto pivot = pieces_[item].pivot) {
                 const std::string note = fmt::format("{} meets other parts as it turns; no order is right for them",
                     model_.parts[model_.pivots[*pivot].part]);
@@ -327,7 +328,7 @@ OrderedModel by_parts(models::polygons::PolygonModel model, BspLeaves way) {
         .found_by = way == BspLeaves::Single ? OrderSource::Bsp : OrderSource::Parts};
 }
 
-/// Tries an order; whether it may be used.
+/// Tests an order; returns whether it may be used.
 bool is_right(OrderedModel& ordered, double search_s) {
     const bool is_large = ordered.model.polygons.size() > max_polygons_searched;
     // Where no order is right for turning parts, they say nothing about the others.
@@ -339,7 +340,7 @@ bool is_right(OrderedModel& ordered, double search_s) {
     return ordered.ray_test.wrong == 0;
 }
 
-/// A model's order by parts, made and tried when it is first asked for.
+/// A model's order by splitting polygons, made and tested at its first use.
 class BspFallback {
 public:
     BspFallback(const models::polygons::PolygonModel& model, double search_s) : model_(model), search_s_(search_s) {}
@@ -414,7 +415,7 @@ std::optional<OrderedModel> searched(
     }
 }
 
-/// What is to be told of a trial that saw nothing wrong.
+/// Adds a note about pairs without a proof; no ray was wrong.
 void add_note(OrderedModel& ordered) {
     if (ordered.ray_test.unproved > 0) {
         ordered.notes.push_back(fmt::format(

@@ -15,7 +15,7 @@ namespace octant::visuals::draworder {
 
 /// How far polygons are divided.
 enum class BspLeaves {
-    Clusters, ///< Where they hide one another in rings.
+    Clusters, ///< Where they hide one another in cycles.
     Single    ///< Until each stands alone: a BSP tree.
 };
 
@@ -27,12 +27,12 @@ struct BspOrder {
     std::vector<std::string> notes;
 };
 
-/// Orders any model for every eye by partings (visuals/bsp), without a search. A polygon that turns is taken for what
-/// it sweeps and never cut, so that the order holds at every angle. Notes tell of turning parts that no plane parts
-/// from others.
+/// Orders any model for every eye by splitting its polygons (visuals/bsp), without a search. A turning polygon is
+/// replaced by the solid that it sweeps and never cut, so that the order holds at every angle. Notes name turning parts
+/// that no plane separates from others.
 BspOrder bsp_order(models::polygons::PolygonModel model, BspLeaves way = BspLeaves::Clusters);
 
-/// A tree of choices of which some cells have no list yet.
+/// A tree of view splits; some of its cells have no list yet.
 struct IncompleteOrder {
     std::vector<DrawOrder::Node> nodes; ///< As DrawOrder takes them; at least one.
     std::vector<std::vector<std::uint32_t>> lists;
@@ -42,8 +42,8 @@ struct IncompleteOrder {
     std::vector<Plane> planes;
 };
 
-/// Orders the open cells by dividing their sets: what hides nothing in a ring for the eyes of a cell is not parted, and
-/// found lists take up the pieces that are cut.
+/// Completes the cells without a list by splitting their polygons. Only polygons that occlude one another in a cycle
+/// for the eyes of the cell are split, and the lists that were found get the pieces that are cut.
 BspOrder complete_order(models::polygons::PolygonModel model, IncompleteOrder order);
 
 struct OrderOptions {
@@ -51,18 +51,18 @@ struct OrderOptions {
     /// Cells, Tree: about how long the search may take on one core. It is counted in work, not in time, so that the
     /// same model gives the same order everywhere.
     double seconds = 20.0;
-    /// Cells, Tree: told how much of that is spent, 0 to 1; may be empty.
+    /// Cells, Tree: called with the share of it that is spent, 0 to 1; may be empty.
     SearchBudget::Progress progress = {};
     double min_distance_radii = 2.0; ///< Cells: exact for eyes with |x|+|y|+|z| >= this many radii.
-    PaperOrderOptions paper;         ///< For Method::Paper.
+    PaperOrderOptions paper;         ///< For OrderMethod::Paper.
 };
 
-/// What an order was found by in the end.
+/// The method that gave an order in the end.
 enum class OrderSource {
     Paper, ///< Octants as printed.
     Cells, ///< Octants divided further.
     Tree,  ///< Cells of a tree of planes over eye space.
-    Parts, ///< Polygons divided where they hide one another in rings.
+    Parts, ///< Polygons divided where they hide one another in cycles.
     Bsp,   ///< Polygons divided until each stands alone.
     /// Cells of a tree as far as the search came, polygons divided in the others.
     TreeAndSplitPolygons
@@ -70,7 +70,7 @@ enum class OrderSource {
 
 /// A model with its painting orders, in body axes.
 struct OrderedModel {
-    /// The model, with polygons split where no order exists otherwise; its parents tell of what.
+    /// The model, with polygons split where no order exists otherwise; its parents are the polygons they are pieces of.
     models::polygons::PolygonModel model;
     DrawOrder order;
     std::vector<OrderCell> cells; ///< For each cell of the order; empty where it has parts.
@@ -81,16 +81,17 @@ struct OrderedModel {
     int cyclic_cells = 0;           ///< Paper: the number of octants with broken cycles; else 0.
     std::vector<std::string> notes; ///< Messages to the user; often none.
     OrderSource found_by = OrderSource::Tree;
-    RayTestResult ray_test{}; ///< Not for Method::Paper.
+    RayTestResult ray_test{}; ///< Not for OrderMethod::Paper.
 };
 
 /// Finds the painting orders of a model. Meant for loading: it may take seconds.
 ///
-/// There is an answer for any model. Where the search for cells is given up, what was found is kept, and in the other
-/// cells polygons are divided (bsp_order.h); all of them where nothing was found or the model has more polygons than
-/// are searched. Every order but that of Method::Paper is tried by rays before it is returned, and proved pair by pair
-/// as far as a fiftieth of the seconds goes (order_trial.h); one that is wrong is replaced in the same way, and in the
-/// end by a BSP tree of single polygons. Notes say so, and what no proof was found for.
+/// Every model gets an order. Where the search for cells is given up, the cells that were found are kept and polygons
+/// are split in the others (complete_order). Where no cell was found, or the model is too large for a search, polygons
+/// are split everywhere (bsp_order). Every order but that of OrderMethod::Paper is tested by rays before it is
+/// returned, and proved pair by pair for a fiftieth of the seconds (order_ray_test.h). A wrong order is replaced by
+/// splitting polygons, and a wrong result of that by a BSP tree of single polygons. Notes say which method was used and
+/// how many pairs are unproved.
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 
 } // namespace octant::visuals::draworder

@@ -1,4 +1,4 @@
-// The walk need not be trusted: visuals/verify checks what is written of it, with none of its code.
+// Nobody has to trust the walk: visuals/verify checks the certificate written from it and shares no code with it.
 #include "visuals/draworder/proof_walk.h"
 
 #include "visuals/draworder/occlusion_graph.h"
@@ -41,8 +41,8 @@ public:
     }
 
 private:
-    /// A part of the tree, the walls of its eyes, and the polygons that have to be painted there if they face such an
-    /// eye.
+    /// A part of the tree, the region planes of its eyes, and the polygons that must be painted there if they face such
+    /// an eye.
     struct Task {
         int child = 0;
         std::vector<Plane> region_planes; ///< In the unit of local_.
@@ -79,7 +79,7 @@ private:
         }
     }
 
-    /// Of a list below choices the pairs that no plane of a polygon and no wall decides.
+    /// Reports the pairs of a list below view splits that no plane of a polygon and no region plane decides.
     void check_unproved_pairs(const Task& task, std::span<const std::uint32_t> list) {
         PolygonSet painted(model_.polygons.size());
         for (const std::uint32_t later : list) {
@@ -91,7 +91,7 @@ private:
         }
     }
 
-    /// Tells of a witness where it serves the most eyes.
+    /// Reports a proof at the level where it serves the most eyes.
     void find_proof_for_eyes(const Task& task, std::uint32_t earlier, std::uint32_t later) {
         SeparatingPlaneProof plane_proof = find_separating_plane(local_, task.region_planes, earlier, later);
         auto& region_planes = plane_proof.factors.region_planes;
@@ -138,7 +138,7 @@ private:
         return local_.from_file({axes_.file_from_body(node.plane.normal), node.plane.offset_m});
     }
 
-    /// What holds for all eyes is told at the first choice of a path, for all lists below it.
+    /// Statements that hold for all eyes are reported at the first view split of a path, for all lists below it.
     void check_view_split(const Task& task, const DrawOrder::Node& node) {
         const bool is_first = levels_.empty();
         if (is_first) {
@@ -155,7 +155,7 @@ private:
 
     void check_side(const Task& task, int child, const Plane& wall) {
         if (child == DrawOrder::nothing) {
-            return; // nothing is painted for these eyes, and nothing is claimed for them
+            return; // nothing is painted for these eyes, and nothing is stated for them
         }
         Task side{child, task.region_planes, task.expected, false};
         side.region_planes.push_back(wall);
@@ -172,7 +172,7 @@ private:
                 continue;
             }
             for (std::uint32_t earlier = 0; earlier < model_.polygons.size(); ++earlier) {
-                // Polygons that turn together see the wall turn.
+                // Polygons that turn together see the plane turn.
                 if (behind.has(earlier) && local_.polygons[earlier].axis != local_.polygons[later].axis) {
                     level.proved[later].add(earlier);
                 }
@@ -204,7 +204,7 @@ private:
         return found;
     }
 
-    /// Tells why polygons that are expected need not be painted.
+    /// Reports why expected polygons need not be painted.
     void find_missing_polygons(const Task& task, const Polygons& painted) {
         for (const std::uint32_t polygon : painted) { mark_[polygon] = 1; }
         for (const std::uint32_t polygon : task.expected) {
@@ -218,7 +218,7 @@ private:
         for (const std::uint32_t polygon : painted) { mark_[polygon] = 0; }
     }
 
-    /// Tells which pairs the plane of one polygon decides; returns the earlier polygons of the others.
+    /// Reports which pairs the plane of one polygon decides; returns the earlier polygons of the others.
     Polygons check_row(int child, std::span<const std::uint32_t> earlier, std::uint32_t later) {
         sink_.begin_pairs(child, later, earlier.size());
         Polygons unproved_pairs;
@@ -242,7 +242,7 @@ private:
         sink_.add_plane_proof(child, find_separating_plane(local_, region_planes, earlier, later), earlier, later);
     }
 
-    /// Tells which polygons are not where a parting needs them.
+    /// Reports the polygons that are not on the side where a polygon split needs them.
     void find_unproved_pairs(int child, const std::array<Polygons, 4>& parts, const Plane& plane) {
         for (std::size_t i = 0; i < parts.size(); ++i) {
             for (const std::uint32_t polygon : parts[i]) {
@@ -256,7 +256,7 @@ private:
         }
     }
 
-    /// Whether a polygon in the plane of a parting is seen from the side it is painted for.
+    /// Whether a polygon in the plane of a polygon split is seen from the side for which it is painted.
     bool faces(
         const std::array<Polygons, 4>& parts, std::size_t part, std::uint32_t polygon, const Plane& plane) const {
         const LocalPolygon& local = local_.polygons[polygon];
@@ -271,7 +271,7 @@ private:
     const LocalModel& local_;
     std::vector<char> mark_; ///< One for each polygon; all are 0 between uses.
     std::vector<Task> to_do_;
-    std::vector<Level> levels_; ///< Of the choices above the part at hand.
+    std::vector<Level> levels_; ///< Of the view splits above the current part.
     ProofVisitor& sink_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace octant::visuals::draworder {
 
-/// Is told why an order is right. A part is a child of a node as DrawOrder numbers them.
+/// Receives the reasons why an order is right. A part is a child of a node, numbered as by DrawOrder.
 class ProofVisitor {
 public:
     virtual ~ProofVisitor() = default;
@@ -21,7 +21,7 @@ public:
     virtual void add_pair(separation::DecidingPolygon by) = 0;
     virtual void end_pairs() = 0;
 
-    /// What was found for a pair that is not decided so: a witness, or none.
+    /// The proof for a pair that no own plane decides, or Kind::None.
     virtual void add_plane_proof(
         int part, const separation::SeparatingPlaneProof& plane_proof, std::uint32_t earlier, std::uint32_t later) = 0;
 
@@ -45,8 +45,8 @@ struct ProofInput {
 
 /// Walks through an order and seeks for each pair of polygons that it paints one before the other the plane that proves
 /// that nothing is hidden wrongly, and for each polygon that it leaves out that it faces away. The order is one for
-/// every eye of the model, or for those that a choice with nothing on one side leaves (with_min_distance.h). An
-/// exception of the sink ends the walk.
+/// every eye of the model, or for those that a view split with nothing on one side leaves (with_min_distance). An
+/// exception of the visitor ends the walk.
 void visit_proof(const ProofInput& input, ProofVisitor& visitor);
 
 } // namespace octant::visuals::draworder

@@ -1,5 +1,5 @@
-// Cuts one polygon of a model along a plane. Which polygons are cut, and where, is said in split_penetrating.cpp and
-// cycle_split.cpp.
+// Cuts one polygon of a model along a plane, and cuts polygons that pass through one another. Cuts of polygons that
+// occlude one another in a cycle are chosen in view_cell.cpp.
 #include "visuals/draworder/split.h"
 
 #include "models/planar/planar_model.h"

@@ -21,8 +21,8 @@ void insert_cut_pieces(std::vector<std::uint32_t>& list, std::span<const std::ui
 double split_tolerance_m(const models::polygons::PolygonModel& model);
 
 /// Cuts a polygon along a plane (unit normal). The piece in front of the plane keeps the number, the piece behind it is
-/// appended; its number is returned. Both keep material and part, and model.parents tells of which polygon of the file
-/// they are pieces.
+/// appended; its number is returned. Both keep material and part, and model.parents holds the polygon of the file of
+/// which they are pieces.
 ///
 /// The corners on the cut are shared by both pieces. Where the cut passes through a side, its new vertex also becomes a
 /// corner of every other polygon with that side (the same two positions as neighbours), so that no crack opens; such

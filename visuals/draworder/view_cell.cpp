@@ -1,5 +1,5 @@
-// The last resort of both exact methods: where no division of eye space gives an order, a polygon is split (section IV
-// and figure 14 of the 1989 paper), and all that was found before is kept up to date.
+// A region of eyes with its occlusion graph, and the last resort of both exact methods: where no division of eye space
+// gives an order, a polygon is split (section IV and figure 14 of the 1989 paper), and earlier results are updated.
 #include "visuals/draworder/view_cell.h"
 
 #include "sim/base/plane.h"
@@ -70,9 +70,9 @@ std::optional<PersistentCycle> cycle_at_eye(OcclusionGraphBuilder& graphs, const
     const auto& among = node.cycles.polygons;
     const auto eye = node.region.interior_point();
     if (!eye) { throw SearchGivenUp{"a cell is too thin to hold an eye"}; }
-    CyclicPart ring = cyclic_part_of(graphs.at_eye(*eye, node.cycles.inner, among), among);
-    if (ring.edges == 0) { return std::nullopt; }
-    return PersistentCycle{std::move(ring.components.front()), node.region, eye};
+    CyclicPart cycle = cyclic_part_of(graphs.at_eye(*eye, node.cycles.inner, among), among);
+    if (cycle.edges == 0) { return std::nullopt; }
+    return PersistentCycle{std::move(cycle.components.front()), node.region, eye};
 }
 
 std::vector<std::uint32_t> list_of(const OcclusionGraphBuilder& graphs, const ViewCell& node) {
@@ -137,7 +137,7 @@ std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuild
     return clusters;
 }
 
-// Splitting of polygons that hide one another in a ring: E. K. Kim, J. A. Park, C. Song, J. H. Kim, 1989, section IV
+// Splitting of polygons that hide one another in a cycle: E. K. Kim, J. A. Park, C. Song, J. H. Kim, 1989, section IV
 // and figure 14.
 //
 // Deviations: the paper splits polygons that pass through one another (split.cpp does that); here the same cut serves
@@ -145,7 +145,7 @@ std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuild
 
 namespace {
 
-/// The hiding graph among the polygons of a deadlock, for its eye or for its region.
+/// The occlusion graph among the polygons of a persistent cycle, for its eye or for its region.
 OcclusionGraph graph_of(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
     const auto& among = persistent_cycle.polygons;
     OcclusionGraph pairs(graphs.model().faces.size());
@@ -165,18 +165,18 @@ bool straddles(const Face& face, const Plane& plane, double margin) {
     return heights(least) < -margin && heights(most) > margin;
 }
 
-/// The number of cyclic edges among the ring's polygons once one of them has been cut.
+/// The number of cyclic edges among the cycle's polygons once one of them has been cut.
 std::size_t left_after(const ModelFaces& model, const PersistentCycle& persistent_cycle,
-    const std::vector<std::uint32_t>& ring, const PolygonCut& cut) {
+    const std::vector<std::uint32_t>& cycle, const PolygonCut& cut) {
     const Plane plane = *model.faces[cut.cut_by].plane;
     const Face& whole = model.faces[cut.polygon];
-    const std::size_t count = ring.size() + 1;
+    const std::size_t count = cycle.size() + 1;
     ModelFaces pieces{.faces = {},
         .tolerances = model.tolerances,
         .rigid = OcclusionGraph(count),
         .ignored = OcclusionGraph(count),
         .notes = {}};
-    for (const std::uint32_t polygon : ring) {
+    for (const std::uint32_t polygon : cycle) {
         pieces.faces.push_back(polygon == cut.polygon
                                    ? outline_face(front_part(whole.outline, plane, model.tolerances.inset),
                                          *whole.plane, model.tolerances.inset)
@@ -194,16 +194,16 @@ std::size_t left_after(const ModelFaces& model, const PersistentCycle& persisten
 
 std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
     const ModelFaces& model = graphs.model();
-    std::vector<std::uint32_t> ring = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
-    std::ranges::sort(ring);
+    std::vector<std::uint32_t> cycle = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
+    std::ranges::sort(cycle);
     std::optional<PolygonCut> best;
     std::size_t fewest = 0;
-    for (const std::uint32_t polygon : ring) {
-        for (const std::uint32_t cut_by : ring) {
+    for (const std::uint32_t polygon : cycle) {
+        for (const std::uint32_t cut_by : cycle) {
             const Face& face = model.faces[polygon];
             const auto& plane = model.faces[cut_by].plane;
             if (face.pivot || !plane || !straddles(face, *plane, 2.0 * model.tolerances.inset)) { continue; }
-            const std::size_t left = left_after(model, persistent_cycle, ring, {polygon, cut_by});
+            const std::size_t left = left_after(model, persistent_cycle, cycle, {polygon, cut_by});
             if (!best || left < fewest) {
                 best = PolygonCut{polygon, cut_by};
                 fewest = left;
@@ -214,11 +214,11 @@ std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const 
 }
 
 std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
-    const auto ring = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
+    const auto cycle = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
     const auto& faces = graphs.model().faces;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const std::uint32_t next = ring[(i + 1) % ring.size()];
-        if (faces[ring[i]].pivot || faces[next].pivot) { return Precedence{ring[i], next}; }
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+        const std::uint32_t next = cycle[(i + 1) % cycle.size()];
+        if (faces[cycle[i]].pivot || faces[next].pivot) { return Precedence{cycle[i], next}; }
     }
     return std::nullopt;
 }

@@ -17,7 +17,7 @@
 
 namespace octant::visuals::draworder {
 
-/// A region of eye space and the hiding graph for the eyes in it.
+/// A region of eye space and the occlusion graph for the eyes in it.
 struct ViewCell {
     ViewRegion region;
     OcclusionGraph graph;
@@ -28,15 +28,15 @@ struct ViewCell {
 ViewCell view_cell(OcclusionGraphBuilder& graphs, const ViewRegion& region);
 
 /// The node of a part of a node's region. Only edges on cycles are tested again; the others stay as they are, because
-/// they have an order already and do no harm. `sides` tells where the polygons lie to a plane that the part is in front
-/// of; null when there is none.
+/// they have an order already and do no harm. `sides` are the polygons on each side of a plane that the part is in
+/// front of; null when there is none.
 ViewCell part_of(
     OcclusionGraphBuilder& graphs, const ViewCell& node, ViewRegion part, const PlaneSideSets* sides = nullptr);
 
 /// About the work of testing a node's cyclic edges (SearchBudget).
 std::uint64_t search_units(const ViewCell& node);
 
-/// Polygons that have no painting order however eye space is cut: they hide one another in a ring from a single eye
+/// Polygons that have no painting order however eye space is cut: they hide one another in a cycle from a single eye
 /// point, or in all of a region that no plane makes simpler.
 struct PersistentCycle {
     std::vector<std::uint32_t> polygons; ///< One strongly connected component.
@@ -44,7 +44,7 @@ struct PersistentCycle {
     std::optional<glm::dvec3> eye; ///< In the faces' space; nothing = all of the region.
 };
 
-/// The ring that an eye in the middle of the region sees, if there is one.
+/// The cycle that an eye in the middle of the region sees, if there is one.
 std::optional<PersistentCycle> cycle_at_eye(OcclusionGraphBuilder& graphs, const ViewCell& node);
 
 /// Throws SearchGivenUp when lists have more entries than can be held.
@@ -55,7 +55,7 @@ void check_entries(std::size_t entries);
 std::vector<std::uint32_t> list_of(const OcclusionGraphBuilder& graphs, const ViewCell& node);
 
 /// The polygons of a node with cycles that face some eye of it, as sets that are painted one after the other: those
-/// that hide one another in a ring are one set, ascending; others stand alone.
+/// that hide one another in a cycle are one set, ascending; others stand alone.
 std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuilder& graphs, const ViewCell& node);
 
 /// A polygon to split, and the polygon in whose plane it is cut.
@@ -64,15 +64,15 @@ struct PolygonCut {
     std::uint32_t cut_by = 0;
 };
 
-/// The cut that resolves most of a shortest ring of a deadlock. Of all pairs of the ring in which one polygon straddles
-/// the plane of the other, it is the cut that leaves the fewest cyclic edges, and the lowest polygon numbers among
-/// equals. Turning polygons are not cut. Returns nothing when there is no such pair. That happens only with turning
-/// polygons in the ring, because fixed ones lack an order only if one of them straddles the plane of another, or where
-/// the tolerances of two tests differ.
+/// The cut that resolves most of a shortest cycle in a persistent cycle. Of all pairs of the cycle in which one polygon
+/// straddles the plane of the other, it is the cut that leaves the fewest cyclic edges, and the lowest polygon numbers
+/// among equals. Turning polygons are not cut. Returns nothing when there is no such pair. That happens only with
+/// turning polygons in the cycle, because fixed ones lack an order only if one of them straddles the plane of another,
+/// or where the tolerances of two tests differ.
 std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle);
 
-/// The first pair with a turning polygon of a shortest ring of a deadlock: it is given up because no order can be
-/// right. Returns nothing where no polygon of the ring turns, or where rounding has left no ring.
+/// The first pair with a turning polygon of a shortest cycle in a persistent cycle: it is given up because no order can
+/// be right. Returns nothing where no polygon of the cycle turns, or where rounding has left no cycle.
 std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle);
 
 /// A model that may still be split while its orders are being found, with its faces.
@@ -85,7 +85,7 @@ struct WorkingModel {
         : model(std::move(of)), faces(model_faces(model, origin_m)),
           first_count(static_cast<std::uint32_t>(model.polygons.size())), notes(faces.notes) {}
 
-    /// Splits a polygon of a deadlock, or gives up a pair where only turning polygons are in the way. Throws
+    /// Splits a polygon of a persistent cycle, or gives up a pair where only turning polygons are in the way. Throws
     /// SearchGivenUp when there is nothing to split, or when a model has been split beyond what is sensible.
     void resolve(const PersistentCycle& persistent_cycle);
 

@@ -1,9 +1,9 @@
-// Method::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides the
-// viewing directions until all hidden surfaces are removed; here eye space is divided by planes until each cell's
-// hiding graph has no cycle.
+// OrderMethod::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides
+// the viewing directions until all hidden surfaces are removed; here eye space is divided by planes until each cell's
+// occlusion graph has no cycle.
 //
-// The search is greedy: at a node the plane that leaves least of the cycles divides it (fork_choice.cpp). Before that,
-// an eye in the middle of the node is looked at: if it already sees a ring, no plane can help, and a polygon is split.
+// The search is greedy: at a node the plane that leaves least of the cycles divides it (best_split). Before that, an
+// eye in the middle of the node is looked at: if it already sees a cycle, no plane can help, and a polygon is split.
 #include "visuals/draworder/view_space_tree.h"
 
 #include "sim/base/plane.h"
@@ -180,12 +180,12 @@ PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::s
 
 // Which plane divides a node of the tree over eye space. Candidate planes are judged in three stages, each more exact
 // and more expensive, and applied to fewer planes: by where polygons lie to the plane (PlaneScorer), by the edges that
-// stay on cycles then (CyclicEdgeCounter), and by building both sides' graphs with the exact hiding test. The plane
+// stay on cycles then (CyclicEdgeCounter), and by building both sides' graphs with the exact occlusion test. The plane
 // with the least cost divides the node.
 
-// The first and coarsest of three judgements in the search for a plane (view_space_tree.cpp). For eyes in front of a
-// plane, a polygon behind it or in it cannot hide one in front of it or in it, so such edges disappear; counting them
-// takes a few operations on rows of bits. What remains may still contain edges that the exact test would remove.
+// The first and coarsest of the three stages. For eyes in front of a plane, a polygon behind it or in it cannot hide
+// one in front of it or in it, so such edges disappear; counting them takes a few operations on rows of bits. What
+// remains may still contain edges that the exact test would remove.
 
 namespace {
 
@@ -395,13 +395,13 @@ std::vector<ViewSplit> SplitPlaneChooser::by_sides(std::span<const Plane> planes
 /// Second stage: the cost of each choice by the edges that stay on cycles.
 std::vector<ViewSplit> SplitPlaneChooser::by_rings(std::span<const ViewSplit> choices) const {
     const CyclicPart& cycles = node_.cycles;
-    CyclicEdgeCounter rings;
+    CyclicEdgeCounter counter;
     std::vector<ViewSplit> out(choices.begin(), choices.end());
     for (ViewSplit& choice : out) {
         const PolygonsByPlaneSide sides = sides_of(choice.plane, work_.faces, cycles.polygons);
         const auto& [front, back] = sides.sets;
-        const auto front_edges = rings.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
-        const auto back_edges = rings.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
+        const auto front_edges = counter.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
+        const auto back_edges = counter.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
         choice.cost = cost(front_edges, back_edges, cycles.edges);
     }
     return out;
@@ -457,7 +457,7 @@ std::vector<ViewSplit> SplitPlaneChooser::coarse_ranking() const {
         choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
     }
     if (choices.empty()) {
-        // Of many polygons not all candidate planes were made. All those of one ring are enough to resolve it in the
+        // Of many polygons not all candidate planes were made. All those of one cycle are enough to resolve it in the
         // end.
         choices = of_planes(shortest_cycle(cycles.inner, cycles.polygons), search_.edge_planes);
     }
@@ -549,7 +549,7 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const ViewCell& node) {
     return out;
 }
 
-/// Splits polygons until an eye in the middle of the node sees no ring and some plane makes the node simpler, and
+/// Splits polygons until an eye in the middle of the node sees no cycle and some plane makes the node simpler, and
 /// returns the node divided by that plane. Returns nothing once the node has no cycles.
 std::optional<CellSplit> TreeBuilder::settle(ViewCell& node) {
     while (node.cycles.edges > 0) {

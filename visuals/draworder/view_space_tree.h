@@ -23,7 +23,7 @@ namespace octant::visuals::draworder {
 /// about `most` of them, spread evenly over all that there are.
 std::vector<Plane> axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 
-/// Planes by which eye space may be cut so that the hiding relation among some polygons gets simpler, each once, the
+/// Planes by which eye space may be cut so that the occlusion relation among some polygons gets simpler, each once, the
 /// plainest first: the polygons' own planes, and planes through an edge of one polygon and a corner of another. The
 /// last kind includes all that bound the region from where one polygon hides another, so that cutting by them resolves
 /// every pair in the end. About `most` of them are made, spread evenly over all that there are. A model that is turned
@@ -151,7 +151,7 @@ struct TreeSearch {
     SplitPlaneSearch plane_search = {};
     /// The most cuts one after another.
     std::size_t max_depth = 100;
-    /// Whether planes are tried before polygons are split, even where an eye in the middle of a region sees a ring:
+    /// Whether planes are tried before polygons are split, even where an eye in the middle of a region sees a cycle:
     /// more cells, sometimes fewer splits.
     bool prefers_planes = false;
     /// Whether what was found is kept where the search is given up (ViewSpaceTree::open).

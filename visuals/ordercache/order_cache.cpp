@@ -29,8 +29,8 @@
 
 namespace octant::visuals::ordercache {
 
-// What the order of a model depends on, and the order itself, as bytes. Reading trusts nothing: a child is a later node
-// that no other node has, or a cell, so that every walk ends after as many steps as there are nodes.
+// The key and the order as bytes. The reader checks everything: a child is a later node that no other node has, or a
+// cell, so that every walk ends after as many steps as there are nodes.
 
 using draworder::DrawOrder;
 using draworder::OrderCell;

@@ -26,7 +26,7 @@ struct BspTree {
         std::size_t count = 0;
     };
 
-    /// The model with cut polygons; its parents tell of which polygon each is a piece.
+    /// The model with cut polygons; its parents hold the polygon of which each is a piece.
     models::polygons::PolygonModel model;
     std::vector<Node> nodes;             ///< Node 0 is the root; children come after their parents.
     std::vector<std::uint32_t> polygons; ///< Each polygon of `model` once, node after node.

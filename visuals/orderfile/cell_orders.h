@@ -27,8 +27,8 @@ struct BspCell {
     std::vector<std::uint32_t> list;
 };
 
-/// The cells of any order: a plane that parts polygons is a choice of eye space, too, so that the cells on both sides
-/// of it are combined. Only regions with a volume become cells. Returns nothing when there are too many.
+/// The cells of any order. A plane that splits polygons also divides eye space, so that the cells on both sides of it
+/// are combined. Only regions with a volume become cells. Returns nothing when there are too many.
 std::optional<std::vector<BspCell>> bsp_cells(
     const models::polygons::PolygonModel& model, const draworder::DrawOrder& order);
 
@@ -63,11 +63,11 @@ struct CellOrders {
     std::optional<draworder::DrawOrder> parts;
 };
 
-/// Converts a model's orders to this form. An order by parts is turned into cells where these are few (bsp_cells.h).
-/// Octant cells are made from their paths rather than from the planes that the model gives them, except where several
-/// cells share a path (an octant divided by planes). They begin at the distance from which the model's orders hold: at
-/// its min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so that no eye of
-/// them lies inside the radius.
+/// Converts a model's orders to this form. An order with polygon splits is turned into cells where these are few
+/// (bsp_cells). Octant cells are made from their paths rather than from the planes that the model gives them, except
+/// where several cells share a path (an octant divided by planes). They begin at the distance from which the model's
+/// orders hold: at its min_distance_m, or for OrderMethod::Paper, which has none, at sqrt(3) times the model's radius,
+/// so that no eye of them lies inside the radius.
 CellOrders cell_orders(const draworder::OrderedModel& ordered);
 
 /// The index of the cell that an eye uses; nothing when none contains it.

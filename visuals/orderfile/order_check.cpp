@@ -1,6 +1,5 @@
-// A certificate for painting orders, the exact rule turned round: the code that finds orders looks for what hides what,
-// and this code looks for planes which prove that nothing does. It shares no code with the search, so that a mistake
-// there cannot repeat itself here.
+// Proves painting orders. The code that finds orders looks for occlusions; this code looks for planes that exclude
+// them. It shares no code with the search, so that a mistake there cannot repeat itself here.
 #include "visuals/orderfile/order_check.h"
 
 #include "models/polygons/polygon_model.h"

@@ -26,7 +26,7 @@ struct UnprovedPair {
     bool operator==(const UnprovedPair&) const = default;
 };
 
-/// What a certificate says about an order.
+/// The result of check_order.
 struct OrderCheck {
     long pairs = 0;                           ///< The pairs of polygons listed in one cell, over all cells.
     long by_plane = 0;                        ///< Of these, pairs separated by a plane of the cell or of the polygons.
@@ -42,7 +42,7 @@ struct OrderCheck {
 
 /// Proves, without any of the code that finds orders, that an order is right for every eye of its cells: no polygon
 /// hides part of one painted after it, and no polygon that is not listed faces an eye. Errors of less than 1e-6 of the
-/// model's diagonal pass. Whether the cells leave gaps is a question for rays (ray_check.h).
+/// model's diagonal pass. Gaps between cells are found by rays (random_ray_test.h).
 ///
 /// Polygons of turning parts are checked for all angles at once, by the rings that they sweep; those of one part are
 /// checked against each other as rigid. This demands more than needed, and so does a cell whose least distance has no

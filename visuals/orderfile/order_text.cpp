@@ -1,4 +1,4 @@
-// Writes painting orders in the text format that order_text.h describes.
+// Painting orders as text: tables in words, and the writer and reader of the file format that order_text.h describes.
 #include "visuals/orderfile/order_text.h"
 
 #include "models/polygons/file_axes.h"
@@ -27,8 +27,8 @@
 
 namespace octant::visuals::orderfile {
 
-// Painting orders in words: the 1989 paper's table 4 for any model, for `octant draw-order --table` and the panels of
-// the window.
+// Orders in words: the 1989 paper's table 4 for any model, for `octant draw-order --table` and the panels of the
+// window.
 
 namespace {
 

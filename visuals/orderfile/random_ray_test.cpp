@@ -1,6 +1,6 @@
 // An independent test of painting orders by sampling: along each ray the polygon that is painted last must be the one
-// nearest to the eye. It finds gaps between cells, which the certificate (order_check.cpp) cannot see, and it measures
-// how wrong an inexact order is: the share of wrong pixels.
+// nearest to the eye. It finds gaps between cells, which check_order() cannot find, and it measures how wrong an
+// inexact order is: the share of wrong pixels.
 #include "visuals/orderfile/random_ray_test.h"
 
 #include "models/polygons/polygon_outlines.h"

@@ -304,7 +304,7 @@ std::vector<double> best_shares(const Payoffs& payoffs) {
 namespace {
 
 /// Planes of which a sum may be made, and which factor each one has: 0 is that of the earlier polygon, 1 of the later
-/// one, the others those of the walls.
+/// one, the others those of the region planes.
 struct UsablePlanes {
     std::vector<Plane> planes;
     std::vector<std::size_t> factors;
@@ -412,7 +412,7 @@ bool separate_angles(const LocalModel& model, std::uint32_t earlier, std::uint32
     return !(axis && axis == model.polygons[later].axis);
 }
 
-/// The planes that all eyes that see both are before; polygons that turn together see walls turn.
+/// The planes that all eyes that see both are before; polygons that turn together see region planes turn.
 UsablePlanes usable(const ProofQuery& query) {
     UsablePlanes out;
     const auto add = [&](std::size_t factor, const Plane& plane) {
@@ -432,7 +432,7 @@ UsablePlanes usable(const ProofQuery& query) {
     return out;
 }
 
-/// The factors for planes and for 1, if their sum is a witness.
+/// The factors for planes and for 1, if their sum is a separating plane.
 std::optional<PlaneFactors> verified(
     const ProofQuery& query, const UsablePlanes& planes, const std::vector<double>& found) {
     const double one = found[planes.planes.size()];

@@ -30,7 +30,7 @@ struct LocalAxis {
     glm::dvec3 along{0.0};
 };
 
-/// A polygon as witnesses are sought for it.
+/// A polygon in the form in which separating planes are sought.
 struct LocalPolygon {
     Plane plane;
     std::vector<glm::dvec3> corners;
@@ -112,7 +112,7 @@ struct SeparatingPlaneProof {
     PlaneFactors factors;
 };
 
-/// Seeks a witness for the eyes before all of some planes.
+/// Seeks a separating plane for the eyes in front of all of some planes.
 SeparatingPlaneProof find_separating_plane(
     const LocalModel& model, std::span<const Plane> region_planes, std::uint32_t earlier, std::uint32_t later);
 

@@ -1,5 +1,5 @@
-// Reads certificates of painting orders; README.md has their format. Lines that tell of the model and its order
-// (structure_reader.cpp) come before the claims (claim_reader.cpp).
+// Reads certificates of painting orders in the format of README.md. The lines of the model and its order
+// (StructureReader) come before the statements (StatementReader).
 #include "visuals/verify/certificate.h"
 
 #include "sim/base/error.h"
@@ -63,8 +63,7 @@ constexpr std::size_t max_entries = 50'000'000;
 /// The largest number that may stand in a certificate.
 constexpr double largest_number = 1e12;
 
-/// The words of a certificate's lines, read as what its README.md has. What is wrong is refused as TokenReader refuses
-/// it.
+/// The words of a certificate's lines, read as README.md describes them. Wrong words are refused as by TokenReader.
 class CertificateTokens : public TokenReader {
 public:
     using TokenReader::TokenReader;
@@ -163,8 +162,8 @@ WrittenPlane CertificateTokens::plane() {
 
 void CertificateTokens::fail_too_many() const { refuse(fmt::format("at most {} such lines", max_entries)); }
 
-/// Reads the lines of a certificate that tell of the model and of its order: tolerance, vertex, axis, polygon, turning,
-/// list and node.
+/// Reads the lines of a certificate about the model and its order: tolerance, vertex, axis, polygon, turning, list and
+/// node.
 class StructureReader {
 public:
     StructureReader(CertificateTokens& words, Certificate& made) : words_(words), made_(made) {}
@@ -204,7 +203,7 @@ bool StructureReader::read_tolerance() {
     return true;
 }
 
-/// Where the certificate measures from changes nothing of what it proves.
+/// The reference point changes nothing in the proof, so it is only checked.
 bool StructureReader::read_reference() {
     if (!made_.vertices.empty() || !made_.axes.empty()) { words_.refuse("'about' before all places"); }
     words_.vector("a coordinate");
@@ -288,7 +287,7 @@ int StructureReader::child(bool may_be_nothing, bool may_be_node) {
     return static_cast<int>(number);
 }
 
-/// How many walls bound the eyes that come to each node and list of a certificate: one for each choice above it.
+/// The number of region planes of each node and list of a certificate: one for each view split above it.
 struct RegionPlaneCounts {
     std::vector<std::size_t> by_node;
     std::vector<std::size_t> by_list;
@@ -346,8 +345,8 @@ private:
     RegionPlaneCounts counts_;
 };
 
-/// Counts the walls down from the first node, or for the only list where there is no node. Throws Error unless nodes
-/// and lists are one tree and the certificate has a tolerance and polygons.
+/// Counts the region planes down from the first node, or for the only list where there is no node. Throws Error unless
+/// nodes and lists are one tree and the certificate has a tolerance and polygons.
 RegionPlaneCounts count_region_planes(const Certificate& certificate) {
     require_some(certificate, certificate.tolerance > 0.0, "a tolerance");
     require_some(certificate, !certificate.polygons.empty(), "at least one polygon");
@@ -355,37 +354,37 @@ RegionPlaneCounts count_region_planes(const Certificate& certificate) {
     return RegionPlaneCounter(certificate).count();
 }
 
-/// What a line claims.
+/// The kind of a statement.
 enum class StatementKind { Pairs, Sum, Never, Away, Unproved };
 
-/// Reads the claims of a certificate, whose structure is known: pairs, sum, never, away and unproved.
+/// Reads the statements of a certificate, whose structure is known: pairs, sum, never, away and unproved.
 class StatementReader {
 public:
     /// What is read is put into `made`, whose nodes, lists and polygons are there.
     StatementReader(CertificateTokens& words, Certificate& made, RegionPlaneCounts region_planes)
-        : words_(words), made_(made), walls_(std::move(region_planes)) {}
+        : words_(words), made_(made), region_plane_counts_(std::move(region_planes)) {}
 
-    /// Reads what follows the first word of a claim.
+    /// Reads what follows the first word of a statement.
     void take(StatementKind kind);
 
 private:
     Statements& current_statements();
-    void read_factors(Statements& claims, PairStatement::Kind kind, std::uint32_t polygon);
+    void read_factors(Statements& statements, PairStatement::Kind kind, std::uint32_t polygon);
     std::uint32_t polygon();
     double factor();
     void read_region_planes(StatedFactors& factors);
-    void read_back_facing(Statements& claims, std::uint32_t polygon);
-    void read_unproved(Statements& claims, std::uint32_t polygon);
-    void read_row(Statements& claims, std::uint32_t later);
+    void read_back_facing(Statements& statements, std::uint32_t polygon);
+    void read_unproved(Statements& statements, std::uint32_t polygon);
+    void read_row(Statements& statements, std::uint32_t later);
     DeciderRun run();
 
     CertificateTokens& words_;
     Certificate& made_;
-    RegionPlaneCounts walls_;
-    std::size_t current_region_plane_count_ = 0; ///< How many walls the region of the claim at hand has.
+    RegionPlaneCounts region_plane_counts_;
+    std::size_t current_region_plane_count_ = 0; ///< How many region planes the region of the current statement has.
 };
 
-/// Takes the first word of a line if it begins a claim.
+/// Takes the first word of a line if it begins a statement.
 std::optional<StatementKind> read_statement_kind(CertificateTokens& words) {
     using Word = std::pair<std::string_view, StatementKind>;
     for (const auto& [word, kind] :
@@ -397,35 +396,35 @@ std::optional<StatementKind> read_statement_kind(CertificateTokens& words) {
 }
 
 void StatementReader::take(StatementKind kind) {
-    Statements& claims = current_statements();
+    Statements& statements = current_statements();
     const std::uint32_t polygon = this->polygon();
     switch (kind) {
     case StatementKind::Pairs:
-        return read_row(claims, polygon);
+        return read_row(statements, polygon);
     case StatementKind::Sum:
-        return read_factors(claims, PairStatement::Kind::Sum, polygon);
+        return read_factors(statements, PairStatement::Kind::Sum, polygon);
     case StatementKind::Never:
-        return read_factors(claims, PairStatement::Kind::Never, polygon);
+        return read_factors(statements, PairStatement::Kind::Never, polygon);
     case StatementKind::Away:
-        return read_back_facing(claims, polygon);
+        return read_back_facing(statements, polygon);
     case StatementKind::Unproved:
-        return read_unproved(claims, polygon);
+        return read_unproved(statements, polygon);
     }
 }
 
-/// The claims of the list or node that the line names next.
+/// The statements of the list or node that the line names next.
 Statements& StatementReader::current_statements() {
     const bool of_list = words_.skip("list");
     if (!of_list && !words_.skip("node")) { words_.refuse("list or node"); }
     const std::uint32_t number =
         of_list ? words_.index("a list", made_.lists.size()) : words_.index("a node", made_.nodes.size());
-    current_region_plane_count_ = of_list ? walls_.by_list[number] : walls_.by_node[number];
+    current_region_plane_count_ = of_list ? region_plane_counts_.by_list[number] : region_plane_counts_.by_node[number];
     return of_list ? made_.by_list[number] : made_.by_node[number];
 }
 
 std::uint32_t StatementReader::polygon() { return words_.index("a polygon", made_.polygons.size()); }
 
-void StatementReader::read_factors(Statements& claims, PairStatement::Kind kind, std::uint32_t polygon) {
+void StatementReader::read_factors(Statements& statements, PairStatement::Kind kind, std::uint32_t polygon) {
     PairStatement statement;
     statement.kind = kind;
     statement.pair = {polygon, this->polygon()};
@@ -433,42 +432,42 @@ void StatementReader::read_factors(Statements& claims, PairStatement::Kind kind,
     statement.factors.earlier = factor();
     statement.factors.later = factor();
     read_region_planes(statement.factors);
-    words_.add(claims.pairs, std::move(statement));
+    words_.add(statements.pairs, std::move(statement));
 }
 
 double StatementReader::factor() { return words_.number("a factor", 0.0, largest_number); }
 
-/// The factor of 1 and those of the walls.
+/// The factor of 1 and those of the region planes.
 void StatementReader::read_region_planes(StatedFactors& factors) {
     factors.one = factor();
     for (std::size_t i = 0; i < current_region_plane_count_; ++i) { factors.region_planes.push_back(factor()); }
 }
 
-void StatementReader::read_back_facing(Statements& claims, std::uint32_t polygon) {
+void StatementReader::read_back_facing(Statements& statements, std::uint32_t polygon) {
     BackFacingStatement statement;
     statement.line = words_.line();
     statement.factors.earlier = 1.0;
     read_region_planes(statement.factors);
-    if (!claims.away.emplace(polygon, std::move(statement)).second) { words_.fail_at_last("each polygon once"); }
+    if (!statements.away.emplace(polygon, std::move(statement)).second) { words_.fail_at_last("each polygon once"); }
 }
 
 /// A polygon or a pair without a proof.
-void StatementReader::read_unproved(Statements& claims, std::uint32_t polygon) {
+void StatementReader::read_unproved(Statements& statements, std::uint32_t polygon) {
     ++made_.unproved;
     made_.first_unproved = made_.first_unproved.value_or(words_.line());
     if (words_.done()) {
-        claims.unproved.emplace(polygon, words_.line());
+        statements.unproved.emplace(polygon, words_.line());
     } else {
-        words_.add(claims.pairs, {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line()});
+        words_.add(statements.pairs, {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line()});
     }
 }
 
-void StatementReader::read_row(Statements& claims, std::uint32_t later) {
+void StatementReader::read_row(Statements& statements, std::uint32_t later) {
     PairRow row;
     row.later = later;
     row.line = words_.line();
     while (!words_.done()) { row.runs.push_back(run()); }
-    words_.add(claims.rows, std::move(row));
+    words_.add(statements.rows, std::move(row));
 }
 
 /// Reads a count and a letter.
@@ -510,7 +509,7 @@ private:
             has_header_ = true;
         } else if (const auto statement = read_statement_kind(words_)) {
             finish_structure();
-            claims_->take(*statement);
+            statements_->take(*statement);
         } else {
             take_structure();
         }
@@ -522,17 +521,17 @@ private:
             words_.refuse("tolerance, about, vertex, axis, polygon, turning, list, node, pairs, "
                           "sum, never, away or unproved");
         }
-        if (claims_) {
+        if (statements_) {
             throw_error_at(made_.path, words_.line(),
                 "expected pairs, sum, never, away or unproved after the first of them, got "
                 "something else");
         }
     }
 
-    /// Once all nodes and lists are read: sees that they are one tree, of which claims may follow.
+    /// Called once all nodes and lists are read: requires that they are one tree, so that statements may follow.
     void finish_structure() {
-        if (!claims_) {
-            claims_.emplace(words_, made_, count_region_planes(made_));
+        if (!statements_) {
+            statements_.emplace(words_, made_, count_region_planes(made_));
             made_.by_node.resize(made_.nodes.size());
             made_.by_list.resize(made_.lists.size());
         }
@@ -541,7 +540,7 @@ private:
     CertificateTokens words_;
     Certificate made_;
     StructureReader structure_{words_, made_};
-    std::optional<StatementReader> claims_; ///< Nothing until the structure is read.
+    std::optional<StatementReader> statements_; ///< Nothing until the structure is read.
     bool has_header_ = false;
 };
 

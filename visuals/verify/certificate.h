@@ -42,7 +42,7 @@ struct OrderNode {
 
     /// A child where nothing is painted; else a child >= 0 is a node, one < 0 the list ~child.
     static constexpr int nothing = std::numeric_limits<int>::min();
-    /// A side of a choice of whose eyes nothing is said.
+    /// A side of a view split about whose eyes nothing is stated.
     static constexpr int not_covered = nothing + 1;
 
     /// Whether a child is neither a node nor a list.
@@ -63,7 +63,7 @@ struct OrderList {
 };
 
 /// Factors of a sum of planes: of the earlier polygon's (or the only one's), of the later one's, of the constant 1, and
-/// of each wall of the region, the root's first.
+/// of each region plane of the region, the root's first.
 struct StatedFactors {
     double earlier = 0.0;
     double later = 0.0;
@@ -107,7 +107,7 @@ struct BackFacingStatement {
     int line = 0;
 };
 
-/// What is claimed for the eyes of a node or a list; README.md says what that means.
+/// The statements for the eyes of a node or a list.
 struct Statements {
     std::vector<PairRow> rows;
     std::vector<PairStatement> pairs;
@@ -116,8 +116,8 @@ struct Statements {
     std::map<std::uint32_t, int> unproved;
 };
 
-/// A certificate as its file has it. What it claims need not be true, but it can be understood: all numbers lie in
-/// their ranges, and nodes and lists are a tree.
+/// A certificate as read from its file. Its statements may be false, but they are well-formed: all numbers are in their
+/// ranges, and nodes and lists form a tree.
 struct Certificate {
     std::filesystem::path path;
     double tolerance = 0.0; ///< Lengths up to this are taken for none.
@@ -142,7 +142,7 @@ struct Certificate {
 
 /// Reads a certificate; README.md has its format. Throws Error "file:line: expected ..., got ..." for whatever is not a
 /// certificate at all: no header, unknown keywords, numbers that are missing, too many, not finite or out of range,
-/// nodes and lists that are no tree, claims about what is not there.
+/// nodes and lists that are no tree, statements about polygons, nodes or lists that do not exist.
 Certificate read_certificate(const std::filesystem::path& path);
 
 /// The same of the text of a file; `name` is what errors call it.

@@ -1,5 +1,5 @@
 // Walks the tree of a painting order from its root and asks for a proof of everything that the order rests on.
-// README.md has the proofs.
+// README.md says why each statement proves its pair.
 #include "visuals/verify/verify.h"
 
 #include "sim/base/error.h"
@@ -150,7 +150,7 @@ void ProvedPairs::add_region_plane(const WrittenPlane& wall, const Certificate& 
     }
     for (std::uint32_t i = 0; i < polygons_; ++i) {
         if (!sides.is_behind(i, back, PartAngle::Turning)) { continue; }
-        // Polygons that turn together see the wall turn.
+        // Polygons that turn together see the plane turn.
         const auto& axis = certificate.polygons[i].axis;
         if (!axis) {
             row(i).add(behind);
@@ -175,11 +175,11 @@ std::uint32_t ProvedPairs::first_open(std::span<const std::uint32_t> painted, st
     return *open;
 }
 
-/// The eyes of a list or node: what is before all of these planes.
+/// The region of the eyes of a list or node: it is in front of all of these planes.
 using RegionPlanes = std::vector<WrittenPlane>;
 
-/// Judges witnesses; README.md says why each one proves what it claims. Throws Refusal for those that do not. Keeps
-/// references.
+/// Checks the statements about pairs; README.md says why each one is a proof. Throws InvalidCertificate for false ones.
+/// Keeps references.
 class PairCheck {
 public:
     PairCheck(const Certificate& certificate, const ExactSides& sides) : certificate_(certificate), sides_(sides) {}
@@ -190,15 +190,15 @@ public:
     /// That the plane of the later polygon has the earlier one behind it.
     void check_later(const PolygonPair& pair, int line) const;
 
-    /// What a claim says for the eyes before all walls; of Kind::Unproved nothing is asked.
+    /// The statement for the eyes before all region planes; Kind::Unproved needs no check.
     void check(const PairStatement& statement, const RegionPlanes& region_planes) const;
 
-    /// That a polygon faces away from every eye before all walls.
+    /// That a polygon faces away from every eye before all region planes.
     void check_away(
         std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const;
 
 private:
-    /// Factors that are claimed for a pair.
+    /// Factors that are stated for a pair.
     struct Sum {
         const PolygonPair& pair;
         PartAngle pose;
@@ -339,10 +339,11 @@ void check_row(const PairCheck& check, const PairRow& row, std::span<const std::
     }
 }
 
-/// Checks all that is claimed about pairs for the eyes before some walls, and adds it to what is known. Throws Refusal.
-void check_statements(const PairCheck& check, const Statements& claims, const RegionPlanes& region_planes,
+/// Checks all statements about pairs for the eyes before some region planes, and adds the pairs to the proved ones.
+/// Throws InvalidCertificate.
+void check_statements(const PairCheck& check, const Statements& statements, const RegionPlanes& region_planes,
     const EarlierOf& earlier_of, ProvedPairs& proved_pairs, StatementCounts& counts) {
-    for (const PairRow& row : claims.rows) {
+    for (const PairRow& row : statements.rows) {
         const auto earlier = earlier_of(row.later);
         if (!earlier) {
             throw InvalidCertificate{
@@ -351,7 +352,7 @@ void check_statements(const PairCheck& check, const Statements& claims, const Re
         }
         check_row(check, row, *earlier, proved_pairs, counts);
     }
-    for (const PairStatement& statement : claims.pairs) {
+    for (const PairStatement& statement : statements.pairs) {
         check.check(statement, region_planes);
         proved_pairs.add(statement.pair);
         counts.by_sums += statement.kind == PairStatement::Kind::Sum ? 1 : 0;
@@ -360,13 +361,13 @@ void check_statements(const PairCheck& check, const Statements& claims, const Re
 }
 
 /// Checks that each polygon is painted where it can be seen, once, and over those of its own plane that it is to cover.
-/// Throws Refusal. Keeps references.
+/// Throws InvalidCertificate. Keeps references.
 class PaintedCheck {
 public:
     PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check);
 
     /// That in a child nothing is painted but what is expected, and that what is expected and not painted faces away
-    /// from all eyes before the walls. Returns how many do.
+    /// from all eyes before the region planes. Returns how many do.
     std::uint64_t require_painted(int child, std::span<const std::uint32_t> expected,
         std::span<const std::uint32_t> painted, const RegionPlanes& region_planes);
 
@@ -468,16 +469,16 @@ std::uint64_t PaintedCheck::require_painted(int child, std::span<const std::uint
     enum : char { None, Expected, Painted };
 
     const int line = certificate_.line_of(child);
-    const Statements& claims = certificate_.statements_of(child);
+    const Statements& statements = certificate_.statements_of(child);
     for (const std::uint32_t polygon : expected) { mark_[polygon] = Expected; }
     for (const std::uint32_t polygon : painted) {
         if (std::exchange(mark_[polygon], Painted) != Expected) { fail_at_repeat(polygon, line); }
     }
     std::uint64_t unlisted = 0;
     for (const std::uint32_t polygon : expected) {
-        if (std::exchange(mark_[polygon], None) == Painted || claims.unproved.contains(polygon)) { continue; }
-        const auto away = claims.away.find(polygon);
-        if (away == claims.away.end()) {
+        if (std::exchange(mark_[polygon], None) == Painted || statements.unproved.contains(polygon)) { continue; }
+        const auto away = statements.away.find(polygon);
+        if (away == statements.away.end()) {
             throw InvalidCertificate{
                 line, fmt::format("expected polygon {} painted or proved to face away, got neither", polygon)};
         }
@@ -550,15 +551,16 @@ public:
     }
 
 private:
-    /// A part of the tree, the walls of its eyes, and the polygons of which those that face such an eye have to be
-    /// painted there.
+    /// A part of the tree, the region planes of its eyes, and the polygons of which those that face such an eye have to
+    /// be painted there.
     struct Task {
         int child = 0;
         RegionPlanes region_planes;
         std::shared_ptr<const Polygons> expected;
-        std::shared_ptr<const ProvedPairs> known = nullptr; ///< What the choices above prove, if any are.
-        bool adds_wall = false;                             ///< Nothing has been made of the last wall yet.
-        bool in_plane = false;                              ///< A list of what lies in the plane of a parting.
+        std::shared_ptr<const ProvedPairs> known =
+            nullptr;            ///< The pairs that the view splits above prove, if there are any.
+        bool adds_wall = false; ///< Nothing has been made of the last region plane yet.
+        bool in_plane = false;  ///< A list of the polygons in the plane of a polygon split.
     };
 
     /// That each polygon lies in its plane and is seen from the front of it.
@@ -646,7 +648,7 @@ private:
         add(node.coplanar_back, coplanar_back, true);
     }
 
-    /// Everything is expected on each side of a choice that is expected of the choice.
+    /// The polygons expected of a view split are expected on both of its sides.
     void check_choice(const Task& task, const OrderNode& node, std::vector<Task>& to_do) {
         const Polygons below = contents_.of(task.child);
         const auto proved_pairs = std::make_shared<ProvedPairs>(proved_pairs_at(task));
@@ -677,22 +679,22 @@ private:
         verdict_.pairs += front.size() * back.size();
     }
 
-    /// Checks what is claimed about pairs.
+    /// Checks the statements about pairs.
     void check(const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of) {
         check_statements(pair_check_, certificate_.statements_of(task.child), task.region_planes, earlier_of,
-            proved_pairs, verdict_.claims);
+            proved_pairs, verdict_.statements);
     }
 
     static std::uint64_t pairs_among(std::size_t polygons) { return polygons < 2 ? 0 : polygons * (polygons - 1) / 2; }
 
-    /// What the nodes above and the last wall prove for the eyes of a part.
+    /// What the nodes above and the last region plane prove for the eyes of a part.
     ProvedPairs proved_pairs_at(const Task& task) const {
         ProvedPairs proved_pairs = task.known ? *task.known : ProvedPairs(certificate_.polygons.size());
         if (task.adds_wall) { proved_pairs.add_region_plane(task.region_planes.back(), certificate_, sides_); }
         return proved_pairs;
     }
 
-    /// The same for what is below a node that is no choice; null where nothing is known.
+    /// The proved pairs for the children of a node that is no view split; null where there are none.
     std::shared_ptr<const ProvedPairs> known_below(const Task& task) const {
         return task.adds_wall ? std::make_shared<const ProvedPairs>(proved_pairs_at(task)) : task.known;
     }
@@ -706,16 +708,16 @@ private:
         }
     }
 
-    /// Two parts of what a parting parts.
+    /// Two of the parts of a polygon split.
     using TwoParts = std::pair<const Polygons&, const Polygons&>;
 
-    /// That the plane of a parting parts, and that what lies in it faces as it should.
+    /// Requires that the plane of a polygon split separates its parts, and that the polygons in it face the right way.
     void check_parting(
-        const OrderNode& node, const Statements& claims, const TwoParts& beside, const TwoParts& is_subset_of) {
+        const OrderNode& node, const Statements& statements, const TwoParts& beside, const TwoParts& is_subset_of) {
         const auto& [front, back] = beside;
         const auto& [coplanar_front, coplanar_back] = is_subset_of;
         const auto expect = [&](std::uint32_t polygon, bool good, const char* expected) {
-            if (!good && !claims.unproved.contains(polygon)) {
+            if (!good && !statements.unproved.contains(polygon)) {
                 throw InvalidCertificate{node.line,
                     fmt::format("expected polygon {} {} the plane, got a corner elsewhere", polygon, expected)};
             }

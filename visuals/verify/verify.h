@@ -10,14 +10,14 @@
 
 namespace octant::visuals::verify {
 
-/// How many claims about pairs were checked, by kinds.
+/// The numbers of checked statements about pairs, by kind.
 struct StatementCounts {
     std::uint64_t by_polygons = 0;        ///< The plane of one polygon of the pair decides.
     std::uint64_t by_sums = 0;            ///< A sum of planes decides.
     std::uint64_t never_both_visible = 0; ///< No eye sees both.
 };
 
-/// A claim that is false, or missing where one is needed. Thrown on the first one.
+/// A statement that is false, or missing where one is needed. The first one is thrown.
 struct InvalidCertificate {
     int line = 0;
     std::string what; ///< "expected ..., got ..."
@@ -25,20 +25,20 @@ struct InvalidCertificate {
 
 /// What a certificate proves.
 struct VerificationResult {
-    std::optional<InvalidCertificate> failure; ///< The first false claim; what follows is counted up to it.
+    std::optional<InvalidCertificate> failure; ///< The first false statement; the counts below end there.
     std::uint64_t pairs = 0;                   ///< Polygons that some eyes paint one before the other.
     std::uint64_t by_node_planes = 0;          ///< Of these, decided by a plane that parts many from many.
-    StatementCounts claims;
+    StatementCounts statements;
     std::uint64_t unlisted = 0;   ///< Polygons that face away from all eyes of a list or node.
     std::uint64_t unproved = 0;   ///< Claims that the file itself says are not proved.
-    bool covers_every_eye = true; ///< No choice leaves the eyes on one side of it unclaimed.
+    bool covers_every_eye = true; ///< No view split leaves the eyes on one side without statements.
     double tolerance_sizes = 0.0; ///< The tolerance, in longest sides of the model's bounding box.
 
     bool proved() const { return !failure && unproved == 0; }
 };
 
-/// Proves without rounding that a painting order is right for every eye (README.md says what that means), or tells the
-/// first claim that is false. `progress(done, all)` counts nodes and lists.
+/// Proves without rounding that a painting order is right for every eye (README.md says what that means), or returns
+/// the first false statement. `progress(done, all)` counts nodes and lists.
 ///
 /// Throws Error for a tolerance of more than 1e-6 of the model's size: it would prove nothing.
 VerificationResult verify(

@@ -76,7 +76,7 @@ TEST_CASE("of two squares that face alike the farther one is painted first") {
     const VerificationResult result = verdict_of(model + "list 0 1\npairs list 0 1 1l\n");
     CHECK(result.proved());
     CHECK(result.pairs == 1);
-    CHECK(result.claims.by_polygons == 1);
+    CHECK(result.statements.by_polygons == 1);
 }
 
 TEST_CASE("the point from which a certificate measures changes nothing") {
