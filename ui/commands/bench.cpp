@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"

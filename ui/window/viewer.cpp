@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "ui/base/data_files.h"
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/settings/settings_change.h"
 #include "ui/window/camera_control.h"
 #include "ui/window/gui.h"

@@ -1,7 +1,5 @@
 #include "visuals/planning/front_facing.h"
 
-#include "visuals/scene/screen_step.h"
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -12,8 +10,8 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// Twice what renderers round screen positions to: it bounds the error of both ends of an edge.
-constexpr float rounding_px = 2.0F * static_cast<float>(scene::screen_step_px);
+/// Renderers round screen positions to 1/256 pixel. Twice that bounds the error of both ends of an edge.
+constexpr float rounding_px = 2.0F / 256.0F;
 
 float sum_of_parts(const glm::vec3& v) {
     const glm::vec3 size = glm::abs(v);

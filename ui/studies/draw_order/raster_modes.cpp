@@ -1,6 +1,6 @@
 #include "ui/studies/draw_order/raster_modes.h"
 
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
