@@ -1,7 +1,6 @@
 #pragma once
 
 #include "visuals/gl/object.h"
-#include "visuals/gl/program.h"
 #include "visuals/scene/paint_step.h"
 
 namespace octant::visuals::gl {

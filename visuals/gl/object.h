@@ -2,6 +2,9 @@
 
 #include "visuals/gl/functions.h"
 
+#include <cstddef>
+#include <initializer_list>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::gl {
@@ -48,5 +51,65 @@ Object make_renderbuffer(const Functions& gl, const char* label);
 
 /// A two-dimensional one.
 Object make_texture(const Functions& gl, const char* label);
+
+/// The texts of a program's shaders.
+struct ProgramText {
+    const char* vertex = nullptr;
+    const char* fragment = nullptr;
+    const char* geometry = nullptr; ///< null = none
+};
+
+/// A linked program of a vertex and a fragment shader. Throws Error with the first line of what the driver complains
+/// about; `name` says which program. `defined` are defined for the preprocessor of all.
+Object make_program(
+    const Functions& gl, const char* name, const ProgramText& text, std::initializer_list<const char*> defined = {});
+
+/// A buffer that is filled anew for each picture. Its old memory is given up first, so that the driver need not wait
+/// for the picture before; its size only grows.
+class StreamBuffer {
+public:
+    /// `label`: what debug messages call it.
+    StreamBuffer(const Functions& gl, const char* label, std::size_t first_capacity_bytes);
+
+    GLuint name() const { return buffer_.name(); }
+
+    /// Puts the pieces into the buffer, one behind the other.
+    void fill(std::span<const std::span<const std::byte>> pieces);
+
+    void fill(std::initializer_list<std::span<const std::byte>> pieces) {
+        fill(std::span(pieces.begin(), pieces.size()));
+    }
+
+private:
+    const Functions& gl_;
+    Object buffer_;
+    std::size_t capacity_bytes_;
+};
+
+// Places of the inputs in visuals/gl/shaders/*.vert.
+constexpr GLuint position_input = 0;
+constexpr GLuint colour_input = 1;
+constexpr GLuint normal_input = 2;
+constexpr GLuint part_input = 3;
+constexpr GLuint first_part_input = 4;
+constexpr GLuint face_normal_input = 5;
+constexpr GLuint polygon_input = 6;
+constexpr GLuint first_smooth_input = 7;
+constexpr GLuint face_colour_input = 8;
+constexpr GLuint smooth_tint_input = 9;
+constexpr GLuint flat_tint_input = 10;
+
+/// Three floats at `offset` of each vertex of the array's buffer 0.
+void add_vector_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);
+
+/// Two floats at `offset` of each vertex of the array's buffer 0.
+void add_place_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);
+
+/// Four bytes at `offset` of each element of the array's buffer `binding`, 255 read as 1.
+void add_colour_input(
+    const Functions& gl, const Object& array, std::size_t offset, GLuint input = colour_input, GLuint binding = 0);
+
+/// A 32-bit number at `offset` of each element of the array's buffer `binding`.
+void add_number_input(const Functions& gl, const Object& array, GLuint input, GLuint binding, std::size_t offset);
 
 } // namespace octant::visuals::gl

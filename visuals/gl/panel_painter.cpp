@@ -1,8 +1,7 @@
 #include "visuals/gl/panel_painter.h"
 
-#include "visuals/gl/program.h"
+#include "visuals/gl/object.h"
 #include "visuals/gl/shader_sources.h"
-#include "visuals/gl/vertex_array.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>

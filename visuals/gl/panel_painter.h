@@ -2,7 +2,6 @@
 
 #include "visuals/gl/context.h"
 #include "visuals/gl/object.h"
-#include "visuals/gl/stream_buffer.h"
 
 #include <glm/vec2.hpp>
 

@@ -1,9 +1,10 @@
 #include "visuals/gl/renderer.h"
 
 #include "sim/base/error.h"
-#include "visuals/gl/program.h"
+#include "visuals/gl/make_renderer.h"
+#include "visuals/gl/object.h"
 #include "visuals/gl/shader_sources.h"
-#include "visuals/gl/vertex_array.h"
+#include "visuals/gl/window_context.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <glm/common.hpp>
@@ -564,6 +565,23 @@ void Renderer::finish_and_read(scene::Picture& picture) {
     picture.rgba.resize(
         std::size_t{4} * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     framebuffer_.read(picture.rgba);
+}
+
+std::unique_ptr<scene::Renderer> make_osmesa_renderer(const glm::ivec2& size_px, int samples) {
+    return make_renderer(make_osmesa_context(), size_px, samples);
+}
+
+std::unique_ptr<scene::Renderer> make_egl_renderer(const glm::ivec2& size_px, int samples) {
+    return make_renderer(make_egl_context(), size_px, samples);
+}
+
+std::unique_ptr<scene::Renderer> make_hidden_window_renderer(const glm::ivec2& size_px, int samples) {
+    return make_renderer(make_window_context({.visible = false}), size_px, samples);
+}
+
+std::unique_ptr<scene::Renderer> make_renderer(
+    std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples) {
+    return std::make_unique<Renderer>(std::move(context), size_px, samples);
 }
 
 } // namespace octant::visuals::gl

@@ -3,7 +3,6 @@
 #include "visuals/gl/context.h"
 #include "visuals/gl/draw_state.h"
 #include "visuals/gl/object.h"
-#include "visuals/gl/stream_buffer.h"
 #include "visuals/gl/triangle_painter.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/renderer.h"

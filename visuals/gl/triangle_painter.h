@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/gl/draw_state.h"
-#include "visuals/gl/stream_buffer.h"
+#include "visuals/gl/object.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_texture.h"
 

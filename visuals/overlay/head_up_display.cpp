@@ -9,7 +9,6 @@
 #include "sim/base/units.h"
 #include "visuals/overlay/head_up_glass.h"
 #include "visuals/overlay/overlay_canvas.h"
-#include "visuals/overlay/short_text.h"
 #include "visuals/overlay/stroke_font.h"
 
 #include <glm/common.hpp>

@@ -3,7 +3,7 @@
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "visuals/overlay/head_up_glass.h"
-#include "visuals/overlay/short_text.h"
+#include "visuals/overlay/stroke_font.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,6 +1,6 @@
 #include "visuals/overlay/path_annotations.h"
 
-#include "visuals/overlay/short_text.h"
+#include "visuals/overlay/stroke_font.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -25,7 +25,7 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr double min_area_m2 = 1e-5;
-/// A little more than two of scene::screen_step_px, by which two sides may be rounded apart.
+/// A little more than two rounding steps of renderers (1/256 pixel), by which two sides may be rounded apart.
 constexpr double overlap_px = 0.01;
 constexpr double max_overlap = 0.05; ///< of the distance from the eye
 

@@ -306,8 +306,8 @@ scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, 
 
 namespace {
 
-/// A little more than two of scene::screen_step_px. What is painted again is cut this much too wide where only that
-/// rounding could tell, so that no line of the covered thing shows along the cut.
+/// A little more than two rounding steps of renderers (1/256 pixel). What is painted again is cut this much too wide
+/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
 constexpr double paint_rounding_px = 0.01;
 
 double away_m2(const OrientedBox& box) { return glm::dot(box.centre_m, box.centre_m); }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/raster/mip_selection.h"
-#include "visuals/raster/screen_vertex.h"
+#include "visuals/raster/projection.h"
+#include "visuals/raster/triangle.h"
 
 #include <array>
 #include <cstddef>

@@ -650,7 +650,7 @@ struct TransparentColourStep {
     }
 };
 
-/// Two triangles beside each other in one pixel, as one: no line shows where they meet.
+/// Joins two adjacent triangles of one pixel, so that no line shows where they meet.
 HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transparent) {
     const std::uint32_t own = transparent.share;
     const std::uint32_t all = own + neighbour.share;

@@ -13,7 +13,7 @@
 
 namespace octant::visuals::raster {
 
-/// The fine pattern of ground, in levels of half the size each, all in one list: where a texel of any level lies
+/// The detail texture of ground, in mip levels of half the size each, all in one list: where a texel of any level lies
 /// follows from shifts. A texel holds its own value and that of the one above, so that two of them, one load, are the
 /// four around a place. Each level repeats each way, and has its first column once more behind its last.
 class DetailImage {
@@ -53,7 +53,7 @@ struct DetailRays {
     const std::uint32_t* contrast = nullptr; ///< scene::LandCoverContrast::table()
 };
 
-/// Of a plan that has grain.
+/// For a plan with a detail texture.
 DetailRays detail_rays(const scene::FramePlan& plan, const Projection& projection);
 
 } // namespace octant::visuals::raster

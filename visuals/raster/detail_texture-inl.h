@@ -49,7 +49,7 @@ HWY_INLINE hn::Vec<PixelPairs> smaller_change(hn::Vec<PixelPairs> one, hn::Vec<P
     return hn::IfThenElse(hn::Lt(hn::Abs(one), hn::Abs(other)), one, other);
 }
 
-/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside and below.
+/// Inverse depth of the ground at the first pixels of pairs, and its change to the pixels to the right and below.
 struct InverseDepthQuad {
     hn::Vec<PixelPairs> here; ///< 1/m; 0: no ground
     hn::Vec<PixelPairs> across;
@@ -62,8 +62,8 @@ struct InterpolatedPairs {
     hn::Mask<PixelPairs> is_linear; ///< as near as the mean of these
 };
 
-/// The nearness of a tile's pairs by phases, in rows that stand for two of the tile's each. Right of the tile and below
-/// it the ground goes on as within it.
+/// The inverse depth of a tile's pairs by phases, in rows that stand for two of the tile's each. Right of the tile and
+/// below it the ground goes on as within it.
 class TileInverseDepths {
 public:
     HWY_INLINE TileInverseDepths(const TileJob& job, const TileBuffer& buffer) : rows_((job.size_px.y + 1) / 2) {
@@ -386,7 +386,7 @@ private:
         fine_ = {hn::Zero(PixelPairInts()), hn::Zero(PixelPairInts())};
         coarse_ = fine_;
         const auto scale_of_each = hn::ShiftRight<DetailPositions::scale_shift>(level_);
-        // Pairs beside each other seldom see different scales.
+        // Adjacent pairs seldom have different scales.
         for (std::size_t scale = 0; scale + 1 < DetailPattern::scales; ++scale) {
             const auto is_it =
                 hn::RebindMask(PixelPairInts(), hn::Eq(scale_of_each, pair_bits(static_cast<unsigned>(scale))));
@@ -533,7 +533,7 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
     return hn::IfThenZeroElse(hn::Eq(places.left, hn::Zero(bits)), seen);
 }
 
-/// What a row's pairs of pixels see, and what the one beside it does.
+/// Samples of the detail texture for the pairs of pixels of a row and of the next row.
 struct DetailRow {
     alignas(64) std::array<std::uint32_t, pairs_per_row + 16> seen;
 
@@ -773,7 +773,7 @@ private:
     TileBuffer& buffer_;
 };
 
-/// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are painted.
+/// Changes the summed colours of a tile by the detail texture, after its triangles are painted.
 HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
     const TileInverseDepths inverse_depth(job, buffer);
     if (!inverse_depth.has_ground()) { return; }

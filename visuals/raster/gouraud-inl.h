@@ -29,9 +29,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// How a triangle of levels is painted.
 enum class PaintAs : std::uint8_t {
-    Plain,  ///< in a picture without the fine pattern
-    Ground, ///< ground that shows it
-    Beside  ///< anything else in a picture with it: its samples are counted
+    Plain,          ///< a picture without a detail texture
+    Ground,         ///< ground that shows it
+    OtherThanGround ///< other triangles of a picture with a detail texture: their samples are counted
 };
 
 /// The ground of a triangle at pixels from a column of the tile on, as many as a register of `Tag` has:
@@ -98,7 +98,7 @@ HWY_INLINE void put_ground(Tag /*pixels*/, const Triangle& triangle, const TileJ
     if (at.y % 2 == 0) { GroundOfColumns<Tag>(triangle, job, at.x).put(at.y, fresh, buffer); }
 }
 
-/// Counts samples that show no ground with the fine pattern.
+/// Counts samples that show no ground with a detail texture.
 template <class Tag>
 HWY_INLINE void count_other_than_ground(Tag pixels, std::size_t pixel, hn::Vec<Tag> counts, TileBuffer& buffer) {
     std::uint16_t* const other_than_ground = buffer.sums[3].data() + pixel;
@@ -317,7 +317,7 @@ HWY_INLINE void paint_gouraud_in_pairs(
         }
         if constexpr (kind == PaintAs::Ground) {
             ground.put(window.row, hn::LowerHalf(RowLanes(), fresh), buffer);
-        } else if constexpr (kind == PaintAs::Beside) {
+        } else if constexpr (kind == PaintAs::OtherThanGround) {
             std::uint16_t* const other_than_ground = buffer.sums[3].data();
             window.store(hn::Add(window.load(other_than_ground), counts), other_than_ground);
         }
@@ -363,7 +363,7 @@ HWY_INLINE void paint_strip(const Triangle& triangle, const TileJob& job, const 
             }
             if constexpr (kind == PaintAs::Ground) {
                 if (row % 2 == 0) { ground[i].put(row, fresh[i], buffer); }
-            } else if constexpr (kind == PaintAs::Beside) {
+            } else if constexpr (kind == PaintAs::OtherThanGround) {
                 count_other_than_ground(Strip(), at, counts, buffer);
             }
         }
@@ -425,7 +425,7 @@ HWY_INLINE void paint_strip_of_middles(
                     const auto sixteen = hn::ShiftLeft<4>(gradients[k].colour(i));
                     hn::StoreU(hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
                 }
-                if constexpr (kind == PaintAs::Beside) {
+                if constexpr (kind == PaintAs::OtherThanGround) {
                     const auto sixteen = hn::Set(Strip(), std::uint16_t{16});
                     count_other_than_ground(Strip(), at, hn::IfThenElseZero(is_fresh, sixteen), buffer);
                 } else if constexpr (kind == PaintAs::Ground) {

@@ -1,7 +1,7 @@
 #include "visuals/raster/pixel_colour.h"
 
 #include "visuals/raster/affine_textured_triangle.h"
-#include "visuals/raster/mip_selection.h"
+#include "visuals/raster/triangle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@ namespace octant::visuals::raster {
 /// Red, green and blue in 1/16 level, 0..4080.
 using PixelColour = std::array<std::uint16_t, 3>;
 
-/// The colour of a triangle at a pixel of the picture, whatever fills it.
+/// The colour of a triangle of any fill at a pixel of the picture.
 PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row);
 
 /// The colour of a triangle of the overlay at a pixel, alpha in the highest byte, red in the lowest.

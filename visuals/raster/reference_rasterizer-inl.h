@@ -55,7 +55,7 @@ HWY_INLINE std::uint32_t nearer_pixels(std::uint32_t pixels, float first, float 
     return nearer;
 }
 
-/// Colours pixels of a strip, a bit each, whatever is there.
+/// Colours pixels of a strip, a bit each, over the colours that they have.
 HWY_INLINE void colour_over(
     std::uint32_t pixels, const std::array<StripGradient, 3>& gradients, std::size_t first, TileBuffer& buffer) {
     alignas(8) std::array<std::uint8_t, 8> bits{};
@@ -73,8 +73,8 @@ HWY_INLINE void colour_over(
     }
 }
 
-/// Puts the grain of a triangle over pixels of a strip, a bit each: none of one without. The strip begins at a column
-/// and row of the tile.
+/// Writes the detail texture of a triangle to pixels of a strip, a bit each; nothing for a triangle without one. The
+/// strip begins at a column and row of the tile.
 HWY_INLINE void add_detail_over(
     std::uint32_t pixels, const Triangle& triangle, const TileJob& job, const glm::ivec2& at, TileBuffer& buffer) {
     const auto first = static_cast<std::size_t>(at.y * tile_width + at.x);

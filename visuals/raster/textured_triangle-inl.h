@@ -197,7 +197,7 @@ struct TextureBlock {
     int px() const { return std::clamp(last_column - at.x, 1, block_px); }
 };
 
-/// What a block's pixels have beside their places.
+/// Light and haze of a block's pixels.
 struct BlockShares {
     alignas(32) std::array<std::uint16_t, block_px> light_left; ///< 2^-16
     alignas(32) std::array<std::uint16_t, block_px> haze;

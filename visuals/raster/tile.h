@@ -99,12 +99,12 @@ struct TileBuffer {
     static constexpr std::size_t padding = 2 * tile_width; ///< two rows may be at hand at once
 
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
-    /// Red, green, blue, 1/256 level; and, where the picture has grain, how many samples show anything but ground that
-    /// has it.
+    /// Red, green, blue, 1/256 level; and, where the picture has a detail texture, how many samples show anything but
+    /// ground that has it.
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
-    /// Where the picture has grain: of the first pixel, third, and so on of the first row, third, and so on, the
-    /// PackedGround that was painted there last; 0: none. Rows follow each other without gaps; there is room before the
-    /// first one and behind the last.
+    /// Where the picture has a detail texture: of the first pixel, third, and so on of the first row, third, and so on,
+    /// the PackedGround that was painted there last; 0: none. Rows follow each other without gaps; there is room before
+    /// the first one and behind the last.
     static constexpr std::size_t ground_room = 16;
     alignas(64) std::array<std::uint32_t, pixels / 4 + 2 * ground_room> ground{};
     /// A bit for each column that is covered whole; one row more than there are.

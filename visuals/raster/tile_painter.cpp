@@ -236,7 +236,7 @@ HWY_INLINE void paint_one(const TileTriangle& one, const TileJob& job, const Sam
         } else if (one.triangle->has_detail_texture) {
             paint_gouraud<PaintAs::Ground>(*one.triangle, job, lanes, buffer);
         } else {
-            paint_gouraud<PaintAs::Beside>(*one.triangle, job, lanes, buffer);
+            paint_gouraud<PaintAs::OtherThanGround>(*one.triangle, job, lanes, buffer);
         }
     } else if (fill_with == Fill::Texture) {
         paint_affine_triangle(*one.triangle, job, lanes, buffer);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "visuals/raster/mip_selection.h"
-#include "visuals/raster/screen_vertex.h"
+#include "visuals/raster/projection.h"
 #include "visuals/scene/paint_step.h"
 
 #include <glm/vec2.hpp>
@@ -9,9 +8,73 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace octant::visuals::raster {
+
+/// Mip levels of the ground's texture, and the number of samples along the longer axis of a pixel.
+struct MipSelection {
+    std::uint16_t fine = 0;
+    std::uint16_t coarse_share = 0; ///< of the next level, 2^-16
+    std::uint16_t probes = 1;       ///< at even distances along the pixel's longer way
+    std::array<float, 2> reach{};   ///< from its middle to the last one, texels of the finest level
+};
+
+/// Derivatives of the texture coordinates to the next pixels, texels of the finest level.
+struct TexelDerivatives {
+    std::array<double, 2> across;
+    std::array<double, 2> down;
+};
+
+/// The logarithm to base 2 of a number above 0, straight between whole numbers: wrong by less than 0.09.
+inline double coarse_log2(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    return static_cast<double>(static_cast<std::int64_t>(bits >> 20U)) * 0x1p-32 - 1023.0;
+}
+
+/// Levels for pixels that are so many texels of the finest level wide, squared, of a texture of `count` levels. Most
+/// pixels take one level: the next one comes in over a third of the way only.
+inline MipSelection select_mip_levels(double size2, std::size_t count) {
+    constexpr double band = 1.0 / 3.0;
+    if (!(size2 > 1.0)) { return {}; }
+    const double level = 0.5 * coarse_log2(size2);
+    const auto whole = static_cast<std::size_t>(level);
+    if (whole + 1 >= count) { return {static_cast<std::uint16_t>(count - 1), 0}; }
+    const double part = level - static_cast<double>(whole);
+    const double share = std::clamp((part - 0.5) / band + 0.5, 0.0, 1.0);
+    if (share >= 1.0) { return {static_cast<std::uint16_t>(whole + 1), 0}; }
+    return {static_cast<std::uint16_t>(whole), static_cast<std::uint16_t>(share * 65535.0)};
+}
+
+/// Levels for pixels whose places move by such steps. Ground that is seen at a slant is longer in a pixel than wide:
+/// the pixel takes the level of its width, at several places along its length. These are mixed anyway: then a single
+/// level does.
+inline MipSelection select_mip_levels(const TexelDerivatives& steps, std::size_t count) {
+    constexpr double max_probes = 3.0;
+    constexpr double longer = 1.5; ///< than wide, where two probes begin
+    const auto& [across, down] = steps;
+    const double across2 = across[0] * across[0] + across[1] * across[1];
+    const double down2 = down[0] * down[0] + down[1] * down[1];
+    const double length2 = std::max(across2, down2);
+    const double area = std::abs(across[0] * down[1] - across[1] * down[0]);
+    if (!(length2 > 1.0) || !(longer * area < length2)) { return select_mip_levels(length2, count); }
+    double size = std::max(area / length2, 1.0 / max_probes); // of a probe, in lengths
+    if (size * size * length2 < 1.0) {
+        size = 1.0 / std::sqrt(length2); // no finer than the finest level
+    }
+    MipSelection selection = select_mip_levels(size * size * length2, count);
+    selection.fine = static_cast<std::uint16_t>(selection.fine + (selection.coarse_share >> 15U));
+    selection.coarse_share = 0;
+    if (longer * size < 1.0 && std::size_t{selection.fine} + 1 < count) {
+        selection.probes = size * (longer + 1.0) < 1.0 ? 3 : 2;
+        const auto& longer_axis = across2 > down2 ? across : down;
+        const double reach = 0.5 * (1.0 - size);
+        selection.reach = {static_cast<float>(longer_axis[0] * reach), static_cast<float>(longer_axis[1] * reach)};
+    }
+    return selection;
+}
 
 /// Where an edge crosses the rows of pixels, from its top to its bottom whichever triangle it belongs to: two triangles
 /// that share it compute the same crossings, bit for bit. Sums and products wrap; within the edge's own rows they are
@@ -70,7 +133,7 @@ enum class Fill : std::uint8_t {
     TextureInPerspective,
     Mesh,       ///< levels, and lines along the edges
     Lit,        ///< by light and normal in each pixel
-    Transparent ///< levels, blended by their alpha over what lies farther
+    Transparent ///< linear colours, blended by their alpha over farther surfaces
 };
 
 /// What only some triangles need.
@@ -104,16 +167,16 @@ struct Triangle {
     ColourGradients gradients;
     std::uint32_t extra = none;      ///< index into the chunk's extras
     MipSelection texture;            ///< for Fill::Texture
-    InverseDepthPlane inverse_depth; ///< of one with grain
+    InverseDepthPlane inverse_depth; ///< of a triangle with detail texture
     std::uint16_t group = 0;         ///< depth group, from 1; 0: painted without depth
     scene::DepthUse depth = scene::DepthUse::None;
     Fill fill = Fill::Gouraud;
     bool middle_is_left = false;     ///< the middle corner lies left of the whole edge
-    bool has_detail_texture = false; ///< the fine pattern, by the levels' fourth value
+    bool has_detail_texture = false; ///< land cover in the fourth colour value
 };
 
-/// Ground with the fine pattern at a pixel: one over its depth, 1/m, whose lowest bits are half the number of its
-/// covers. Without them it is right to 2^-16 of itself: a tenth of a pixel's width.
+/// Ground with detail texture at a pixel: one over its depth, 1/m, whose lowest bits are half the number of its covers.
+/// Without them it is right to 2^-16 of itself: a tenth of a pixel's width.
 struct PackedGround {
     static constexpr std::uint32_t cover_bits = 0x7f;
     static constexpr int cover_shift = 17; ///< from 2^-16 level
@@ -129,7 +192,7 @@ struct PackedGround {
     static constexpr std::int32_t limit(std::int16_t level) { return (std::int32_t{level} + 128 * 128) * 512; }
 };
 
-/// A PackedGround of a triangle with grain at a pixel of the picture.
+/// A PackedGround of a triangle with detail texture at a pixel of the picture.
 inline std::uint32_t ground_at(const Triangle& triangle, int column, int row) {
     const InverseDepthPlane& plane = triangle.inverse_depth;
     const float in_row = plane.first + plane.per_y * static_cast<float>(row - triangle.first_row);

@@ -22,7 +22,7 @@ namespace octant::visuals::raster {
 /// Triangles of one slice, and so of one task, at most.
 constexpr std::size_t batch_triangles = 2048;
 
-/// What a plan's triangles are made from beside the plan itself.
+/// Inputs of a plan's triangles other than the plan.
 struct FrameInput {
     const scene::FramePlan& plan;
     std::span<const scene::ModelBuffers> models;
@@ -102,7 +102,7 @@ public:
 
     const Light& light() const { return light_; }
 
-    /// Of a plan with grain.
+    /// For a plan with a detail texture.
     const DetailRays& detail_rays() const { return detail_rays_; }
 
     /// Triangles that may cover a tile, in painting order; valid until `list` is used again.

@@ -97,7 +97,7 @@ HWY_INLINE PlaneBase edges_of(const TopDownVertices& vertices, Triangle& triangl
         hn::Div(hn::InterleaveLower(real, whole, upper), from_top_heights), from_top_heights, vertices.top);
     from_top.store_first(triangle.whole);
     from_top.store_second(triangle.upper);
-    // Beside the lower edge's slope: one pixel over the doubled area.
+    // For the lower edge's slope: one pixel over the doubled area.
     const auto divisors = hn::InterleaveUpper(real, lower, area);
     const auto quotients = hn::Div(hn::InterleaveLower(real, lower, one_px), divisors);
     const EdgePair from_middle(quotients, divisors, vertices.middle);

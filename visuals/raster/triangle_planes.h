@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/raster/screen_vertex.h"
+#include "visuals/raster/projection.h"
 #include "visuals/raster/triangle.h"
 
 #include <array>
@@ -22,7 +22,7 @@ struct TopDownVertices {
     std::int64_t doubled_area;
 };
 
-/// Fills in the edges of a triangle, and of one with grain how near it is; its box is known.
+/// Fills in the edges of a triangle, and its inverse depth if it has detail texture. Its box is known.
 void set_edges(const TopDownVertices& vertices, Triangle& triangle);
 
 /// Fills in these and the four values at the corners as planes of levels. Where a level would change by more than

@@ -51,8 +51,8 @@ public:
     void add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle, const FlatColour* flat,
         TriangleList& list);
 
-    /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Levels for what lies over the picture,
-    /// else Fill::Veil.
+    /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Gouraud over the picture, else
+    /// Fill::Transparent.
     void add_overlay(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
 
 private:

@@ -2,7 +2,6 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/raster/projection.h"
-#include "visuals/raster/screen_vertex.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <glm/mat4x4.hpp>

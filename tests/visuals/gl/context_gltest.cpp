@@ -1,8 +1,8 @@
 #include "sim/base/error.h"
 #include "tests/visuals/gl/small_scene.h"
 #include "visuals/gl/context.h"
+#include "visuals/gl/object.h"
 #include "visuals/gl/platform_tuning.h"
-#include "visuals/gl/program.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
 #include "ui/flight/id_comparison.h"
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/studies/draw_order/surface_race.h"

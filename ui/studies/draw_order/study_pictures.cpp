@@ -3,7 +3,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/png_file.h"

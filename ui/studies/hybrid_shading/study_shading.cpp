@@ -8,7 +8,7 @@
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"

@@ -1,4 +1,4 @@
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 
 #include "sim/base/parallel_for.h"
 #include "visuals/gl/make_renderer.h"
