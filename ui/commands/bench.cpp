@@ -7,7 +7,6 @@
 #include "ui/commands/command_terrain.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/setting_option.h"
-#include "ui/flight/make_renderer.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"

@@ -9,7 +9,6 @@
 #include "ui/base/progress.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/id_comparison.h"
-#include "ui/flight/make_renderer.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/aircraft_entry.h"

@@ -1,6 +1,5 @@
 #include "visuals/planning/ground_frame.h"
 #include "sim/base/plane.h"
-#include "visuals/scene/screen_step.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -126,8 +125,8 @@ void place_triangle(const scene::TriangleDraw& ground, std::uint32_t triangle, V
 
 namespace {
 
-/// Twice what renderers round screen positions to: it bounds the error of both ends of an edge.
-constexpr float rounding_px = 2.0F * static_cast<float>(scene::screen_step_px);
+/// Renderers round screen positions to 1/256 pixel. Twice that bounds the error of both ends of an edge.
+constexpr float rounding_px = 2.0F / 256.0F;
 
 float sum_of_parts(const glm::vec3& v) {
     const glm::vec3 size = glm::abs(v);

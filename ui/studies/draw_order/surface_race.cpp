@@ -1,7 +1,7 @@
 #include "ui/studies/draw_order/surface_race.h"
 
 #include "ui/base/progress.h"
-#include "ui/flight/make_renderer.h"
+#include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
 
