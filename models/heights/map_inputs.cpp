@@ -207,14 +207,30 @@ bool is_plain(std::string_view driver, const path& file) {
            (driver == "netCDF" && FileHeader(file).begins_with(classic_netcdf));
 }
 
-/// Where the first directory of a TIFF file ends, which may be anywhere in it.
+/// Where the first directory of a TIFF file ends, which may be anywhere in it, or its lists of where strips and tiles
+/// are.
 std::uintmax_t end_of_tiff(FileHeader& header) {
     const bool low_first = header.begins_with("II");
     const bool is_big = header.number(2, 2, low_first) == 43;
     const std::size_t wide = is_big ? 8 : 4;
+    const std::size_t entry_bytes = is_big ? 20 : 12;
     const std::uintmax_t begin = header.number(is_big ? 8 : 4, wide, low_first);
+    if (begin == 0) { return 2 * wide; }
     const std::uintmax_t entries = header.number(begin, is_big ? 8 : 2, low_first);
-    return begin == 0 ? 2 * wide : header.end(begin, (is_big ? 16 : 6) + (is_big ? 20 : 12) * entries);
+    std::uintmax_t end = header.end(begin, (is_big ? 16 : 6) + entry_bytes * entries);
+    if (end > header.bytes()) { return end; }
+    for (std::uintmax_t entry = 0; entry < entries; ++entry) {
+        const std::uintmax_t at = begin + (is_big ? 8 : 2) + entry * entry_bytes;
+        const std::uintmax_t tag = header.number(at, 2, low_first);
+        if (tag != 273 && tag != 279 && tag != 324 && tag != 325) { continue; } // offsets and sizes of strips and tiles
+        const std::uintmax_t type = header.number(at + 2, 2, low_first);
+        const std::uintmax_t value_bytes = type == 3 ? 2 : type == 4 ? 4 : 8; // SHORT, LONG, LONG8
+        const std::uintmax_t count = std::min(header.number(at + 4, wide, low_first), header.bytes());
+        if (count * value_bytes > wide) {
+            end = std::max(end, header.end(header.number(at + 4 + wide, wide, low_first), count * value_bytes));
+        }
+    }
+    return end;
 }
 
 /// Where the last of the chunks of a PNG file ends.

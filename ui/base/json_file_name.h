@@ -4,11 +4,11 @@
 
 namespace octant::ui::base {
 
-/// A file name as JSON can carry it. Names that are not UTF-8, which JSON has no letters for, and those that look like
-/// such a one are written as "bytes:" with the strange bytes as %E9; all others stay as they are.
+/// Encodes a file name for JSON. A name that is not UTF-8, or that begins with "bytes:", becomes "bytes:" followed by the
+/// name with its other bytes as %E9. All other names are unchanged.
 std::string json_from_file_name(const std::string& name);
 
-/// The name again, byte for byte.
+/// Decodes json_from_file_name(): the original name, byte for byte.
 std::string file_name_from_json(const std::string& text);
 
 } // namespace octant::ui::base

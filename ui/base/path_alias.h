@@ -5,11 +5,11 @@
 
 namespace octant::ui::base {
 
-/// From here on messages call `folder` and what lies in it by `name`, as files that were unpacked into a folder of the
-/// program's own by the packed file that the user named.
+/// Sets the name that messages show in place of `folder` and of the paths below it. A packed recording is unpacked into a
+/// temporary folder; messages then name the packed file that the user gave.
 void set_path_alias(const std::filesystem::path& folder, const std::string& name);
 
-/// A message with folders called by the names that set_path_alias() gave them.
+/// `text` with each aliased folder replaced by its name.
 std::string with_path_aliases(std::string text);
 
 } // namespace octant::ui::base

@@ -278,7 +278,7 @@ commands::Command listen_command() {
     auto work = std::make_shared<ListenWork>();
     work->view.recordings_folder = ".";
     return {.name = "listen",
-        .summary = "Shows what other programs fly: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
+        .summary = "Displays aircraft that other programs control: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
                    "numbers",
         .options = options_of(*work),
         .footer = "Examples:\n"

@@ -415,6 +415,10 @@ TEST_CASE("pictures and containers that are cut short are refused in the same wo
             CHECK(has(error_of(path), fmt::format("got only the first {} of its ", part)));
         }
     }
+    const auto strips = scratch_file("strips.tif"); // one directory entry: 100 StripOffsets (273, LONG) from byte 26 on
+    std::ofstream(strips, std::ios::binary)
+        << std::string("II*\0\x08\0\0\0\x01\0\x11\x01\x04\0\x64\0\0\0\x1a\0\0\0\0\0\0\0", 26) + std::string(74, '\0');
+    CHECK(has(error_of(strips), "got only the first 100 of its at least 426 bytes"));
     const auto tiny = scratch_file("tiny.tif");
     for (const std::size_t bytes : {3U, 4U, 5U, 8U, 9U, 12U, 40U}) {
         std::ofstream(tiny, std::ios::binary)
