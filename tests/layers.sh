@@ -47,12 +47,13 @@ fuzz() {
   export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=print_stacktrace=1
   "$build/tests/fuzz/formats/format_replay" --write-corpus "$build/corpus"
   mkdir -p "$build/findings"
-  for program in "$build"/tests/fuzz/formats/fuzz_*; do
-    local name=${program##*/fuzz_}
+  for file in "$build"/corpus/*.dict; do
+    local name=${file##*/}
+    name=${name%.dict}
     mkdir -p "$build/grown/$name"
     local words=() # of the format; libFuzzer refuses a dictionary without any
     [[ ! -s $build/corpus/$name.dict ]] || words=(-dict="$build/corpus/$name.dict")
-    "$program" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=4096 -max_len=65536 -print_final_stats=1 \
+    "$build/tests/fuzz/formats/format_fuzzer" --only="$name" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=4096 -max_len=65536 -print_final_stats=1 \
       "${words[@]}" -artifact_prefix="$build/findings/$name-" \
       "$build/grown/$name" "$build/corpus/$name" >"$build/$name.log" 2>&1 || { found=1; tail -n 40 "$build/$name.log"; }
     echo "$name: $(sed -n 's/stat::number_of_executed_units: *//p' "$build/$name.log") executions"

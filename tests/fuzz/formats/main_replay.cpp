@@ -5,14 +5,16 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/fuzz/formats/mutation.h"
-#include "tests/fuzz/formats/replay_options.h"
 #include "tests/fuzz/formats/target.h"
 
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
+#include <optional>
+#include <span>
 #include <unistd.h>
 #include <utility>
 
@@ -21,6 +23,45 @@ namespace {
 using namespace octant;
 using namespace octant::tests::formats;
 namespace fs = std::filesystem;
+
+/// What format_replay is asked for.
+struct ReplayOptions {
+    std::string only;                       ///< name of a target; empty = all
+    std::optional<std::uint64_t> mutations; ///< replaces the targets' numbers
+    std::uint64_t seed = 1;
+    std::vector<std::filesystem::path> files;    ///< inputs to try in place of mutations
+    std::optional<std::filesystem::path> corpus; ///< where to write seeds and words for libFuzzer
+};
+
+std::uint64_t count_of(const std::string& option, const std::string& text) {
+    const auto value = whole_number(text);
+    if (!value || *value < 0) { throw Error(option + ": expected a whole number from 0 on, got " + printable(text)); }
+    return static_cast<std::uint64_t>(*value);
+}
+
+/// Reads the command line. Throws Error for options that are not known or lack a value.
+ReplayOptions read_replay_options(std::span<char* const> words) {
+    ReplayOptions options;
+    for (std::size_t i = 0; i < words.size(); i += 2) {
+        const std::string option = words[i];
+        if (i + 1 == words.size()) { throw Error(option + ": expected a value, got none"); }
+        const std::string value = words[i + 1];
+        if (option == "--only") {
+            options.only = value;
+        } else if (option == "--mutations") {
+            options.mutations = count_of(option, value);
+        } else if (option == "--seed") {
+            options.seed = count_of(option, value);
+        } else if (option == "--file") {
+            options.files.emplace_back(value);
+        } else if (option == "--write-corpus") {
+            options.corpus = value;
+        } else {
+            throw Error("expected --only, --mutations, --seed, --file or --write-corpus, got " + option);
+        }
+    }
+    return options;
+}
 
 /// What is being tried, for the last words of a crash.
 std::array<char, 512> now_trying{};
@@ -112,7 +153,7 @@ int replay(const Target& target, const ReplayOptions& options) {
         for (std::size_t i = 0; i < found.size(); ++i) { replay.one(found[i], fmt::format("found {}", i)); }
         replay.seeds(target.seeds());
         replay.add_seeds(found);
-        replay.mutations(options.mutations, options.seed);
+        replay.mutations(options.mutations.value_or(target.mutations), options.seed);
     }
     return replay.told();
 }

@@ -85,6 +85,11 @@ const std::filesystem::path& input_folder() {
 }
 
 std::string tried(const Target& target, std::string_view bytes) {
+    if (target.decode) {
+        const auto all = std::as_bytes(std::span(bytes));
+        target.decode(std::vector<std::byte>(all.begin(), all.end()));
+        return {};
+    }
     const std::filesystem::path file = input_folder() / target.file;
     std::string refusal = use_file(target, file, bytes);
     if (target.seal) {

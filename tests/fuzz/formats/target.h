@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -13,18 +15,23 @@ namespace octant::tests::formats {
 /// A file format, and all that the program does with a file of it before anything is drawn.
 struct Target {
     std::string name;
-    /// What the file is called; its ending may say the format.
-    std::string file;
-    /// Reads the file and uses what was in it. Throws octant::Error for a file that is refused and Finding for what
-    /// must never be; anything else that it throws is a finding, too.
-    std::function<void(const std::filesystem::path& file)> use;
-    /// Sound files, small, which together reach all of the reader.
+    /// The file's name; its ending may say the format. Empty for a packet.
+    std::string file{};
+    /// Reads the file and uses its content. Throws octant::Error for a file that is refused and Finding for what must
+    /// never happen; any other exception is a finding, too.
+    std::function<void(const std::filesystem::path& file)> use{};
+    /// For a packet, in place of `use`: decodes its bytes, which lie in a block of their own size so that a sanitizer
+    /// sees reads beyond it. Throws Finding only.
+    std::function<void(std::span<const std::byte> packet)> decode{};
+    /// Valid inputs, small, which together reach all of the reader.
     std::function<std::vector<std::string>()> seeds;
     /// Words of the format, for mutations.
     std::vector<std::string> words{};
     /// Makes lengths and checksums those of the bytes, so that mutations reach what lies behind them. Each input is
     /// tried as it is and sealed.
     std::function<void(std::string& bytes)> seal{};
+    /// The number of mutations that format_replay tries unless it is told.
+    std::uint64_t mutations = 3000;
 };
 
 /// What must never be, whatever a file holds.

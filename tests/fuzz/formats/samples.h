@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
 #include <string>
@@ -16,5 +17,11 @@ models::TriangleMesh sample_tetrahedron();
 
 /// Both as files of a mesh format: ".ply".
 std::vector<std::string> mesh_seeds(const std::string& ending);
+
+/// A box with a wall beside it: 7 polygons that hide one another, and a part that turns.
+models::polygons::PolygonModel small_model();
+
+/// Eyes near and far, also in the middle of things.
+std::vector<glm::dvec3> some_eyes();
 
 } // namespace octant::tests::formats

@@ -1,6 +1,10 @@
+// Maps, ground files, and the points that terrain tools read.
 #include "models/heights/height_field_export.h"
+#include "models/heights/height_field_import.h"
 #include "sim/base/hash.h"
 #include "tests/fuzz/formats/target.h"
+#include "ui/terrain/ground_view.h"
+#include "ui/terrain/terrain_query.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/ground_query.h"
@@ -8,9 +12,53 @@
 #include <cmath>
 #include <cstring>
 
-namespace octant::tests::formats::ground_format {
+namespace octant::tests::formats {
 
 namespace {
+
+namespace asked_points {
+
+const Registered target({
+    .name = "asked_points",
+    .file = "points.csv",
+    .use =
+        [](const auto& file) {
+            for (const ui::terrain::QueryPoint& point : ui::terrain::read_points(file)) {
+                expect(std::isfinite(point.x_m) && std::isfinite(point.y_m), "a place");
+            }
+        },
+    .seeds =
+        [] {
+            return std::vector<std::string>{"x,y,z\n# c\n1,2\n3.5,-4,5\n", "0,0\n"};
+        },
+    .words = {",", "#", "\r\n", "x,y\n"},
+});
+
+} // namespace asked_points
+
+namespace eye_points {
+
+const Registered target({
+    .name = "eye_points",
+    .file = "eyes.csv",
+    .use =
+        [](const auto& file) {
+            for (const ui::terrain::EyePoint& eye : ui::terrain::read_eye_points(file, "a")) {
+                expect(std::isfinite(eye.x_m) && std::isfinite(eye.y_m), "a place");
+                expect(std::isfinite(eye.heading_deg + eye.pitch_deg), "a direction");
+            }
+        },
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                "# c\nmap,x_m,y_m,agl_m,heading_deg,pitch_deg\na,1,2,3,90,-10\nb,0,0,1,0,0\n"};
+        },
+    .words = {"a,", "map,", ",,", "\r\n"},
+});
+
+} // namespace eye_points
+
+namespace ground {
 
 namespace groundfile = visuals::groundfile;
 namespace terrain = visuals::terrain;
@@ -75,6 +123,34 @@ const Registered target({
     .seal = seal,
 });
 
+} // namespace ground
+
+namespace plain_heights {
+
+void use(const std::filesystem::path& file) {
+    const models::heights::HeightField field = models::heights::read_height_field(file);
+    for (int row = 0; row < field.rows(); ++row) {
+        for (int column = 0; column < field.columns(); ++column) {
+            expect(std::isfinite(field.height_m(column, row)), "a height");
+        }
+    }
+    expect(field.height_at(0.0, 0.0).has_value(), "ground in the middle");
+}
+
+const Registered target({
+    .name = "plain_heights",
+    .file = "input.pgm",
+    .use = use,
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                "P2\n# heights\n4 3\n255\n1 2 3 4\n5 6 7 8\n9 10 11 255\n", "P2 2 2 65535 0 8000 1 9\n"};
+        },
+    .words = {"P2\n", "# c\n", "65535 ", "65536 ", "20001 ", " "},
+});
+
+} // namespace plain_heights
+
 } // namespace
 
-} // namespace octant::tests::formats::ground_format
+} // namespace octant::tests::formats
