@@ -84,6 +84,9 @@ std::string_view after_first_word(std::string_view line) {
     return line.substr(0, line.find_last_not_of(blanks) + 1);
 }
 
+namespace {
+
+/// Reads a finite number within max_obj_coordinate_m. Throws Error "file:line: ...".
 double obj_number(std::string_view word, const std::filesystem::path& path, int line) {
     const auto value = finite_number(word);
     if (!value) {
@@ -95,8 +98,6 @@ double obj_number(std::string_view word, const std::filesystem::path& path, int 
     }
     return *value;
 }
-
-namespace {
 
 constexpr std::size_t largest_mtl_bytes = std::size_t{16} << 20U;
 

@@ -52,9 +52,6 @@ private:
 /// may contain blanks.
 std::string_view after_first_word(std::string_view line);
 
-/// Reads a finite number within max_obj_coordinate_m. Throws Error "file:line: ...".
-double obj_number(std::string_view word, const std::filesystem::path& path, int line);
-
 /// Reads the materials of an MTL file in file order: `newmtl NAME` and its `Kd R G B`, used as display values. A
 /// material without Kd has the default colour. All other lines are ignored. Throws Error "file:line: expected ..., got
 /// ..." for a Kd that is not three numbers 0..1 or that comes before any newmtl, for a name that is missing or comes
