@@ -1,7 +1,7 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"

@@ -42,8 +42,7 @@ public:
     visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
     /// Begins the work on the ground of the next picture, as Planner::prepare.
-    void begin_next_mesh(
-        const visuals::scene::Camera& camera, const visuals::landscape::IdleThreadRunner& on_idle_thread) {
+    void begin_next_mesh(const visuals::scene::Camera& camera, const IdleThreadRunner& on_idle_thread) {
         planner_->begin_next_mesh(camera, std::nullopt, on_idle_thread);
     }
 

@@ -14,10 +14,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <future>
 #include <limits>
 #include <memory>
 #include <span>
@@ -554,9 +552,9 @@ std::uint64_t Session::hash_picture() {
 void Session::apply(const settings::RunSettings& wanted) {
     const settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground_place);
     const settings::SettingsChange change = settings::change_between(settings_, settings);
-    if (change > settings::SettingsChange::Look && recoloured_ground_.valid()) {
-        recoloured_ground_.wait();
-        recoloured_ground_ = {};
+    if (change > settings::SettingsChange::Look && is_setting_sun_) {
+        is_setting_sun_ = false;
+        recolouring_.wait();
     }
     switch (change) {
     case settings::SettingsChange::None:
@@ -653,26 +651,25 @@ void Session::apply_sun_change(const settings::RunSettings& settings, world::Sce
 }
 
 void Session::begin_set_sun(const settings::RunSettings& wanted) {
-    assert(!recoloured_ground_.valid());
+    assert(!is_setting_sun_);
     settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground_place);
     assert(settings::change_between(settings_, settings) <= settings::SettingsChange::Light);
     recoloured_air_ = settings.air;
-    recoloured_ground_ = std::async(std::launch::async, [this, settings = std::move(settings)] {
-        world::SceneGround ground = ground_for(settings);
-        if (settings.air.sky) { ground.ground->backdrop(); }
-        return ground;
+    is_setting_sun_ = true;
+    recolouring_.begin([this, settings = std::move(settings)] {
+        recoloured_ground_ = ground_for(settings);
+        if (settings.air.sky) { recoloured_ground_->ground->backdrop(); }
     });
 }
 
 bool Session::poll_set_sun() {
-    if (!recoloured_ground_.valid() ||
-        recoloured_ground_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-        return false;
-    }
+    if (!is_setting_sun_ || recolouring_.is_running()) { return false; }
+    is_setting_sun_ = false;
+    recolouring_.wait();
     settings::RunSettings settings = settings_;
     settings.air = recoloured_air_;
     settings.air.visibility_m = settings_.air.visibility_m;
-    apply_sun_change(settings, recoloured_ground_.get());
+    apply_sun_change(settings, std::move(*recoloured_ground_));
     return true;
 }
 } // namespace octant::ui::flight

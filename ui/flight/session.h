@@ -2,6 +2,7 @@
 
 #include "sim/aircraft_state.h"
 #include "sim/base/ground_height.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/inset_view.h"
 #include "ui/flight/quality_targets.h"
@@ -13,8 +14,8 @@
 #include "ui/settings/settings.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
-#include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/id_plan.h"
+#include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/planner.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/camera.h"
@@ -26,7 +27,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -338,7 +338,7 @@ public:
     /// come. One at a time (asserted).
     void begin_set_sun(const settings::RunSettings& settings);
 
-    bool is_setting_sun() const { return recoloured_ground_.valid(); }
+    bool is_setting_sun() const { return is_setting_sun_; }
 
     /// Shows what begin_set_sun() made, if it is ready; returns whether it was. apply() gives up what is not shown yet
     /// where it loads or plans anything anew. Throws what that work threw.
@@ -425,10 +425,12 @@ private:
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
-    /// The ground in the colours of another sun, which is made beside pictures, and the air that it belongs to. Comes
-    /// last, as its work looks at the scene.
+    /// The ground in the colours of another sun, which is made between pictures, and the air that it belongs to. The
+    /// task comes last because it reads the scene.
     visuals::scene::AirSettings recoloured_air_;
-    std::future<world::SceneGround> recoloured_ground_;
+    std::optional<world::SceneGround> recoloured_ground_; ///< written by the task
+    bool is_setting_sun_ = false;
+    BackgroundTask recolouring_;
 };
 
 } // namespace octant::ui::flight

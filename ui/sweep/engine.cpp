@@ -2,8 +2,8 @@
 
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
 #include "sim/base/text_file.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/report/child_program.h"

@@ -1,8 +1,10 @@
 #include "ui/world/world.h"
+
 #include "flightpaths/limits_check.h"
 #include "flightpaths/placement.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
+#include "sim/base/thread_pool.h"
 #include "sim/hidden_height.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
@@ -17,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <future>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -217,16 +218,18 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     }
     const AircraftSources inputs =
         aircraft_sources(settings, shapes_of(settings, script ? script->other_aircraft : std::vector<std::string>()));
-    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told first.
+    // At the same time, because finding a painting order takes one thread. Errors of the aircraft come first.
     std::optional<PathPlacement> given_placement;
-    std::future<SceneGround> coming_ground = std::async(std::launch::async, [&] {
-        return shared_or_load_ground(
-            shared_world, settings, device, make_runway_finder(settings, script, given_placement));
-    });
-    LoadedAircraft aircraft = shared_world != nullptr && shared_world->aircraft.inputs == inputs
-                                  ? shared_world->aircraft
-                                  : load_aircraft(inputs);
-    SceneGround ground = coming_ground.get();
+    auto [aircraft, ground] = run_both(
+        true,
+        [&] {
+            return shared_world != nullptr && shared_world->aircraft.inputs == inputs ? shared_world->aircraft
+                                                                                      : load_aircraft(inputs);
+        },
+        [&] {
+            return shared_or_load_ground(
+                shared_world, settings, device, make_runway_finder(settings, script, given_placement));
+        });
     check_clouds(settings.air, *ground.ground);
     World world;
     world.notes = aircraft.notes;

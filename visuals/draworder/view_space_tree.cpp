@@ -7,6 +7,7 @@
 #include "visuals/draworder/view_space_tree.h"
 
 #include "sim/base/plane.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/search_budget.h"
 
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -288,15 +288,6 @@ std::size_t PlaneScorer::edges_left_behind() const { return left(back_or_on_, fr
 
 namespace {
 
-/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both results. Neither may
-/// write to what the other one uses, so that the result is the same either way.
-template <typename PaintFirst, typename Second>
-auto both(bool worthwhile, PaintFirst first, Second second) {
-    auto there = std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
-    auto here = second();
-    return std::pair(there.get(), std::move(here));
-}
-
 /// Graphs with more edges are judged without the exact test.
 constexpr std::size_t max_exact_edges = 4'000;
 /// When the first planes lead nowhere, so many times as many are tried.
@@ -412,7 +403,7 @@ std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) 
     work_.spend(planes.size() * units_of_plane(node_.cycles));
     const bool large = is_large(node_);
     const std::size_t half = planes.size() / 2;
-    auto [choices, others] = both(
+    auto [choices, others] = run_both(
         large, [&] { return by_sides(planes.first(half), 0); }, [&] { return by_sides(planes.subspan(half), half); });
     choices.insert(choices.end(), others.begin(), others.end());
     std::sort(choices.begin(), choices.end());
@@ -420,7 +411,7 @@ std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) 
     work_.spend(choices.size() * units_of_rings(node_.cycles));
     const std::size_t middle = choices.size() / 2;
     const std::span<const ViewSplit> all(choices);
-    auto [judged, rest] = both(
+    auto [judged, rest] = run_both(
         large, [&] { return by_rings(all.first(middle)); }, [&] { return by_rings(all.subspan(middle)); });
     judged.insert(judged.end(), rest.begin(), rest.end());
     std::sort(judged.begin(), judged.end());
@@ -435,7 +426,7 @@ CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
         OcclusionGraphBuilder graphs(work_.faces);
         return part_of(graphs, node_, *node_.region.cut(before), &sets);
     };
-    auto [front, back] = both(
+    auto [front, back] = run_both(
         is_large(node_), [&] { return part(plane, sides); }, [&] { return part(turned_over(plane), turned); });
     return {plane, std::move(front), std::move(back)};
 }

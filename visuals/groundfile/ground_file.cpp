@@ -5,7 +5,7 @@
 #include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "sim/base/utf8.h"
 #include "visuals/groundfile/mapped_file.h"
 #include "visuals/groundfile/tile_damage_log.h"

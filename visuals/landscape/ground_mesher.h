@@ -1,54 +1,18 @@
 #pragma once
 
+#include "sim/base/thread_pool.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/vec3.hpp>
 
-#include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 namespace octant::visuals::landscape {
-
-/// Runs work on an idle thread of a thread pool. Returns false without running it when no thread is idle. The work must
-/// not throw.
-using IdleThreadRunner = std::function<bool(std::function<void()> work)>;
-
-/// Runs one function at a time on a thread of its own or of a thread pool, while the owner goes on.
-class BackgroundTask {
-public:
-    BackgroundTask() = default;
-    BackgroundTask(const BackgroundTask&) = delete;
-    BackgroundTask& operator=(const BackgroundTask&) = delete;
-    BackgroundTask(BackgroundTask&&) = delete;
-    BackgroundTask& operator=(BackgroundTask&&) = delete;
-    ~BackgroundTask(); ///< waits
-
-    /// Waits for the previous work, then begins this one: on an idle thread of the pool, else on a thread of its own,
-    /// which is created on first use.
-    void begin(std::function<void()> work, const IdleThreadRunner& on_idle_thread);
-
-    /// Returns when no work is running. Rethrows what the work threw.
-    void wait();
-
-private:
-    void run(const std::stop_token& stop);
-    void run_work();
-
-    std::mutex mutex_;
-    std::condition_variable_any state_changed_;
-    std::function<void()> work_;       ///< empty: nothing to do
-    bool runs_on_pool_thread_ = false; ///< another's thread does it
-    std::exception_ptr exception_;
-    std::jthread thread_;
-};
 
 class Ground;
 

@@ -600,8 +600,8 @@ int Planner::requested_triangles(std::optional<int> triangle_target) const {
 
 void Planner::reset_detail(const scene::Camera& camera) { mesher_->reset_detail(ground_request(camera, std::nullopt)); }
 
-void Planner::begin_next_mesh(const scene::Camera& camera, std::optional<int> triangle_target,
-    const landscape::IdleThreadRunner& on_idle_thread) {
+void Planner::begin_next_mesh(
+    const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
     mesher_->begin_next_mesh(ground_request(camera, triangle_target), on_idle_thread);
 }
 

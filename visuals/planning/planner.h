@@ -11,6 +11,7 @@
 #include "visuals/overlay/overlay_layers.h"
 #include "visuals/overlay/path_annotations.h"
 #include "visuals/overlay/picture_text.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/fleet.h"
 #include "visuals/planning/frame_transparents.h"
 #include "visuals/planning/frame_view.h"
@@ -20,7 +21,6 @@
 #include "visuals/planning/shadow.h"
 #include "visuals/planning/sky.h"
 #include "visuals/planning/smooth_choice.h"
-#include "visuals/planning/bounding_box.h"
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
@@ -321,7 +321,7 @@ public:
     /// Begins the work on the ground of the next plan() beside the caller, for the camera and the triangle target that
     /// it will be given; the last plan stays valid. May be left out: changes no plan.
     void begin_next_mesh(const scene::Camera& camera, std::optional<int> triangle_target = std::nullopt,
-        const landscape::IdleThreadRunner& on_idle_thread = nullptr);
+        const IdleThreadRunner& on_idle_thread = nullptr);
 
     /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made when it is asked for.
     void wait() { mesher_->wait(); }

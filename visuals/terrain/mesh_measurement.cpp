@@ -4,7 +4,7 @@
 
 #include "sim/base/geometry2d.h"
 #include "sim/base/nearest_rank.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/terrain/frustum.h"
 
 #include <glm/common.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/base/study_output.h"
 #include "ui/flight/id_comparison.h"

@@ -1,7 +1,7 @@
 #include "ui/studies/draw_order/study_pictures.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
@@ -10,7 +10,6 @@
 #include "ui/settings/settings.h"
 #include "ui/studies/draw_order/study_renderer.h"
 #include "visuals/raster/mask_picture.h"
-#include "visuals/raster/workers.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
@@ -139,7 +138,7 @@ private:
     std::array<PictureQuality, render_modes.size()> quality_;
     std::array<visuals::scene::Picture, render_modes.size()> pictures_;
     std::vector<visuals::scene::ModelBuffers> models_;
-    visuals::raster::Workers workers_{1};
+    ThreadPool workers_{1};
     visuals::scene::Picture masks_;
     References by_gl_;
     References by_raster_;

@@ -2,7 +2,7 @@
 
 #include "models/procedural/procedural_terrain.h"
 #include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"
@@ -19,7 +19,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
-#include <future>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -587,17 +586,21 @@ FlickerRuns run_all(const FlickerStudyOptions& options) {
     const int runs_of_field = (static_cast<int>(flicker_weights.size()) + 1) * ways +
                               static_cast<int>(flicker_gains.size() + damping_frame_counts.size());
     const int settling_frames = fixed_frames(options);
-    auto gentle_runs = std::async(std::launch::async,
-        [&] { return run_field(gentle, gentle.field.name, options.frames, settling_frames, [] {}); });
     base::Progress progress(rugged.field.name, runs_of_field, options.quiet, "runs");
     int done = 0;
     const Tick tick = [&] { progress.show(++done); };
-    FlickerRuns runs;
-    runs.rugged = run_field(rugged, rugged.field.name, options.frames, settling_frames, tick);
-    runs.damping_lengths = run_damping_lengths(rugged, options.frames, runs.rugged.path, tick);
-    progress.finish();
-    base::print_note(options.quiet, fmt::format("{}: waiting for its runs", gentle.field.name));
-    runs.gentle = gentle_runs.get();
+    auto [runs, gentle_runs] = run_both(
+        true,
+        [&] {
+            FlickerRuns of_rugged;
+            of_rugged.rugged = run_field(rugged, rugged.field.name, options.frames, settling_frames, tick);
+            of_rugged.damping_lengths = run_damping_lengths(rugged, options.frames, of_rugged.rugged.path, tick);
+            progress.finish();
+            base::print_note(options.quiet, fmt::format("{}: waiting for its runs", gentle.field.name));
+            return of_rugged;
+        },
+        [&] { return run_field(gentle, gentle.field.name, options.frames, settling_frames, [] {}); });
+    runs.gentle = std::move(gentle_runs);
     return runs;
 }
 

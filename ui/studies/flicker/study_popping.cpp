@@ -1,7 +1,7 @@
 #include "ui/studies/flicker/study_popping.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/flight_cameras.h"

@@ -6,7 +6,7 @@
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
