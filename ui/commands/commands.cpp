@@ -25,7 +25,7 @@ Program octant_program() {
                   "  octant refine bunny.ply --base 100 --save bunny.pm\n"
                   "  octant simplify bunny.ply small.obj --faces 1000\n"
                   "A flag takes =true and =false, too: --scenery=false is --no-scenery.\n"
-                  "octant NAME starts the program octant-NAME if NAME is none of these commands.\n"
+                  "Another NAME starts the program octant-NAME, as git does.\n"
                   "Every option with its unit and default, and examples: octant COMMAND --help.\n"
                   "All of them: octant --help-all.",
         .commands = {fly_command(), view_command(), listen_command(), report_command(), pack_command(), sweep_command(),
