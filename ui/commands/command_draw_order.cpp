@@ -8,8 +8,9 @@
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/command_line.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_model.h"
 #include "visuals/certificate/order_certificate.h"
@@ -35,6 +36,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace {
 
@@ -103,7 +106,7 @@ void check_not_overwriting(const DrawOrderOptions& options) {
 void check_exclusive(const DrawOrderOptions& options) {
     if (options.model.empty() == options.verify.empty()) {
         throw Error(options.model.empty()
-                        ? "expected a model, or --verify with a certificate, got neither"
+                        ? "expected a model, got none"
                         : "--verify: expected no model beside a certificate, which holds its own, got '" +
                               printable(options.model) + "'");
     }
@@ -147,8 +150,7 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
             text_option("--certificate", "FILE",
                 "output file of a certificate that proves the order of every pair of polygons; not for --method paper",
                 options.certificate),
-            text_option(
-                "--verify", "FILE", "check a certificate with exact arithmetic and do nothing else", options.verify),
+            hidden(text_option("--verify", "FILE", "old name of octant verify FILE", options.verify)),
             {.name = "--check",
                 .form = "[FILE]",
                 .meaning =
@@ -244,18 +246,6 @@ bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& 
     const std::string text = certificate_text(proved, quiet, results);
     PercentProgress percents("verifying", quiet);
     return all_proofs_hold(proofs::certificate_of(text, "certificate"), percents, results);
-}
-
-/// Reads a certificate, checks it without rounding and adds to the figures; whether it proves all.
-/// Throws Error for a file that is no certificate.
-bool verify_certificate(const std::string& file, bool quiet, base::JsonValue& results) {
-    PercentProgress percents("verifying", quiet);
-    const auto certificate = proofs::read_certificate(file);
-    results["certificate"] = file;
-    results["polygons"] = certificate.polygons.size();
-    results["nodes"] = certificate.nodes.size();
-    results["lists"] = certificate.lists.size();
-    return all_proofs_hold(certificate, percents, results);
 }
 
 } // namespace
@@ -438,18 +428,11 @@ void print_results(const PreparedOrder& work, const DrawOrderOptions& options, b
     if (!options.table || checked) { base::print_value(results, false); }
 }
 
-void verify(const DrawOrderOptions& options) {
-    JsonValue results;
-    const bool good = verify_certificate(options.verify, options.quiet, results);
-    base::print_value(results, options.json);
-    if (!good) { throw CheckFailed(); }
-}
-
 void draw_order(const DrawOrderOptions& options) {
     check_draw_order_options(options);
     if (!options.verify.empty()) {
-        verify(options);
-        return;
+        base::print_note(options.quiet, "note: draw-order --verify is now octant verify");
+        replace_by_program({"octant-verify", options.verify, options.json ? "--json" : "--quiet"});
     }
     if (options.cache) { ordercache::make_cache_folder(*options.cache); }
     JsonValue results;
@@ -482,7 +465,7 @@ Command draw_order_command() {
                   "the\naxes of that file.\nExamples:\n  octant draw-order concave --method paper --table\n  octant "
                   "draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n  octant draw-order "
                   "f15-split.obj --check f15-orders.txt\n  octant draw-order torus --order-cache orders\n  octant "
-                  "draw-order f15 --certificate f15-proof.txt\n  octant draw-order --verify f15-proof.txt",
+                  "draw-order f15 --certificate f15-proof.txt\n  octant verify f15-proof.txt",
         .run = [options] { draw_order(*options); }};
     add_draw_order_options(command.options, *options);
     return command;

@@ -5,8 +5,8 @@
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 
 #include <cstdio>
@@ -16,6 +16,8 @@
 #include <variant>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace measure = models::measure;
 

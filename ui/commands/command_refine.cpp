@@ -6,8 +6,8 @@
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
@@ -24,6 +24,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace refine = visuals::refine;
 

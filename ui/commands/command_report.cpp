@@ -20,6 +20,8 @@
 
 namespace octant::ui::commands {
 
+using namespace command_line;
+
 namespace {
 
 struct ReportOptions {

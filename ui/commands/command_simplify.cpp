@@ -5,8 +5,8 @@
 #include "sim/base/output_file.h"
 #include "ui/base/memory.h"
 #include "ui/base/results_text.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/commands/simplify_run.h"
 #include "ui/world/mesh_loader.h"
 
@@ -20,6 +20,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace meshfile = models::meshfile;
 

@@ -3,8 +3,8 @@
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
 #include "ui/base/stop_signals.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
@@ -27,6 +27,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace {
 

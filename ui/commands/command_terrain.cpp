@@ -1,5 +1,3 @@
-#include "ui/commands/command_terrain.h"
-
 #include "models/heights/height_field_export.h"
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
@@ -13,8 +11,8 @@
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/path_fields.h"
@@ -45,6 +43,10 @@
 
 namespace octant::ui::commands {
 
+using namespace command_line;
+
+namespace {
+
 void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
     table.insert(
         table.end(), {required(text_option("terrain", "NAME|FILE",
@@ -53,33 +55,9 @@ void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions&
     add_file_options(table, options.files);
 }
 
-namespace {
-
-void add_file_rows(std::vector<Option>& table, double& spacing_m, std::optional<double>& height_scale,
-    std::optional<std::string>& system, models::heights::VoidValues& voids, std::optional<std::string>& band) {
-    table.insert(table.end(),
-        {value_option(
-             {"terrain-spacing", "METRES", "sample spacing in metres, for files that do not state it", 0.01, 1e5},
-             spacing_m),
-            value_option(
-                {"height-scale", "METRES", "metres per height unit, for files that name no unit [1]", 1e-6, 1e4},
-                height_scale),
-            value_option({"terrain-system", "SYSTEM",
-                             "coordinate system, for files that name none: EPSG:4326, a PROJ string, a .prj file or "
-                             "metres [WGS 84 if the coordinates look like degrees, else metres]"},
-                system),
-            value_option(settings::void_info, voids), value_option(settings::band_info, band)});
-}
-
-} // namespace
-
-void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
-    add_file_rows(table, files.spacing_m, files.height_scale, files.system, files.voids, files.band);
-}
-
-void add_file_options(std::vector<Option>& table, settings::PathSettings& path) {
-    add_file_rows(table, path.terrain_spacing_m, path.terrain_height_scale, path.terrain_system, path.terrain_voids,
-        path.terrain_band);
+Option curved_option(bool& curved) {
+    return flag("--curved",
+        "include earth curvature: lower the ground by d^2 / 2R, as flights do (screen-error meshes only)", curved);
 }
 
 void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
@@ -119,13 +97,6 @@ void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& 
             value_option({"resolution-c", "C", "midpoint and printed: resolution parameter C", 1.0, 1e5},
                 options.resolution_c)});
 }
-
-Option curved_option(bool& curved) {
-    return flag("--curved",
-        "include earth curvature: lower the ground by d^2 / 2R, as flights do (screen-error meshes only)", curved);
-}
-
-namespace {
 
 std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes) {
     std::vector<std::string> texts;

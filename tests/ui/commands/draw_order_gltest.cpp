@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 using namespace octant;
@@ -113,6 +115,43 @@ TEST_CASE("an order of another model's, or with two polygons exchanged, does not
     CHECK(run.exit_code == 1);
     CHECK(run.out.find("P6 is painted before P2 and may hide part of it") != std::string::npos);
     CHECK(draw_order({"concave", "--check", order_file("swapped.txt")}).exit_code == 1);
+}
+
+TEST_CASE("a certificate is checked by octant-verify, under its old name too, and a changed one is refused") {
+    const std::string proof = order_file("proof.txt");
+    CHECK(draw_order({"concave", "--certificate", proof, "--quiet"}).exit_code == 0);
+    const auto run = run_octant({"verify", proof, "--json"});
+    CHECK(run.exit_code == 0);
+    CHECK(order_figures(run)["proved"] == true);
+    CHECK(order_figures(run)["pairs"] > 0);
+    const auto by_old_name = draw_order({"--verify", proof, "--json"});
+    CHECK(by_old_name.exit_code == 0);
+    CHECK(by_old_name.out == run.out);
+    CHECK(by_old_name.err.find("octant verify") != std::string::npos);
+    std::string text = read_file(proof);
+    text.erase(text.rfind("\npairs ") + 1);
+    write_file(proof, text);
+    CHECK(run_octant({"verify", proof}).exit_code == 1);
+    CHECK(run_octant({"verify", "/nowhere/proof.txt"}).exit_code == 2);
+    CHECK(run_octant({"verify"}).exit_code == 2);
+}
+
+TEST_CASE("a program that octant starts is looked for beside it and in PATH") {
+    const auto folder = tests::empty_folder("other-programs");
+    const std::string octant = (folder / "octant").string();
+    std::filesystem::copy_file(OCTANT_PROGRAM, octant);
+    const auto code_of = [&](const std::string& line) { return std::system(line.c_str()) / 256; };
+    const std::string message = (folder / "message").string();
+    CHECK(code_of(octant + " verify x 2>" + message) == 2);
+    CHECK(read_file(message) ==
+          "octant: expected the program octant-verify in the folder of this one or in PATH, got none\n");
+    write_file(folder / "octant-hello", "#!/bin/sh\necho \"$@\"\nexit 7\n");
+    CHECK(code_of(octant + " hello you 2>" + message) == 2);
+    std::filesystem::permissions(folder / "octant-hello", std::filesystem::perms::owner_all);
+    CHECK(code_of(octant + " hello you >" + message) == 7);
+    CHECK(read_file(message) == "you\n");
+    CHECK(code_of("PATH=" + (std::filesystem::path(OCTANT_PROGRAM).parent_path()).string() + ":$PATH " + octant +
+                  " verify --version >" + message) == 0);
 }
 
 TEST_CASE("rays alone find the file order of a missing cell") {

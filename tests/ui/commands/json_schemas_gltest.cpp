@@ -6,7 +6,7 @@
 #include "tests/ui/flight/small_ground.h"
 #include "ui/commands/commands.h"
 #include "ui/report/html_text.h"
-#include "ui/window/window_commands.h"
+#include "ui/studies/program/study_program.h"
 
 #include <catch2/catch.hpp>
 
@@ -33,19 +33,24 @@ void check(const std::string& name, std::vector<std::string> line) {
     CHECK(tests::schema_faults(run.out, schema(name)) == std::vector<std::string>());
 }
 
-bool prints_json(const ui::commands::Command& command) {
+bool prints_json(const ui::command_line::Command& command) {
     return std::ranges::any_of(command.options, [](const auto& option) { return option.name == "--json"; });
 }
 
 /// Names of all commands that do something, with --json or without, as "terrain info".
 std::set<std::string> commands_with_json(bool with) {
     std::set<std::string> names;
-    const auto visit = [&](const auto& self, const ui::commands::Command& command, const std::string& before) -> void {
+    const auto visit = [&](const auto& self, const ui::command_line::Command& command,
+                           const std::string& before) -> void {
         if (command.commands.empty() && prints_json(command) == with) { names.insert(before + command.name); }
         for (const auto& inner : command.commands) { self(self, inner, before + command.name + " "); }
     };
-    const auto program = ui::commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
-    for (const auto& command : program.commands) { visit(visit, command, ""); }
+    for (const auto& command : ui::commands::octant_program().commands) {
+        if (command.program.empty()) { visit(visit, command, ""); }
+    }
+    for (const auto& command : ui::studies::program::study_program().commands) {
+        visit(visit, command, command.name == "bench" || command.name == "manual" ? "" : "study ");
+    }
     return names;
 }
 

@@ -1,4 +1,4 @@
-#include "ui/commands/setting_option.h"
+#include "ui/command_line/setting_option.h"
 
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 using settings::RunSettings;
 using settings::SettingInfo;
@@ -70,4 +70,33 @@ void add_setting_options(std::vector<Option>& options, RunSettings& settings, st
     if (given != nullptr) { record_given_options(std::span(options).subspan(own), *given); }
 }
 
-} // namespace octant::ui::commands
+namespace {
+
+void add_file_rows(std::vector<Option>& table, double& spacing_m, std::optional<double>& height_scale,
+    std::optional<std::string>& system, models::heights::VoidValues& voids, std::optional<std::string>& band) {
+    table.insert(table.end(),
+        {value_option(
+             {"terrain-spacing", "METRES", "sample spacing in metres, for files that do not state it", 0.01, 1e5},
+             spacing_m),
+            value_option(
+                {"height-scale", "METRES", "metres per height unit, for files that name no unit [1]", 1e-6, 1e4},
+                height_scale),
+            value_option({"terrain-system", "SYSTEM",
+                             "coordinate system, for files that name none: EPSG:4326, a PROJ string, a .prj file or "
+                             "metres [WGS 84 if the coordinates look like degrees, else metres]"},
+                system),
+            value_option(settings::void_info, voids), value_option(settings::band_info, band)});
+}
+
+} // namespace
+
+void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
+    add_file_rows(table, files.spacing_m, files.height_scale, files.system, files.voids, files.band);
+}
+
+void add_file_options(std::vector<Option>& table, settings::PathSettings& path) {
+    add_file_rows(table, path.terrain_spacing_m, path.terrain_height_scale, path.terrain_system, path.terrain_voids,
+        path.terrain_band);
+}
+
+} // namespace octant::ui::command_line

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/commands/option.h"
+#include "ui/command_line/option.h"
 #include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 template <class Value>
 std::string default_text(const Value& value) {
@@ -45,4 +45,9 @@ Option value_option(const settings::FieldInfo& info, Value& value, std::string_v
 void add_setting_options(
     std::vector<Option>& options, settings::RunSettings& settings, std::vector<std::string>* given = nullptr);
 
-} // namespace octant::ui::commands
+/// What map files do not say: --terrain-spacing, --height-scale, --terrain-system, --void and
+/// --band. Every command that reads maps has them.
+void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files);
+void add_file_options(std::vector<Option>& table, settings::PathSettings& path);
+
+} // namespace octant::ui::command_line

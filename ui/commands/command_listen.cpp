@@ -1,20 +1,28 @@
-#include "ui/commands/listen.h"
-
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
+#include "ui/base/user_folders.h"
+#include "ui/command_line/setting_option.h"
+#include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/setting_option.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/flight/listener.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/video_pipe.h"
+#include "ui/settings/settings.h"
+#include "ui/window/viewer.h"
+#include "ui/world/entity_table.h"
+#include "ui/world/input_files.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,7 +32,22 @@
 
 namespace octant::ui::commands {
 
+using namespace command_line;
+
 namespace {
+
+struct ListenOptions {
+    settings::RunSettings settings;
+    flight::ListenerOptions listener;
+    std::optional<int> vehicles;         ///< number shown, at least as many as there are aircraft; nothing = 16
+    std::optional<std::string> entities; ///< file of world::read_entity_table
+    std::vector<std::string> send;       ///< addresses, as flight::Sender has them
+    flight::RecordOptions record;
+    window::ViewOptions window;
+    bool headless = false;
+    bool json = false;
+    bool quiet = false;
+};
 
 /// Settings that say something about a path of our own.
 constexpr std::array<std::string_view, 9> path_only_settings{"path", "--heading", "--height-mode",
@@ -152,12 +175,20 @@ std::vector<Option> settings_of_live(settings::RunSettings& settings) {
     return table;
 }
 
-} // namespace
-
-std::vector<Option> listen_options(ListenOptions& options) {
+std::vector<Option> options_of(ListenOptions& options) {
     options.settings.path.name = settings::live_path;
     flight::ListenerOptions& listener = options.listener;
-    std::vector<Option> table = port_options(listener.input);
+    std::vector<Option> table = {flag("--headless", "no window: pictures, video and recording alone", options.headless),
+        text_option("--record", "DIR",
+            "write the recording and its report into this folder; in a window its view stays as it is until F9 ends it",
+            options.record.folder),
+        text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", options.record.video),
+        flag("--json", "with --headless: summary as JSON, with every vehicle and what its packets were", options.json),
+        flag("--full-screen", "fill the screen (F11)", options.window.full_screen),
+        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be",
+            options.window.vsync),
+        flag("--panels,!--no-panels", "begin with panels shown (Tab)", options.window.panels)};
+    append(table, port_options(listener.input));
     table.push_back(from_option(listener.input));
     table.push_back(flag("--step",
         "with --headless: render one picture for each packet that moves something, without delay", listener.live.step));
@@ -171,8 +202,6 @@ std::vector<Option> listen_options(ListenOptions& options) {
     append(table, settings_of_live(options.settings));
     return table;
 }
-
-namespace {
 
 constexpr double poll_interval_s = 0.0005; ///< in steps, for the next packet
 
@@ -276,8 +305,6 @@ private:
     double began_s_ = 0.0;
 };
 
-} // namespace
-
 void listen_without_window(const ListenOptions& options) {
     if (options.record.video) { report::check_video(*options.record.video); }
     HeadlessListener run(options);
@@ -295,6 +322,76 @@ void listen_without_window(const ListenOptions& options) {
     }
     print_summary(end, std::nullopt, options.json, results_of_run(run.traffic()));
     if (!end.fault.empty()) { throw Error(end.fault); }
+}
+
+constexpr int default_vehicles = 16;
+
+void listen_in_window(ListenOptions options) {
+    if (options.listener.live.step) { throw Error("--step: expected --headless beside it, got none"); }
+    if (options.record.video) { throw Error("--video: expected --headless beside it, got none"); }
+    options.window.settings = options.settings;
+    options.window.config_folder = base::configuration_folder();
+    options.window.listener = options.listener;
+    options.window.send = options.send;
+    options.window.record = options.record.folder;
+    options.window.quiet = options.quiet;
+    window::Viewer viewer(options.window);
+    const base::StopSignals stop_signals;
+    int frames = 0;
+    while (viewer.run_frame() && !base::StopSignals::received()) {
+        if (options.window.settings.time.frames && ++frames >= *options.window.settings.time.frames) { break; }
+    }
+    if (const auto report = viewer.finish_recording()) { base::print_note(options.quiet, *report); }
+}
+
+void listen(ListenOptions options) {
+    settings::RunSettings& settings = options.settings;
+    settings.path.name = settings::live_path;
+    std::vector<std::string>& aircraft = settings.path.aircraft;
+    if (options.entities) {
+        if (options.vehicles) {
+            throw Error("--vehicles: expected no --entities beside it, whose count says how many");
+        }
+        world::EntityTable table = world::read_entity_table(*options.entities);
+        aircraft = std::move(table.aircraft);
+        options.listener.live.shapes = std::move(table.types);
+    } else {
+        const auto vehicles = static_cast<std::size_t>(options.vehicles.value_or(default_vehicles));
+        const std::string last = aircraft.back();
+        aircraft.resize(std::max(aircraft.size(), vehicles), last);
+    }
+    settings = world::with_absolute_paths(settings);
+    if (options.headless) {
+        listen_without_window(options);
+    } else {
+        listen_in_window(std::move(options));
+    }
+}
+
+} // namespace
+
+Command listen_command() {
+    auto options = std::make_shared<ListenOptions>();
+    options->window.recordings_folder = ".";
+    return {.name = "listen",
+        .summary =
+            "Displays aircraft that other programs control: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
+            "numbers",
+        .options = options_of(*options),
+        .footer = "Examples:\n"
+                  "  octant listen\n"
+                  "  octant listen --terrain map.tif --view cockpit --delay 0.1\n"
+                  "  octant listen --headless --seconds 60 --record my-flight --video flight.mp4\n"
+                  "  my-script | octant listen --from - --headless --step --record steps\n"
+                  "JSBSim: JSBSim --script=... --realtime --logdirectivefile=FILE, in FILE:\n"
+                  "  <output name=\"127.0.0.1\" type=\"FLIGHTGEAR\" port=\"5550\" "
+                  "protocol=\"UDP\" rate=\"60\"/>\n"
+                  "ArduPilot: sim_vehicle.py -v ArduPlane\n"
+                  "FlightGear: fgfs --native-fdm=socket,out,60,127.0.0.1,5550,udp\n"
+                  "X-Plane: data output by UDP of groups 3, 17, 18, 20 and 21 to port 49003; or "
+                  "octant listen --xplane HOST\n"
+                  "Ctrl-C ends it; a recording is then completed.",
+        .run = [options] { listen(*options); }};
 }
 
 } // namespace octant::ui::commands

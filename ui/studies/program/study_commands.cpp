@@ -1,7 +1,7 @@
 #include "ui/base/study_output.h"
-#include "ui/commands/command_terrain.h"
-#include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
+#include "ui/base/version.h"
+#include "ui/command_line/manual.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
@@ -9,15 +9,20 @@
 #include "ui/studies/flicker/study_flicker.h"
 #include "ui/studies/flicker/study_popping.h"
 #include "ui/studies/hybrid_shading/study_shading.h"
+#include "ui/studies/program/bench.h"
+#include "ui/studies/program/study_program.h"
 #include "ui/studies/refinement/study_refinement.h"
 #include "ui/studies/simplification/study_simplification.h"
 
+#include <fmt/format.h>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::studies::program {
+
+using namespace command_line;
 
 namespace {
 
@@ -233,13 +238,16 @@ Command simplification_command() {
 
 } // namespace
 
-Command study_command() {
-    return {.name = "study",
-        .summary = "Repeats the experiment of a paper and prints its results next to ours",
-        .footer = "Examples:\n  octant study flights --out tables\n  octant study draw-order --out "
-                  "tables",
+Program study_program() {
+    Program program{.name = "octant-study",
+        .about = "Repeats the experiments of the five papers and prints their results next to ours; benchmarks.",
+        .version = fmt::format("octant-study {} ({})", base::program_version(), base::program_commit()),
+        .footer = "Examples:\n  octant study flights --out tables\n  octant study draw-order --out tables",
         .commands = {flights_command(), draw_order_study_command(), flicker_command(), hidden_surface_command(),
-            pictures_command(), popping_command(), shading_command(), refinement_command(), simplification_command()}};
+            pictures_command(), popping_command(), shading_command(), refinement_command(), simplification_command(),
+            bench_command()}};
+    program.commands.push_back(manual_command(program));
+    return program;
 }
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::studies::program

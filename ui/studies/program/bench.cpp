@@ -1,12 +1,10 @@
-#include "ui/commands/bench.h"
+#include "ui/studies/program/bench.h"
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
 #include "ui/base/results_text.h"
-#include "ui/commands/command_terrain.h"
-#include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
@@ -31,7 +29,9 @@
 #include <utility>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::studies::program {
+
+using namespace command_line;
 
 namespace {
 
@@ -467,4 +467,4 @@ Command bench_command() {
         }};
 }
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::studies::program

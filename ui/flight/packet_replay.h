@@ -8,19 +8,18 @@
 #include <memory>
 #include <string>
 
-namespace octant::ui::commands {
+namespace octant::ui::flight {
 
 /// A live flight that was flown again.
 struct PacketReplay {
     /// Must outlive the session's last use.
-    std::unique_ptr<flight::LiveFlight> live;
+    std::unique_ptr<LiveFlight> live;
     /// What ended it before its last picture, empty = nothing did.
     std::string stopped;
 };
 
 /// Flies a recorded live flight again in a session of its settings: the same packets for the same pictures, until a
 /// stop signal comes. Throws Error.
-PacketReplay replay_packets(
-    const flight::Replay& replay, flight::Session& session, flight::FlightRecorder& recorder, bool quiet);
+PacketReplay replay_packets(const Replay& replay, Session& session, FlightRecorder& recorder, bool quiet);
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::flight

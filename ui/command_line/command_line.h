@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/commands/command.h"
+#include "ui/command_line/command.h"
 
 #include <functional>
 #include <optional>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 /// Returns the known word that a person meant who wrote `word`: the one that the fewest letters, left out, added,
 /// changed or swapped with their neighbours, make of it, or that begins with it. Nothing where no known word is near,
@@ -22,4 +22,12 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
 /// `arguments` begin with the program's own name, as in main(). Throws Error with one line for a wrong command line.
 std::function<void()> parse_command_line(const Program& program, int argument_count, const char* const* arguments);
 
-} // namespace octant::ui::commands
+/// Replaces this process by the program that the first word names, from the folder of this program or from PATH.
+/// Throws Error if it is not found or cannot be started.
+[[noreturn]] void replace_by_program(Words words);
+
+/// The body of main(): does what the command line asks for and returns the exit code. 0: success. 1: a check failed.
+/// 2: invalid input or environment; the error is one line on stderr. A received stop signal ends the process instead.
+int run_program(const Program& program, int argument_count, const char* const* arguments);
+
+} // namespace octant::ui::command_line

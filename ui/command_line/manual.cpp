@@ -1,17 +1,19 @@
-#include "ui/commands/manual.h"
+#include "ui/command_line/manual.h"
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/commands/commands.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 namespace {
 
@@ -88,13 +90,15 @@ void add_case(const Command& command, const std::string& before, std::string& te
 } // namespace
 
 std::string man_page(const Program& program) {
-    std::string page = fmt::format(".TH OCTANT 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n"
-                                   "octant \\- flight simulation over level\\-of\\-detail terrain, drawn and timed\n"
-                                   ".SH SYNOPSIS\n.B octant\n.I COMMAND\n[options]\n.SH DESCRIPTION\n{}\n",
-        in_roff(program.version.substr(0, program.version.find('\n'))), in_roff(program.about));
+    std::string title = program.name;
+    std::ranges::transform(title, title.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const std::string name = in_roff(program.name);
+    std::string page = fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n"
+                                   ".SH SYNOPSIS\n.B {}\n.I COMMAND\n[options]\n",
+        title, in_roff(program.version.substr(0, program.version.find('\n'))), name, in_roff(program.about), name);
     add_lines(program.footer, page);
     page += ".SH COMMANDS\n";
-    for (const Command& command : program.commands) { add_command(command, "octant", page); }
+    for (const Command& command : program.commands) { add_command(command, program.name, page); }
     page += ".SH EXIT STATUS\n0: success. 1: a check failed. 2: invalid input or environment; the error is one "
             "line.\nA flight ended by a signal completes its report, then the program ends with that signal.\n";
     page += ".SH ENVIRONMENT\n.TP\n.B OCTANT_DATA\nfolder of the program's models and paths\n";
@@ -102,19 +106,40 @@ std::string man_page(const Program& program) {
 }
 
 std::string bash_completion(const Program& program) {
+    std::string function = "_" + program.name;
+    std::ranges::replace(function, '-', '_');
     std::string cases;
     std::string names = "--help --help-all --version";
     std::string with_commands;
+    std::string by_others;
     for (const Command& command : program.commands) {
         names += " " + command.name;
         if (!command.commands.empty()) {
             with_commands += fmt::format("{}'{} '*", with_commands.empty() ? "" : "|", command.name);
         }
-        add_case(command, "", cases);
+        if (command.program.empty()) {
+            add_case(command, "", cases);
+        } else {
+            by_others += fmt::format(
+                "      {}) {}_other {} ; return ;;\n", command.name, function, fmt::join(command.program, " "));
+        }
     }
     return fmt::format(
-        R"(# Completes octant's command lines. Made by: octant manual bash
-_octant() {{
+        R"(# Completes the command lines of {3}. Made by: {3} manual bash
+{4}_other() {{ # another program completes its own command line
+  local word_count=$# script="${{BASH_SOURCE[0]%/*}}/$1" complete="_${{1//-/_}}"
+  COMPREPLY=()
+  declare -F "$complete" >/dev/null || [[ -r $script ]] && . "$script"
+  declare -F "$complete" >/dev/null || return
+  local COMP_WORDS=("$@" "${{COMP_WORDS[@]:2}}") COMP_CWORD=$((COMP_CWORD - 2 + word_count))
+  "$complete"
+}}
+{4}() {{
+  if [[ $COMP_CWORD -gt 1 ]]; then
+    case ${{COMP_WORDS[1]}} in
+{5}      *) ;;
+    esac
+  fi
   local word=${{COMP_WORDS[COMP_CWORD]}} command="" words i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     [[ ${{COMP_WORDS[i]}} == -* ]] && break
@@ -133,31 +158,30 @@ _octant() {{
     while IFS= read -r i; do COMPREPLY+=("$i"); done < <(compgen -f -- "$word")
   fi
 }}
-complete -o filenames -F _octant octant
+complete -o filenames -F {4} {3}
 )",
-        names, cases, with_commands);
+        names, cases, with_commands.empty() ? "'-'" : with_commands, program.name, function, by_others);
 }
 
 std::string zsh_completion(const Program& program) {
-    return "#compdef octant\nautoload -U +X bashcompinit && bashcompinit\n" + bash_completion(program);
+    return fmt::format("#compdef {}\nautoload -U +X bashcompinit && bashcompinit\n", program.name) +
+           bash_completion(program);
 }
 
-Command manual_command(std::shared_ptr<const Program> program) {
+Command manual_command(const Program& program) {
     auto form = std::make_shared<std::string>("man");
     Option what = choice_option(
         "form", "FORM", "man (manual page), bash or zsh (shell completion)", {"man", "bash", "zsh"}, *form);
     return {.name = "manual",
         .summary = "Prints the manual page or a shell completion script",
         .options = {std::move(what)},
-        .footer = "Examples:\n"
-                  "  octant manual man\n"
-                  "  octant manual bash",
-        .run = [form, program = std::move(program)] {
-            const std::string text = *form == "man"    ? man_page(*program)
-                                     : *form == "bash" ? bash_completion(*program)
-                                                       : zsh_completion(*program);
+        .footer = fmt::format("Examples:\n  {0} manual man\n  {0} manual bash", program.name),
+        .run = [form, program] {
+            const std::string text = *form == "man"    ? man_page(program)
+                                     : *form == "bash" ? bash_completion(program)
+                                                       : zsh_completion(program);
             std::fputs(text.c_str(), stdout);
         }};
 }
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::command_line

@@ -1,11 +1,11 @@
-#include "ui/commands/option.h"
+#include "ui/command_line/option.h"
 
 #include "ui/settings/settings_text.h"
 
 #include <string>
 #include <utility>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 Option with_shown_default(std::string shown_default, Option option) {
     option.shown_default = std::move(shown_default);
@@ -39,4 +39,4 @@ Option choice_option(std::string name, std::string form, std::string meaning, st
     return option;
 }
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::command_line

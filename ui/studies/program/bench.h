@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/command_line/command.h"
 #include "ui/settings/settings.h"
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::studies::program {
 
 /// One scene of a bench.
 struct BenchScene {
@@ -65,4 +66,6 @@ int timed_frames(const BenchOptions& options);
 /// renderer. Throws Error.
 std::vector<BenchResult> run_bench(const BenchOptions& options);
 
-} // namespace octant::ui::commands
+command_line::Command bench_command();
+
+} // namespace octant::ui::studies::program

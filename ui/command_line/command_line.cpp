@@ -1,21 +1,35 @@
-#include "ui/commands/command_line.h"
+#include "ui/command_line/command_line.h"
 
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "sim/base/utf8.h"
+#include "ui/base/path_alias.h"
+#include "ui/base/stop_signals.h"
+#include "ui/report/packed_recording.h"
+#include "visuals/groundfile/tile_damage_log.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 // Distance of words: F. J. Damerau, "A technique for computer detection and correction of spelling errors", Comm. ACM
 // 7(3), 1964; swaps of neighbours only.
@@ -133,7 +147,7 @@ public:
         app_.formatter(std::make_shared<HelpFormatter>());
         app_.get_formatter()->column_width(column_width);
         app_.footer(program.footer);
-        add_commands(app_, program.commands, "octant");
+        add_commands(app_, program.commands, program.name);
         app_.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     }
 
@@ -144,7 +158,9 @@ public:
 
     std::string help_of_all() const {
         std::string text = app_.help();
-        for (const Parsed& parsed : parsed_) { text += fmt::format("\n\n{}", parsed.app->help(parsed.before)); }
+        for (const Parsed& parsed : parsed_) {
+            if (parsed.command->program.empty()) { text += fmt::format("\n\n{}", parsed.app->help(parsed.before)); }
+        }
         return with_single_gaps(text);
     }
 
@@ -225,8 +241,8 @@ private:
     }
 
     /// As a person types it after the program's name.
-    static std::string full_name(const Parsed& parsed) {
-        const std::string before = parsed.before.substr(std::string_view("octant").size());
+    std::string full_name(const Parsed& parsed) const {
+        const std::string before = parsed.before.substr(program_.name.size());
         return before.empty() ? parsed.command->name : fmt::format("{} {}", before.substr(1), parsed.command->name);
     }
 
@@ -316,20 +332,115 @@ std::function<void()> printing(std::string text) {
     return [text = std::move(text)] { std::fputs(text.c_str(), stdout); };
 }
 
+/// The program of that name in the folder of this program, else in PATH; empty if there is none.
+std::filesystem::path find_program(const std::string& name) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> folders{std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path()};
+    const char* const path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
+    for (const std::string_view folder : split_fields(path == nullptr ? "" : path, ':')) {
+        folders.emplace_back(folder);
+    }
+    for (const std::filesystem::path& folder : folders) {
+        const std::filesystem::path file = folder / name;
+        if (std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0) { return file; }
+    }
+    return {};
+}
+
+/// The command line of another program that does the work of this one; nothing where this program does it: of a command
+/// with a program, or of any NAME that is no command if there is a program octant-NAME.
+std::optional<Words> other_command_line(const Program& program, const Words& line) {
+    if (line.empty() || line[0].starts_with('-')) { return std::nullopt; }
+    const auto command = std::ranges::find(program.commands, line[0], &Command::name);
+    Words words;
+    if (command != program.commands.end()) {
+        words = command->program;
+    } else if (line[0].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos) {
+        const std::string name = fmt::format("{}-{}", program.name, line[0]);
+        if (!find_program(name).empty()) { words = {name}; }
+    }
+    if (words.empty()) { return std::nullopt; }
+    words.insert(words.end(), line.begin() + 1, line.end());
+    return words;
+}
+
 } // namespace
 
+void replace_by_program(Words words) {
+    const std::filesystem::path file = find_program(words.front());
+    if (file.empty()) {
+        throw Error(
+            fmt::format("expected the program {} in the folder of this one or in PATH, got none", words.front()));
+    }
+    words.front() = file.string();
+    std::vector<char*> arguments;
+    for (std::string& word : words) { arguments.push_back(word.data()); }
+    arguments.push_back(nullptr);
+    execv(file.c_str(), arguments.data());
+    throw Error(fmt::format("{}: cannot be started: {}", file.string(), std::strerror(errno)));
+}
+
 std::function<void()> parse_command_line(const Program& program, int argument_count, const char* const* arguments) {
+    const Words line(arguments + 1, arguments + argument_count);
+    if (auto words = other_command_line(program, line)) {
+        return [words = std::move(*words)] { replace_by_program(words); };
+    }
     Parser parser(program);
     try {
         parser.parse(argument_count, arguments);
-        return parser.chosen_action(Words(arguments + 1, arguments + argument_count));
+        return parser.chosen_action(line);
     } catch (const CLI::CallForHelp&) { return printing(parser.help()); } catch (const CLI::CallForAllHelp&) {
         return printing(parser.help_of_all());
     } catch (const CLI::CallForVersion& version) {
         return printing(fmt::format("{}\n", version.what()));
-    } catch (const CLI::ParseError& fault) {
-        throw Error(parser.parse_error_text(fault, Words(arguments + 1, arguments + argument_count)));
-    }
+    } catch (const CLI::ParseError& fault) { throw Error(parser.parse_error_text(fault, line)); }
 }
 
-} // namespace octant::ui::commands
+namespace {
+
+constexpr int exit_check_failed = 1;
+constexpr int exit_invalid_input = 2;
+
+int print_error(const std::string& program, const std::string& line) {
+    const std::string named = base::with_path_aliases(line);
+    std::fputs(fmt::format("{}: {}\n", program, one_line(named)).c_str(), stderr);
+    return exit_invalid_input;
+}
+
+/// Does what the command line asks for; the exit code.
+int run_command(const Program& program, int argument_count, const char* const* arguments) {
+    int code = 0;
+    try {
+        parse_command_line(program, argument_count, arguments)();
+    } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
+        return code; // which the signal replaces
+    }
+    for (const std::string& line : visuals::groundfile::tile_damage_messages()) {
+        std::fputs(fmt::format("{}: {}\n", program.name, line).c_str(), stderr);
+        code = exit_check_failed;
+    }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw Error(fmt::format("results cannot be written to standard output: {}", std::strerror(errno)));
+    }
+    return code;
+}
+
+} // namespace
+
+int run_program(const Program& program, int argument_count, const char* const* arguments) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
+    std::signal(SIGCHLD, SIG_DFL); // child programs are waited for
+    try {
+        const int code = run_command(program, argument_count, arguments);
+        report::remove_unpacked();
+        base::exit_by_received_signal();
+        return code;
+    } catch (const std::bad_alloc&) {
+        std::fputs(fmt::format("{}: expected enough memory for this input, got none\n", program.name).c_str(), stderr);
+        return exit_invalid_input;
+    } catch (const std::filesystem::filesystem_error& fault) {
+        return print_error(program.name, fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
+    } catch (const std::exception& fault) { return print_error(program.name, fault.what()); }
+}
+
+} // namespace octant::ui::command_line

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "ui/commands/command.h"
+#include "ui/command_line/command.h"
 
 #include <string>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 /// The program's manual as a page of section 1 in man's macros: every command with its options, their units and
 /// defaults, and its examples.
@@ -15,4 +15,7 @@ std::string man_page(const Program& program);
 std::string bash_completion(const Program& program);
 std::string zsh_completion(const Program& program);
 
-} // namespace octant::ui::commands
+/// The command "manual": prints these for the other commands of `program`.
+Command manual_command(const Program& program);
+
+} // namespace octant::ui::command_line

@@ -1,4 +1,4 @@
-#include "ui/commands/bench.h"
+#include "ui/studies/program/bench.h"
 
 #include <catch2/catch.hpp>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::studies::program {
 
 namespace {
 
@@ -89,4 +89,4 @@ TEST_CASE("growth is measured from 20,000 to 200,000 triangles of ground, all el
     }
 }
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::studies::program

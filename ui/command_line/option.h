@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace octant::ui::commands {
+namespace octant::ui::command_line {
 
 using Words = std::vector<std::string>;
 
@@ -75,4 +75,4 @@ Option list_option(std::string name, std::string form, std::string meaning, Arit
 Option choice_option(
     std::string name, std::string form, std::string meaning, std::vector<std::string_view> choices, std::string& value);
 
-} // namespace octant::ui::commands
+} // namespace octant::ui::command_line
