@@ -1,5 +1,5 @@
 #include "sim/base/utf8.h"
-#include "ui/base/path_alias.h"
+#include "ui/base/data_files.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
@@ -15,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 #include <new>
 #include <string>
 
@@ -29,15 +30,16 @@ int print_error(const std::string& line) {
     return exit_invalid_input;
 }
 
-/// Does what the command line asks for; the exit code.
+/// Parses the command line and runs the command that it names. Returns the exit code.
 int run(int argc, char** argv) {
     using namespace octant::ui;
     const commands::Program program = commands::octant_program({window::view_command(), window::listen_command()});
     int code = 0;
     try {
-        commands::parse_command_line(program, argc, argv)();
+        const std::function<void()> run_command = commands::parse_command_line(program, argc, argv);
+        run_command();
     } catch (const commands::CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
-        return code; // which the signal replaces
+        return code; // main() ends the program by the signal
     }
     for (const std::string& line : octant::visuals::groundfile::tile_damage_messages()) {
         std::fputs(fmt::format("octant: {}\n", line).c_str(), stderr);
@@ -51,10 +53,12 @@ int run(int argc, char** argv) {
 
 } // namespace
 
+// The state of the whole process is read and ended here alone: the signal that came, unpacked recordings, the names of
+// their folders, and what was wrong with the ground's tiles.
 int main(int argc, char** argv) {
-    octant::visuals::gl::tune_allocator();
-    std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
-    std::signal(SIGCHLD, SIG_DFL); // child programs are waited for
+    octant::visuals::gl::tune_allocator(); // before anything is allocated
+    std::signal(SIGXFSZ, SIG_IGN);         // a file that grows too large is a write error, told in one line
+    std::signal(SIGCHLD, SIG_DFL);         // child programs are waited for
     try {
         const int code = run(argc, argv);
         octant::ui::report::remove_unpacked();

@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "ui/commands/command_terrain.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/setting_option.h"

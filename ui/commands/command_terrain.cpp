@@ -11,7 +11,6 @@
 #include "sim/base/units.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/results_text.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/setting_option.h"

@@ -1,7 +1,7 @@
 #include "ui/flight/replay.h"
 
 #include "sim/base/error.h"
-#include "ui/base/path_alias.h"
+#include "ui/base/data_files.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
 

@@ -1,7 +1,7 @@
 #include "ui/flight/session.h"
 
 #include "sim/base/error.h"
-#include "ui/base/off_cpu_timer.h"
+#include "ui/base/stopwatch.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/settings_change.h"

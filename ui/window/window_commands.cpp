@@ -2,10 +2,10 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "ui/base/stop_signals.h"
 #include "ui/base/stopwatch.h"
-#include "ui/base/user_folders.h"
+#include "ui/base/data_files.h"
 #include "ui/commands/listen.h"
 #include "ui/commands/setting_option.h"
 #include "ui/report/statistics.h"
