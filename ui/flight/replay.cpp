@@ -47,7 +47,8 @@ Replay read_replay(const std::filesystem::path& folder) {
             throw_error_at(file, frame + 2,
                 fmt::format("expected a triangle_target from 1 to {}, got {}", max_triangles, row.triangle_target));
         }
-        replay.quality_targets.push_back({row.triangle_target, row.smooth_target});
+        replay.quality_targets.push_back(
+            {row.triangle_target, row.smooth_target < 0 ? std::nullopt : std::optional(row.smooth_target)});
     }
     return replay;
 }
