@@ -3,16 +3,20 @@
 #include "sim/base/error.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::base {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 bool holds_data(const fs::path& folder) {
     std::error_code ignored;
@@ -46,8 +50,7 @@ fs::path data_folder() {
         if (holds_data(place)) { return place; }
     }
     std::vector<std::string> names;
-    std::transform(
-        candidates.begin(), candidates.end(), std::back_inserter(names), [](const fs::path& p) { return p.string(); });
+    for (const fs::path& place : candidates) { names.push_back(place.string()); }
     throw Error(fmt::format("expected the program's models and paths in one of {}; set OCTANT_DATA to their folder",
         fmt::join(names, ", ")));
 }
@@ -77,6 +80,53 @@ fs::path path_file(const std::string& name_or_file, const std::string& aircraft)
     if (looks_like_file(name_or_file)) { return name_or_file; }
     throw Error(fmt::format("path: expected {}, a .toml, .csv, .igc, .gpx or .acmi file, got '{}'",
         fmt::join(built_in_paths, ", "), printable(name_or_file)));
+}
+
+namespace {
+
+/// Follows the XDG Base Directory Specification: a variable that is not an absolute path is ignored.
+fs::path user_folder(const char* variable, const char* below_home) {
+    const char* const own = std::getenv(variable);
+    if (own != nullptr && fs::path(own).is_absolute()) { return fs::path(own) / "octant"; }
+    const char* const home = std::getenv("HOME");
+    return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / below_home / "octant";
+}
+
+/// Folders and the names that messages show in their place.
+std::vector<std::pair<std::string, std::string>> path_aliases;
+
+} // namespace
+
+fs::path configuration_folder() { return user_folder("XDG_CONFIG_HOME", ".config"); }
+
+fs::path cache_folder() { return user_folder("XDG_CACHE_HOME", ".cache"); }
+
+TemporaryFolder::TemporaryFolder() {
+    std::error_code ignored;
+    const fs::path parent = fs::temp_directory_path(ignored);
+    std::string name = ((parent.empty() ? "/tmp" : parent) / "octant-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+        throw_error_in(name, fmt::format("expected a place for a folder, got: {}", std::strerror(errno)));
+    }
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+void set_path_alias(const fs::path& folder, const std::string& name) {
+    path_aliases.emplace_back(folder.string(), name);
+}
+
+std::string with_path_aliases(std::string text) {
+    for (const auto& [folder, name] : path_aliases) {
+        for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at + name.size())) {
+            text.replace(at, folder.size(), name);
+        }
+    }
+    return text;
 }
 
 } // namespace octant::ui::base

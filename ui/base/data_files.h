@@ -39,4 +39,36 @@ const sim::AircraftKind& aircraft_kind_of(const std::string& name_or_file);
 /// File of a path for an aircraft: a name of built_in_paths or a file. Throws Error as aircraft_file.
 std::filesystem::path path_file(const std::string& name_or_file, const std::string& aircraft);
 
+/// Where the program keeps what the user chose: $XDG_CONFIG_HOME/octant, else ~/.config/octant. Empty where the
+/// environment names no home.
+std::filesystem::path configuration_folder();
+
+/// Where the program keeps what it can compute anew: $XDG_CACHE_HOME/octant, else ~/.cache/octant. Empty where the
+/// environment names no home.
+std::filesystem::path cache_folder();
+
+/// A new empty folder below the system's folder for temporary files. It is removed with all that is in it.
+class TemporaryFolder {
+public:
+    /// Throws Error.
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    TemporaryFolder(TemporaryFolder&&) = delete;
+    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Sets the name that messages show in place of `folder` and of the paths below it. A packed recording is unpacked into
+/// a temporary folder; messages then name the packed file that the user gave.
+void set_path_alias(const std::filesystem::path& folder, const std::string& name);
+
+/// `text` with each aliased folder replaced by its name.
+std::string with_path_aliases(std::string text);
+
 } // namespace octant::ui::base

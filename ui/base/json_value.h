@@ -72,4 +72,23 @@ private:
     Value value_;
 };
 
+/// A figure as it stands in a line of text: numbers that are no whole ones with six digits.
+std::string text_of_value(const JsonValue& figure);
+
+/// One figure a line, names in a column; members of lists on lines of their own.
+std::string text_of_results(const JsonValue& results);
+
+/// As JSON with a line end; bytes of file names that are no UTF-8 are replaced.
+std::string json_of_results(const JsonValue& results);
+
+/// Writes the figures to standard output, as JSON or as text.
+void print_value(const JsonValue& results, bool as_json);
+
+/// Encodes a file name for JSON. A name that is not UTF-8, or that begins with "bytes:", becomes "bytes:" followed by
+/// the name with its other bytes as %E9. All other names are unchanged.
+std::string json_from_file_name(const std::string& name);
+
+/// Decodes json_from_file_name(): the original name, byte for byte.
+std::string file_name_from_json(const std::string& text);
+
 } // namespace octant::ui::base

@@ -1,7 +1,7 @@
 #include "ui/base/progress.h"
 
 #include "sim/base/utf8.h"
-#include "ui/base/path_alias.h"
+#include "ui/base/data_files.h"
 
 #include <cstdio>
 #include <fmt/format.h>

@@ -40,7 +40,7 @@ private:
     Clock::time_point last_shown_;
 };
 
-/// One line on stderr, unless quiet, with the names that set_path_alias() gave (other_names.h).
+/// One line on stderr, unless quiet, with the names of set_path_alias().
 void print_note(bool quiet, const std::string& line);
 
 } // namespace octant::ui::base

@@ -6,7 +6,7 @@
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/command_line.h"
 #include "ui/command_line/setting_option.h"

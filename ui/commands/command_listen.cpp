@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
-#include "ui/base/user_folders.h"
+#include "ui/base/data_files.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
@@ -110,34 +110,16 @@ Option from_option(flight::LiveInputOptions& input) {
 }
 
 Option channel_option(flight::ListenerOptions& listener) {
-    return {.name = "--channel",
-        .form = "CHANNEL",
-        .meaning = "left, front or right: one of three adjacent pictures of a panorama, rotated by the horizontal "
-                   "field of view; driven by a CIGI host only",
-        .read = [&listener](const Words& words) {
-            const auto channel = flight::live_channel_from(words.front());
-            if (!channel) {
-                throw Error(fmt::format(
-                    "--channel: expected {}, got '{}'", flight::live_channel_names, printable(words.front())));
-            }
-            listener.live.channel = *channel;
-            listener.input.is_channel = true;
-        }};
-}
-
-Option height_option(flight::LiveOptions& live) {
-    return {.name = "--height",
-        .form = "MODE",
-        .meaning = "how received heights are used: msl: above mean sea level; agl: the sender's height above ground, "
-                   "added to our ground; offset: as msl, shifted so that the first height above our ground equals the "
-                   "sender's [msl on a georeferenced map, else offset]",
-        .read = [&live](const Words& words) {
-            live.height = flight::live_height_mode_from(words.front());
-            if (!live.height) {
-                throw Error(fmt::format(
-                    "--height: expected {}, got '{}'", flight::live_height_mode_names, printable(words.front())));
-            }
-        }};
+    Option option = value_option({"channel", "CHANNEL",
+                                     "left, front or right: one of three adjacent pictures of a panorama, rotated by "
+                                     "the horizontal field of view; driven by a CIGI host only"},
+        listener.live.channel);
+    option.shown_default.clear();
+    option.read = [&listener, read = option.read](const Words& words) {
+        read(words);
+        listener.input.is_channel = true;
+    };
+    return option;
 }
 
 /// What is shown of what comes.
@@ -194,7 +176,13 @@ std::vector<Option> options_of(ListenOptions& options) {
         "with --headless: render one picture for each packet that moves something, without delay", listener.live.step));
     table.push_back(channel_option(listener));
     append(table, view_options(options));
-    table.push_back(height_option(listener.live));
+    table.push_back(
+        value_option({"height", "MODE",
+                         "how received heights are used: msl: above mean sea level; agl: the sender's height "
+                         "above ground, added to our ground; offset: as msl, shifted so that the first "
+                         "height above our ground equals the sender's [msl on a georeferenced map, else "
+                         "offset]"},
+            listener.live.height));
     append(table, {list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
                        "forward the aircraft of each picture to another program, as octant fly --send; repeatable",
                        Arity::Repeatable, options.send),

@@ -6,7 +6,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/progress.h"
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "ui/commands/commands.h"
 #include "ui/report/png_file.h"
 #include "ui/world/aircraft_loader.h"

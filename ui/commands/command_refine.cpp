@@ -4,7 +4,7 @@
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"

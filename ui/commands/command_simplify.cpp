@@ -3,8 +3,8 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
+#include "ui/base/json_value.h"
 #include "ui/base/memory.h"
-#include "ui/base/results_text.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/simplify_run.h"
@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <memory>
 #include <set>
 #include <string>
@@ -178,9 +179,19 @@ void check_simplify_options(SimplifyArguments& command) {
     if (command.shared_border) { check_folder_options(command); }
 }
 
+/// Gives freed memory back to the system at once, where main keeps it for the next picture
+/// (visuals/gl/platform_tuning.h): large arrays follow one another here. Does nothing on C libraries other than glibc.
+void release_free_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 20);
+    mallopt(M_TOP_PAD, 1 << 17);
+#endif
+}
+
 void run(SimplifyArguments command) {
     check_simplify_options(command);
-    base::release_free_memory();
+    release_free_memory();
     base::JsonValue results;
     if (!command.shared_border) { results["in"] = command.in; }
     if (!command.out.empty()) { results["out"] = command.out; }

@@ -1,6 +1,6 @@
 #include "ui/commands/flight_summary.h"
 
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "ui/report/statistics.h"
 
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "ui/base/json_file_name.h"
+#include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
 #include "ui/base/version.h"
 #include "ui/flight/track_files.h"

@@ -5,7 +5,7 @@
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/mavlink.h"
 #include "sim/links/xplane.h"
-#include "ui/flight/live_environment.h"
+#include "ui/flight/live_flight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,13 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/transverse_mercator.h"
+#include "sim/base/units.h"
 #include "sim/hidden_height.h"
 #include "sim/sun_position.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,24 +22,15 @@
 
 namespace octant::ui::flight {
 
+namespace links = sim::links;
+namespace scene = visuals::scene;
+
 namespace {
 
 constexpr double max_difference_m = 5.0;
 constexpr std::size_t max_offsets = 1024;
 
-constexpr std::array<std::pair<LiveHeightMode, std::string_view>, 3> names{
-    {{LiveHeightMode::Msl, "msl"}, {LiveHeightMode::Agl, "agl"}, {LiveHeightMode::Offset, "offset"}}};
-
 } // namespace
-
-std::optional<LiveHeightMode> live_height_mode_from(std::string_view name) {
-    for (const auto& [height, known] : names) {
-        if (known == name) { return height; }
-    }
-    return std::nullopt;
-}
-
-std::string_view name_of(LiveHeightMode height) { return names.at(static_cast<std::size_t>(height)).second; }
 
 LiveGeoreference::LiveGeoreference(const world::World& world, std::optional<LiveHeightMode> height)
     : world_(world), height_mode_is_given_(height.has_value()),
@@ -48,7 +41,7 @@ std::optional<double> LiveGeoreference::ground_m(const glm::dvec2& at_m) const {
 }
 
 /// A vehicle at the height of the place where it started most likely stands there.
-void LiveGeoreference::compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m) {
+void LiveGeoreference::compare_grounds(const links::Fix& fix, std::optional<double> ours_m) {
     constexpr double at_home_m = 1.0;
     const bool is_home = fix.above_home_m && std::abs(*fix.above_home_m) < at_home_m;
     const auto theirs_m = fix.above_ground_m ? fix.above_ground_m : is_home ? fix.above_home_m : std::nullopt;
@@ -63,7 +56,7 @@ void LiveGeoreference::compare_grounds(const sim::links::Fix& fix, std::optional
 /// FlightGear, while it loads, says that it stands on the ground where it will fly: until a vehicle has moved a little
 /// its newest fix counts. One that has jumped begins anew.
 double LiveGeoreference::offset_m(
-    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m, double ours_m) {
+    const links::VehicleKey& key, const links::Fix& fix, const glm::dvec2& at_m, double ours_m) {
     constexpr int settled = 3;
     constexpr double moved_m = 0.5;
     constexpr double jumped_m = 5000.0;
@@ -81,13 +74,12 @@ double LiveGeoreference::offset_m(
     return offset.added_m;
 }
 
-double LiveGeoreference::height_of(
-    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m) {
+double LiveGeoreference::height_of(const links::VehicleKey& key, const links::Fix& fix, const glm::dvec2& at_m) {
     const std::optional<double> ours_m = ground_m(at_m);
     off_the_map_ = !ours_m;
     compare_grounds(fix, ours_m);
     // A host of CIGI asks for the heights of our ground and means them.
-    const bool means_ours = key.protocol == sim::links::Protocol::Cigi && !height_mode_is_given_;
+    const bool means_ours = key.protocol == links::Protocol::Cigi && !height_mode_is_given_;
     switch (means_ours ? LiveHeightMode::Msl : height_) {
     case LiveHeightMode::Msl:
         break;
@@ -108,15 +100,13 @@ void LiveGeoreference::georeference_generated_ground(const GeoPosition& first) {
     }
 }
 
-glm::dvec3 LiveGeoreference::over_ground(
-    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m) {
+glm::dvec3 LiveGeoreference::over_ground(const links::VehicleKey& key, const links::Fix& fix, const glm::dvec2& at_m) {
     const double height_m = height_of(key, fix, at_m);
     under_ground_m_ = ground_m(at_m).value_or(height_m) - height_m;
     return {at_m, height_m};
 }
 
-sim::links::WorldPosition LiveGeoreference::world_position(
-    const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
+links::WorldPosition LiveGeoreference::world_position(const links::VehicleKey& key, const links::Fix& fix) {
     if (fix.local_m) { return {.at_m = over_ground(key, fix, world_.flight.place_m + *fix.local_m)}; }
     const GeoPosition place{fix.latitude_deg, fix.longitude_deg};
     if (frame() == nullptr) { georeference_generated_ground(place); }
@@ -149,88 +139,93 @@ std::vector<std::string> LiveGeoreference::lines() const {
 
 namespace {
 
-constexpr double step_m = 2.0;
-constexpr double max_steps = 10000.0;
-constexpr double found_m = 0.01;
-constexpr int max_split_depth = 64;
+/// What CIGI hosts ask of the ground of a run, by the place that it has on the earth. Until that is known nothing is
+/// inside the database. World and place must outlive this.
+class WorldCigiGround final : public links::CigiGround {
+public:
+    WorldCigiGround(const world::World& world, const LiveGeoreference& place) : world_(world), place_(place) {}
 
-} // namespace
-
-const EarthFrame& WorldCigiGround::frame() const { return frame_or_at_zero(place_.frame()); }
-
-glm::dvec3 WorldCigiGround::world_position(const glm::dvec3& place) const {
-    return {frame().local_from_geo({place.x, place.y}), place.z};
-}
-
-glm::dvec3 WorldCigiGround::geodetic_position(const glm::dvec3& at_m) const {
-    const GeoPosition geo = frame().geo_from_local(glm::dvec2(at_m.x, at_m.y));
-    return {geo.latitude_deg, geo.longitude_deg, at_m.z};
-}
-
-std::optional<double> WorldCigiGround::height_m(const glm::dvec3& at_m) const {
-    return place_.frame() != nullptr ? world_.scene.ground->height_at(at_m.x, at_m.y) : std::nullopt;
-}
-
-std::optional<sim::links::CigiSurfacePoint> WorldCigiGround::below(const glm::dvec3& place) const {
-    const FramePosition local = frame().place_of({place.x, place.y});
-    const glm::dvec3 at_m(local.east_north_m, place.z);
-    const auto ground_m = height_m(at_m);
-    if (!ground_m) { return std::nullopt; }
-    constexpr double aside_m = 0.5;
-    const auto slope = [&](const glm::dvec3& along) {
-        const double ahead_m = height_m(at_m + along).value_or(*ground_m);
-        const double behind_m = height_m(at_m - along).value_or(*ground_m);
-        return (ahead_m - behind_m) / (2.0 * aside_m);
-    };
-    const glm::dvec3 normal =
-        glm::normalize(glm::dvec3(-slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
-    return sim::links::CigiSurfacePoint{glm::dvec3(place.x, place.y, *ground_m),
-        wrapped_to_two_pi(std::atan2(normal.x, normal.y) - local.north_bearing_rad),
-        std::asin(std::clamp(normal.z, -1.0, 1.0))};
-}
-
-std::optional<sim::links::CigiGround::TerrainHit> WorldCigiGround::first_hit(
-    const glm::dvec3& from, const glm::dvec3& to) const {
-    const glm::dvec3 from_m = world_position(from);
-    const glm::dvec3 to_m = world_position(to);
-    const double length_m = glm::length(to_m - from_m);
-    const double steps = std::clamp(std::ceil(length_m / step_m), 1.0, max_steps);
-    const auto is_under = [&](double share) {
-        const glm::dvec3 at_m = glm::mix(from_m, to_m, share);
+    std::optional<links::CigiSurfacePoint> below(const glm::dvec3& place) const override {
+        const FramePosition local = frame().place_of({place.x, place.y});
+        const glm::dvec3 at_m(local.east_north_m, place.z);
         const auto ground_m = height_m(at_m);
-        return ground_m && at_m.z < *ground_m;
-    };
-    double open = 0.0;
-    for (double step = 1.0; step <= steps; step += 1.0) {
-        double met = step / steps;
-        if (!is_under(met)) {
-            open = met;
-            continue;
-        }
-        // Bounded: of points very far away no two may be found_m apart.
-        for (int i = 0; i < max_split_depth && (met - open) * length_m > found_m; ++i) {
-            const double middle = 0.5 * (open + met);
-            (is_under(middle) ? met : open) = middle;
-        }
-        const auto surface = below(geodetic_position(glm::mix(from_m, to_m, met)));
-        return surface ? std::optional(TerrainHit{met * length_m, *surface}) : std::nullopt;
+        if (!ground_m) { return std::nullopt; }
+        constexpr double aside_m = 0.5;
+        const auto slope = [&](const glm::dvec3& along) {
+            const double ahead_m = height_m(at_m + along).value_or(*ground_m);
+            const double behind_m = height_m(at_m - along).value_or(*ground_m);
+            return (ahead_m - behind_m) / (2.0 * aside_m);
+        };
+        const glm::dvec3 normal = glm::normalize(
+            glm::dvec3(-slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
+        return links::CigiSurfacePoint{glm::dvec3(place.x, place.y, *ground_m),
+            wrapped_to_two_pi(std::atan2(normal.x, normal.y) - local.north_bearing_rad),
+            std::asin(std::clamp(normal.z, -1.0, 1.0))};
     }
-    return std::nullopt;
-}
 
-double WorldCigiGround::distance_m(const glm::dvec3& from, const glm::dvec3& to) const {
-    return glm::length(world_position(to) - world_position(from));
-}
+    /// Looked for in steps of at most 2 m, or of a ten-thousandth of the line, then halved.
+    std::optional<links::CigiGround::TerrainHit> first_hit(
+        const glm::dvec3& from, const glm::dvec3& to) const override {
+        constexpr double step_m = 2.0;
+        constexpr double max_steps = 10000.0;
+        constexpr double found_m = 0.01;
+        constexpr int max_split_depth = 64;
+        const glm::dvec3 from_m = world_position(from);
+        const glm::dvec3 to_m = world_position(to);
+        const double length_m = glm::length(to_m - from_m);
+        const double steps = std::clamp(std::ceil(length_m / step_m), 1.0, max_steps);
+        const auto is_under = [&](double share) {
+            const glm::dvec3 at_m = glm::mix(from_m, to_m, share);
+            const auto ground_m = height_m(at_m);
+            return ground_m && at_m.z < *ground_m;
+        };
+        double open = 0.0;
+        for (double step = 1.0; step <= steps; step += 1.0) {
+            double met = step / steps;
+            if (!is_under(met)) {
+                open = met;
+                continue;
+            }
+            // Bounded: of points very far away no two may be found_m apart.
+            for (int i = 0; i < max_split_depth && (met - open) * length_m > found_m; ++i) {
+                const double middle = 0.5 * (open + met);
+                (is_under(middle) ? met : open) = middle;
+            }
+            const auto surface = below(geodetic_position(glm::mix(from_m, to_m, met)));
+            return surface ? std::optional(TerrainHit{met * length_m, *surface}) : std::nullopt;
+        }
+        return std::nullopt;
+    }
 
-glm::dvec3 WorldCigiGround::moved(const glm::dvec3& place, const glm::dvec3& ned_m) const {
-    const FramePosition local = frame().place_of({place.x, place.y});
-    const glm::dvec2 moved_m = rotated_clockwise({ned_m.y, ned_m.x}, local.north_bearing_rad);
-    return geodetic_position({local.east_north_m + moved_m, place.z - ned_m.z});
-}
+    double distance_m(const glm::dvec3& from, const glm::dvec3& to) const override {
+        return glm::length(world_position(to) - world_position(from));
+    }
 
-namespace links = sim::links;
+    glm::dvec3 moved(const glm::dvec3& place, const glm::dvec3& ned_m) const override {
+        const FramePosition local = frame().place_of({place.x, place.y});
+        const glm::dvec2 moved_m = rotated_clockwise({ned_m.y, ned_m.x}, local.north_bearing_rad);
+        return geodetic_position({local.east_north_m + moved_m, place.z - ned_m.z});
+    }
 
-namespace {
+private:
+    const EarthFrame& frame() const { return frame_or_at_zero(place_.frame()); }
+
+    glm::dvec3 world_position(const glm::dvec3& place) const {
+        return {frame().local_from_geo({place.x, place.y}), place.z};
+    }
+
+    glm::dvec3 geodetic_position(const glm::dvec3& at_m) const {
+        const GeoPosition geo = frame().geo_from_local(glm::dvec2(at_m.x, at_m.y));
+        return {geo.latitude_deg, geo.longitude_deg, at_m.z};
+    }
+
+    std::optional<double> height_m(const glm::dvec3& at_m) const {
+        return place_.frame() != nullptr ? world_.scene.ground->height_at(at_m.x, at_m.y) : std::nullopt;
+    }
+
+    const world::World& world_;
+    const LiveGeoreference& place_;
+};
 
 /// The sun's own time at a longitude; nothing where the date is none.
 std::optional<std::string> solar_time(const links::CigiCelestial& universal, double longitude_deg) {
@@ -253,9 +248,8 @@ std::optional<std::string> solar_time(const links::CigiCelestial& universal, dou
 
 } // namespace
 
-visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
-    const std::optional<links::CigiAtmosphere>& atmosphere, const std::optional<links::CigiCelestial>& celestial,
-    const std::optional<GeoPosition>& place) {
+scene::AirSettings air_from_cigi(scene::AirSettings defaults, const std::optional<links::CigiAtmosphere>& atmosphere,
+    const std::optional<links::CigiCelestial>& celestial, const std::optional<GeoPosition>& place) {
     if (atmosphere) {
         constexpr double min_m = 50.0;
         constexpr double max_m = 5e5;
@@ -268,29 +262,17 @@ visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
     return defaults;
 }
 
-namespace scene = visuals::scene;
-
 namespace {
 
 constexpr std::size_t no_aircraft = std::numeric_limits<std::size_t>::max();
 
-constexpr std::array<std::pair<LiveChannel, std::string_view>, 3> channels{
-    {{LiveChannel::Front, "front"}, {LiveChannel::Left, "left"}, {LiveChannel::Right, "right"}}};
-
 } // namespace
 
-std::optional<LiveChannel> live_channel_from(std::string_view name) {
-    const auto found = std::ranges::find(channels, name, [](const auto& each) { return each.second; });
-    return found == channels.end() ? std::nullopt : std::optional(found->first);
-}
-
-std::string_view name_of(LiveChannel channel) { return channels.at(static_cast<std::size_t>(channel)).second; }
-
 LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
-    : options_(options), world_(world), place_(world, options.height), cigi_ground_(world, place_),
-      traffic_([this](const sim::links::VehicleKey& key,
-                   const sim::links::Fix& fix) { return place_.world_position(key, fix); },
-          &cigi_ground_, ellipsoid_below(world.ground_place)) {}
+    : options_(options), world_(world), place_(world, options.height),
+      cigi_ground_(std::make_unique<WorldCigiGround>(world, place_)),
+      traffic_([this](const links::VehicleKey& key, const links::Fix& fix) { return place_.world_position(key, fix); },
+          cigi_ground_.get(), ellipsoid_below(world.ground_place)) {}
 
 void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) {
     vehicle_states_.resize(states.size());
@@ -311,9 +293,9 @@ bool LiveFlight::is_flown(std::size_t aircraft) const {
 
 /// The aircraft that shows what this vehicle is said to be: the free ones from its own number on, for entities of a
 /// type that has a shape those of that shape first.
-std::size_t LiveFlight::free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const {
+std::size_t LiveFlight::free_aircraft(const links::VehicleKey& key, std::optional<std::uint16_t> type) const {
     const std::vector<std::uint32_t>& models = world_.scene.aircraft;
-    const bool has_number = key.protocol == sim::links::Protocol::Cigi && key.vehicle < models.size();
+    const bool has_number = key.protocol == links::Protocol::Cigi && key.vehicle < models.size();
     const std::size_t first = has_number ? static_cast<std::size_t>(key.vehicle) : 0;
     std::optional<std::size_t> any;
     const auto shape = type ? options_.shapes.find(*type) : options_.shapes.end();
@@ -329,8 +311,8 @@ std::size_t LiveFlight::free_aircraft(const sim::links::VehicleKey& key, std::op
 /// Gives the first vehicles an aircraft each; those that have one keep it while they are of one type.
 void LiveFlight::assign_aircraft(std::size_t vehicles) {
     for (std::size_t i = 0; i < vehicles; ++i) {
-        const sim::links::VehicleKey& key = traffic_.vehicles()[i].key();
-        const bool is_entity = key.protocol == sim::links::Protocol::Cigi;
+        const links::VehicleKey& key = traffic_.vehicles()[i].key();
+        const bool is_entity = key.protocol == links::Protocol::Cigi;
         const auto type = is_entity ? traffic_.cigi().type_of(static_cast<std::uint16_t>(key.vehicle)) : std::nullopt;
         if (i == slots_.size()) {
             slots_.push_back({no_aircraft, type});
@@ -345,8 +327,8 @@ void LiveFlight::assign_aircraft(std::size_t vehicles) {
 /// The aircraft that shows an entity of a CIGI host.
 std::optional<std::size_t> LiveFlight::aircraft_of(std::uint16_t entity) const {
     const auto vehicles = traffic_.vehicles();
-    const auto found = std::ranges::find_if(vehicles, [entity](const sim::links::LiveVehicle& vehicle) {
-        return vehicle.key().protocol == sim::links::Protocol::Cigi && vehicle.key().vehicle == entity;
+    const auto found = std::ranges::find_if(vehicles, [entity](const links::LiveVehicle& vehicle) {
+        return vehicle.key().protocol == links::Protocol::Cigi && vehicle.key().vehicle == entity;
     });
     const auto number = static_cast<std::size_t>(found - vehicles.begin());
     return number < slots_.size() ? std::optional(slots_[number].aircraft) : std::nullopt;
@@ -356,15 +338,124 @@ std::optional<std::size_t> LiveFlight::aircraft_of(std::uint16_t entity) const {
 void LiveFlight::turn_parts(double time_s) {
     turned_.clear();
     const double times_s = options_.step ? 0.0 : time_s - options_.delay_s;
-    for (const sim::links::CigiPartPose& part : traffic_.cigi().parts().turned(times_s)) {
+    for (const links::CigiPartPose& part : traffic_.cigi().parts().turned(times_s)) {
         if (const auto aircraft = aircraft_of(part.entity)) {
             turned_.push_back({static_cast<std::uint32_t>(*aircraft), part.part, part.turn, part.offset_m});
         }
     }
 }
 
+// The cameras that a host of CIGI asks for: its views from its entities.
+
+namespace {
+
+/// Right and upper side of a usual picture's plane at distance 1.
+glm::dvec2 default_half_tangent(double aspect) {
+    const double high = std::tan(0.5 * scene::Camera().vertical_fov_rad);
+    return {high * aspect, high};
+}
+
+/// Gives a camera the frustum of a host's view; sides that the host has not told are the usual ones. Leaves it as it is
+/// where sides meet.
+void set_frustum(const links::CigiViewDefinition& definition, double aspect, scene::Camera& camera) {
+    const glm::dvec2 half = default_half_tangent(aspect);
+    const auto side = [](bool is_given, double angle_rad, double default_camera) {
+        return is_given ? std::tan(angle_rad) : default_camera;
+    };
+    const glm::dvec2 least(
+        side(definition.sets.x, definition.left_rad, -half.x), side(definition.sets.w, definition.bottom_rad, -half.y));
+    const glm::dvec2 most(
+        side(definition.sets.y, definition.right_rad, half.x), side(definition.sets.z, definition.top_rad, half.y));
+    const glm::dvec2 size = most - least;
+    constexpr double narrowest = 1e-3;
+    if (size.x < narrowest || size.y < narrowest) { return; }
+    camera.vertical_fov_rad = 2.0 * std::atan(0.5 * size.y);
+    camera.middle = 0.5 * (least + most);
+    camera.pixel_aspect = size.x / (size.y * aspect);
+}
+
+double width_rad(const scene::Camera& camera, double aspect) {
+    const double half = std::tan(0.5 * camera.vertical_fov_rad) * camera.pixel_aspect * aspect;
+    return 2.0 * std::atan(half);
+}
+
+} // namespace
+
+/// The host's camera or the usual one; that of the first view is turned to this channel's side.
+scene::Camera LiveFlight::camera(std::size_t view, std::span<const sim::AircraftState> states,
+    const scene::Camera& default_camera, double aspect) const {
+    const auto number = cigi_view(view);
+    scene::Camera camera = (number ? camera_of_view(*number, states, aspect) : std::nullopt).value_or(default_camera);
+    if (view == 0 && options_.channel != LiveChannel::Front) {
+        const double side = options_.channel == LiveChannel::Left ? 1.0 : -1.0;
+        camera.view_to_world =
+            camera.view_to_world * glm::angleAxis(side * width_rad(camera, aspect), glm::dvec3(0.0, 1.0, 0.0));
+    }
+    return camera;
+}
+
+/// The number of the host's view that a view shows: the first one that was asked for, or the lowest that the host has
+/// told, then those after it.
+std::optional<std::uint16_t> LiveFlight::cigi_view(std::size_t view) const {
+    const auto& views = traffic_.cigi().views();
+    std::optional<std::uint16_t> number;
+    if (options_.view) {
+        number = static_cast<std::uint16_t>(*options_.view);
+    } else if (!views.empty()) {
+        number = views.begin()->first;
+    }
+    for (; view > 0 && number; --view) {
+        const auto next = views.upper_bound(*number);
+        number = next == views.end() ? std::nullopt : std::optional(next->first);
+    }
+    return number;
+}
+
+/// A view from its entity, turned and moved, with its frustum.
+std::optional<scene::Camera> LiveFlight::camera_of_view(
+    std::uint16_t number, std::span<const sim::AircraftState> states, double aspect) const {
+    const auto& views = traffic_.cigi().views();
+    const auto& definitions = traffic_.cigi().definitions();
+    const auto definition = views.find(number);
+    const auto aircraft = definition == views.end() ? std::nullopt : aircraft_of(definition->second.entity);
+    if (!aircraft) { return std::nullopt; }
+    const links::CigiViewControl& view = definition->second;
+    const sim::AircraftState& state = states[*aircraft];
+    scene::Camera camera;
+    if (const auto defined = definitions.find(number); defined != definitions.end()) {
+        set_frustum(defined->second, aspect, camera);
+    }
+    // Body axes of the view (ahead, right, down) within those of the entity, then those of OpenGL.
+    const glm::dquat north_up = body_to_world_from_euler({});
+    const glm::dquat turned = glm::conjugate(north_up) * body_to_world_from_euler(view.angles);
+    const glm::dquat view_to_world = state.body_to_world * turned;
+    camera.view_to_world = glm::normalize(view_to_world * scene::body_from_view());
+    camera.eye_m = state.position_m + state.body_to_world * view.offset_m;
+    return camera;
+}
+
+/// Where the host wants a picture of another shape, or of another kind, than this is.
+std::optional<std::string> LiveFlight::frustum_line() const {
+    const auto number = cigi_view(0);
+    const auto& definitions = traffic_.cigi().definitions();
+    const auto defined = number ? definitions.find(*number) : definitions.end();
+    if (defined == definitions.end()) { return std::nullopt; }
+    if (defined->second.parallel) {
+        return fmt::format("CIGI: view {} is orthographic; it is shown in perspective", *number);
+    }
+    scene::Camera camera;
+    set_frustum(defined->second, aspect_, camera);
+    constexpr double same = 0.02;
+    if (std::abs(camera.pixel_aspect - 1.0) <= same) { return std::nullopt; }
+    return fmt::format("CIGI: view {} has the shape {:.2f}:1, this picture {:.2f}:1; pixels are {:.2f} times as "
+                       "wide as high",
+        *number, camera.pixel_aspect * aspect_, aspect_, camera.pixel_aspect);
+}
+
+// What is told, and the environment.
+
 scene::AirSettings LiveFlight::air_of(const scene::AirSettings& own) const {
-    const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
+    const links::CigiImageGenerator& cigi = traffic_.cigi();
     return air_from_cigi(own, cigi.atmosphere(), cigi.celestial(), place_.origin());
 }
 
@@ -384,14 +475,14 @@ std::vector<std::string> LiveFlight::lines() const {
 }
 
 void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
-    const sim::links::TrafficCounts& now = traffic_.counts();
-    const auto since = [&](long sim::links::TrafficCounts::*count) {
+    const links::TrafficCounts& now = traffic_.counts();
+    const auto since = [&](long links::TrafficCounts::*count) {
         return static_cast<int>(now.*count - reported_counts_.*count);
     };
-    record.packets = since(&sim::links::TrafficCounts::accepted);
+    record.packets = since(&links::TrafficCounts::accepted);
     if (now.lost) { record.packets_lost = static_cast<double>(*now.lost - reported_counts_.lost.value_or(0)); }
-    record.packets_late = since(&sim::links::TrafficCounts::late);
-    record.packets_wrong = since(&sim::links::TrafficCounts::wrong);
+    record.packets_late = since(&links::TrafficCounts::late);
+    record.packets_wrong = since(&links::TrafficCounts::wrong);
     reported_counts_ = now;
     if (traffic_.cigi().has_host()) {
         constexpr std::uint32_t positive = 0x7fffffff;
@@ -403,6 +494,32 @@ void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
         newest_s_ = traffic_.newest_s();
         record.latency_ms = 1000.0 * (finished_s - newest_s_);
     }
+}
+
+void apply_host_visibility(LiveFlight& live, Session& session) {
+    const glm::dvec2 size_px(session.settings().view.size_px);
+    live.set_aspect(size_px.x / size_px.y);
+    if (!live.traffic().cigi().atmosphere()) { return; }
+    const double visibility_m = live.air_of(session.settings().air).visibility_m;
+    if (visibility_m != session.settings().air.visibility_m) {
+        settings::RunSettings settings = session.settings();
+        settings.air.visibility_m = visibility_m;
+        session.apply(settings);
+    }
+}
+
+std::optional<std::string> apply_host_time_of_day(const LiveFlight& live, Session& session) {
+    const std::optional<std::string> told = live.air_of(session.settings().air).time;
+    if (!live.is_stepped()) { return session.follow_time_of_day(told) ? session.settings().air.time : std::nullopt; }
+    if (told == session.settings().air.time) { return std::nullopt; }
+    set_time_of_day(*told, session);
+    return told;
+}
+
+void set_time_of_day(const std::string& time_of_day, Session& session) {
+    settings::RunSettings settings = session.settings();
+    settings.air.time = time_of_day;
+    session.apply(settings);
 }
 
 } // namespace octant::ui::flight

@@ -7,16 +7,20 @@
 #include "sim/links/cigi_packets.h"
 #include "sim/links/fix.h"
 #include "sim/links/live_traffic.h"
+#include "ui/flight/session.h"
 #include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
+#include "ui/settings/enum_names.h"
 #include "ui/world/world.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,12 +38,6 @@ enum class LiveHeightMode {
     /// Theirs above the sea, moved so that it begins as high above our ground.
     Offset
 };
-
-inline constexpr std::string_view live_height_mode_names = "msl, agl or offset";
-
-/// The mode of a name, nothing for another one; and back.
-std::optional<LiveHeightMode> live_height_mode_from(std::string_view name);
-std::string_view name_of(LiveHeightMode height);
 
 /// Where fixes lie over the ground of a run. On ground with a place of its own they lie there; else the first fix is
 /// laid over the flight's place and the others around it; but fixes that would lie on the map if its middle were 0 N, 0
@@ -99,31 +97,6 @@ private:
     bool agl_unknown_ = false;
 };
 
-/// What CIGI hosts ask of the ground of a run, by the place that it has on the earth. Until that is known nothing is
-/// inside the database. World and place must outlive this.
-class WorldCigiGround final : public sim::links::CigiGround {
-public:
-    WorldCigiGround(const world::World& world, const LiveGeoreference& place) : world_(world), place_(place) {}
-
-    std::optional<sim::links::CigiSurfacePoint> below(const glm::dvec3& place) const override;
-
-    /// Looked for in steps of at most 2 m, or of a ten-thousandth of the line, then halved.
-    std::optional<TerrainHit> first_hit(const glm::dvec3& from, const glm::dvec3& to) const override;
-
-    double distance_m(const glm::dvec3& from, const glm::dvec3& to) const override;
-
-    glm::dvec3 moved(const glm::dvec3& place, const glm::dvec3& ned_m) const override;
-
-private:
-    const EarthFrame& frame() const;
-    glm::dvec3 world_position(const glm::dvec3& place) const;
-    glm::dvec3 geodetic_position(const glm::dvec3& at_m) const;
-    std::optional<double> height_m(const glm::dvec3& at_m) const;
-
-    const world::World& world_;
-    const LiveGeoreference& place_;
-};
-
 /// Air as a host of CIGI has it: its visibility, from 50 m to 500 km, and the time of day at that longitude by its
 /// universal time; what it has not told as in `defaults`. Without a place its time is taken as the sun's own.
 visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
@@ -131,13 +104,7 @@ visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
     const std::optional<sim::links::CigiCelestial>& celestial, const std::optional<GeoPosition>& place);
 
 /// Which of several pictures side by side this one is: left and right are turned by its own width.
-enum class LiveChannel { Front, Left, Right };
-
-inline constexpr std::string_view live_channel_names = "left, front or right";
-
-/// The channel of a name, nothing for another one; and back.
-std::optional<LiveChannel> live_channel_from(std::string_view name);
-std::string_view name_of(LiveChannel channel);
+enum class LiveChannel { Left, Front, Right };
 
 /// How motion from outside is shown.
 struct LiveOptions {
@@ -185,10 +152,7 @@ public:
         return traffic_.cigi().message_for(picture, time_s);
     }
 
-    visuals::scene::Camera camera(std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& default_camera, double aspect) const override;
-
-    visuals::scene::Camera inset_camera(std::span<const sim::AircraftState> states,
+    visuals::scene::Camera camera(std::size_t view, std::span<const sim::AircraftState> states,
         const visuals::scene::Camera& default_camera, double aspect) const override;
 
     std::span<const visuals::planning::ArticulatedPart> turned_parts() const override { return turned_; }
@@ -214,7 +178,7 @@ private:
         std::optional<std::uint16_t> type;
     };
 
-    std::optional<std::uint16_t> shown_view() const;
+    std::optional<std::uint16_t> cigi_view(std::size_t view) const;
     std::optional<visuals::scene::Camera> camera_of_view(
         std::uint16_t number, std::span<const sim::AircraftState> states, double aspect) const;
     std::optional<std::string> frustum_line() const;
@@ -226,7 +190,7 @@ private:
     LiveOptions options_;
     const world::World& world_;
     LiveGeoreference place_;
-    WorldCigiGround cigi_ground_;
+    std::unique_ptr<const sim::links::CigiGround> cigi_ground_;
     sim::links::LiveTraffic traffic_;
     sim::links::TrafficCounts reported_counts_;
     /// The time of the newest packet in the last frame.
@@ -239,4 +203,30 @@ private:
     std::vector<sim::AircraftState> vehicle_states_;
 };
 
+// What a live flight changes in the session that it flies beside the aircraft: only this knows both.
+
+/// To be called before each picture: tells the flight what shape the session's pictures have, and gives the session the
+/// visibility that a CIGI host has told.
+void apply_host_visibility(LiveFlight& live, Session& session);
+
+/// After apply_host_visibility(): brings the sun to the time of day that a CIGI host has told; in steps at once, else
+/// as soon as the ground's colours are made, beside other pictures. Returns the time that pictures show from this one
+/// on, where it is another one.
+std::optional<std::string> apply_host_time_of_day(const LiveFlight& live, Session& session);
+
+/// For a flight that is repeated: brings the sun to the time of day that apply_host_time_of_day() gave then.
+void set_time_of_day(const std::string& time_of_day, Session& session);
+
 } // namespace octant::ui::flight
+
+namespace octant::ui::settings {
+
+template <>
+inline constexpr std::array enum_names<flight::LiveHeightMode>{EnumName{flight::LiveHeightMode::Msl, "msl"},
+    EnumName{flight::LiveHeightMode::Agl, "agl"}, EnumName{flight::LiveHeightMode::Offset, "offset"}};
+
+template <>
+inline constexpr std::array enum_names<flight::LiveChannel>{EnumName{flight::LiveChannel::Left, "left"},
+    EnumName{flight::LiveChannel::Front, "front"}, EnumName{flight::LiveChannel::Right, "right"}};
+
+} // namespace octant::ui::settings

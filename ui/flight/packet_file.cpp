@@ -5,6 +5,7 @@
 #include "sim/links/wire_bytes.h"
 #include "sim/sun_position.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -167,12 +168,20 @@ std::optional<std::map<std::uint16_t, std::size_t>> shapes_from(std::string_view
     return shapes;
 }
 
+/// Nothing where no value has that name.
+template <class Enum>
+std::optional<Enum> value_of(std::string_view name) {
+    const auto names = settings::names_of<Enum>();
+    const auto found = std::ranges::find(names, name);
+    return found == names.end() ? std::nullopt : std::optional(static_cast<Enum>(found - names.begin()));
+}
+
 std::string text_of(const LiveOptions& options) {
     std::vector<std::string> shapes;
     for (const auto& [type, aircraft] : options.shapes) { shapes.push_back(fmt::format("{}={}", type, aircraft)); }
-    return fmt::format("{} {} {} {} {} {}", options.delay_s, options.height ? name_of(*options.height) : "usual",
-        options.step ? "step" : "clock", name_of(options.channel),
-        options.view ? fmt::format("{}", *options.view) : std::string(none),
+    return fmt::format("{} {} {} {} {} {}", options.delay_s,
+        options.height ? settings::name_of(*options.height) : "usual", options.step ? "step" : "clock",
+        settings::name_of(options.channel), options.view ? fmt::format("{}", *options.view) : std::string(none),
         shapes.empty() ? std::string(none) : fmt::format("{}", fmt::join(shapes, ",")));
 }
 
@@ -182,7 +191,7 @@ LiveOptions options_of(const std::filesystem::path& file, std::string_view line)
     const bool has_channel = overlay_lines.size() > 3;
     const auto delay_s =
         overlay_lines.size() >= 3 && overlay_lines.size() <= most ? finite_number(overlay_lines[0]) : std::nullopt;
-    const auto channel = live_channel_from(has_channel ? overlay_lines[3] : name_of(LiveChannel::Front));
+    const auto channel = has_channel ? value_of<LiveChannel>(overlay_lines[3]) : LiveChannel::Front;
     const std::string_view view = overlay_lines.size() > 4 ? overlay_lines[4] : none;
     const auto number = number_up_to(view, std::numeric_limits<std::uint16_t>::max());
     const auto shapes = shapes_from(overlay_lines.size() == most ? overlay_lines[most - 1] : none);
@@ -191,7 +200,7 @@ LiveOptions options_of(const std::filesystem::path& file, std::string_view line)
             fmt::format("expected a delay, a height, a step, a channel, a view and shapes, got '{}'",
                 printable(std::string(line))));
     }
-    return {*delay_s, live_height_mode_from(overlay_lines[1]), overlay_lines[2] == "step", *channel,
+    return {*delay_s, value_of<LiveHeightMode>(overlay_lines[1]), overlay_lines[2] == "step", *channel,
         number ? std::optional(static_cast<int>(*number)) : std::nullopt, *shapes};
 }
 

@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
-#include "ui/flight/live_environment.h"
+#include "ui/flight/live_flight.h"
 #include "ui/flight/packet_file.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "ui/flight/replay.h"
 
 #include "sim/base/error.h"
-#include "ui/base/path_alias.h"
+#include "ui/base/data_files.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
 
@@ -47,7 +47,8 @@ Replay read_replay(const std::filesystem::path& folder) {
             throw_error_at(file, frame + 2,
                 fmt::format("expected a triangle_target from 1 to {}, got {}", max_triangles, row.triangle_target));
         }
-        replay.quality_targets.push_back({row.triangle_target, row.smooth_target});
+        replay.quality_targets.push_back(
+            {row.triangle_target, row.smooth_target < 0 ? std::nullopt : std::optional(row.smooth_target)});
     }
     return replay;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/flight/quality_targets.h"
+#include "ui/flight/quality_controller.h"
 
 #include <cstdint>
 #include <filesystem>

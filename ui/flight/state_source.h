@@ -29,13 +29,9 @@ public:
     /// does.
     virtual bool is_flown(std::size_t aircraft) const = 0;
 
-    /// Where the next picture of this width over height is to be taken from, for aircraft in these states;
-    /// `default_camera` is what the settings say.
-    virtual visuals::scene::Camera camera(std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& default_camera, double aspect) const = 0;
-
-    /// The same for the second view, where there is one.
-    virtual visuals::scene::Camera inset_camera(std::span<const sim::AircraftState> states,
+    /// The camera of a view, whose pictures have this width over height, for aircraft in these states;
+    /// `default_camera` is what the settings say. View 0 fills the picture, view 1 is the inset.
+    virtual visuals::scene::Camera camera(std::size_t view, std::span<const sim::AircraftState> states,
         const visuals::scene::Camera& default_camera, double aspect) const = 0;
 
     /// Parts that the source turns, as of the last states_at().

@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/path_alias.h"
+#include "ui/base/data_files.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/kernel_counters.h"
 

@@ -3,8 +3,8 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "ui/base/json_file_name.h"
-#include "ui/base/path_alias.h"
+#include "ui/base/data_files.h"
+#include "ui/base/json_value.h"
 #include "ui/report/folder_lock.h"
 #include "ui/report/run_file.h"
 #include "ui/report/zip_file.h"
@@ -88,35 +88,6 @@ private:
     bool with_terrain_;
 };
 
-/// A folder that is removed when the program ends.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::error_code ignored;
-        const fs::path place = fs::temp_directory_path(ignored);
-        std::string name = ((place.empty() ? "/tmp" : place) / "octant-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            throw_error_in(name, fmt::format("expected a place for a folder, got: {}", std::strerror(errno)));
-        }
-        path_ = name;
-    }
-
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    TemporaryFolder(TemporaryFolder&&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
-
 /// Throws Error unless these can be the files of one recording.
 void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
     constexpr std::uint64_t max_bytes = std::uint64_t{64} << 30;
@@ -142,7 +113,7 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
 
 /// A packed file by its name and time of writing.
 using Known = std::pair<fs::path, fs::file_time_type>;
-using Unpacked = std::map<Known, std::pair<std::unique_ptr<TemporaryFolder>, fs::path>>;
+using Unpacked = std::map<Known, std::pair<std::unique_ptr<base::TemporaryFolder>, fs::path>>;
 
 Unpacked& unpacked_ones() {
     static Unpacked all;
@@ -194,7 +165,7 @@ fs::path recording_folder(const fs::path& folder_or_zip) {
     if (!fs::is_regular_file(folder_or_zip, ignored)) { return folder_or_zip; }
     const Known zip(fs::absolute(folder_or_zip).lexically_normal(), fs::last_write_time(folder_or_zip, ignored));
     if (const auto known = opened.find(zip); known != opened.end()) { return known->second.second; }
-    auto place = std::make_unique<TemporaryFolder>();
+    auto place = std::make_unique<base::TemporaryFolder>();
     const fs::path folder = unpacked(folder_or_zip, place->path());
     opened.emplace(zip, std::pair(std::move(place), folder));
     return folder;

@@ -18,7 +18,7 @@ struct PackResult {
 PackResult pack_recording(const std::filesystem::path& folder, const std::filesystem::path& zip, bool with_terrain);
 
 /// The folder of a recording that is a folder or was packed. A packed one is unpacked into a folder of its own, which
-/// lives until the program ends; messages call that by the packed file's name (ui/base/path_alias.h). Throws Error for
+/// lives until the program ends; messages call that by the packed file's name (base::set_path_alias). Throws Error for
 /// a file that is no packed recording or has anything else in it.
 std::filesystem::path recording_folder(const std::filesystem::path& folder_or_zip);
 

@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/json_file_name.h"
+#include "ui/base/json_value.h"
 
 #include <algorithm>
 #include <cassert>

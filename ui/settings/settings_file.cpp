@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/json_file_name.h"
+#include "ui/base/json_value.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/run_file.h"
 #include "ui/settings/settings_by_name.h"

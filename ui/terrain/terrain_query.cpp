@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/results_text.h"
+#include "ui/base/json_value.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <cmath>

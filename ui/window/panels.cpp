@@ -5,7 +5,7 @@
 #include "sim/fixed_step.h"
 #include "sim/sun_position.h"
 #include "ui/base/data_files.h"
-#include "ui/flight/inset_view.h"
+#include "ui/flight/frame_renderer.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/path_fields.h"

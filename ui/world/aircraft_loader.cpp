@@ -14,7 +14,6 @@
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/stopwatch.h"
-#include "ui/base/user_folders.h"
 #include "ui/settings/order_cache_name.h"
 #include "ui/world/input_files.h"
 #include "ui/world/mesh_loader.h"

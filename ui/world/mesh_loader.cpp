@@ -1,4 +1,5 @@
 #include "ui/world/mesh_loader.h"
+
 #include "models/meshfile/mesh_file.h"
 #include "models/polygons/polygon_model.h"
 #include "models/procedural/procedural_models.h"
@@ -11,14 +12,13 @@
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/report/child_program.h"
-#include "visuals/refine/progressive_mesh.h"
 #include "visuals/refine/progressive_file.h"
+#include "visuals/refine/progressive_mesh.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
@@ -163,33 +163,6 @@ fs::path reader_program() {
     return fs::is_regular_file(reader, ignored) ? reader : fs::path();
 }
 
-/// A folder that goes with what lies in it.
-class ShortFolder {
-public:
-    ShortFolder() {
-        std::string name = (fs::temp_directory_path() / "octant-mesh-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) {
-            throw Error(fmt::format("{}: expected a folder that can be made, got none", name));
-        }
-        path_ = name;
-    }
-
-    ~ShortFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-
-    ShortFolder(const ShortFolder&) = delete;
-    ShortFolder& operator=(const ShortFolder&) = delete;
-    ShortFolder(ShortFolder&&) = delete;
-    ShortFolder& operator=(ShortFolder&&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
-
 } // namespace
 
 bool is_library_file(const fs::path& file) { return library_of(file) != nullptr; }
@@ -206,7 +179,7 @@ models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshf
         throw_error_in(file,
             fmt::format("expected a build with {} for {} files, got one without", library.name, extension_of(file)));
     }
-    const ShortFolder folder;
+    const base::TemporaryFolder folder;
     const fs::path out = folder.path() / "mesh.obj";
     auto child = report::ChildProgram::start({program.string(), std::string(library.word),
         options.pictures ? "pictures" : "-", options.backs ? "backs" : "-", file.string(), out.string()});

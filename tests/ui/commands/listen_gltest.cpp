@@ -277,9 +277,9 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
 
     const std::vector<Case> cases{{{"--bind", "nowhere"}, "expected an IPv4 address"},
         {{"--bind", "192.0.2.1"}, "192.0.2.1:"},
-        {{"--height", "low"}, "--height: expected msl, agl or offset, got 'low'"},
+        {{"--height", "low"}, "--height: expected one of msl, agl, offset, got 'low'"},
         {{"--from", "here"}, "expected an IPv4 address"},
-        {{"--channel", "up"}, "--channel: expected left, front or right, got 'up'"},
+        {{"--channel", "up"}, "--channel: expected one of left, front, right, got 'up'"},
         {{"--cigi-host", "there"}, "--cigi-host: expected HOST:PORT, got 'there'"},
         {{"--send", "fdm:there"}, "--send: expected HOST:PORT, got 'there'"},
         {{"--xplane", "127.0.0.1:x"}, "--xplane: expected HOST:PORT, got '127.0.0.1:x'"},

@@ -51,6 +51,7 @@ void FakeRenderer::add_ground(const scene::FramePlan& plan) {
     }
     log_->grounds.push_back(hash.value());
     log_->visibilities_m.push_back(plan.haze.visibility_m);
+    log_->triangles.push_back(plan.ground.indices.size() / 3);
 }
 
 } // namespace octant::tests

@@ -2,6 +2,7 @@
 
 #include "visuals/scene/renderer.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,7 +21,8 @@ struct RendererLog {
     std::uint64_t texture = 0; ///< a hash of the last texture's texels
     /// A hash of the ground's corners, colours and triangles in each plan, in the order drawn.
     std::vector<std::uint64_t> grounds;
-    std::vector<float> visibilities_m; ///< of those plans
+    std::vector<float> visibilities_m;  ///< of those plans
+    std::vector<std::size_t> triangles; ///< of ground in those plans
 };
 
 /// A renderer that draws nothing and says what it was asked for.

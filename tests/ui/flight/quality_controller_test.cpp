@@ -1,4 +1,4 @@
-#include "ui/flight/session.h"
+#include "ui/flight/quality_controller.h"
 
 #include <catch2/catch.hpp>
 
@@ -114,7 +114,7 @@ TEST_CASE("a replay decides as it was recorded, whatever frames take, and throug
     settings.adapt.shading = true;
     QualityController quality_controller;
     quality_controller.begin(settings, rate_hz);
-    quality_controller.replay({{1000, -1}, {2000, 7}, {1500, 0}});
+    quality_controller.replay({{1000, std::nullopt}, {2000, 7}, {1500, 0}});
     const auto check = [&] {
         CHECK(quality_controller.triangle_target(0) == 1000);
         CHECK_FALSE(quality_controller.smooth_target(0));
@@ -138,7 +138,7 @@ TEST_CASE("decisions that followed the clock are the same when they are replayed
     live.begin(settings, rate_hz);
     std::vector<QualityTargets> quality_targets;
     for (int frame = 0; frame < 100; ++frame) {
-        quality_targets.push_back({live.triangle_target(frame), -1});
+        quality_targets.push_back({live.triangle_target(frame), std::nullopt});
         live.add_frame(frame_of(quality_targets.back().triangle_target, 0, 0));
     }
     QualityController repeat_option;

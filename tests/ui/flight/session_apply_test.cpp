@@ -236,24 +236,23 @@ TEST_CASE("light that is made beside the pictures is that of a change in between
     beside.picture();
     at_once.picture();
     settings.air.time = "2026-06-21T08:30";
-    CHECK_FALSE(beside.session().poll_set_sun());
-    beside.session().begin_set_sun(settings);
-    CHECK(beside.session().is_setting_sun());
     const std::uint64_t before = beside.last_ground();
-    while (!beside.session().poll_set_sun()) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
-    CHECK_FALSE(beside.session().is_setting_sun());
+    CHECK_FALSE(beside.session().follow_time_of_day(std::nullopt));
+    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time)); // begins
+    while (!beside.session().follow_time_of_day(settings.air.time)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time));
     at_once.apply(settings);
-    beside.log().calls.clear();
-    at_once.log().calls.clear();
     check_same_pictures(beside, at_once);
     CHECK(beside.last_ground() != before);
 
     settings.air.time = "2026-06-21T18:30";
-    beside.session().begin_set_sun(settings);
+    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time));
     settings.air.palette = scene::Palette::Arid; // loads its own light
     beside.apply(settings);
     at_once.apply(settings);
-    CHECK_FALSE(beside.session().is_setting_sun());
+    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time));
     check_same_pictures(beside, at_once);
 }
 

@@ -1,5 +1,5 @@
 #include "sim/base/random_generator.h"
-#include "ui/flight/session.h"
+#include "ui/flight/quality_controller.h"
 
 #include <catch2/catch.hpp>
 

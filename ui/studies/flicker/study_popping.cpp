@@ -4,7 +4,7 @@
 #include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/flight/flight_cameras.h"
+#include "ui/flight/session.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/statistics.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/base/study_output.h"
-#include "ui/flight/flight_cameras.h"
+#include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/settings/settings.h"
 #include "visuals/scene/picture.h"
