@@ -1,9 +1,9 @@
 #include "models/material.h"
-#include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/meshfile/word_scanner.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -116,18 +116,6 @@ constexpr std::uint32_t binary_chunk = 0x004e4942;
 
 std::size_t bytes_of(int component) { return component <= 5121 ? 1 : (component <= 5123 ? 2 : 4); }
 
-template <typename T>
-T little_endian(std::string_view bytes, std::size_t at) {
-    char own[sizeof(T)];
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-        const std::size_t from = std::endian::native == std::endian::little ? i : sizeof(T) - 1 - i;
-        own[i] = bytes[at + from];
-    }
-    T value;
-    std::memcpy(&value, own, sizeof(T));
-    return value;
-}
-
 std::string shown(const Json& value) { return in_quotes(value.dump(-1, ' ', true, Json::error_handler_t::replace)); }
 
 /// %20 and the like as the bytes they stand for; nothing when there is no such byte.
@@ -157,21 +145,20 @@ bool stays_inside(const std::filesystem::path& path) {
 
 double GltfAccessor::at(std::size_t entry, int part) const {
     const std::size_t byte = entry * stride_ + static_cast<std::size_t>(part) * bytes_of(component_);
+    const char* const from = bytes_.data() + byte;
     switch (component_) {
     case 5120:
-        return is_normalized_ ? std::max(little_endian<std::int8_t>(bytes_, byte) / 127.0, -1.0)
-                              : little_endian<std::int8_t>(bytes_, byte);
+        return is_normalized_ ? std::max(value_at<std::int8_t>(from) / 127.0, -1.0) : value_at<std::int8_t>(from);
     case 5121:
-        return little_endian<std::uint8_t>(bytes_, byte) / (is_normalized_ ? 255.0 : 1.0);
+        return value_at<std::uint8_t>(from) / (is_normalized_ ? 255.0 : 1.0);
     case 5122:
-        return is_normalized_ ? std::max(little_endian<std::int16_t>(bytes_, byte) / 32767.0, -1.0)
-                              : little_endian<std::int16_t>(bytes_, byte);
+        return is_normalized_ ? std::max(value_at<std::int16_t>(from) / 32767.0, -1.0) : value_at<std::int16_t>(from);
     case 5123:
-        return little_endian<std::uint16_t>(bytes_, byte) / (is_normalized_ ? 65535.0 : 1.0);
+        return value_at<std::uint16_t>(from) / (is_normalized_ ? 65535.0 : 1.0);
     case 5125:
-        return little_endian<std::uint32_t>(bytes_, byte);
+        return value_at<std::uint32_t>(from);
     default:
-        return static_cast<double>(little_endian<float>(bytes_, byte));
+        return static_cast<double>(value_at<float>(from));
     }
 }
 
@@ -194,20 +181,20 @@ GltfData::GltfData(const std::filesystem::path& path) : path_(path), file_(read_
 
 /// Header, a JSON chunk and perhaps a binary one; further chunks say nothing about meshes.
 void GltfData::read_binary(std::string_view bytes) {
-    ByteReader reader(path_, bytes);
+    BinaryReader reader(bytes, path_);
     static_assert(glb_magic != json_chunk);
-    reader.take(4, "a magic number");
-    const auto version = reader.number<std::uint32_t>("a version");
+    reader.take_bytes(4, "a magic number");
+    const auto version = reader.take<std::uint32_t>("a version");
     if (version != 2) { reader.refuse_at(4, "version 2", std::to_string(version)); }
-    const auto length = reader.number<std::uint32_t>("a length");
+    const auto length = reader.take<std::uint32_t>("a length");
     if (length != bytes.size()) {
         reader.refuse_at(8, fmt::format("a length of {}", bytes.size()), std::to_string(length));
     }
     for (int chunk = 0; chunk == 0 || reader.bytes_left() > 0; ++chunk) {
-        const auto chunk_bytes = reader.number<std::uint32_t>("a chunk's length");
-        const auto kind = reader.number<std::uint32_t>("a chunk's kind");
+        const auto chunk_bytes = reader.take<std::uint32_t>("a chunk's length");
+        const auto kind = reader.take<std::uint32_t>("a chunk's kind");
         const std::size_t at = reader.at();
-        const std::string_view content = reader.take(chunk_bytes, "a chunk");
+        const std::string_view content = reader.take_bytes(chunk_bytes, "a chunk");
         if (chunk == 0 && kind != json_chunk) {
             reader.refuse_at(at - 4, "a JSON chunk first", fmt::format("kind {:#x}", kind));
         }
@@ -358,7 +345,7 @@ std::string GltfData::buffer_bytes(const Json& buffer, const std::string& where)
     const std::string_view text = uri->get_ref<const std::string&>();
     if (text.starts_with("data:")) {
         const std::size_t comma = text.find(";base64,");
-        const auto bytes = comma == text.npos ? std::nullopt : base64_bytes(text.substr(comma + 8));
+        const auto bytes = comma == text.npos ? std::nullopt : from_base64(text.substr(comma + 8));
         if (!bytes) { refuse(where + ".uri", "base64 data", in_quotes(text)); }
         return *bytes;
     }

@@ -1,7 +1,7 @@
-#include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/word_scanner.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -270,7 +270,7 @@ private:
 class ByteSource {
 public:
     ByteSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-        : bytes_(path, bytes, header.body_at,
+        : bytes_(bytes, path, header.body_at,
               header.form == PlyEncoding::big_endian ? std::endian::big : std::endian::little) {}
 
     double number(PlyType type, const char* what) {
@@ -283,9 +283,9 @@ public:
 
     double count(PlyType type, const char* what) { return number(type, what); }
 
-    void skip(PlyType type) { bytes_.take(bytes_of(type), "a value of a property"); }
+    void skip(PlyType type) { bytes_.take_bytes(bytes_of(type), "a value of a property"); }
 
-    void skip(PlyType type, std::size_t count) { bytes_.take(count * bytes_of(type), "a list of a property"); }
+    void skip(PlyType type, std::size_t count) { bytes_.take_bytes(count * bytes_of(type), "a list of a property"); }
 
     [[noreturn]] void refuse(const std::string& expected, const std::string& got) const {
         bytes_.refuse(expected, got);
@@ -295,26 +295,26 @@ private:
     double raw(PlyType type, const char* what) {
         switch (type) {
         case PlyType::i8:
-            return bytes_.number<std::int8_t>(what);
+            return bytes_.take<std::int8_t>(what);
         case PlyType::u8:
-            return bytes_.number<std::uint8_t>(what);
+            return bytes_.take<std::uint8_t>(what);
         case PlyType::i16:
-            return bytes_.number<std::int16_t>(what);
+            return bytes_.take<std::int16_t>(what);
         case PlyType::u16:
-            return bytes_.number<std::uint16_t>(what);
+            return bytes_.take<std::uint16_t>(what);
         case PlyType::i32:
-            return bytes_.number<std::int32_t>(what);
+            return bytes_.take<std::int32_t>(what);
         case PlyType::u32:
-            return bytes_.number<std::uint32_t>(what);
+            return bytes_.take<std::uint32_t>(what);
         case PlyType::f32:
-            return static_cast<double>(bytes_.number<float>(what));
+            return static_cast<double>(bytes_.take<float>(what));
         case PlyType::f64:
             break;
         }
-        return bytes_.number<double>(what);
+        return bytes_.take<double>(what);
     }
 
-    ByteReader bytes_;
+    BinaryReader bytes_;
 };
 
 /// What a vertex's property means, in the order of a vertex's eleven values.
@@ -604,25 +604,15 @@ std::vector<glm::vec2> vertex_textures(const TriangleMesh& mesh) {
 }
 
 /// A face's list of corners and, where `textures`, of their texture coordinates as MeshLab has them.
-void append_face(std::string& bytes, const TriangleMesh& mesh, std::size_t t, bool textures) {
-    append_number(bytes, std::uint8_t{3});
-    for (const std::uint32_t vertex : mesh.triangles[t]) { append_number(bytes, vertex); }
+void put_face(BinaryWriter& out, const TriangleMesh& mesh, std::size_t t, bool textures) {
+    out.put(std::uint8_t{3});
+    out.put(mesh.triangles[t]);
     if (!textures) { return; }
     const Triangle& corners = mesh.corner_texture_coordinates[t];
-    append_number(bytes, std::uint8_t{static_cast<std::uint8_t>(corners[0] == invalid_index ? 0 : 6)});
+    out.put(std::uint8_t{static_cast<std::uint8_t>(corners[0] == invalid_index ? 0 : 6)});
     for (const std::uint32_t corner : corners) {
-        if (corner != invalid_index) {
-            append_number(bytes, mesh.texture_coordinates[corner].x);
-            append_number(bytes, mesh.texture_coordinates[corner].y);
-        }
+        if (corner != invalid_index) { out.put(mesh.texture_coordinates[corner]); }
     }
-}
-
-template <typename T>
-void append_vector(std::string& bytes, const glm::dvec3& vector) {
-    append_number(bytes, static_cast<T>(vector.x));
-    append_number(bytes, static_cast<T>(vector.y));
-    append_number(bytes, static_cast<T>(vector.z));
 }
 
 } // namespace
@@ -636,42 +626,40 @@ std::string ply_bytes(const TriangleMesh& mesh) {
     const std::vector<glm::vec3> normals = vertex_normals(mesh);
     const std::vector<glm::vec2> textures = vertex_textures(mesh);
     const bool face_textures = textures.empty() && !mesh.corner_texture_coordinates.empty();
-    std::string bytes =
-        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices_m.size());
+    std::string head = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices_m.size());
     const auto add_properties = [&](std::string_view type, std::string_view names) {
-        for (const char name : names) { bytes += fmt::format("property {} {}\n", type, name); }
+        for (const char name : names) { head += fmt::format("property {} {}\n", type, name); }
     };
     add_properties(is_float ? "float" : "double", "xyz");
-    if (!normals.empty()) { bytes += "property float nx\nproperty float ny\nproperty float nz\n"; }
+    if (!normals.empty()) { head += "property float nx\nproperty float ny\nproperty float nz\n"; }
     if (has_colours) {
         for (const std::string_view part : {"red", "green", "blue"}) {
-            bytes += fmt::format("property {} {}\n", byte_colours ? "uchar" : "float", part);
+            head += fmt::format("property {} {}\n", byte_colours ? "uchar" : "float", part);
         }
     }
     if (!textures.empty()) { add_properties("float", "st"); }
-    bytes += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n{}end_header\n",
+    head += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n{}end_header\n",
         mesh.triangles.size(), face_textures ? "property list uchar float texcoord\n" : "");
+    BinaryWriter out;
+    out.put_bytes(head);
     for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v) {
         if (is_float) {
-            append_vector<float>(bytes, mesh.vertices_m[v]);
+            out.put(glm::vec3(mesh.vertices_m[v]));
         } else {
-            append_vector<double>(bytes, mesh.vertices_m[v]);
+            out.put(mesh.vertices_m[v]);
         }
-        if (!normals.empty()) { append_vector<float>(bytes, glm::dvec3(normals[v])); }
+        if (!normals.empty()) { out.put(normals[v]); }
         for (int part = 0; has_colours && part < 3; ++part) {
             if (byte_colours) {
-                append_number(bytes, byte_of(mesh.colours[v][part]));
+                out.put(byte_of(mesh.colours[v][part]));
             } else {
-                append_number(bytes, mesh.colours[v][part]);
+                out.put(mesh.colours[v][part]);
             }
         }
-        if (!textures.empty()) {
-            append_number(bytes, textures[v].x);
-            append_number(bytes, textures[v].y);
-        }
+        if (!textures.empty()) { out.put(textures[v]); }
     }
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) { append_face(bytes, mesh, t, face_textures); }
-    return bytes;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) { put_face(out, mesh, t, face_textures); }
+    return out.take();
 }
 
 } // namespace octant::models::meshfile

@@ -1,4 +1,5 @@
 #include "sim/base/axes.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
@@ -131,4 +132,64 @@ TEST_CASE("what could not be written is refused before the work, and nothing is 
     CHECK_FALSE(std::filesystem::exists(file));
     CHECK_THROWS_AS(check_can_write(folder), Error);
     CHECK_THROWS_AS(check_can_write(folder / "none" / "file"), Error);
+}
+
+TEST_CASE("base64 of every remainder is as RFC 4648 has it, comes back, and what is none is refused") {
+    CHECK(base64_of("") == "");
+    CHECK(base64_of("f") == "Zg==");
+    CHECK(base64_of("fo") == "Zm8=");
+    CHECK(base64_of("foo") == "Zm9v");
+    CHECK(base64_of("foobar") == "Zm9vYmFy");
+    CHECK(base64_of("\xFF\xFE") == "//4=");
+    for (const std::string text : {"", "a", "ab", "abc", "abcd"}) { CHECK(from_base64(base64_of(text)) == text); }
+    CHECK(base64_of("Man") == "TWFu");
+    CHECK(base64_of("Ma") == "TWE=");
+    CHECK(from_base64("TWE") == "Ma");
+    CHECK_FALSE(from_base64("T").has_value());
+    CHECK_FALSE(from_base64("TW*u").has_value());
+}
+
+TEST_CASE("values written one behind the other are read back, and what is cut or too long is refused with its place") {
+    BinaryWriter out;
+    out.put(std::uint16_t{0x1234});
+    out.put_list(std::vector<float>{1.5F, -2.0F});
+    out.put_text("end");
+    CHECK(out.bytes().substr(0, 3) == std::string("\x34\x12\x02", 3));
+    CHECK(BinaryReader(out.bytes(), {}, 0, std::endian::big).take<std::uint16_t>() == 0x3412);
+    BinaryReader in(out.bytes(), "a.bin");
+    CHECK(in.take<std::uint16_t>() == 0x1234);
+    CHECK(in.take_list<float>() == std::vector<float>{1.5F, -2.0F});
+    CHECK_THROWS_WITH(in.expect_end(), "a.bin: at byte 18: expected the end of the file, got 11 more bytes");
+    CHECK(in.take_text() == "end");
+    in.expect_end();
+    CHECK_THROWS_WITH(
+        in.take<int>("a side"), "a.bin: at byte 29: expected a side (4 bytes), got 0 to the end of the file");
+    BinaryReader cut(std::string_view(out.bytes()).substr(0, 17));
+    cut.take<std::uint16_t>();
+    CHECK_THROWS_WITH(cut.take_list<float>("heights"), "at byte 2: expected heights of at most 1 times 4 bytes, got 2");
+}
+
+TEST_CASE("an archive is read back, and another kind, version, size or byte is refused") {
+    const ArchiveKind kind{.content = "a thing", .signature = "octthing", .version = 7, .max_bytes = 100};
+    const std::filesystem::path file = scratch("thing");
+    const auto text = [](BinaryReader& in) { return std::string(in.take_text()); };
+    const auto fault_of = [&](std::size_t byte, char value) {
+        BinaryWriter body;
+        body.put_text("body");
+        write_archive(file, kind, body.bytes());
+        CHECK(read_archive(file, kind, text) == "body");
+        std::string bytes = read_file(file);
+        bytes[byte] = value;
+        write_file(file, bytes);
+        try {
+            read_archive(file, kind, text);
+        } catch (const Error& fault) { return std::string(fault.what()).substr(file.string().size()); }
+        return std::string();
+    };
+    CHECK(fault_of(0, 'O') == ": at byte 0: expected a thing, got another file");
+    CHECK(fault_of(8, 8) == ": at byte 8: expected version 7, got 8");
+    CHECK(fault_of(12, 1) == ": at byte 12: expected 0, got 1");
+    CHECK(fault_of(16, 13) == ": at byte 16: expected 12 bytes behind the head, got 13");
+    CHECK_THAT(fault_of(43, 'Y'), Catch::StartsWith(": at byte 24: expected the checksum "));
+    CHECK_THROWS_WITH(write_archive(file, kind, std::string(101, 'x')), Catch::Contains("expected at most 100 bytes"));
 }

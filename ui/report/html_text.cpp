@@ -80,24 +80,6 @@ std::string url_text(std::string_view path) {
     return text;
 }
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto byte = at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0U;
-            three = three << 8U | byte;
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            const bool filler = at + i > bytes.size();
-            out += filler ? '=' : digits[three >> (18U - 6U * i) & 63U];
-        }
-    }
-    return out;
-}
-
 std::string html_of(const HtmlTable& table) {
     std::size_t columns = table.header.size();
     for (const auto& row : table.rows) { columns = std::max(columns, row.size()); }

@@ -51,8 +51,6 @@ std::string escaped(std::string_view text);
 /// A relative way to a file as a link has it: what is no letter, digit or one of -._~/ as %20.
 std::string url_text(std::string_view path);
 
-std::string base64(std::string_view bytes);
-
 /// Title, table and note as HTML, all text escaped. Cells that are numbers are aligned right.
 std::string html_of(const HtmlTable& table);
 

@@ -1,5 +1,6 @@
 #include "ui/report/slow_pictures.h"
 
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/html_text.h"
@@ -64,7 +65,7 @@ std::string picture_html(const std::filesystem::path& picture, int widest, const
         const Picture small = downscaled(read_png(picture).view(), widest);
         return fmt::format("<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
                            "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
-            escaped(caption), small.width_px, small.height_px, base64(png_bytes(small.view(), PngEffort::Small)));
+            escaped(caption), small.width_px, small.height_px, base64_of(png_bytes(small.view(), PngEffort::Small)));
     } catch (const Error& error) {
         return fmt::format("<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n", escaped(error.what()));
     }

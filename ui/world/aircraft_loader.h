@@ -47,9 +47,9 @@ std::string axes_text(const AircraftAxes& axes);
 /// What a person should be told of axes that were not given: empty for those of a format.
 std::string axes_note(const AircraftAxes& axes, const std::filesystem::path& file);
 
-/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or a .pm file another layout, or files beside
-/// it: what was kept before is then made anew.
-inline constexpr unsigned refine_mesh_cache_version = 3;
+/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was kept
+/// before is then made anew.
+inline constexpr unsigned refine_mesh_cache_version = 4;
 
 /// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that decides it: places,
 /// triangles, colours and materials.

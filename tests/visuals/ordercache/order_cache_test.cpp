@@ -1,6 +1,7 @@
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_model.h"
 #include "models/procedural/procedural_models.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
@@ -8,7 +9,6 @@
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/ordercache/binary_file.h"
 #include "visuals/ordercache/order_cache.h"
 
 #include <catch2/catch.hpp>
@@ -98,36 +98,41 @@ void read_anything(const std::string& bytes, const PolygonModel& given) {
                 }
             }
         }
-    } catch (const Error& fault) { REQUIRE(std::string(fault.what()).starts_with("expected ")); }
+    } catch (const Error& fault) {
+        REQUIRE_THAT(fault.what(), Catch::StartsWith("at byte ") && Contains(": expected "));
+    }
 }
 
 /// An order of two whole plates from these nodes and lists, as bytes.
 std::string order_of(const std::vector<DrawOrder::Node>& nodes, const std::vector<std::vector<std::uint32_t>>& lists) {
     const PolygonModel model = crossing_plates();
     BinaryWriter out;
-    out.array(model.vertices_m);
-    out.array(model.corner_vertices);
-    out.array(model.polygons);
-    out.array(model.parents);
-    out.number(std::uint64_t{nodes.size()});
+    out.put_list(model.vertices_m);
+    out.put_list(model.corner_vertices);
+    out.put_list(model.polygons);
+    out.put_list(model.parents);
+    out.put(std::uint64_t{nodes.size()});
     for (const DrawOrder::Node& node : nodes) {
-        out.array(std::span(&node.plane, 1));
-        out.number(static_cast<std::uint32_t>(node.kind));
-        for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) { out.number(child); }
+        out.put(node.plane);
+        out.put(static_cast<std::uint32_t>(node.kind));
+        for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) { out.put(child); }
     }
-    out.number(std::uint64_t{lists.size()});
-    for (const auto& list : lists) { out.array(list); }
+    out.put(std::uint64_t{lists.size()});
+    for (const auto& list : lists) { out.put_list(list); }
     // No regions, the centre, the least distance, splits, cycles, no notes, a tree, the trial.
     const OrderedModel rest{.model = {}, .order = DrawOrder(std::vector<std::uint32_t>{}), .cells = {}, .notes = {}};
     constexpr std::size_t before_rest = 4 * 8 + 8 + 8 + 8;
-    out.raw(encode_order(rest).substr(before_rest));
+    out.put_bytes(encode_order(rest).substr(before_rest));
     return out.bytes();
 }
 
 std::string fault_of(const std::vector<DrawOrder::Node>& nodes, const std::vector<std::vector<std::uint32_t>>& lists) {
     try {
         decode_order(order_of(nodes, lists), crossing_plates());
-    } catch (const Error& fault) { return fault.what(); }
+    } catch (const Error& fault) {
+        const std::string what = fault.what();
+        return what.substr(what.find(": ") + 2); // behind "at byte N"
+    }
     return "";
 }
 
@@ -246,7 +251,7 @@ TEST_CASE("a builder that gives other orders has another version") {
     }
     add(by(OrderMethod::Tree, crossing_plates()));
     add(by(OrderMethod::Bsp, models::procedural::torus()));
-    CHECK(order_version == 9);
+    CHECK(order_version == 10);
     CHECK(hash.value() == 0x54515b483709eb34ULL);
 }
 
@@ -276,13 +281,10 @@ Kept kept_plates(const std::string& name) {
     return kept;
 }
 
-/// Bytes with the checksum that belongs to them at their end, in place of the one there.
+/// Bytes of an archive with the checksum that belongs to their body.
 std::string with_checksum(std::string bytes) {
-    bytes.resize(bytes.size() - sizeof(std::uint64_t));
-    Hash hash;
-    hash.add(std::as_bytes(std::span(bytes)));
-    const std::uint64_t value = hash.value();
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    const std::uint64_t sum = checksum_of(std::string_view(bytes).substr(32));
+    std::memcpy(&bytes[24], &sum, sizeof sum);
     return bytes;
 }
 
@@ -295,7 +297,8 @@ std::string note_about(const Kept& kept, const std::string& bytes) {
     REQUIRE(found.notes.size() == 1);
     REQUIRE(read_file(kept.file) == kept.bytes);
     const std::string& note = found.notes.front();
-    REQUIRE(note.starts_with("order cache " + kept.file.string() + ": expected "));
+    REQUIRE_THAT(
+        note, Catch::StartsWith("order cache " + kept.file.string() + ": at byte ") && Contains(": expected "));
     REQUIRE(note.find(", got ") != std::string::npos);
     REQUIRE(note.ends_with(": computed anew"));
     return note;
@@ -346,7 +349,7 @@ TEST_CASE("a file cut short anywhere is computed anew and replaced") {
     for (std::size_t length = 0; length < kept.bytes.size(); ++length) {
         note_about(kept, kept.bytes.substr(0, length));
     }
-    CHECK_THAT(note_about(kept, kept.bytes + "x"), Contains("expected bytes of checksum "));
+    CHECK_THAT(note_about(kept, kept.bytes + "x"), Contains("bytes behind the head, got "));
 }
 
 TEST_CASE("a file with any byte changed is computed anew and replaced") {
@@ -364,23 +367,21 @@ TEST_CASE("a file of another version, kind or model is computed anew, whatever i
     older[8] = static_cast<char>(order_version + 1);
     CHECK_THAT(note_about(kept, with_checksum(older)),
         Contains(fmt::format("expected version {}, got {}", order_version, order_version + 1)));
-    CHECK_THAT(note_about(kept, "v 0 0 0\nv 1 0 0\n"), Contains("got another kind of file"));
+    CHECK_THAT(note_about(kept, "v 0 0 0\nv 1 0 0\n"), Contains("expected a painting order, got another file"));
 
     PolygonModel moved = crossing_plates();
     moved.vertices_m[4].x -= 0.25;
     CHECK_THAT(note_about(kept, read_file(cached_order(kept.folder, moved, by_bsp).file)),
-        Contains("got that of another one"));
+        Contains("expected the key of this input, got that of another one"));
 }
 
 TEST_CASE("a forged file whose numbers lead nowhere is computed anew") {
     const Kept kept = kept_plates("forged");
     std::string bytes = kept.bytes;
-    // Behind signature, version and key stand the number of vertices and, 24 bytes each, they.
-    std::uint64_t key_size = 0;
-    std::memcpy(&key_size, bytes.data() + 12, sizeof key_size);
-    const auto vertices_at = static_cast<std::size_t>(20 + key_size);
+    // Behind the head and the key stand the number of vertices and, 24 bytes each, they.
+    const std::size_t vertices_at = 40 + value_at<std::uint64_t>(&bytes[32]);
     std::memset(bytes.data() + vertices_at, 0xff, 8);
-    CHECK_THAT(note_about(kept, with_checksum(bytes)), Contains(" times 24 bytes, got "));
+    CHECK_THAT(note_about(kept, with_checksum(bytes)), Contains(" times 24 bytes, got 18446744073709551615"));
 }
 
 TEST_CASE("a folder in the place of a file is told, and the order is computed all the same") {
