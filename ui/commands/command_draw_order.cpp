@@ -20,6 +20,7 @@
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_text.h"
+#include "visuals/orderstudy/divided_octants.h"
 #include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
@@ -32,6 +33,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,7 +70,9 @@ constexpr int default_rays = 200000; ///< of a check
 struct DrawOrderOptions {
     std::string model;
     std::string axes = "right,up,back";
+    std::string method = "exact"; ///< one of method_names
     visuals::draworder::OrderOptions order;
+    double min_distance_radii = 2.0;  ///< of cells
     std::optional<std::string> cache; ///< folder of kept orders
     bool table = false;
     std::string export_file;
@@ -82,7 +86,26 @@ struct DrawOrderOptions {
     bool quiet = false;
 };
 
-using visuals::draworder::OrderMethod;
+/// cells and bsp are those of the studies (visuals/orderstudy).
+const std::vector<std::string_view> method_names{"paper", "exact", "cells", "bsp", "tree"};
+constexpr std::size_t old_name_of_exact = 4;
+
+Option method_option(std::string& method) {
+    return {.name = "--method",
+        .form = "KIND",
+        .meaning = "exact (for every eye) or paper (8 octants as printed); of the studies also cells (octants "
+                   "subdivided; exact beyond a minimum distance) and bsp (polygons split, no search)",
+        .read =
+            [&method](const Words& words) {
+                const settings::FieldInfo info{.name = "--method", .form = "KIND", .meaning = ""};
+                const std::size_t choice = settings::read_choice(info, words.front(), method_names);
+                if (choice == old_name_of_exact) {
+                    settings::print_old_name_note(info, words.front(), "the old name of exact");
+                }
+                method = choice == old_name_of_exact ? "exact" : method_names[choice];
+            },
+        .shown_default = method};
+}
 
 /// Throws Error where one file would be written over another, or over the model.
 void check_not_overwriting(const DrawOrderOptions& options) {
@@ -115,8 +138,8 @@ void check_exclusive(const DrawOrderOptions& options) {
         throw Error("--certificate: expected orders that this command finds, got those of --check '" +
                     printable(options.check_file) + "'");
     }
-    if (options.order.method == OrderMethod::Paper) {
-        throw Error("--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
+    if (options.method == "paper") {
+        throw Error("--certificate: expected --method exact, bsp or cells, which are right for all eyes or "
                     "all from a distance on, got --method paper");
     }
 }
@@ -126,19 +149,15 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
         {text_option("model", "NAME|FILE",
              fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")), options.model),
             text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
-            value_option({"method", "KIND",
-                             "paper (8 octants as printed), cells (octants subdivided; exact beyond a minimum "
-                             "distance), tree (tree of view cells; exact everywhere) or bsp (polygons split)"},
-                options.order.method),
-            value_option({"order-seconds", "SECONDS",
-                             "cells, tree: approximate time limit of the search; then polygons are split as with bsp",
+            method_option(options.method),
+            value_option({"order-seconds", "SECONDS", "approximate time limit of the search; then polygons are split",
                              0.001, 3600},
                 options.order.seconds),
             text_option("--order-cache", "DIR", "folder where painting orders are cached", options.cache),
             value_option(
                 {"min-distance", "RADII",
                     "cells: orders are exact for eyes with |x|+|y|+|z| of at least this many model radii", 1, 1000},
-                options.order.min_distance_radii)});
+                options.min_distance_radii)});
 }
 
 void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
@@ -186,7 +205,7 @@ void check_draw_order_options(const DrawOrderOptions& options) {
 }
 
 /// An order that holds for every eye, or for those that its choices leave
-/// (visuals/draworder/with_min_distance.h), with the model that it speaks of.
+/// (orderstudy::with_min_distance), with the model that it speaks of.
 struct CertifiedOrder {
     const models::polygons::PolygonModel& model;
     const visuals::draworder::DrawOrder& order;
@@ -253,6 +272,7 @@ bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& 
 namespace draworder = visuals::draworder;
 namespace ordercache = visuals::ordercache;
 namespace orderfile = visuals::orderfile;
+namespace orderstudy = visuals::orderstudy;
 
 namespace {
 
@@ -299,18 +319,27 @@ void add_size(JsonValue& results, const orderfile::CellOrders& orders) {
     }
 }
 
-/// Finds the orders of a model, or reads them from the cache.
-ordercache::CachedOrder find_or_read_orders(models::polygons::PolygonModel model,
-    const std::optional<std::string>& cache, const draworder::OrderOptions& options) {
-    if (cache) { return ordercache::cached_order(*cache, std::move(model), options); }
-    return {.ordered = draworder::ordered(std::move(model), options), .file = {}, .notes = {}};
+/// Finds the orders of a model, or reads them from the cache, which holds those of paper and exact only.
+ordercache::CachedOrder find_or_read_orders(
+    models::polygons::PolygonModel model, const DrawOrderOptions& options, draworder::OrderOptions order) {
+    if (options.method == "cells") {
+        return {.ordered = orderstudy::ordered_by_cells(std::move(model), order, options.min_distance_radii),
+            .file = {},
+            .notes = {}};
+    }
+    if (options.method == "bsp") {
+        return {.ordered = orderstudy::ordered_by_splitting(std::move(model), order), .file = {}, .notes = {}};
+    }
+    order.method = options.method == "paper" ? draworder::OrderMethod::Paper : draworder::OrderMethod::Exact;
+    if (options.cache) { return ordercache::cached_order(*options.cache, std::move(model), order); }
+    return {.ordered = draworder::ordered(std::move(model), order), .file = {}, .notes = {}};
 }
 
 /// The order as it can be proved: of octants that hold from a distance on, nothing is claimed for
 /// nearer eyes.
 draworder::DrawOrder order_to_prove(const draworder::OrderedModel& ordered) {
     return ordered.found_by == draworder::OrderSource::Cells
-               ? draworder::with_min_distance(ordered.order, ordered.centre_m, ordered.min_distance_m)
+               ? orderstudy::with_min_distance(ordered.order, ordered.centre_m, ordered.min_distance_m)
                : ordered.order;
 }
 
@@ -332,12 +361,12 @@ PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results)
         add_size(results, work.orders);
         return work;
     }
-    results["method"] = settings::text_of(options.order.method);
+    results["method"] = options.method;
     const std::size_t polygons = input.model.polygons.size();
     draworder::OrderOptions order = options.order;
     PercentProgress percents("searching for cells", options.quiet, "% of the budget");
     order.progress = [&](double share) { percents.show(share); };
-    ordercache::CachedOrder cached = find_or_read_orders(std::move(input.model), options.cache, order);
+    ordercache::CachedOrder cached = find_or_read_orders(std::move(input.model), options, order);
     draworder::OrderedModel& ordered = cached.ordered;
     const double build_ms = percents.finish();
     for (const std::string& note : cached.notes) { base::print_note(options.quiet, "note: " + note); }

@@ -373,7 +373,7 @@ double shared_ceiling_ms(Recordings recordings, const std::vector<std::size_t>& 
 
 using Indices = std::vector<std::size_t>;
 
-/// "order-method tree, samples 4", by the settings in which variants differ.
+/// "order-method exact, samples 4", by the settings in which variants differ.
 std::string variant_label(const LoadedRecording& recording, const std::vector<std::string>& names) {
     std::string label;
     for (const std::string& name : names) {

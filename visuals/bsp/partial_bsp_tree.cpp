@@ -487,7 +487,7 @@ using Items = std::vector<std::uint32_t>;
 /// are polygons.
 class PartialBspBuilder {
 public:
-    PartialBspBuilder(PolygonPieces& pieces, bool has_list_leaves) : pieces_(pieces), by_clusters_(has_list_leaves) {}
+    explicit PartialBspBuilder(PolygonPieces& pieces) : pieces_(pieces) {}
 
     PartialBspTree build(Items items) {
         to_do_.push_back({std::move(items), -1, nullptr, 1, false});
@@ -523,7 +523,7 @@ private:
         if (task.items.empty()) { return PartialBspTree::nothing; }
         if (task.items.size() == 1) { return list_of(std::move(task.items)); }
         const std::size_t count = task.items.size();
-        const bool looks = by_clusters_ && !task.is_cycle && count <= max_samples_at_once &&
+        const bool looks = !task.is_cycle && count <= max_samples_at_once &&
                            (count <= always_looked_at || count <= task.looked_at / 4);
         if (!looks) { return choose_split(task); }
         task.looked_at = count;
@@ -629,15 +629,14 @@ private:
     }
 
     PolygonPieces& pieces_;
-    bool by_clusters_;
     std::vector<Task> to_do_;
     PartialBspTree tree_;
 };
 
 } // namespace
 
-PartialBspTree partial_bsp_tree(PolygonPieces& pieces, std::vector<std::uint32_t> items, bool has_list_leaves) {
-    return PartialBspBuilder(pieces, has_list_leaves).build(std::move(items));
+PartialBspTree partial_bsp_tree(PolygonPieces& pieces, std::vector<std::uint32_t> items) {
+    return PartialBspBuilder(pieces).build(std::move(items));
 }
 
 } // namespace octant::visuals::bsp

@@ -166,8 +166,7 @@ struct PartialBspTree {
     int depth = 0; ///< The number of nodes on the longest path from the root.
 };
 
-/// Orders pieces, cutting them where they must be. The same pieces give the same tree. Without `has_list_leaves` every
-/// set of two or more is divided by a plane, as in a BSP tree.
-PartialBspTree partial_bsp_tree(PolygonPieces& pieces, std::vector<std::uint32_t> items, bool has_list_leaves = true);
+/// Orders pieces, cutting them where they must be. The same pieces give the same tree.
+PartialBspTree partial_bsp_tree(PolygonPieces& pieces, std::vector<std::uint32_t> items);
 
 } // namespace octant::visuals::bsp

@@ -398,9 +398,7 @@ RayTestResult ray_test_order(const PolygonModel& model, const DrawOrder& order, 
     const std::size_t angles = turns && scope.turning_parts ? angles_rad.size() : 1;
     OrderProof proof;
     if (!turns || scope.turning_parts) { // else no order is right, and none can be proved
-        proof = prove_order(model,
-            scope.min_distance_m > 0.0 ? with_min_distance(order, scope.centre_m, scope.min_distance_m) : order,
-            scope.proof_s);
+        proof = prove_order(model, scope.proved_order != nullptr ? *scope.proved_order : order, scope.proof_s);
     }
     RayTestResult ray_test{.unproved = proof.unproved, .is_proof_complete = proof.is_complete};
     RayTester trying(model, order, scope);

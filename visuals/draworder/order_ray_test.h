@@ -100,6 +100,8 @@ struct RayTestOptions {
     /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from there, metres.
     double min_distance_m = 0.0;
     glm::dvec3 centre_m{0.0};
+    /// The order for those eyes alone, which is proved in place of the other; null: the order itself.
+    const DrawOrder* proved_order = nullptr;
     /// About how long the proof may take on one core.
     double proof_s = 0.4;
 };

@@ -1,4 +1,4 @@
-// OrderMethod::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides
+// OrderMethod::Exact: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides
 // the viewing directions until all hidden surfaces are removed; here eye space is divided by planes until each cell's
 // occlusion graph has no cycle.
 //
@@ -78,18 +78,6 @@ Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> amo
 /// The step with which about `most` of `all` items are taken.
 std::size_t stride(std::size_t all, std::size_t most) { return all / most + 1; }
 
-std::vector<Plane> axis_planes_of(const Outlines& outlines, std::size_t most) {
-    std::vector<Plane> planes;
-    const std::size_t all = 3 * outlines.corners.size();
-    for (std::size_t i = 0; i < all; i += stride(all, most)) {
-        const auto axis = static_cast<int>(i / outlines.corners.size());
-        glm::dvec3 normal(0.0);
-        normal[axis] = 1.0;
-        planes.push_back({normal, -outlines.corners[i % outlines.corners.size()][axis]});
-    }
-    return planes;
-}
-
 void add_edge_planes(std::vector<Plane>& planes, const Outlines& outlines, std::size_t most) {
     const std::size_t all = outlines.edges.size() * outlines.corners.size();
     for (std::size_t i = 0; i < all; i += stride(all, most)) {
@@ -137,10 +125,6 @@ std::vector<Plane> each_once(const std::vector<Plane>& planes) {
 }
 
 } // namespace
-
-std::vector<Plane> axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
-    return each_once(axis_planes_of(outlines_of(model, among), most));
-}
 
 std::vector<Plane> candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
     const Outlines outlines = outlines_of(model, among);
@@ -318,7 +302,7 @@ std::uint64_t units_of_plane(const CyclicPart& cycles) {
 }
 
 /// The work of counting the edges that a plane leaves on cycles.
-std::uint64_t units_of_rings(const CyclicPart& cycles) {
+std::uint64_t units_of_cycles(const CyclicPart& cycles) {
     const std::size_t words = cycles.inner.count() / 64 + 1;
     return 2 * (30 + 4 * words) * cycles.polygons.size() + 4 * cycles.edges;
 }
@@ -333,7 +317,7 @@ public:
 
 private:
     std::vector<ViewSplit> by_sides(std::span<const Plane> planes, std::size_t first_number) const;
-    std::vector<ViewSplit> by_rings(std::span<const ViewSplit> choices) const;
+    std::vector<ViewSplit> by_cycles(std::span<const ViewSplit> choices) const;
     std::vector<ViewSplit> ranked(std::span<const Plane> planes) const;
     std::vector<ViewSplit> of_planes(std::span<const std::uint32_t> among, std::size_t most) const;
     std::vector<ViewSplit> coarse_ranking() const;
@@ -384,7 +368,7 @@ std::vector<ViewSplit> SplitPlaneChooser::by_sides(std::span<const Plane> planes
 }
 
 /// Second stage: the cost of each choice by the edges that stay on cycles.
-std::vector<ViewSplit> SplitPlaneChooser::by_rings(std::span<const ViewSplit> choices) const {
+std::vector<ViewSplit> SplitPlaneChooser::by_cycles(std::span<const ViewSplit> choices) const {
     const CyclicPart& cycles = node_.cycles;
     CyclicEdgeCounter counter;
     std::vector<ViewSplit> out(choices.begin(), choices.end());
@@ -408,11 +392,11 @@ std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) 
     choices.insert(choices.end(), others.begin(), others.end());
     std::sort(choices.begin(), choices.end());
     choices.resize(std::min(search_.coarse_candidates, choices.size()));
-    work_.spend(choices.size() * units_of_rings(node_.cycles));
+    work_.spend(choices.size() * units_of_cycles(node_.cycles));
     const std::size_t middle = choices.size() / 2;
     const std::span<const ViewSplit> all(choices);
     auto [judged, rest] = run_both(
-        large, [&] { return by_rings(all.first(middle)); }, [&] { return by_rings(all.subspan(middle)); });
+        large, [&] { return by_cycles(all.first(middle)); }, [&] { return by_cycles(all.subspan(middle)); });
     judged.insert(judged.end(), rest.begin(), rest.end());
     std::sort(judged.begin(), judged.end());
     return judged;
@@ -434,7 +418,7 @@ CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
 /// The choices by the candidate planes of some polygons, of which there are about `most`.
 std::vector<ViewSplit> SplitPlaneChooser::of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
     std::vector<Plane> planes;
-    if (search_.tries_axis_planes_first) { planes = axis_planes(work_.faces, among, 2 * most); }
+    if (search_.first_planes) { planes = search_.first_planes(work_.faces, among, 2 * most); }
     const auto others = candidate_planes(work_.faces, among, most);
     planes.insert(planes.end(), others.begin(), others.end());
     return ranked(planes);
@@ -610,7 +594,7 @@ int flatten(Branch& branch, const WorkingModel& work, ViewSpaceTree& out) {
         for (std::vector<std::uint32_t>& set : branch.incomplete_cells) { work.add_new_pieces(set, branch.polygons); }
         out.lists.push_back(std::move(branch.list));
         out.incomplete_cells.push_back(std::move(branch.incomplete_cells));
-        out.cell_planes.push_back(std::move(branch.planes));
+        out.cells.push_back({"", std::move(branch.planes)});
         return ~static_cast<int>(out.lists.size() - 1);
     }
     const std::size_t at = out.nodes.size();
@@ -632,6 +616,76 @@ ViewSpaceTree view_space_tree(WorkingModel& work, const ViewCell& root, const Tr
     flatten(*branch, work, tree);
     tree.incomplete_reason = builder.incomplete_reason();
     return tree;
+}
+
+namespace {
+
+// As the searches are greedy, small models are searched several times with other weights; the result with the fewest
+// splits, then with the fewest cells, is returned.
+
+/// Models with more cyclic edges get one quick search only.
+constexpr std::size_t max_edges_searched_again = 2'000;
+
+/// About the work of testing a pair of polygons (SearchBudget).
+constexpr std::uint64_t units_of_pair = 300;
+
+/// The searches whose results are compared; the last one only where the others split polygons.
+const std::array<TreeSearch, 4> tree_searches{{{.plane_search = {.power = 1.0}, .keeps_partial_result = true},
+    {.plane_search = {.power = 0.5}, .keeps_partial_result = true},
+    {.plane_search = {.power = 1.5}, .keeps_partial_result = true},
+    {.prefers_planes = true, .keeps_partial_result = true}}};
+/// Halves first: a plane that only takes something off a large graph leaves nearly all of the work to its children.
+const TreeSearch quick_search{.plane_search = {.power = 3.0, .edge_planes = 300, .coarse_candidates = 48, .exact = 2},
+    .keeps_partial_result = true};
+
+/// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
+bool has_fewer_splits(const CellSearchResult& a, const CellSearchResult& b) {
+    return std::pair(!a.tree.incomplete_reason.empty(), a.cost()) <
+           std::pair(!b.tree.incomplete_reason.empty(), b.cost());
+}
+
+void keep_better(std::optional<CellSearchResult>& best, CellSearchResult orders) {
+    if (!best || has_fewer_splits(orders, *best)) { best = std::move(orders); }
+}
+
+CellSearchResult searched(WorkingModel work, const ViewCell& root, const TreeSearch& search) {
+    ViewSpaceTree tree = view_space_tree(work, root, search);
+    return {std::move(work), std::move(tree)};
+}
+
+} // namespace
+
+CellSearchResult best_tree(
+    const models::polygons::PolygonModel& model, SearchBudget& budget, const std::function<int()>& max_splits) {
+    WorkingModel work(model, glm::dvec3(0.0));
+    work.budget = &budget;
+    work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    OcclusionGraphBuilder graphs(work.faces);
+    const ViewCell root = view_cell(graphs, ViewRegion::all_space());
+    if (root.cycles.edges > max_edges_searched_again) {
+        TreeSearch search = quick_search;
+        search.max_splits = max_splits;
+        return searched(work, root, search);
+    }
+    std::optional<CellSearchResult> best;
+    std::optional<SearchGivenUp> beaten;
+    for (TreeSearch search : tree_searches) {
+        if (best && best->work.sibling_pieces.empty() && search.prefers_planes) { break; }
+        search.max_splits = max_splits;
+        if (best && best->tree.incomplete_reason.empty()) { search.cost_limit = best->cost(); }
+        search.keeps_partial_result = search.keeps_partial_result && !search.cost_limit && !beaten;
+        try {
+            keep_better(best, searched(work, root, search));
+        } catch (const SearchGivenUp& given_up) {
+            if (given_up.is_worse_than_best) {
+                beaten = given_up;
+            } else if (!best && !beaten) {
+                throw;
+            }
+        }
+    }
+    if (!best) { throw SearchGivenUp(*beaten); }
+    return std::move(*best);
 }
 
 } // namespace octant::visuals::draworder

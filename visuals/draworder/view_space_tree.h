@@ -1,9 +1,11 @@
 #pragma once
 
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/occlusion.h"
 #include "visuals/draworder/occlusion_graph.h"
+#include "visuals/draworder/search_budget.h"
 #include "visuals/draworder/view_cell.h"
 
 #include <glm/vec3.hpp>
@@ -18,10 +20,6 @@
 #include <vector>
 
 namespace octant::visuals::draworder {
-
-/// Planes perpendicular to a coordinate axis through the corners of the polygons `among`, those of x before y before z:
-/// about `most` of them, spread evenly over all that there are.
-std::vector<Plane> axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 
 /// Planes by which eye space may be cut so that the occlusion relation among some polygons gets simpler, each once, the
 /// plainest first: the polygons' own planes, and planes through an edge of one polygon and a corner of another. The
@@ -112,8 +110,9 @@ struct SplitPlaneSearch {
     std::size_t coarse_candidates = 400;
     /// For so many planes both sides are tested exactly.
     std::size_t exact = 48;
-    /// Whether planes across the axes are tried first. A model that is turned then gets others.
-    bool tries_axis_planes_first = false;
+    /// Further planes of the polygons `among`, about `max` of them, which are tried first; may be empty.
+    std::function<std::vector<Plane>(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t max)>
+        first_planes = {};
 };
 
 /// A node that was divided by a plane.
@@ -127,11 +126,11 @@ struct CellSplit {
 /// Throws SearchGivenUp (search_budget.h) when a budget is spent.
 std::optional<CellSplit> best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search);
 
-/// A tree of planes over a region of eye space, with the lists and planes of its cells. Planes are in the faces' space.
+/// A tree of planes over a region of eye space, with the lists of its cells. Planes are in the faces' space.
 struct ViewSpaceTree {
     std::vector<DrawOrder::Node> nodes; ///< Node 0 is the root; children come after their parents.
     std::vector<std::vector<std::uint32_t>> lists;
-    std::vector<std::vector<Plane>> cell_planes;
+    std::vector<OrderCell> cells;
     /// For each cell without a list of its own, where the search was given up, its sets of polygons (component_sets);
     /// empty for others.
     std::vector<std::vector<std::vector<std::uint32_t>>> incomplete_cells;
@@ -166,5 +165,18 @@ struct TreeSearch {
 /// otherwise. Throws SearchGivenUp (search_budget.h) when it grows beyond what can be held, or when a budget is spent;
 /// where part of it is kept, only if there is none.
 ViewSpaceTree view_space_tree(WorkingModel& work, const ViewCell& root, const TreeSearch& search);
+
+/// What a search over eye space finds.
+struct CellSearchResult {
+    WorkingModel work; ///< The model, with the polygons that were split.
+    ViewSpaceTree tree;
+
+    TreeCost cost() const { return {work.sibling_pieces.size(), tree.cells.size()}; }
+};
+
+/// The best of several trees over all of eye space. Throws SearchGivenUp when no search finds any, or only trees that
+/// split polygons more often than `max_splits` says (TreeSearch).
+CellSearchResult best_tree(
+    const models::polygons::PolygonModel& model, SearchBudget& budget, const std::function<int()>& max_splits = {});
 
 } // namespace octant::visuals::draworder

@@ -88,7 +88,7 @@ TEST_CASE("a check that says no ends with exit code 1 and names the polygons") {
 TEST_CASE("exported orders and the exported model pass the check, split polygons too") {
     write_file(order_file("plates.obj"), crossing_plates);
     for (const char* axes : {"right,up,back", "forward,left,up"}) {
-        for (const char* method : {"cells", "tree"}) {
+        for (const char* method : {"cells", "exact"}) {
             const auto out = draw_order({order_file("plates.obj"), "--axes", axes, "--method", method, "--export",
                 order_file("orders.txt"), "--export-model", order_file("split.obj"), "--json"});
             CHECK(out.exit_code == 0);
@@ -170,7 +170,7 @@ TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_order_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
     write_file(order_file("empty.obj"), "");
     check_order_refused({order_file("empty.obj")}, "empty.obj");
-    check_order_refused({"f15", "--method", "magic"}, "--method: expected one of paper, cells, tree");
+    check_order_refused({"f15", "--method", "magic"}, "--method: expected one of paper, exact");
     check_order_refused({"f15", "--min-distance", "nan"}, "--min-distance");
     check_order_refused({"f15", "--rays", "-1"}, "--rays");
     check_order_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");

@@ -33,7 +33,6 @@ using models::polygons::PolygonModel;
 using visuals::draworder::DrawOrder;
 using visuals::draworder::ordered;
 using visuals::draworder::OrderedModel;
-using visuals::draworder::OrderMethod;
 using visuals::draworder::OrderOptions;
 
 namespace {
@@ -76,9 +75,9 @@ void check_same(const OrderedModel& one, const OrderedModel& other) {
     CHECK(std::ranges::equal(one.model.pivots, other.model.pivots, same_pivot));
 }
 
-OrderedModel by(OrderMethod method, const PolygonModel& model) {
-    return visuals::draworder::ordered(model, {.method = method, .paper = {}});
-}
+const OrderOptions by_paper{.method = visuals::draworder::OrderMethod::Paper};
+const OrderOptions by_splitting{.seconds = 0.0};
+const std::vector<OrderOptions> every_way{by_paper, {}, by_splitting};
 
 /// Reads bytes that may be anything. Where they are taken for an order, eyes all around must be able to ask it for what
 /// is painted, and that must be polygons of the model.
@@ -139,11 +138,11 @@ std::string fault_of(const std::vector<DrawOrder::Node>& nodes, const std::vecto
 } // namespace
 
 TEST_CASE("an ordered model read back is the same, bit for bit, by every method") {
-    for (const OrderMethod method : {OrderMethod::Paper, OrderMethod::Cells, OrderMethod::Tree, OrderMethod::Bsp}) {
+    for (const OrderOptions& way : every_way) {
         for (const PolygonModel& model :
             {shipped_model("f15"), shipped_model("500md"), shipped_model("concave"), crossing_plates()}) {
-            CAPTURE(model.name, static_cast<int>(method));
-            const OrderedModel ordered = by(method, model);
+            CAPTURE(model.name, static_cast<int>(way.method), way.seconds);
+            const OrderedModel ordered = visuals::draworder::ordered(model, way);
             check_same(decode_order(encode_order(ordered), model), ordered);
         }
     }
@@ -151,7 +150,7 @@ TEST_CASE("an ordered model read back is the same, bit for bit, by every method"
 
 TEST_CASE("an order without any polygon is read back, too") {
     const PolygonModel model;
-    const OrderedModel ordered = by(OrderMethod::Bsp, model);
+    const OrderedModel ordered = visuals::draworder::ordered(model);
     check_same(decode_order(encode_order(ordered), model), ordered);
 }
 
@@ -174,18 +173,17 @@ TEST_CASE("what decides the order is in the key, names and colours are not") {
     changed[5].pivots = {{1, {0, 0, 0}, {0, 0, 1}, 6.0}};
     changed[6].parents = {0, 0};
     for (const PolygonModel& model : changed) { CHECK(encode_key(model, options) != key); }
-    std::vector<OrderOptions> asked(5);
-    asked[0].method = OrderMethod::Bsp;
+    std::vector<OrderOptions> asked(4);
+    asked[0].method = visuals::draworder::OrderMethod::Paper;
     asked[1].seconds = 19.0;
-    asked[2].min_distance_radii = 3.0;
-    asked[3].paper.viewpoint_radii = {3.0, 3.0, 4.0};
-    asked[4].paper.screen = visuals::draworder::ScreenProjection::Perspective;
+    asked[2].paper.viewpoint_radii = {3.0, 3.0, 4.0};
+    asked[3].paper.screen = visuals::draworder::ScreenProjection::Perspective;
     for (const OrderOptions& one : asked) { CHECK(encode_key(plates, one) != key); }
 }
 
 TEST_CASE("an order cut short anywhere is refused") {
     const PolygonModel model = crossing_plates();
-    const std::string bytes = encode_order(by(OrderMethod::Tree, model));
+    const std::string bytes = encode_order(visuals::draworder::ordered(model));
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         CHECK_THROWS_AS(decode_order(bytes.substr(0, length), model), Error);
     }
@@ -194,9 +192,9 @@ TEST_CASE("an order cut short anywhere is refused") {
 
 TEST_CASE("bytes changed at will are refused or lead to nothing that is not there") {
     RandomGenerator dice(1989);
-    for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree, OrderMethod::Bsp}) {
+    for (const OrderOptions& way : every_way) {
         const PolygonModel model = crossing_plates();
-        const std::string bytes = encode_order(by(method, model));
+        const std::string bytes = encode_order(visuals::draworder::ordered(model, way));
         for (std::size_t at = 0; at < bytes.size(); ++at) {
             for (const int value : {0x00, 0x01, 0x7f, 0x80, 0xff}) {
                 std::string changed = bytes;
@@ -245,21 +243,17 @@ TEST_CASE("a builder that gives other orders has another version") {
         }
     };
     for (const char* name : {"f15", "500md", "concave"}) {
-        for (const OrderMethod method : {OrderMethod::Paper, OrderMethod::Cells, OrderMethod::Tree, OrderMethod::Bsp}) {
-            add(by(method, shipped_model(name)));
-        }
+        for (const OrderOptions& way : every_way) { add(visuals::draworder::ordered(shipped_model(name), way)); }
     }
-    add(by(OrderMethod::Tree, crossing_plates()));
-    add(by(OrderMethod::Bsp, models::procedural::torus()));
-    CHECK(order_version == 10);
-    CHECK(hash.value() == 0x54515b483709eb34ULL);
+    add(visuals::draworder::ordered(crossing_plates()));
+    add(visuals::draworder::ordered(models::procedural::torus(), by_splitting));
+    CHECK(order_version == 11);
+    CHECK(hash.value() == 0xe2e2fdf1cf1160b1ULL);
 }
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const OrderOptions by_bsp{.method = OrderMethod::Bsp, .paper = {}};
 
 using octant::tests::empty_folder;
 
@@ -276,7 +270,7 @@ struct Kept {
 
 Kept kept_plates(const std::string& name) {
     Kept kept{empty_folder(name), {}, {}};
-    kept.file = cached_order(kept.folder, crossing_plates(), by_bsp).file;
+    kept.file = cached_order(kept.folder, crossing_plates(), by_splitting).file;
     kept.bytes = read_file(kept.file);
     return kept;
 }
@@ -292,7 +286,7 @@ std::string with_checksum(std::string bytes) {
 /// the file must be as it was.
 std::string note_about(const Kept& kept, const std::string& bytes) {
     write_file(kept.file, bytes);
-    const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_bsp);
+    const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_splitting);
     REQUIRE_FALSE(found.was_cached);
     REQUIRE(found.notes.size() == 1);
     REQUIRE(read_file(kept.file) == kept.bytes);
@@ -323,25 +317,25 @@ TEST_CASE("a model is ordered once and read from then on, with the same result")
 
 TEST_CASE("another model or another option is another order") {
     const fs::path folder = empty_folder("other");
-    cached_order(folder, crossing_plates(), by_bsp);
+    cached_order(folder, crossing_plates(), by_splitting);
     PolygonModel moved = crossing_plates();
     moved.vertices_m[4].x -= 0.25;
-    CHECK_FALSE(cached_order(folder, moved, by_bsp).was_cached);
+    CHECK_FALSE(cached_order(folder, moved, by_splitting).was_cached);
     CHECK_FALSE(cached_order(folder, crossing_plates(), {}).was_cached);
-    CHECK(cached_order(folder, moved, by_bsp).was_cached);
-    CHECK(cached_order(folder, crossing_plates(), by_bsp).was_cached);
+    CHECK(cached_order(folder, moved, by_splitting).was_cached);
+    CHECK(cached_order(folder, crossing_plates(), by_splitting).was_cached);
     CHECK(files_in(folder) == 3);
 }
 
 TEST_CASE("a model in other colours shares the order and keeps its colours") {
     const fs::path folder = empty_folder("colours");
-    cached_order(folder, crossing_plates(), by_bsp);
+    cached_order(folder, crossing_plates(), by_splitting);
     PolygonModel green = crossing_plates();
     green.materials[0] = {"green", {0, 1, 0}};
-    const CachedOrder found = cached_order(folder, green, by_bsp);
+    const CachedOrder found = cached_order(folder, green, by_splitting);
     CHECK(found.was_cached);
     CHECK(found.ordered.model.materials[0].name == "green");
-    check_same(found.ordered, ordered(green, by_bsp));
+    check_same(found.ordered, ordered(green, by_splitting));
 }
 
 TEST_CASE("a file cut short anywhere is computed anew and replaced") {
@@ -371,7 +365,7 @@ TEST_CASE("a file of another version, kind or model is computed anew, whatever i
 
     PolygonModel moved = crossing_plates();
     moved.vertices_m[4].x -= 0.25;
-    CHECK_THAT(note_about(kept, read_file(cached_order(kept.folder, moved, by_bsp).file)),
+    CHECK_THAT(note_about(kept, read_file(cached_order(kept.folder, moved, by_splitting).file)),
         Contains("expected the key of this input, got that of another one"));
 }
 
@@ -388,8 +382,8 @@ TEST_CASE("a folder in the place of a file is told, and the order is computed al
     const Kept kept = kept_plates("folder");
     fs::remove(kept.file);
     fs::create_directories(kept.file / "inside");
-    const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_bsp);
-    check_same(found.ordered, ordered(crossing_plates(), by_bsp));
+    const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_splitting);
+    check_same(found.ordered, ordered(crossing_plates(), by_splitting));
     CHECK(found.notes.size() == 2);
     CHECK(files_in(kept.folder) == 1);
 }
@@ -397,8 +391,8 @@ TEST_CASE("a folder in the place of a file is told, and the order is computed al
 TEST_CASE("a folder that is gone by the time of writing costs a note, not the order") {
     const fs::path folder = empty_folder("gone");
     fs::remove_all(folder);
-    const CachedOrder found = cached_order(folder, crossing_plates(), by_bsp);
-    check_same(found.ordered, ordered(crossing_plates(), by_bsp));
+    const CachedOrder found = cached_order(folder, crossing_plates(), by_splitting);
+    check_same(found.ordered, ordered(crossing_plates(), by_splitting));
     REQUIRE(found.notes.size() == 1);
     CHECK_THAT(found.notes.front(), Contains("cannot be written") && Contains(": not kept"));
 }
@@ -428,7 +422,7 @@ TEST_CASE("threads that order one model at once all get it, and one whole file s
         {
             std::vector<std::jthread> team;
             for (auto& one : found) {
-                team.emplace_back([&] { one = cached_order(folder, crossing_plates(), by_bsp); });
+                team.emplace_back([&] { one = cached_order(folder, crossing_plates(), by_splitting); });
             }
         }
         for (const auto& one : found) {
@@ -436,6 +430,6 @@ TEST_CASE("threads that order one model at once all get it, and one whole file s
             check_same(one->ordered, found.front()->ordered);
         }
         CHECK(files_in(folder) == 1);
-        CHECK(cached_order(folder, crossing_plates(), by_bsp).was_cached);
+        CHECK(cached_order(folder, crossing_plates(), by_splitting).was_cached);
     }
 }

@@ -5,15 +5,15 @@
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/html_text.h"
-#include "ui/settings/settings_text.h"
 #include "ui/studies/draw_order/surface_race.h"
 #include "ui/world/order_model.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/orderfile/bsp_tree.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_text.h"
 #include "visuals/orderfile/random_ray_test.h"
+#include "visuals/orderstudy/bsp_tree.h"
+#include "visuals/orderstudy/divided_octants.h"
 
 #include <algorithm>
 #include <array>
@@ -40,9 +40,9 @@ struct OrderedByEachMethod {
 
 namespace draworder = visuals::draworder;
 namespace orderfile = visuals::orderfile;
+namespace orderstudy = visuals::orderstudy;
 
-constexpr std::array methods = {
-    draworder::OrderMethod::Paper, draworder::OrderMethod::Cells, draworder::OrderMethod::Tree};
+constexpr std::array methods = {"paper", "cells", "tree"};
 constexpr std::size_t tree_method = 2;
 
 using List = std::vector<std::uint32_t>;
@@ -131,7 +131,7 @@ struct FrameCost {
 };
 
 /// Medians over batches of eyes, the two in turn, so that both see the same machine.
-FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedModel& ordered) {
+FrameCost frame_cost(const orderstudy::BspTree& bsp, const draworder::OrderedModel& ordered) {
     constexpr int batches = 401;
     constexpr int eyes = 500;
     RandomGenerator dice(1989);
@@ -149,7 +149,7 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
         base::Stopwatch watch;
         for (const glm::dvec3& eye_m : eyes_m) {
             painted.clear();
-            orderfile::append_painted(bsp, eye_m, painted, to_do);
+            orderstudy::append_painted(bsp, eye_m, painted, to_do);
             by_bsp += painted.size();
         }
         bsp_ns.push_back(watch.lap_ms() * 1e6 / eyes);
@@ -164,25 +164,23 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
 
 OrderedByEachMethod order_by_each_method(const std::string& name) {
     const world::OrderModel input = world::load_order_model(name, "right,up,back");
-    const auto by = [&](std::size_t i, double& build_ms) {
-        const base::Stopwatch watch;
-        draworder::OrderOptions options;
-        options.method = methods[i];
-        auto ordered = draworder::ordered(input.model, options);
-        build_ms = watch.ms();
-        return ordered;
-    };
     std::array<double, 3> build_ms{};
-    return {name, input.model.polygons.size(), {by(0, build_ms[0]), by(1, build_ms[1]), by(2, build_ms[2])}, build_ms};
+    base::Stopwatch watch;
+    draworder::OrderedModel paper = draworder::ordered(input.model, {.method = draworder::OrderMethod::Paper});
+    build_ms[0] = watch.lap_ms();
+    draworder::OrderedModel cells = orderstudy::ordered_by_cells(input.model);
+    build_ms[1] = watch.lap_ms();
+    draworder::OrderedModel tree = draworder::ordered(input.model);
+    build_ms[2] = watch.lap_ms();
+    return {name, input.model.polygons.size(), {std::move(paper), std::move(cells), std::move(tree)}, build_ms};
 }
 
 /// The eight orders that the paper prints for its example object, ours beside, and whether the
 /// polygons are the same and those that must come first do.
 report::HtmlTable paper_order_table() {
     const world::OrderModel input = world::load_order_model("concave", "right,up,back");
-    draworder::OrderOptions options;
-    options.method = draworder::OrderMethod::Paper;
-    const auto orders = orderfile::cell_orders(draworder::ordered(input.model, options));
+    const auto orders =
+        orderfile::cell_orders(draworder::ordered(input.model, {.method = draworder::OrderMethod::Paper}));
     report::HtmlTable table;
     table.title = "Table 4: painting orders of the paper's example object";
     table.header = {"viewing direction", "paper", "ours", "same polygons", "precedences that the object needs",
@@ -215,16 +213,16 @@ report::HtmlTable method_table(std::span<const OrderedByEachMethod> models) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
             const auto check = orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
-            table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}", model.name,
-                settings::text_of(methods[i]), ordered.model.polygons.size(), ordered.splits,
-                ordered.order.cell_count(), ordered.order.list_count(), tests.most, tests.mean, model.build_ms[i],
-                check.pairs, check.pairs_unproved + check.unlisted_unproved);
+            table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}", model.name, methods[i],
+                ordered.model.polygons.size(), ordered.splits, ordered.order.cell_count(), ordered.order.list_count(),
+                tests.most, tests.mean, model.build_ms[i], check.pairs, check.pairs_unproved + check.unlisted_unproved);
         }
     }
-    table.note = "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
-                 "|y| + |z| of at least 2 R. tree: planes over eye space, for every eye. R is the "
-                 "model's radius. A pair is certified when a plane proves that no eye of the cell "
-                 "sees the one painted first before the other; turning parts at every angle.";
+    table.note =
+        "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
+        "|y| + |z| of at least 2 R. tree: planes over eye space, for every eye (--order-method exact). R is the "
+        "model's radius. A pair is certified when a plane proves that no eye of the cell "
+        "sees the one painted first before the other; turning parts at every angle.";
     return table;
 }
 
@@ -264,7 +262,7 @@ report::HtmlTable bsp_table(std::span<const OrderedByEachMethod> models) {
         "BSP polygons painted", "tree polygons listed"};
     for (const OrderedByEachMethod& model : models) {
         const draworder::OrderedModel& ordered = model.by_method[tree_method];
-        const orderfile::BspTree bsp = orderfile::bsp_tree(model.by_method[0].model);
+        const orderstudy::BspTree bsp = orderstudy::bsp_tree(model.by_method[0].model);
         const FrameCost cost = frame_cost(bsp, ordered);
         table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{}\t{:.0f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}", model.name,
             model.polygons, bsp.splits, bsp.model.polygons.size(), bsp.nodes.size(), bsp.depth,

@@ -1,7 +1,7 @@
 #include "tests/order_shapes.h"
 #include "tests/paper_example.h"
-#include "visuals/orderfile/bsp_tree.h"
 #include "visuals/orderfile/random_ray_test.h"
+#include "visuals/orderstudy/bsp_tree.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,6 +12,7 @@
 
 using namespace octant;
 using namespace octant::visuals::orderfile;
+using namespace octant::visuals::orderstudy;
 
 namespace {
 

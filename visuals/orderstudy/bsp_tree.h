@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace octant::visuals::orderfile {
+namespace octant::visuals::orderstudy {
 
 /// A binary space partition of a model by planes of its own polygons, to compare the other orders with. It orders any
 /// model for any eye, but it cuts polygons where it must and is walked anew in every frame, with one plane test at each
@@ -47,4 +47,4 @@ BspTree bsp_tree(const models::polygons::PolygonModel& model);
 void append_painted(
     const BspTree& tree, const glm::dvec3& eye_m, std::vector<std::uint32_t>& painted, std::vector<int>& pending);
 
-} // namespace octant::visuals::orderfile
+} // namespace octant::visuals::orderstudy

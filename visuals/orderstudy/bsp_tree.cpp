@@ -6,7 +6,7 @@
 //   rules for equals the tree with the fewest cuts is kept.
 // - Polygons in a node's plane that face the other way stay in the node. Each is painted on the way
 //   through the node when the eye is on its side.
-#include "visuals/orderfile/bsp_tree.h"
+#include "visuals/orderstudy/bsp_tree.h"
 
 #include "visuals/draworder/split.h"
 
@@ -17,7 +17,7 @@
 #include <functional>
 #include <utility>
 
-namespace octant::visuals::orderfile {
+namespace octant::visuals::orderstudy {
 
 namespace {
 
@@ -209,4 +209,4 @@ void append_painted(
     }
 }
 
-} // namespace octant::visuals::orderfile
+} // namespace octant::visuals::orderstudy
