@@ -34,6 +34,11 @@ void Progress::show(int done, const std::string& note) {
     std::fflush(stderr);
 }
 
+void Progress::tick(const std::string& note) {
+    const std::scoped_lock lock(ticking_);
+    show(++ticks_, note);
+}
+
 void Progress::finish() {
     if (terminal_ && drawn_) {
         std::fputs("\r\x1b[K", stderr);

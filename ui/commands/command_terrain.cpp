@@ -12,8 +12,8 @@
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
+#include "ui/report/table.h"
 #include "ui/settings/path_fields.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/terrain/error_tables.h"
@@ -349,7 +349,7 @@ void show_error(ErrorOptions options) {
             run.cameras.push_back(ui::terrain::camera_at(point, samples, options.view.fov_deg));
         }
     }
-    std::vector<report::HtmlTable> tables = {ui::terrain::error_table(ground, run)};
+    std::vector<report::ResultTable> tables = {ui::terrain::error_table(ground, run)};
     if (options.compare) { tables.push_back(ui::terrain::comparison_table(ground, run)); }
     std::fputs((options.json ? report::json_of(tables) : report::markdown_of(tables)).c_str(), stdout);
 }
@@ -424,7 +424,7 @@ std::vector<ui::terrain::QueryPointResult> query_source(const QueryOptions& opti
     }
     std::vector<ui::terrain::QueryPointResult> answers;
     for (const ui::terrain::QueryPoint& point : points) {
-        answers.push_back({point, source.height_at(point.x_m, point.y_m)});
+        answers.push_back(ui::terrain::answer_of(point, source.height_at(point.x_m, point.y_m)));
     }
     return answers;
 }

@@ -37,7 +37,7 @@ if(dpkg_query)
   string(REGEX MATCH "^[^:, \n]+" gdal_package "${gdal_owner}")
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "${gdal_package}")
 endif()
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, gnuplot-nox")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "slurm-client, parallel")
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

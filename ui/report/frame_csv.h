@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/base/text_file.h"
+#include "ui/base/json_value.h"
 #include "ui/report/frame_record.h"
 
 #include <cstddef>
@@ -19,6 +20,9 @@ std::string frame_csv_header();
 /// One line of frames.csv with its line end: fixed decimals a column, C locale. What is not finite is an empty field;
 /// resolution_c, stress, error_px, eye and aircraft places may be that.
 std::string frame_csv_line(const FrameRecord& record);
+
+/// The JSON schema of a row of frames.csv: every column by its name.
+base::JsonValue frame_schema();
 
 /// The record with its numbers rounded as its line gives them, so that figures computed now and figures computed from
 /// the file are the same bit for bit.

@@ -4,9 +4,15 @@
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/json_schema.h"
 #include "tests/ui/flight/small_ground.h"
+#include "ui/commands/bench.h"
 #include "ui/commands/commands.h"
-#include "ui/report/html_text.h"
+#include "ui/report/frame_csv.h"
+#include "ui/report/statistics.h"
+#include "ui/report/table.h"
+#include "ui/studies/program/bench.h"
 #include "ui/studies/program/study_program.h"
+#include "ui/sweep/sweep_folder.h"
+#include "ui/terrain/terrain_query.h"
 
 #include <catch2/catch.hpp>
 
@@ -109,6 +115,19 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
                        "3", "--quiet"});
 }
 
+TEST_CASE("schemas of rows say what the columns in the program say") {
+    using ui::report::schema_of;
+    tests::check_row_schema(schema("frames"), "", ui::report::frame_schema());
+    const auto statistics = schema_of(ui::report::all_statistics());
+    tests::check_row_schema(schema("fly"), "", statistics);
+    tests::check_row_schema(schema("report"), "/properties/recordings/items/properties/summary", statistics);
+    tests::check_row_schema(schema("run"), "/properties/summary", statistics);
+    tests::check_row_schema(schema("bench"), "/properties/scenes/items", schema_of(ui::commands::bench_columns()));
+    tests::check_row_schema(schema("sweep"), "/properties/runs/items", schema_of(ui::sweep::result_columns()));
+    tests::check_row_schema(
+        schema("terrain-query"), "/properties/points/items", schema_of(ui::terrain::query_columns()));
+}
+
 TEST_CASE("every command has --json but manual, which prints a page and completions") {
     CHECK(commands_with_json(false) == std::set<std::string>{"manual"});
 }
@@ -128,7 +147,9 @@ TEST_CASE("every command that prints JSON has a schema, and all tables have one 
         if (found != schemas.end()) { CHECK(fs::is_regular_file(schema(found->second))); }
     }
     CHECK(commands_with_json(true).size() >= schemas.size() + 8);
-    const std::vector<ui::report::HtmlTable> tables{{"T", {"a", "b"}, {{"x", "1.5"}, {"y"}}, "note"}, {}};
+    std::vector<ui::report::ResultTable> tables(2);
+    tables[0] = {.title = "T", .note = "note"};
+    tables[0].add({{"a", "x"}, {"b", 1.5}});
     CHECK(tests::schema_faults(ui::report::json_of(tables), schema("tables")).empty());
     CHECK_FALSE(tests::schema_faults("[{\"title\": 3}]", schema("tables")).empty());
     CHECK_FALSE(tests::schema_faults("[", schema("tables")).empty());

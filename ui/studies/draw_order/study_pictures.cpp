@@ -1,14 +1,13 @@
 #include "ui/studies/draw_order/study_pictures.h"
 
-#include "sim/base/output_file.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
-#include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/settings.h"
 #include "ui/studies/draw_order/study_renderer.h"
+#include "ui/studies/study.h"
 #include "visuals/raster/mask_picture.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
@@ -21,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -376,22 +374,17 @@ Qualities measured(const StudiedScene& studied, const PictureStudyOptions& optio
     return renderer.quality();
 }
 
-std::vector<std::string> noise_cells(const std::string& name, const Qualities& qualities) {
-    std::vector<std::string> cells{name};
-    for (const PictureQuality& one : qualities) { cells.push_back(fmt::format("{:.1f}", one.db_to_own())); }
-    cells.push_back(
-        fmt::format("{:+.1f}", qualities[raster_sixteen_samples].db_to_own() - qualities[gl_four_samples].db_to_own()));
-    return cells;
-}
-
-report::HtmlTable scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& options) {
-    report::HtmlTable table;
-    table.title = "Peak signal to noise against 8 x 8 samples a pixel, dB";
-    table.header = {"scene"};
-    for (const RenderMode& mode : render_modes) { table.header.emplace_back(mode.name); }
-    table.header.emplace_back("raster 16 over OpenGL 4");
+report::ResultTable scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& options) {
+    report::ResultTable table{"Peak signal to noise against 8 x 8 samples a pixel, dB"};
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
-        table.rows.push_back(noise_cells(name_of(studied_scenes[i]), of_scenes[i]));
+        const Qualities& qualities = of_scenes[i];
+        std::vector<report::Cell> row = {{"scene", name_of(studied_scenes[i])}};
+        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+            row.push_back({std::string(render_modes[mode].name), "{:.1f}", qualities[mode].db_to_own()});
+        }
+        row.push_back({"raster 16 over OpenGL 4", "{:+.1f}",
+            qualities[raster_sixteen_samples].db_to_own() - qualities[gl_four_samples].db_to_own()});
+        table.add(std::move(row));
     }
     table.note = fmt::format("{} frames of each path, {}x{}. Against a picture by the same renderer with one sample a "
                              "pixel, eight times as large in both directions. Head-up displays are left out.",
@@ -400,22 +393,21 @@ report::HtmlTable scene_table(const std::vector<Qualities>& of_scenes, const Pic
 }
 
 /// Of all scenes without a texture.
-report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
+report::ResultTable mode_table(const std::vector<Qualities>& of_scenes) {
     Qualities sums;
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
         for (std::size_t mode = 0; mode < render_modes.size() && !studied_scenes[i].textured; ++mode) {
             sums[mode].add(of_scenes[i][mode]);
         }
     }
-    report::HtmlTable table;
-    table.title = "All scenes without a texture";
-    table.header = {"way", "PSNR to its own 8 x 8, dB", "PSNR to OpenGL's 8 x 8, dB", "largest error, levels",
-        "pixels that change falsely", "against OpenGL 4"};
+    report::ResultTable table{"All scenes without a texture"};
     const auto of_four = static_cast<double>(sums[gl_four_samples].false_changes);
     for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         const PictureQuality& one = sums[mode];
-        table.add_row("{}\t{:.1f}\t{:.1f}\t{:.0f}\t{}\t{:.3f}", std::string(render_modes[mode].name), one.db_to_own(),
-            one.db_to_gl(), one.largest_error, one.false_changes, static_cast<double>(one.false_changes) / of_four);
+        table.add({{"way", render_modes[mode].name}, {"PSNR to its own 8 x 8, dB", "{:.1f}", one.db_to_own()},
+            {"PSNR to OpenGL's 8 x 8, dB", "{:.1f}", one.db_to_gl()},
+            {"largest error, levels", "{:.0f}", one.largest_error}, {"pixels that change falsely", one.false_changes},
+            {"against OpenGL 4", "{:.3f}", static_cast<double>(one.false_changes) / of_four}});
     }
     table.note = "Falsely: by more than 16 levels more or less than 8 x 8 samples change, when the "
                  "picture moves half a pixel to the right, and when it moves half a pixel down.";
@@ -425,16 +417,16 @@ report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
 } // namespace
 
 void study_pictures(const PictureStudyOptions& options) {
-    report::StudyTables tables(options);
+    Study study(options);
     std::vector<Qualities> of_scenes(studied_scenes.size());
     PictureStudyOptions of_scene = options;
     of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     parallel_for(of_scenes.size(), options.jobs,
         [&](std::size_t i, std::size_t /*worker*/) { of_scenes[i] = measured(studied_scenes[i], of_scene); });
-    tables.add("scenes", scene_table(of_scenes, options));
-    tables.add("ways", mode_table(of_scenes));
-    tables.finish("pictures", tables.markdown());
-    base::print_note(options.quiet, fmt::format("tables: {0}/pictures.md; pictures: {0}/*.png", options.out.string()));
+    study.add("scenes", scene_table(of_scenes, options));
+    study.add("ways", mode_table(of_scenes));
+    study.finish("pictures");
+    base::print_note(options.quiet, fmt::format("pictures: {}/*.png", options.out.string()));
 }
 
 } // namespace octant::ui::studies::draw_order

@@ -2,20 +2,14 @@
 
 #include "models/polygons/obj_reader.h"
 #include "models/procedural/procedural_models.h"
-#include "sim/base/output_file.h"
-#include "sim/base/random_generator.h"
 #include "sim/base/thread_pool.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/flight/renderer_choice.h"
-#include "ui/flight/session.h"
-#include "ui/report/html_text.h"
-#include "ui/report/plots.h"
-#include "ui/report/png_file.h"
-#include "ui/report/statistics.h"
 #include "ui/studies/hybrid_shading/shading_times.h"
 #include "ui/studies/shading_pictures.h"
+#include "ui/studies/study.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/view_refiner.h"
@@ -31,7 +25,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
@@ -383,16 +376,16 @@ double min_gain_db(const ShareQuality& ours, const ShareQuality& theirs) {
 }
 
 /// Table 2 of the 2008 paper with the counts computed beside, its slip marked.
-report::HtmlTable operation_table() {
+report::ResultTable operation_table() {
     const int smooth = shading::device_smooth_count(printed_device_ratio, printed_polygons);
     const auto counts = shading::operation_counts(printed_polygons, smooth);
     const auto whole = shading::operation_counts(printed_polygons + 1, smooth);
     const auto& printed = shading::paper_counts;
-    report::HtmlTable table;
-    table.title = fmt::format("Operations for a torus, table 2 ({} smooth)", smooth);
-    table.header = {"what", "formula", "printed, n = 415", "computed, n = 415", "n = 416"};
+    report::ResultTable table{fmt::format("Operations for a torus, table 2 ({} smooth)", smooth)};
     const auto add = [&](const char* what, const char* formula, int shown, int here, int all) {
-        table.add_row("{}\t{}\t{}{}\t{}\t{}", what, formula, shown, shown == here ? "" : " (slip)", here, all);
+        table.add(
+            {{"what", what}, {"formula", formula}, {"printed, n = 415", "{}{}", shown, shown == here ? "" : " (slip)"},
+                {"computed, n = 415", here}, {"n = 416", all}});
     };
     add("deciding", "9 n", printed.selection, counts.selection, whole.selection);
     add("all flat", "9 n + n", printed.all_flat, counts.all_flat, whole.all_flat);
@@ -408,12 +401,8 @@ report::HtmlTable operation_table() {
 }
 
 /// What the error rule gains over the paper's at few smooth polygons, in decibels.
-report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
-    report::HtmlTable table;
-    table.title = "Gain of the error rule over the paper's, PSNR against all Gouraud";
-    table.header = {"model", "polygons", "facing the eye", "smooth", "random, dB", "paper, dB",
-        "paper, facing only, dB", "error (ours), dB", "gain over paper, dB", "least of a view, dB",
-        "over facing only, dB", "at least 2 dB"};
+report::ResultTable gain_table(std::span<const ShadingRun> runs) {
+    report::ResultTable table{"Gain of the error rule over the paper's, PSNR against all Gouraud"};
     for (const ShadingRun& run : runs) {
         for (std::size_t step = 1; step <= 3; ++step) {
             const auto& random = run.rules[random_rule].to_gouraud[step];
@@ -421,11 +410,14 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
             const auto& facing = run.rules[facing_rule].to_gouraud[step];
             const auto& ours = run.rules[error_rule].to_gouraud[step];
             const double gain_db = ours.psnr_db() - theirs.psnr_db();
-            table.add_row("{}\t{}\t{:.1f} %\t{} %\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", run.name, run.polygons,
-                100.0 * run.facing_share, step * share_step_percent, decibels(random.psnr_db()),
-                decibels(theirs.psnr_db()), decibels(facing.psnr_db()), decibels(ours.psnr_db()),
-                gain_text(ours.psnr_db(), gain_db), gain_text(ours.psnr_db(), min_gain_db(ours, theirs)),
-                gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db()), gain_db >= 2.0 ? "yes" : "no");
+            table.add({{"model", run.name}, {"polygons", run.polygons},
+                {"facing the eye", "{:.1f} %", 100.0 * run.facing_share}, {"smooth", "{} %", step * share_step_percent},
+                {"random, dB", decibels(random.psnr_db())}, {"paper, dB", decibels(theirs.psnr_db())},
+                {"paper, facing only, dB", decibels(facing.psnr_db())}, {"error (ours), dB", decibels(ours.psnr_db())},
+                {"gain over paper, dB", gain_text(ours.psnr_db(), gain_db)},
+                {"least of a view, dB", gain_text(ours.psnr_db(), min_gain_db(ours, theirs))},
+                {"over facing only, dB", gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db())},
+                {"at least 2 dB", gain_db >= 2.0 ? "yes" : "no"}});
         }
     }
     table.note = "Share of all polygons of the model, those that face away included. Eight eyes around the "
@@ -437,26 +429,22 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
 }
 
 /// PSNR and SSIM of one model over the share of smooth polygons, all rules, both references.
-report::HtmlTable quality_table(const ShadingRun& run) {
-    report::HtmlTable table;
-    table.title = fmt::format("{}: quality over the share of smooth polygons", run.name);
-    table.header = {"smooth"};
-    for (const char* reference : {"Gouraud", "per pixel"}) {
-        for (const char* measure : {"PSNR, dB", "SSIM"}) {
-            for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
-                table.header.push_back(fmt::format("{} to {}, {}", measure, reference, studied_rules[rule].name));
-            }
-        }
-    }
+report::ResultTable quality_table(const ShadingRun& run) {
+    report::ResultTable table{fmt::format("{}: quality over the share of smooth polygons", run.name)};
     for (std::size_t step = 0; step < share_steps; ++step) {
-        std::vector<std::string> row{fmt::format("{} %", step * share_step_percent)};
-        for (const auto reference : {&RuleQuality::to_gouraud, &RuleQuality::to_per_pixel}) {
-            for (const RuleQuality& rule : run.rules) { row.push_back(decibels((rule.*reference)[step].psnr_db())); }
-            for (const RuleQuality& rule : run.rules) {
-                report::append_cells(row, "{:.4f}", (rule.*reference)[step].similarity);
+        std::vector<report::Cell> row = {{"smooth", "{} %", step * share_step_percent}};
+        for (const auto& [reference, name] :
+            {std::pair(&RuleQuality::to_gouraud, "Gouraud"), std::pair(&RuleQuality::to_per_pixel, "per pixel")}) {
+            for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
+                row.emplace_back(fmt::format("PSNR, dB to {}, {}", name, studied_rules[rule].name),
+                    decibels((run.rules[rule].*reference)[step].psnr_db()));
+            }
+            for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
+                row.push_back({fmt::format("SSIM to {}, {}", name, studied_rules[rule].name), "{:.4f}",
+                    (run.rules[rule].*reference)[step].similarity});
             }
         }
-        table.rows.push_back(row);
+        table.add(std::move(row));
     }
     table.note = fmt::format("{} polygons, {:.1f} % of them face the eye. Exact: beyond 100 dB. To Gouraud: all "
                              "polygons smooth; per pixel: normals between corners (Phong's shading).",
@@ -465,16 +453,17 @@ report::HtmlTable quality_table(const ShadingRun& run) {
 }
 
 /// How the share of smooth polygons followed made frame times.
-report::HtmlTable control_table(std::span<const ControlRun> runs) {
-    report::HtmlTable table;
-    table.title = "The share of smooth polygons found from frame times";
-    table.header = {"all smooth cost more, ms", "T, ms", "best share, a = 3 / 5 / 3 ms", "settled after, frames",
-        "frames over T", "class changes per polygon and second", "flat gains"};
+report::ResultTable control_table(std::span<const ControlRun> runs) {
+    report::ResultTable table{"The share of smooth polygons found from frame times"};
     for (const ControlRun& run : runs) {
-        table.add_row("{:g}\t{:g}\t{:.2f} / {:.2f} / {:.2f}\t{} / {} / {}\t{:.1f} %\t{:.3f}\t{}", run.machine.smooth_ms,
-            run.target_frame_ms, run.best_share[0], run.best_share[1], run.best_share[2], run.settled_frames[0],
-            run.settled_frames[1], run.settled_frames[2], 100.0 * run.over_share, run.changes_per_second,
-            run.has_no_gain ? "nothing: all smooth" : "time");
+        table.add({{"all smooth cost more, ms", "{:g}", run.machine.smooth_ms}, {"T, ms", "{:g}", run.target_frame_ms},
+            {"best share, a = 3 / 5 / 3 ms", "{:.2f} / {:.2f} / {:.2f}", run.best_share[0], run.best_share[1],
+                run.best_share[2]},
+            {"settled after, frames", "{} / {} / {}", run.settled_frames[0], run.settled_frames[1],
+                run.settled_frames[2]},
+            {"frames over T", "{:.1f} %", 100.0 * run.over_share},
+            {"class changes per polygon and second", "{:.3f}", run.changes_per_second},
+            {"flat gains", run.has_no_gain ? "nothing: all smooth" : "time"}});
     }
     const SimulatedMachine machine;
     table.note = fmt::format("A made clock, 416 polygons: all flat take {:g} ms and a; noise of {:g} % (deviation), "
@@ -506,15 +495,24 @@ constexpr std::size_t smooth_flight = 1;
 constexpr std::size_t budget_flight = 2;
 
 struct BudgetFlights {
-    std::array<std::vector<double>, budget_modes.size()> frame_ms;
+    std::vector<Records> records; ///< by budget_modes
+    int left_out = 0;
     std::vector<double> smooth_share; ///< of the flight that is held
     bool has_no_gain = false;
 
-    double median_ms(std::size_t mode) const { return report::statistics_of_times(frame_ms[mode]).p50_ms; }
+    double median_ms(std::size_t mode) const {
+        return median_of(records[mode], &report::FrameRecord::frame_ms, left_out);
+    }
+
+    /// Frames that took longer than the budget.
+    double share_over(std::size_t mode, double budget_ms) const {
+        const auto times_ms = values_of(records[mode], &report::FrameRecord::frame_ms, left_out);
+        const auto over = std::ranges::count_if(times_ms, [&](double ms) { return ms > budget_ms; });
+        return static_cast<double>(over) / static_cast<double>(times_ms.size());
+    }
 };
 
-std::unique_ptr<flight::Session> budget_session(
-    const std::string& aircraft, std::size_t mode, double rate_hz, int frames) {
+settings::RunSettings budget_settings(const std::string& aircraft, std::size_t mode, double rate_hz, int frames) {
     settings::RunSettings settings;
     settings.path.name = "turn";
     settings.view.kind = scene::View::Orbit;
@@ -526,60 +524,48 @@ std::unique_ptr<flight::Session> budget_session(
     settings.drawing.renderer = settings::RendererKind::Raster;
     settings.shading.kind = budget_modes[mode];
     settings.adapt.shading = mode == budget_flight;
-    return std::make_unique<flight::Session>(settings);
+    return settings;
 }
 
 /// Flies the first `ways` of budget_modes in turn; the first frames do not count.
 BudgetFlights fly_all(const std::string& aircraft, std::size_t ways, double rate_hz, int frames, int left_out) {
-    std::vector<std::unique_ptr<flight::Session>> sessions;
+    Sessions sessions;
     for (std::size_t mode = 0; mode < ways; ++mode) {
-        sessions.push_back(budget_session(aircraft, mode, rate_hz, frames));
+        sessions.push_back(std::make_unique<flight::Session>(budget_settings(aircraft, mode, rate_hz, frames)));
     }
     BudgetFlights flights;
-    for (int frame = 0; frame < frames; ++frame) {
-        for (std::size_t turn = 0; turn < ways; ++turn) {
-            const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % ways;
-            const report::FrameRecord record = sessions[mode]->draw(frame);
-            if (frame < left_out) { continue; }
-            flights.frame_ms[mode].push_back(record.frame_ms);
-            if (mode == budget_flight) {
-                flights.smooth_share.push_back(
-                    static_cast<double>(record.smooth_polygons) / std::max(sessions[mode]->shading()->polygons, 1));
-            }
+    flights.left_out = left_out;
+    flights.records = draw_in_turn(sessions, frames, [&](int frame, const std::vector<Records>& so_far) {
+        if (ways > budget_flight && frame >= left_out) {
+            flights.smooth_share.push_back(static_cast<double>(so_far[budget_flight].back().smooth_polygons) /
+                                           std::max(sessions[budget_flight]->shading()->polygons, 1));
         }
-    }
+        return true;
+    });
     if (ways > budget_flight) { flights.has_no_gain = sessions[budget_flight]->shading()->has_no_gain; }
     return flights;
 }
 
-double share_over(const std::vector<double>& times_ms, double budget_ms) {
-    const auto over = std::ranges::count_if(times_ms, [&](double ms) { return ms > budget_ms; });
-    return static_cast<double>(over) / static_cast<double>(times_ms.size());
-}
-
-std::vector<std::string> cells_of(const std::string& aircraft, double budget_ms, const BudgetFlights& flights) {
-    std::vector<std::string> cells{aircraft, fmt::format("{:.2f}", budget_ms)};
-    for (std::size_t mode = 0; mode < budget_modes.size(); ++mode) {
-        report::append_cells(
-            cells, "{:.2f}\t{:.0f} %", flights.median_ms(mode), 100.0 * share_over(flights.frame_ms[mode], budget_ms));
+std::vector<report::Cell> cells_of(const std::string& aircraft, double budget_ms, const BudgetFlights& flights) {
+    constexpr std::array names = {"all flat", "all Gouraud", "adapted"}; // of budget_modes
+    std::vector<report::Cell> cells = {{"aircraft", aircraft}, {"budget T, ms", "{:.2f}", budget_ms}};
+    for (std::size_t mode = 0; mode < names.size(); ++mode) {
+        cells.push_back({fmt::format("{}, ms", names[mode]), "{:.2f}", flights.median_ms(mode)});
+        cells.push_back({"over T", "{:.0f} %", 100.0 * flights.share_over(mode, budget_ms)});
     }
     const double smooth = report::statistics_of_times(flights.smooth_share).p50_ms;
-    report::append_cells(cells, "{:.0f} %", 100.0 * (1.0 - smooth));
-    cells.emplace_back(flights.has_no_gain ? "nothing: all smooth" : "time");
+    cells.push_back({"flat polygons", "{:.0f} %", 100.0 * (1.0 - smooth)});
+    cells.emplace_back("flat gains", flights.has_no_gain ? "nothing: all smooth" : "time");
     return cells;
 }
 
 /// What `--adapt shading` makes of budgets below, between and above the times that all flat and all Gouraud take, by
 /// the raster renderer: three flights draw every frame in turn, so that they see the same machine. These times are the
 /// machine's, not the same twice. `aircraft`: as --aircraft. Throws Error.
-report::HtmlTable budget_times_table(std::span<const std::string> aircraft, bool quiet) {
-    report::HtmlTable table;
-    table.title = "Adaptation flown: what a budget makes of the share of flat polygons, raster, 16 "
-                  "samples";
-    table.header = {"aircraft", "budget T, ms", "all flat, ms", "over T", "all Gouraud, ms", "over T", "adapted, ms",
-        "over T", "flat polygons", "flat gains"};
+report::ResultTable budget_times_table(std::span<const std::string> aircraft, bool quiet) {
+    report::ResultTable table{
+        "Adaptation flown: what a budget makes of the share of flat polygons, raster, 16 samples"};
     base::Progress progress("budgets", static_cast<int>(aircraft.size() * budgets.size()), quiet, "flights");
-    int done = 0;
     for (const std::string& each : aircraft) {
         const BudgetFlights clock = fly_all(each, budget_flight, clock_rate_hz, clock_frames, 10);
         const double flat_ms = clock.median_ms(flat_flight);
@@ -588,8 +574,8 @@ report::HtmlTable budget_times_table(std::span<const std::string> aircraft, bool
             const double budget_ms = flat_ms + budget * way_ms;
             const BudgetFlights flights =
                 fly_all(each, budget_modes.size(), 1000.0 / budget_ms, budget_frames, unsettled_frames);
-            table.rows.push_back(cells_of(std::filesystem::path(each).stem().string(), budget_ms, flights));
-            progress.show(++done);
+            table.add(cells_of(std::filesystem::path(each).stem().string(), budget_ms, flights));
+            progress.tick();
         }
     }
     progress.finish();
@@ -676,61 +662,44 @@ report::Plot curve_plot(const ShadingRun& run) {
     return plot;
 }
 
-/// Curves and strips; the Markdown that shows them.
-std::string write_figures(
-    const ShadingStudyOptions& options, const std::vector<ShadedModel>& models, const std::vector<ShadingRun>& runs) {
-    std::string markdown;
+void add_figures(Study& study, const ShadingStudyOptions& options, const std::vector<ShadedModel>& models,
+    const std::vector<ShadingRun>& runs) {
     std::vector<report::Plot> plots;
-    plots.reserve(runs.size());
     for (const ShadingRun& run : runs) { plots.push_back(curve_plot(run)); }
-    if (const auto png = report::plots_png(plots)) {
-        write_file(options.out / "curves.png", *png);
-        markdown += "![curves.png](curves.png)\n\nPSNR against all Gouraud; a curve ends where it is "
-                    "exact.\n\n";
-    } else {
-        base::print_note(options.quiet, "curves.png not made: gnuplot is not installed");
-    }
+    study.add(plots, "PSNR against all Gouraud; a curve ends where it is exact.");
     for (const ShadedModel& model : models) {
-        const std::string file = "strip-" + file_part(model.name) + ".png";
-        report::write_png(options.out / file, column_rect(model, options.size_px).view());
-        markdown += fmt::format("![{0}]({0})\n\n{1}: all flat; {2:.0f} % smooth at random, by the paper's rule, by the "
-                                "same among polygons that face the eye, by the error; all Gouraud; each pixel. Below: "
-                                "difference from all Gouraud, {3:.0f} "
-                                "times.\n\n",
-            file, model.name, 100.0 * strip_share, error_scale);
+        study.add("strip-" + file_part(model.name) + ".png", column_rect(model, options.size_px).view(),
+            fmt::format(
+                "{}: all flat; {:.0f} % smooth at random, by the paper's rule, by the same among polygons that "
+                "face the eye, by the error; all Gouraud; each pixel. Below: difference from all Gouraud, {:.0f} "
+                "times.",
+                model.name, 100.0 * strip_share, error_scale));
     }
-    return markdown;
 }
 
 } // namespace
 
 void study_shading(const ShadingStudyOptions& options) {
     const std::vector<ShadedModel> models = shading_models(options.meshes);
-    report::StudyTables tables(options);
+    Study study(options);
     std::vector<ShadingRun> runs(models.size());
-    const bool quiet = options.quiet || options.jobs > 1; // progress of one at a time only
+    base::Progress progress("models", static_cast<int>(models.size() * views), options.quiet, "views");
     parallel_for(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-        const ShadedModel& model = models[i];
-        const int eyes = static_cast<int>(study_eyes(model.polygons).size());
-        base::Progress progress(model.name, eyes, quiet, "views");
-        int done = 0;
-        runs[i] = run_shading(model, options.size_px, [&] { progress.show(++done); });
-        progress.finish();
+        runs[i] = run_shading(models[i], options.size_px, [&] { progress.tick(models[i].name); });
     });
-    tables.add("operations", operation_table());
-    tables.add("gain", gain_table(runs));
-    tables.add("control", control_table(control_runs()));
-    for (const ShadingRun& run : runs) { tables.add("quality-" + file_part(run.name), quality_table(run)); }
+    progress.finish();
+    study.add("operations", operation_table());
+    study.add("gain", gain_table(runs));
+    study.add("control", control_table(control_runs()));
+    for (const ShadingRun& run : runs) { study.add("quality-" + file_part(run.name), quality_table(run)); }
     if (options.times) {
         std::vector<std::string> aircraft{"f15", "500md"};
         for (const std::filesystem::path& mesh : options.meshes) { aircraft.push_back(mesh.string()); }
-        tables.add("times", shading_times_table(aircraft, options.quiet));
-        tables.add("held", budget_times_table(aircraft, options.quiet));
+        study.add("times", shading_times_table(aircraft, options.quiet));
+        study.add("held", budget_times_table(aircraft, options.quiet));
     }
-    tables.finish("shading", tables.markdown() + "\n", write_figures(options, models, runs));
-    base::print_note(
-        options.quiet, fmt::format("tables and figures: {0}/shading.md; each table as .csv, each figure as .png",
-                           options.out.string()));
+    add_figures(study, options, models, runs);
+    study.finish("shading");
 }
 
 } // namespace octant::ui::studies::hybrid_shading

@@ -373,38 +373,42 @@ void set_formation(BenchOptions& options) {
     options.settings.ground.triangles = 25000;
 }
 
-std::string figure_or_dash(const std::optional<double>& value, int decimals) {
-    return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
-}
+using R = BenchResult;
+constexpr std::array result_columns{
+    report::column<&R::name>("name", "scene"),
+    report::column<&R::median_ms>("median_ms", "median ms", 2),
+    report::column<&R::p99_ms>("p99_ms", "p99 ms", 2),
+    report::column<&R::ratio>("ratio", "ratio", 2, "median over that of the platform's floor"),
+    report::column<&R::sim_ms>("sim_ms", "sim ms", 3),
+    report::column<&R::plan_ms>("plan_ms", "plan ms", 2),
+    report::column<&R::draw_ms>("draw_ms", "draw ms", 2),
+    report::column<&R::read_ms>("read_ms", "read ms", 2),
+    report::column<&R::mesh_wait_ms>("mesh_wait_ms", "mesh wait", 2),
+    report::column<&R::draw_wait_ms>("draw_wait_ms", "draw wait", 2),
+    report::column<&R::cpu_ms>("cpu_ms", "CPU ms", 2, "median of the processor time of all threads"),
+    report::column<&R::ratio_to_plain>(
+        "of_plain", "of plain", 2, "processor time over that of the same scene without features"),
+    report::column<&R::triangles>("triangles", "triangles"),
+    report::column<&R::ms_per_1000_triangles>("ms_per_1000_triangles", "ms/1000", 3),
+    report::hash_column<&R::hash>("hash", "hash", "over the pixels of the timed frames"),
+};
 
-void print_table(const std::vector<BenchResult>& results) {
-    std::fputs(fmt::format("{:<59} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>8} {:>8} {:>9} "
-                           "{:>8}  {}\n",
-                   "scene", "median ms", "p99 ms", "ratio", "sim ms", "plan ms", "draw ms", "read ms", "mesh wait",
-                   "draw wait", "CPU ms", "of plain", "triangles", "ms/1000", "hash")
-                   .c_str(),
-        stdout);
-    for (const BenchResult& r : results) {
-        std::fputs(fmt::format("{:<59} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>10.2f} "
-                               "{:>10.2f} {:>8.2f} {:>8} {:>9} {:>8}  {:016x}\n",
-                       r.name, r.median_ms, r.p99_ms, r.ratio, r.sim_ms, r.plan_ms, r.draw_ms, r.read_ms,
-                       r.mesh_wait_ms, r.draw_wait_ms, r.cpu_ms, figure_or_dash(r.ratio_to_plain, 2), r.triangles,
-                       figure_or_dash(r.ms_per_1000_triangles, 3), r.hash)
-                       .c_str(),
-            stdout);
-    }
-}
+} // namespace
 
-void print_json(const std::vector<BenchResult>& results) {
-    auto scenes = base::JsonValue::list({});
-    for (const BenchResult& r : results) {
-        scenes.push_back({{"name", r.name}, {"median_ms", r.median_ms}, {"p99_ms", r.p99_ms}, {"ratio", r.ratio},
-            {"sim_ms", r.sim_ms}, {"plan_ms", r.plan_ms}, {"draw_ms", r.draw_ms}, {"read_ms", r.read_ms},
-            {"mesh_wait_ms", r.mesh_wait_ms}, {"draw_wait_ms", r.draw_wait_ms}, {"cpu_ms", r.cpu_ms},
-            {"of_plain", r.ratio_to_plain}, {"triangles", r.triangles},
-            {"ms_per_1000_triangles", r.ms_per_1000_triangles}, {"hash", fmt::format("{:016x}", r.hash)}});
+std::span<const report::Column<BenchResult>> bench_columns() { return result_columns; }
+
+namespace {
+
+void print_results(const std::vector<BenchResult>& results, bool json) {
+    if (json) {
+        auto scenes = base::JsonValue::list({});
+        for (const BenchResult& result : results) { scenes.push_back(report::json_of(bench_columns(), result)); }
+        base::print_value({{"scenes", scenes}}, true);
+        return;
     }
-    base::print_value({{"scenes", scenes}}, true);
+    report::ResultTable table;
+    for (const BenchResult& result : results) { table.add(report::cells_of(bench_columns(), result)); }
+    std::fputs(report::text_of(table).c_str(), stdout);
 }
 
 constexpr std::array sample_counts{1, 4, 16};
@@ -463,7 +467,7 @@ Command bench_command() {
         .run = [bench] {
             if (bench->formation) { set_formation(bench->options); }
             const std::vector<BenchResult> results = run_bench(bench->options);
-            bench->json ? print_json(results) : print_table(results);
+            print_results(results, bench->json);
         }};
 }
 

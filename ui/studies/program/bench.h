@@ -1,10 +1,12 @@
 #pragma once
 
 #include "ui/command_line/command.h"
+#include "ui/report/table.h"
 #include "ui/settings/settings.h"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,9 @@ struct BenchResult {
     std::optional<double> ms_per_1000_triangles = {};
     std::uint64_t hash = 0; ///< over the pixels of the timed frames
 };
+
+/// How a result is printed.
+std::span<const report::Column<BenchResult>> bench_columns();
 
 /// Frames that are timed of each scene: by default few where there are many scenes.
 int timed_frames(const BenchOptions& options);

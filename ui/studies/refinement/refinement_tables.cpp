@@ -58,20 +58,19 @@ double percent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-std::vector<std::string> row_of(const std::string& model, std::string region, const ForcedSums& sums) {
-    return report::cells("{}\t{}\t{}\t{:.2f}\t{:.1f}\t{:.1f}\t{:.2f}\t{}\t{:.1f}", model, region, sums.requested,
-        percent(sums.forced[0], sums.requested), percent(sums.forced[1], sums.requested),
-        percent(sums.forced[2], sums.requested), percent(sums.turned, sums.faces), sums.turned_after,
-        percent(sums.repairs, sums.requested));
+std::vector<report::Cell> row_of(const std::string& model, const std::string& region, const ForcedSums& sums) {
+    return {{"model", model}, {"region", region}, {"requested", sums.requested},
+        {"selective", "{:.2f}", percent(sums.forced[0], sums.requested)},
+        {"Hoppe 1997", "{:.1f}", percent(sums.forced[1], sums.requested)},
+        {"Xia & Varshney 1996", "{:.1f}", percent(sums.forced[2], sums.requested)},
+        {"faces turned over", "{:.2f}", percent(sums.turned, sums.faces)}, {"after repair (faces)", sums.turned_after},
+        {"repair", "{:.1f}", percent(sums.repairs, sums.requested)}};
 }
 
 } // namespace
 
-report::HtmlTable forced_splits_table(std::span<const RefinedModel> models) {
-    report::HtmlTable table;
-    table.title = "Splits beyond those requested, percent";
-    table.header = {"model", "region", "requested", "selective", "Hoppe 1997", "Xia & Varshney 1996",
-        "faces turned over", "after repair (faces)", "repair"};
+report::ResultTable forced_splits_table(std::span<const RefinedModel> models) {
+    report::ResultTable table{"Splits beyond those requested, percent"};
     for (const RefinedModel& model : models) {
         const auto classic_rules = std::make_shared<const refine::ClassicSplitRules>(*model);
         ForcedSums below;
@@ -82,7 +81,7 @@ report::HtmlTable forced_splits_table(std::span<const RefinedModel> models) {
                     [&](refine::SelectiveRefiner& front) { return refine::refine_subtree(front, root); }, below);
             }
         }
-        table.rows.push_back(row_of(model->parts().name, "one base vertex", below));
+        table.add(row_of(model->parts().name, "one base vertex", below));
         const double diagonal_m = 2.0 * bounding_sphere(*model).reach_m;
         for (const int share : {2, 5, 10, 20}) {
             ForcedSums sums;
@@ -98,7 +97,7 @@ report::HtmlTable forced_splits_table(std::span<const RefinedModel> models) {
                     },
                     sums);
             }
-            table.rows.push_back(row_of(model->parts().name, fmt::format("sphere of {} %", share), sums));
+            table.add(row_of(model->parts().name, fmt::format("sphere of {} %", share), sums));
         }
     }
     table.note = "One base vertex: each in turn to full resolution, on a fresh front; sums. Spheres: "
@@ -255,20 +254,18 @@ RequestedSums requested_along(const RefinedModel& model, int frames) {
 
 } // namespace
 
-report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, int frames) {
-    report::HtmlTable table;
-    table.title = fmt::format("Around each model in {} frames, errors of 1 px", frames);
-    table.header = {"model", "operations a frame, mean", "most", "active vertices, mean",
-        "largest step of a vertex, px", "ms a frame", "split and merged within 10 frames", "split / kept",
-        "split / wanted", "with repair"};
+report::ResultTable refinement_path_table(std::span<const RefinedModel> models, int frames) {
+    report::ResultTable table{fmt::format("Around each model in {} frames, errors of 1 px", frames)};
     for (const RefinedModel& model : models) {
         const PathRun run = run_path(model, frames);
         const RequestedSums sums = requested_along(model, frames);
         const auto wanted = static_cast<double>(std::max<std::size_t>(sums.wanted, 1));
-        table.add_row("{}\t{:.1f}\t{}\t{:.0f}\t{:.3f}\t{:.3f}\t{}\t{:.4f}\t{:.4f}\t{:.4f}", model->parts().name,
-            run.operations_mean, run.operations_max, run.active_mean, run.largest_step_px, run.ms_mean, run.undone_soon,
-            run.split_to_kept_ratio, static_cast<double>(sums.bare) / wanted,
-            static_cast<double>(sums.repaired) / wanted);
+        table.add({{"model", model->parts().name}, {"operations a frame, mean", "{:.1f}", run.operations_mean},
+            {"most", run.operations_max}, {"active vertices, mean", "{:.0f}", run.active_mean},
+            {"largest step of a vertex, px", "{:.3f}", run.largest_step_px}, {"ms a frame", "{:.3f}", run.ms_mean},
+            {"split and merged within 10 frames", run.undone_soon}, {"split / kept", "{:.4f}", run.split_to_kept_ratio},
+            {"split / wanted", "{:.4f}", static_cast<double>(sums.bare) / wanted},
+            {"with repair", "{:.4f}", static_cast<double>(sums.repaired) / wanted}});
     }
     table.note = "1280x720, 50 degrees. A step: of any original vertex, as drawn, between two "
                  "frames seen from the second one's eye. Split and merged: nodes, either way "
@@ -330,22 +327,20 @@ Rates rates_of(const RefinedModel& model) {
 
 } // namespace
 
-report::HtmlTable refinement_speed_table(std::span<const RefinedModel> models) {
-    report::HtmlTable table;
-    table.title = "Speed on one core and memory";
-    table.header = {"model", "original vertices", "splits, M/s", "coarsest first, M/s", "any order, M/s",
-        "collapses, M/s", "hierarchy, bytes a vertex", "front, bytes an active vertex", "of them its index list",
-        "drawn vertex, bytes"};
+report::ResultTable refinement_speed_table(std::span<const RefinedModel> models) {
+    report::ResultTable table{"Speed on one core and memory"};
     for (const RefinedModel& model : models) {
         const Rates rates = rates_of(model);
         refine::SelectiveRefiner front(model, {.repair = false});
         front.split_all(model->coarsest_first());
         const auto vertices = static_cast<double>(model->leaf_count());
         const double index_bytes = static_cast<double>(front.indices().size_bytes()) / vertices;
-        table.add_row("{}\t{}\t{:.2f}\t{:.2f}\t{:.2f}\t{:.2f}\t{:.1f}\t{:.1f}\t{:.1f}\t{}", model->parts().name,
-            model->leaf_count(), rates.splits_mps, rates.coarse_first_mps, rates.any_order_mps, rates.collapses_mps,
-            static_cast<double>(model->bytes()) / vertices, static_cast<double>(front.bytes()) / vertices, index_bytes,
-            sizeof(refine::RefinedVertex));
+        table.add({{"model", model->parts().name}, {"original vertices", model->leaf_count()},
+            {"splits, M/s", "{:.2f}", rates.splits_mps}, {"coarsest first, M/s", "{:.2f}", rates.coarse_first_mps},
+            {"any order, M/s", "{:.2f}", rates.any_order_mps}, {"collapses, M/s", "{:.2f}", rates.collapses_mps},
+            {"hierarchy, bytes a vertex", "{:.1f}", static_cast<double>(model->bytes()) / vertices},
+            {"front, bytes an active vertex", "{:.1f}", static_cast<double>(front.bytes()) / vertices},
+            {"of them its index list", "{:.1f}", index_bytes}, {"drawn vertex, bytes", sizeof(refine::RefinedVertex)}});
     }
     table.note = "Processor time, everything split from the base mesh for a second, drawn vertices and "
                  "index list kept up to date, without repair. Splits: handed over in one call, which takes "

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/report/html_text.h"
+#include "ui/report/table.h"
 #include "visuals/refine/progressive_mesh.h"
 
 #include <glm/common.hpp>
@@ -17,13 +17,13 @@ using RefinedModel = std::shared_ptr<const visuals::refine::ProgressiveMesh>;
 
 /// Splits that each rule forces, percent of those requested; faces turned over without repair and what repair costs.
 /// One base vertex after another, and spheres of shares of the diagonal.
-report::HtmlTable forced_splits_table(std::span<const RefinedModel> models);
+report::ResultTable forced_splits_table(std::span<const RefinedModel> models);
 
 /// Operations a second on one core and memory.
-report::HtmlTable refinement_speed_table(std::span<const RefinedModel> models);
+report::ResultTable refinement_speed_table(std::span<const RefinedModel> models);
 
 /// A view that goes around each model and nearer and back: operations a frame, steps of vertices.
-report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, int frames);
+report::ResultTable refinement_path_table(std::span<const RefinedModel> models, int frames);
 
 /// Bounding sphere of the leaves of a hierarchy, in file axes.
 struct BoundingSphere {

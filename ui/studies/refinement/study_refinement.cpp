@@ -2,12 +2,10 @@
 
 #include "models/procedural/procedural_terrain.h"
 #include "models/simplify/simplify.h"
-#include "sim/base/output_file.h"
 #include "ui/base/progress.h"
-#include "ui/report/html_text.h"
-#include "ui/report/png_file.h"
 #include "ui/studies/refinement/refinement_tables.h"
 #include "ui/studies/shading_pictures.h"
+#include "ui/studies/study.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/refine_criterion.h"
@@ -20,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <string>
@@ -90,33 +87,26 @@ refine::Sphere chest_of(const models::TriangleMesh& original, bool y_up) {
 }
 
 /// The paper's figure of what refinement means: a model, its base mesh, the parts of the model that the base mesh's
-/// vertices stand for, and the base mesh with one part (a cow's chest: front, low) refined all the way. Writes four PNG
-/// to `folder`, returns the Markdown that shows them. `y_up`: else z is. The model is seen from its right, its front is
-/// at +x. Throws Error.
-std::string write_refinement_pictures(const RefinedModel& model, bool y_up, const std::filesystem::path& folder) {
+/// vertices stand for, and the base mesh with one part (a cow's chest: front, low) refined all the way. `y_up`: else z
+/// is. The model is seen from its right, its front is at +x. Throws Error.
+void add_pictures(Study& study, const RefinedModel& model, bool y_up) {
     refine::SelectiveRefiner front(model);
-    const auto add = [&](const char* name, const models::TriangleMesh& mesh) {
-        const std::string file = fmt::format("refinement-{}.png", name);
-        report::write_png(folder / file, picture_of(mesh, y_up).view());
-        return fmt::format("![{}]({}) ", name, file);
+    const auto add = [&](const char* name, const models::TriangleMesh& mesh, const std::string& what) {
+        study.add(fmt::format("refinement-{}.png", name), picture_of(mesh, y_up).view(),
+            fmt::format("{}: {}", model->parts().name, what));
     };
-    const models::TriangleMesh original = visuals::refine::partition_mesh(front, visuals::refine::ColourBy::Nothing);
-    std::string markdown = add("original", original);
+    const models::TriangleMesh original = refine::partition_mesh(front, refine::ColourBy::Nothing);
+    add("original", original, fmt::format("{} vertices", model->leaf_count()));
     models::TriangleMesh base = refine::active_mesh(front).mesh;
     base.colours.clear();
-    markdown += add("base", base);
-    markdown += add("partition", visuals::refine::partition_mesh(front));
+    add("base", base, fmt::format("its base mesh of {} vertices", model->roots().size()));
+    add("partition", refine::partition_mesh(front), "the parts that these stand for");
     const refine::Sphere chest = chest_of(original, y_up);
     refine::refine_regions(front, std::span(&chest, 1));
     front.repair();
-    markdown +=
-        add("region", visuals::refine::coloured_mesh(refine::active_mesh(front), visuals::refine::ColourBy::Level));
-    return fmt::format("{}: {} vertices; its base mesh of {}; the parts that these stand for; one part refined, "
-                       "{} vertices (blue: original ones)\n\n{}\n",
-        model->parts().name, model->leaf_count(), model->roots().size(), front.active_count(), markdown);
+    add("region", refine::coloured_mesh(refine::active_mesh(front), refine::ColourBy::Level),
+        fmt::format("one part refined, {} vertices (blue: original ones)", front.active_count()));
 }
-
-namespace refine = visuals::refine;
 
 /// Two triangles between four samples each.
 models::TriangleMesh mesh_of(const models::heights::HeightField& field) {
@@ -164,18 +154,16 @@ std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
 
 void study_refinement(const RefinementStudyOptions& options) {
     const std::vector<RefinedModel> models = read_models(options);
-    report::StudyTables tables(options);
-    const auto add = [&](const char* file, report::HtmlTable table) {
-        tables.add(file, std::move(table));
+    Study study(options);
+    const auto add = [&](const char* file, report::ResultTable table) {
+        study.add(file, std::move(table));
         base::print_note(options.quiet, fmt::format("done: {}", file));
     };
     add("forced-splits", forced_splits_table(models));
     add("refinement-path", refinement_path_table(models, options.frames));
     add("refinement-speed", refinement_speed_table(models));
-    // The made ground has z up, mesh files y.
-    const std::string pictures = write_refinement_pictures(models.back(), !options.meshes.empty(), options.out);
-    base::print_note(options.quiet, "done: pictures");
-    tables.finish("refinement", tables.markdown() + "\n" + pictures + "\n");
+    add_pictures(study, models.back(), !options.meshes.empty()); // The made ground has z up, mesh files y.
+    study.finish("refinement");
 }
 
 } // namespace octant::ui::studies::refinement

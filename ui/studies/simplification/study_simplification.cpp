@@ -5,20 +5,17 @@
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
-#include "sim/base/output_file.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/child_program.h"
-#include "ui/report/html_text.h"
-#include "ui/report/plots.h"
+#include "ui/studies/study.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
@@ -387,20 +384,24 @@ std::string share_text(std::size_t part, std::size_t all) {
         100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)));
 }
 
-std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous) {
+std::vector<report::Cell> error_row(const PaperRun& run, const PaperRun& previous) {
     const Printed* paper = printed_of(run);
     const auto index = static_cast<std::size_t>(run.measure);
     const auto& sums = run.result.sums;
     const auto& before = previous.result.sums;
-    return report::cells(
-        "{}\t{}\t{}\t{}\t{}\t{:.4e}\t{:.3f}\t{:.4e}\t{:.3f}\t{}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.0f}", run.mesh,
-        name_of(run.colour), name_of(run.measure), paper == nullptr ? "" : fmt::format("{:.2e}", paper->errors[index]),
-        paper == nullptr ? "" : fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]), sums.triangle_m2,
-        sums.triangle_m2 / before.triangle_m2, sums.bidirectional_m2, sums.bidirectional_m2 / before.bidirectional_m2,
-        paper == nullptr ? "" : fmt::format("{}", paper->faces[index]), run.result.mesh.triangles.size(),
-        run.result.mesh.vertices_m.size(), run.defects.duplicate_faces, run.defects.non_manifold_edges,
-        1e3 * run.distance.max_hausdorff_m() / run.diagonal_m, 1e4 * run.distance.rms_m() / run.diagonal_m,
-        run.time_ms);
+    const bool is_printed = paper != nullptr;
+    return {{"mesh", run.mesh}, {"colour in", name_of(run.colour)}, {"measure", name_of(run.measure)},
+        {"paper: error", is_printed ? fmt::format("{:.2e}", paper->errors[index]) : ""},
+        {"paper: of previous", is_printed ? fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]) : ""},
+        {"one-way sum, m2", "{:.4e}", sums.triangle_m2},
+        {"of previous", "{:.3f}", sums.triangle_m2 / before.triangle_m2},
+        {"two-way sum, m2", "{:.4e}", sums.bidirectional_m2},
+        {"of previous", "{:.3f}", sums.bidirectional_m2 / before.bidirectional_m2},
+        {"paper: faces", is_printed ? fmt::format("{}", paper->faces[index]) : ""},
+        {"faces", run.result.mesh.triangles.size()}, {"vertices used", run.result.mesh.vertices_m.size()},
+        {"duplicate faces", run.defects.duplicate_faces}, {"edges of 3+ faces", run.defects.non_manifold_edges},
+        {"Hausdorff, 1e-3", "{:.3f}", 1e3 * run.distance.max_hausdorff_m() / run.diagonal_m},
+        {"RMS, 1e-4", "{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m}, {"ms", "{:.0f}", run.time_ms}};
 }
 
 /// Whether a result has the faces asked for, and not many more.
@@ -485,16 +486,15 @@ std::string paper_reading_text() {
 }
 
 /// Table 1: how many perpendiculars end outside their triangle.
-report::HtmlTable feet_table(std::span<const PaperRun> runs) {
-    report::HtmlTable table;
-    table.title = "Table 1: perpendiculars whose foot lies outside the triangle";
-    table.header = {"mesh", "colour in", "paper: outside", "ours: outside"};
+report::ResultTable feet_table(std::span<const PaperRun> runs) {
+    report::ResultTable table{"Table 1: perpendiculars whose foot lies outside the triangle"};
     for (const PaperRun& run : runs) {
         if (run.measure != PaperMeasure::Bidirectional) { continue; }
         const Printed* paper = printed_of(run);
-        table.add_row("{}\t{}\t{}\t{}", run.mesh, name_of(run.colour),
-            paper == nullptr ? "" : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside),
-            share_text(run.result.feet_outside, run.result.feet));
+        table.add({{"mesh", run.mesh}, {"colour in", name_of(run.colour)},
+            {"paper: outside",
+                paper == nullptr ? "" : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside)},
+            {"ours: outside", share_text(run.result.feet_outside, run.result.feet)}});
     }
     table.note = "Of the runs by both directions: three candidates for each edge, three points for "
                  "each face. The paper's numbers of perpendiculars can be divided by nine too.";
@@ -502,16 +502,12 @@ report::HtmlTable feet_table(std::span<const PaperRun> runs) {
 }
 
 /// Table 2: sums of errors, and what an independent measure says of the results.
-report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
-    report::HtmlTable table;
-    table.title = "Table 2: error summed over all contractions";
-    table.header = {"mesh", "colour in", "measure", "paper: error", "paper: of previous", "one-way sum, m2",
-        "of previous", "two-way sum, m2", "of previous", "paper: faces", "faces", "vertices used", "duplicate faces",
-        "edges of 3+ faces", "Hausdorff, 1e-3", "RMS, 1e-4", "ms"};
+report::ResultTable paper_error_table(std::span<const PaperRun> runs) {
+    report::ResultTable table{"Table 2: error summed over all contractions"};
     const PaperRun* previous = nullptr;
     for (const PaperRun& run : runs) {
         previous = run.measure == PaperMeasure::Plane ? &run : previous;
-        table.rows.push_back(error_row(run, *previous));
+        table.add(error_row(run, *previous));
     }
     table.note = "The sums are taken of every run by the same two rulers, whichever measure chose: squared "
                  "distances of new vertices to the triangles they replace, and the larger sum of both ways. "
@@ -523,18 +519,17 @@ report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
 }
 
 /// Every method on every mesh: distance to the original and time.
-report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peers) {
-    report::HtmlTable table;
-    table.title = "Distance to the original, and time";
-    table.header = {"mesh", "method", "wanted faces", "faces", "Hausdorff, 1e-3", "RMS, 1e-4", "colour RMS",
-        "Hausdorff / best library", "RMS / best library", "time, ms", "time / Lindstrom-Turk"};
+report::ResultTable quality_table(std::span<const QualityRun> runs, bool with_peers) {
+    report::ResultTable table{"Distance to the original, and time"};
     for (const QualityRun& run : runs) {
         const auto hausdorff = best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
         const auto rms = best_peer_value(runs, run, [](const QualityRun& r) { return r.rms; });
-        table.add_row("{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{}\t{}\t{}\t{:.1f}\t{}", run.mesh, run.method, run.target_faces,
-            run.faces, 1e3 * run.hausdorff, 1e4 * run.rms, run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "",
-            distance_ratio_text(run.hausdorff, hausdorff), distance_ratio_text(run.rms, rms), run.time_ms,
-            ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run)));
+        table.add({{"mesh", run.mesh}, {"method", run.method}, {"wanted faces", run.target_faces}, {"faces", run.faces},
+            {"Hausdorff, 1e-3", "{:.3f}", 1e3 * run.hausdorff}, {"RMS, 1e-4", "{:.3f}", 1e4 * run.rms},
+            {"colour RMS", run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : ""},
+            {"Hausdorff / best library", distance_ratio_text(run.hausdorff, hausdorff)},
+            {"RMS / best library", distance_ratio_text(run.rms, rms)}, {"time, ms", "{:.1f}", run.time_ms},
+            {"time / Lindstrom-Turk", ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))}});
     }
     table.note = "Both ways between result and repaired original, the larger one, as fractions of the "
                  "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
@@ -547,26 +542,23 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
     return table;
 }
 
-/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty for one number of faces and when gnuplot
-/// is not installed. Throws Error when gnuplot fails.
-std::string quality_figure(std::span<const QualityRun> runs) {
+/// RMS distance over faces, a plot a mesh; none for one number of faces.
+std::vector<report::Plot> quality_plots(std::span<const QualityRun> runs) {
     constexpr std::array colours = {"#d62728", "#ff7f0e", "#777777", "#2ca02c", "#1f77b4", "#17becf", "#9467bd"};
     const std::vector<std::string> methods = names_in_order(runs, &QualityRun::method);
-    std::vector<report::Plot> panels;
+    std::vector<report::Plot> plots;
     for (const std::string& mesh : names_in_order(runs, &QualityRun::mesh)) {
-        report::Plot plot;
-        plot.title = mesh;
-        plot.x_label = "faces";
-        plot.y_label = "RMS / diagonal";
+        report::Plot plot{mesh, "faces", "RMS / diagonal"};
+        plot.x_logarithmic = true;
         plot.y_logarithmic = true;
         for (std::size_t i = 0; i < methods.size(); ++i) {
             report::PlotSeries series = series_of(runs, mesh, methods[i]);
             series.colour = colours[i % colours.size()];
             if (series.x.size() > 1) { plot.series.push_back(std::move(series)); }
         }
-        if (!plot.series.empty()) { panels.push_back(std::move(plot)); }
+        if (!plot.series.empty()) { plots.push_back(std::move(plot)); }
     }
-    return panels.empty() ? "" : report::plots_png(panels).value_or("");
+    return plots;
 }
 
 struct StudyMeshes {
@@ -669,26 +661,17 @@ std::vector<QualityRun> all_quality_runs(
 
 void study_simplification(const SimplificationStudyOptions& options) {
     const StudyMeshes given = meshes_of(options);
-    report::StudyTables tables(options);
+    Study study(options);
     const QualityOptions quality = options.paper_only ? QualityOptions() : quality_options(options);
     const std::vector<PaperRun> paper = all_paper_runs(given.meshes, options.quiet);
-    tables.add("table-1", feet_table(paper));
-    tables.add("table-2", paper_error_table(paper));
-    std::string figure;
+    study.add("table-1", feet_table(paper));
+    study.add("table-2", paper_error_table(paper));
     if (!options.paper_only) {
         const std::vector<QualityRun> runs = all_quality_runs(given.meshes, options, quality);
-        tables.add("quality", quality_table(runs, !quality.peers.empty()));
-        const std::string png = quality_figure(runs);
-        if (png.empty()) {
-            base::print_note(options.quiet, "rms.png not made: it takes gnuplot and more than one number of faces");
-        } else {
-            write_file(options.out / "rms.png", png);
-            figure = "![rms.png](rms.png)\n\nRMS distance to the original over the number of faces.\n";
-        }
+        study.add("quality", quality_table(runs, !quality.peers.empty()));
+        study.add(quality_plots(runs), "RMS distance to the original over the number of faces.");
     }
-    tables.finish("simplification", paper_reading_text() + given.left_out + tables.markdown() + "\n", figure);
-    base::print_note(
-        options.quiet, fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
+    study.finish("simplification", paper_reading_text() + given.left_out);
 }
 
 } // namespace octant::ui::studies::simplification
