@@ -2,7 +2,6 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "sim/base/utf8.h"
 #include "ui/base/data_files.h"
 #include "ui/base/stop_signals.h"
 #include "ui/report/packed_recording.h"

@@ -2,7 +2,6 @@
 
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "sim/base/utf8.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -5,7 +5,6 @@
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
-#include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/statistics.h"
 #include "ui/terrain/ground_view.h"
