@@ -3,7 +3,6 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/base/json_value.h"
-#include "ui/base/memory.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/simplify_run.h"

@@ -13,7 +13,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
-#include "ui/base/user_folders.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/input_files.h"
 #include "ui/world/sun_at_time.h"

@@ -2,12 +2,9 @@
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/command_line/setting_option.h"
-#include "ui/commands/command_terrain.h"
-#include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
