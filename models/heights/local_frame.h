@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "sim/base/transverse_mercator.h"
+#include "sim/base/earth_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>

@@ -5,7 +5,6 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/word_scanner.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"

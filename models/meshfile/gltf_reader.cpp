@@ -2,7 +2,6 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/word_scanner.h"
 #include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"

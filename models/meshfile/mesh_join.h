@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/triangle_mesh.h"
+#include "sim/base/text_scanner.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -15,6 +16,7 @@ namespace octant::models::meshfile {
 /// Limits of polygons and coordinates in files. A larger coordinate is a fault of the file in any unit of length.
 inline constexpr std::size_t max_polygon_corners = 10'000;
 inline constexpr double max_coordinate = 1e12;
+inline constexpr TextRules mesh_text{.max_number = max_coordinate}; ///< words between blanks
 
 /// The placement of a scene node: world = turn * own + shift.
 struct AffineTransform {

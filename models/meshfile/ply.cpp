@@ -1,9 +1,9 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/word_scanner.h"
 #include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <array>
@@ -80,13 +80,14 @@ std::size_t min_element_bytes(const PlyElement& element, PlyEncoding form) {
 
 class HeaderReading {
 public:
-    HeaderReading(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+    HeaderReading(const std::filesystem::path& path, std::string_view bytes)
+        : path_(path), text_(path, bytes), bytes_(bytes) {}
 
     PlyHeader read() {
-        if (next_line() != "ply") { refuse("'ply'", in_quotes(text_)); }
+        if (next_line() != "ply") { text_.refuse("'ply'", in_quotes(line_)); }
         bool has_form = false;
         while (next_line() != "end_header") {
-            const Words words = split_words(text_);
+            const Words& words = text_.words();
             if (words.empty() || words[0] == "comment" || words[0] == "obj_info") { continue; }
             if (words[0] == "format") {
                 take_form(words);
@@ -96,34 +97,29 @@ public:
             } else if (words[0] == "property") {
                 take_property(words);
             } else {
-                refuse("format, element, property, comment or end_header", in_quotes(text_));
+                refuse_line("format, element, property, comment or end_header");
             }
         }
-        if (!has_form) { refuse("a format line in the header", "none"); }
-        header_.body_at = at_;
-        header_.body_line = line_ + 1;
+        if (!has_form) { text_.refuse("a format line in the header", "none"); }
+        header_.body_at = text_.offset();
+        header_.body_line = text_.line_number() + 1;
         check_counts();
         return std::move(header_);
     }
 
 private:
-    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
-        throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
-    }
+    [[noreturn]] void refuse_line(std::string_view expected) const { text_.refuse(expected, in_quotes(line_)); }
 
     std::string_view next_line() {
-        ++line_;
-        const std::size_t end = bytes_.find('\n', at_);
-        if (end == std::string_view::npos) { refuse("end_header", "the end of the file"); }
-        text_ = bytes_.substr(at_, end - at_);
-        at_ = end + 1;
-        while (!text_.empty() && (text_.back() == '\r' || text_.back() == ' ')) { text_.remove_suffix(1); }
-        return text_;
+        if (!text_.next_line() || text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
+        line_ = text_.line();
+        while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' ')) { line_.remove_suffix(1); }
+        return line_;
     }
 
     void take_form(const Words& words) {
         const std::string_view form = words.size() > 1 ? words[1] : std::string_view();
-        if (words.size() != 3 || words[2] != "1.0") { refuse("'format FORM 1.0'", in_quotes(text_)); }
+        if (words.size() != 3 || words[2] != "1.0") { refuse_line("'format FORM 1.0'"); }
         if (form == "ascii") {
             header_.form = PlyEncoding::ascii;
         } else if (form == "binary_little_endian") {
@@ -131,14 +127,14 @@ private:
         } else if (form == "binary_big_endian") {
             header_.form = PlyEncoding::big_endian;
         } else {
-            refuse("ascii, binary_little_endian or binary_big_endian", in_quotes(form));
+            text_.refuse("ascii, binary_little_endian or binary_big_endian", in_quotes(form));
         }
     }
 
     void take_element(const Words& words) {
         const auto count = words.size() == 3 ? whole_number(words[2]) : std::nullopt;
-        if (!count || *count < 0) { refuse("'element NAME COUNT'", in_quotes(text_)); }
-        element_lines_.push_back(line_);
+        if (!count || *count < 0) { refuse_line("'element NAME COUNT'"); }
+        element_lines_.push_back(text_.line_number());
         header_.elements.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
     }
 
@@ -146,16 +142,16 @@ private:
         for (const TypeName& known : type_names) {
             if (known.name == name) { return known.type; }
         }
-        refuse("a type such as uchar, int or float", in_quotes(name));
+        text_.refuse("a type such as uchar, int or float", in_quotes(name));
     }
 
     void take_property(const Words& words) {
         const bool is_list = words.size() == 5 && words[1] == "list";
-        if (!is_list && words.size() != 3) {
-            refuse("'property TYPE NAME' or 'property list TYPE TYPE NAME'", in_quotes(text_));
+        if (!is_list && words.size() != 3) { refuse_line("'property TYPE NAME' or 'property list TYPE TYPE NAME'"); }
+        if (header_.elements.empty()) { refuse_line("an element before its property"); }
+        if (++properties_ > max_properties) {
+            text_.refuse(fmt::format("at most {} properties", max_properties), "more");
         }
-        if (header_.elements.empty()) { refuse("an element before its property", in_quotes(text_)); }
-        if (++properties_ > max_properties) { refuse(fmt::format("at most {} properties", max_properties), "more"); }
         PlyProperty property;
         property.name = std::string(words.back());
         property.is_list = is_list;
@@ -163,7 +159,7 @@ private:
         if (is_list) {
             property.count_type = type_of(words[2]);
             if (normalization_divisor(property.count_type) == 1.0) {
-                refuse("a whole number as the count of a list", in_quotes(text_));
+                refuse_line("a whole number as the count of a list");
             }
         }
         header_.elements.back().properties.push_back(std::move(property));
@@ -177,19 +173,17 @@ private:
             const PlyElement& element = header_.elements[i];
             const std::size_t least = min_element_bytes(element, header_.form);
             if (least > 0 && element.count > (room + spare) / least) {
-                line_ = element_lines_[i];
-                refuse(fmt::format(
-                           "at most {} of {} in a file of this size", (room + spare) / least, in_quotes(element.name)),
-                    std::to_string(element.count));
+                throw_error_at(path_, element_lines_[i],
+                    fmt::format("expected at most {} of {} in a file of this size, got {}", (room + spare) / least,
+                        in_quotes(element.name), element.count));
             }
         }
     }
 
     std::filesystem::path path_;
+    TextScanner text_;
     std::string_view bytes_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int line_ = 0;
+    std::string_view line_; ///< without blanks at its end
     std::size_t properties_ = 0;
     std::vector<int> element_lines_;
     PlyHeader header_;
@@ -245,11 +239,13 @@ constexpr std::size_t largest_ply_bytes = std::size_t{1} << 30U;
 class WordSource {
 public:
     WordSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-        : words_(path, bytes.substr(header.body_at), header.body_line) {}
+        : words_(path, bytes.substr(header.body_at), mesh_text, header.body_line) {}
 
     double number(PlyType /*type*/, const char* what) { return words_.number(what); }
 
-    double count(PlyType /*type*/, const char* what) { return static_cast<double>(words_.whole(what, 0, 0xffffffffL)); }
+    double count(PlyType /*type*/, const char* what) {
+        return static_cast<double>(words_.integer(what, 0, 0xffffffffL));
+    }
 
     /// Other properties may be anything, such as nan for a confidence.
     void skip(PlyType /*type*/) { words_.word("a value of a property"); }
@@ -263,7 +259,7 @@ public:
     }
 
 private:
-    WordScanner words_;
+    TextScanner words_;
 };
 
 /// Gives the numbers of a binary body one after the other.

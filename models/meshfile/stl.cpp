@@ -1,9 +1,9 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/word_scanner.h"
 #include "models/repair/repair.h"
 #include "sim/base/binary_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <glm/geometric.hpp>
 
@@ -51,7 +51,8 @@ bool is_word(std::string_view word, std::string_view lower) {
 
 class AsciiReading {
 public:
-    AsciiReading(const std::filesystem::path& path, std::string_view text) : words_(path, text, 1), mesh_(path) {}
+    AsciiReading(const std::filesystem::path& path, std::string_view text)
+        : words_(path, text, mesh_text), mesh_(path) {}
 
     TriangleMesh read() {
         take("solid");
@@ -93,7 +94,7 @@ private:
         take("endfacet");
     }
 
-    WordScanner words_;
+    TextScanner words_;
     MeshBuilder mesh_;
     Corners corners_;
 };

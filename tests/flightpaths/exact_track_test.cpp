@@ -3,8 +3,8 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
-#include "sim/fixed_step.h"
 #include "sim/flight_models.h"
+#include "sim/flight_steps.h"
 #include "tests/flightpaths/track_fault.h"
 
 #include <catch2/catch.hpp>

@@ -4,13 +4,16 @@
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "sim/base/units.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <fstream>
 
 using namespace octant;
@@ -192,4 +195,75 @@ TEST_CASE("an archive is read back, and another kind, version, size or byte is r
     CHECK(fault_of(16, 13) == ": at byte 16: expected 12 bytes behind the head, got 13");
     CHECK_THAT(fault_of(43, 'Y'), Catch::StartsWith(": at byte 24: expected the checksum "));
     CHECK_THROWS_WITH(write_archive(file, kind, std::string(101, 'x')), Catch::Contains("expected at most 100 bytes"));
+}
+
+TEST_CASE("a text is read word by word, and errors name file, line, what was expected and what was found") {
+    TextScanner text("words", "\xef\xbb\xbf  a,1.5 # one, two\r\n{ \"b } \\\" c\"\r -7 2e3 x",
+        {.separators = ",", .marks = "{}", .comment = '#', .has_strings = true, .max_number = 1000.0});
+    CHECK(text.peek_second() == "1.5");
+    CHECK(text.word("a name") == "a");
+    CHECK(text.number("a length") == 1.5);
+    CHECK(text.peek() == "{");
+    CHECK(text.offset() == 23);
+    CHECK(text.line_number() == 2);
+    CHECK(text.skip("{"));
+    CHECK_FALSE(text.skip("}"));
+    CHECK(text.word_or_end() == "\"b } \\\" c\"");
+    CHECK_THROWS_WITH(text.integer("a count", 0, 9), "words:3: expected a count of 0 to 9, got '-7'");
+    CHECK(text.integer("a count") == -7);
+    CHECK_THROWS_WITH(text.number("a length"), "words:3: expected a length, got '2e3'");
+    CHECK_THROWS_WITH(text.refuse_last("a length"), "words:3: expected a length, got '-7'");
+    CHECK(text.rest_of_line() == "2e3 x");
+    CHECK_THROWS_WITH(text.word("a name"), "words:3: expected a name, got the end of the file");
+    TextScanner open("words", "\"a", {.has_strings = true});
+    CHECK_THROWS_WITH(open.peek(), "words:1: expected a quote at the end of a string, got the end of the file");
+}
+
+TEST_CASE("a text is read line by line; a backslash joins lines, but not behind a comment") {
+    TextScanner text("lines", "\n f 1 \\\r\n2\n # a \\\nname  of it ", {.joins_lines = true});
+    REQUIRE((text.next_line() && text.next_line()));
+    CHECK(text.skip("f"));
+    CHECK(text.words() == std::vector<std::string_view>{"1", "2"});
+    CHECK(text.line_number() == 2);
+    REQUIRE(text.next_line());
+    CHECK(text.line() == " # a \\");
+    CHECK_FALSE(text.is_truncated());
+    REQUIRE(text.next_line());
+    CHECK(text.line_number() == 5);
+    CHECK(text.is_truncated());
+    text.word_or_end();
+    CHECK(text.rest_of_line() == "of it");
+    CHECK_THROWS_WITH(text.number("a length"), "lines:5: expected a length, got none");
+    CHECK_FALSE(text.next_line());
+}
+
+TEST_CASE("a text that comes in pieces has the same words and lines as a text in memory") {
+    std::string whole;
+    for (int i = 0; i < 5000; ++i) {
+        whole += std::string(static_cast<std::size_t>(i % 61), ' ') + fmt::format("{}\r\n", i);
+    }
+    const auto path = scratch("pieces");
+    write_file(path, whole);
+    TextScanner lines = TextScanner::of_file(path);
+    TextScanner words(path, [&, at = std::size_t{0}](char* to, std::size_t size) mutable {
+        const std::size_t taken = whole.copy(to, std::min<std::size_t>(size, 7), at);
+        at += taken;
+        return taken;
+    });
+    for (int i = 0; i < 5000; ++i) {
+        REQUIRE(lines.next_line());
+        REQUIRE(lines.integer("a number") == i);
+        REQUIRE(words.integer("a number") == i);
+        REQUIRE(words.line_number() == i + 1);
+    }
+    CHECK_FALSE(lines.next_line());
+    CHECK(words.word_or_end().empty());
+    write_file(path, "a\n" + std::string(65536, 'b'));
+    TextScanner longer = TextScanner::of_file(path);
+    CHECK(longer.next_line());
+    CHECK_THROWS_WITH(longer.next_line(), path.string() + ":2: expected at most 65535 bytes, got more");
+    write_file(path, std::string_view("a\n\0b", 4));
+    TextScanner binary = TextScanner::of_file(path);
+    CHECK(binary.next_line());
+    CHECK_THROWS_WITH(binary.next_line(), path.string() + ": expected text, got binary data");
 }

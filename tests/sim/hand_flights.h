@@ -3,8 +3,8 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "sim/fixed_step.h"
 #include "sim/flight_models.h"
+#include "sim/flight_steps.h"
 #include "sim/piloted_flight.h"
 
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "ui/base/progress.h"
 
-#include "sim/base/utf8.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 
 #include <cstdio>

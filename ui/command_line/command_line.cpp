@@ -2,11 +2,10 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "sim/base/utf8.h"
 #include "ui/base/data_files.h"
 #include "ui/base/stop_signals.h"
 #include "ui/report/packed_recording.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

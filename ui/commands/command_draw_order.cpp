@@ -2,7 +2,6 @@
 #include "models/polygons/obj_writer.h"
 #include "models/polygons/polygon_model.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"

@@ -1,5 +1,5 @@
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/command_line/setting_option.h"

@@ -1,7 +1,6 @@
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/json_value.h"
 #include "ui/command_line/setting_option.h"

@@ -1,7 +1,6 @@
 #include "ui/flight/track_files.h"
 
 #include "flightpaths/track_writer.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 

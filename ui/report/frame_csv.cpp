@@ -233,24 +233,23 @@ FrameRecord rounded_as_csv(const FrameRecord& record) {
 }
 
 FrameReader::FrameReader(fs::path path, std::span<const std::string_view> required_columns)
-    : path_(std::move(path)), lines_(path_) {
-    const auto header = lines_.next();
-    is_truncated_ = header && lines_.is_truncated();
-    ended_ = !header || (is_truncated_ && frame_csv_header().starts_with(*header));
-    if (!ended_) { columns_ = read_header(path_, *header, required_columns); }
+    : path_(std::move(path)), lines_(TextScanner::of_file(path_)) {
+    const bool has_header = lines_.next_line();
+    is_truncated_ = has_header && lines_.is_truncated();
+    ended_ = !has_header || (is_truncated_ && frame_csv_header().starts_with(lines_.line()));
+    if (!ended_) { columns_ = read_header(path_, lines_.line(), required_columns); }
 }
 
 std::optional<FrameRecord> FrameReader::next() {
-    const auto line = ended_ ? std::nullopt : lines_.next();
-    is_truncated_ = line ? lines_.is_truncated() : is_truncated_;
-    if (!line || is_truncated_) {
+    const bool has_line = !ended_ && lines_.next_line();
+    is_truncated_ = has_line ? lines_.is_truncated() : is_truncated_;
+    if (!has_line || is_truncated_) {
         ended_ = true;
         return std::nullopt;
     }
-    FrameRecord record = read_line(path_, lines_.number(), *line, columns_);
+    FrameRecord record = read_line(path_, lines_.line_number(), lines_.line(), columns_);
     if (last_frame_ && record.frame <= *last_frame_) {
-        throw_error_at(
-            path_, lines_.number(), fmt::format("expected a frame after {}, got {}", *last_frame_, record.frame));
+        lines_.refuse(fmt::format("a frame after {}", *last_frame_), std::to_string(record.frame));
     }
     last_frame_ = record.frame;
     return record;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "ui/base/json_value.h"
 #include "ui/report/frame_record.h"
 
@@ -44,7 +45,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    LineReader lines_;
+    TextScanner lines_;
     std::vector<std::size_t> columns_; ///< the number of the column that each field belongs to
     std::optional<int> last_frame_;
     bool is_truncated_ = false;

@@ -1,6 +1,6 @@
 #include "ui/report/html_report.h"
 
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 #include "ui/report/comparison.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_text.h"

@@ -1,6 +1,7 @@
 #include "ui/report/html_text.h"
 
-#include "sim/base/utf8.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "ui/report/plots.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // octant-verify FILE: checks a certificate of a painting order with exact arithmetic (visuals/verify). It shares no
 // code with what finds orders and writes certificates.
 #include "sim/base/error.h"
-#include "sim/base/utf8.h"
+#include "sim/base/text_file.h"
 #include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 

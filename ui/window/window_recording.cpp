@@ -2,8 +2,8 @@
 
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
-#include "sim/fixed_step.h"
+#include "sim/base/output_file.h"
+#include "sim/flight_steps.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/track_files.h"

@@ -10,10 +10,10 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/binary_file.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "ui/base/data_files.h"
 #include "ui/base/stopwatch.h"
 #include "ui/settings/order_cache_name.h"
@@ -507,18 +507,14 @@ draworder::OrderedModel with_order(models::polygons::PolygonModel model, const A
     return std::move(cached.ordered);
 }
 
-/// Whether a line of an OBJ file names a material file of pictures or glass, which meshes show.
-bool names_pictures_or_glass(std::string_view line, const std::filesystem::path& file) {
-    if (!line.starts_with("mtllib")) { return false; }
-    const std::filesystem::path folder = file.parent_path();
-    const std::filesystem::path materials = folder / models::polygons::after_first_word(line);
+/// Whether a material file has pictures or glass, which meshes show.
+bool has_pictures_or_glass(const std::filesystem::path& materials) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(materials, ignored)) { return false; }
-    const auto pictures = models::polygons::pictures_of_mtl(materials);
-    return !models::polygons::opacities_of_mtl(materials).empty() ||
-           std::ranges::any_of(pictures, [&](const auto& of_material) {
-               return std::filesystem::is_regular_file(folder / of_material.second, ignored);
-           });
+    const models::polygons::MtlFile read = models::polygons::read_mtl(materials);
+    return !read.opacities.empty() || std::ranges::any_of(read.pictures, [&](const auto& of_material) {
+        return std::filesystem::is_regular_file(materials.parent_path() / of_material.second, ignored);
+    });
 }
 
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
@@ -529,11 +525,13 @@ bool is_polygon_model(const std::filesystem::path& file) {
     std::size_t others = 0;
     bool is_plain = true;
     const std::string text = read_text_file(file);
-    for (const std::string_view line : split_lines(text)) {
-        if (line.starts_with("f ") || line.starts_with("f\t")) {
-            ++(split_words(line).size() == 4 ? triangles : others);
+    TextScanner lines(file, text);
+    while (lines.next_line()) {
+        if (lines.skip("f")) {
+            ++(lines.words().size() == 3 ? triangles : others);
+        } else if (lines.skip("mtllib")) {
+            is_plain = is_plain && !has_pictures_or_glass(file.parent_path() / lines.rest_of_line());
         }
-        is_plain = is_plain && !names_pictures_or_glass(line, file);
     }
     const std::size_t faces = triangles + others;
     const bool is_mesh = faces > max_triangles_of_a_model && others < faces / 10;
@@ -619,7 +617,7 @@ AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vec
         .order_cache = settings.surface.order_cache};
     for (const std::string& shape : inputs.shapes) {
         const std::filesystem::path file = base::aircraft_file(shape);
-        const LineReader opened(file);
+        open_file(file);
         add_mtime(file, inputs.files);
         for (const std::filesystem::path& named : referenced_files(file)) { add_mtime(named, inputs.files); }
     }

@@ -1,18 +1,19 @@
 #include "ui/world/flight.h"
+
 #include "flightpaths/acmi_recording.h"
+#include "flightpaths/derived_motion.h"
 #include "flightpaths/path_script.h"
 #include "flightpaths/placement.h"
 #include "flightpaths/recorded_track.h"
-#include "flightpaths/reprojected_path.h"
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
 #include "ui/report/zip_file.h"
@@ -69,19 +70,19 @@ LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape
         false};
 }
 
-/// A tape as it is, or the first one in a zip file.
+/// A recording as it is, or the first one in a zip file.
 std::string tacview_note(const fs::path& file) {
-    constexpr std::size_t largest_tape = std::size_t{256} << 20;
-    const std::string bytes = read_file(file, largest_tape);
+    constexpr std::size_t largest_acmi = std::size_t{256} << 20;
+    const std::string bytes = read_file(file, largest_acmi);
     if (!bytes.starts_with("PK")) { return bytes; }
     const std::vector<report::ZipEntry> entries = report::zip_entries(file);
-    const auto tape = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
+    const auto recording = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
         return extension_of(entry.name) == ".acmi" || extension_of(entry.name) == ".txt";
     });
-    if (tape == entries.end() || tape->bytes > largest_tape) {
-        throw_error_in(file, "expected a tape of at most 256 MiB in it (.acmi), got none");
+    if (recording == entries.end() || recording->bytes > largest_acmi) {
+        throw_error_in(file, "expected a recording of at most 256 MiB in it (.acmi), got none");
     }
-    return report::zip_text(file, tape->name, largest_tape);
+    return report::zip_text(file, recording->name, largest_acmi);
 }
 
 /// The known aircraft that has this type in Tacview, the first one for any other.
@@ -105,14 +106,14 @@ std::string note_of(const flightpaths::RecordedAircraft& first, const std::strin
 }
 
 LoadedPath from_tacview(const fs::path& file, const std::string& shape) {
-    flightpaths::AcmiRecording tape = flightpaths::parse_acmi(tacview_note(file), file);
-    LoadedPath loaded = from_track({std::move(tape.aircraft.front().trajectory), tape.origin, {}}, shape);
-    loaded.is_tape = true;
-    loaded.notes = std::move(tape.notes);
-    loaded.notes.push_back(note_of(tape.aircraft.front(), shape));
-    for (std::size_t i = 1; i < tape.aircraft.size(); ++i) {
-        loaded.other_trajectories.push_back(std::move(tape.aircraft[i].trajectory));
-        loaded.other_aircraft.emplace_back(aircraft_for_type(tape.aircraft[i].type).name);
+    flightpaths::AcmiRecording recording = flightpaths::parse_acmi(tacview_note(file), file);
+    LoadedPath loaded = from_track({std::move(recording.aircraft.front().trajectory), recording.origin, {}}, shape);
+    loaded.is_acmi_recording = true;
+    loaded.notes = std::move(recording.notes);
+    loaded.notes.push_back(note_of(recording.aircraft.front(), shape));
+    for (std::size_t i = 1; i < recording.aircraft.size(); ++i) {
+        loaded.other_trajectories.push_back(std::move(recording.aircraft[i].trajectory));
+        loaded.other_aircraft.emplace_back(aircraft_for_type(recording.aircraft[i].type).name);
     }
     return loaded;
 }
@@ -258,11 +259,11 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-/// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights meet ours, all of the
-/// tape is lifted clear, and a note says so.
+/// A recording's aircraft may stand on a ground that lies a little lower than ours: where its heights meet ours, all of
+/// the recording is lifted clear, and a note says so.
 flightpaths::PlacedPath placed_path(
     const LoadedPath& loaded, flightpaths::PlacementOptions placement, const PlacementGround& ground) {
-    if (!loaded.is_tape || placement.mode != sim::HeightMode::Datum) {
+    if (!loaded.is_acmi_recording || placement.mode != sim::HeightMode::Datum) {
         return flightpaths::place_over_ground(
             loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
     }
@@ -271,8 +272,8 @@ flightpaths::PlacedPath placed_path(
     flightpaths::PlacedPath lifted =
         flightpaths::place_over_ground(loaded.trajectory, placement, ground.height_at, min_m, loaded.limits);
     if (lifted.offset_m > 0.0) {
-        lifted.notes.push_back(
-            fmt::format("the tape's first aircraft meets this ground: all are lifted by {:.1f} m", lifted.offset_m));
+        lifted.notes.push_back(fmt::format(
+            "the recording's first aircraft meets this ground: all are lifted by {:.1f} m", lifted.offset_m));
         return lifted;
     }
     placement.mode = sim::HeightMode::Datum;

@@ -1,9 +1,8 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
-#include "sim/base/geo_position.h"
 #include "sim/base/ground_height.h"
 #include "sim/trajectory.h"
 #include "ui/settings/aircraft_entry.h"
@@ -32,11 +31,11 @@ struct LoadedPath {
     std::optional<GeoPosition> origin;
     std::vector<flightpaths::LegStart> legs;
     std::vector<std::string> notes;
-    /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its clock, and the built-in
-    /// aircraft that each is shown as.
+    /// Of a recording with several aircraft, those that fly beside this one, in its axes and by its clock, and the
+    /// built-in aircraft that each is shown as.
     std::vector<sim::Trajectory> other_trajectories;
     std::vector<std::string> other_aircraft;
-    bool is_tape = false;
+    bool is_acmi_recording = false;
 };
 
 /// What an aircraft of this shape flies by a path's name or file. Throws Error.
@@ -97,8 +96,8 @@ PlacementGround placement_ground(const SceneGround& ground);
 /// Where the first aircraft stands that others fly, until somebody moves it. Throws Error.
 Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground);
 
-/// Lays the first aircraft's path over the ground, and with it all that a tape has beside it. Adds what a person should
-/// be told to the notes. `given_placement`: there, and not where settings and ground say. Throws Error.
+/// Lays the first aircraft's path over the ground, and with it all that a recording has beside it. Adds what a person
+/// should be told to the notes. `given_placement`: there, and not where settings and ground say. Throws Error.
 Flight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
     std::vector<std::string>& notes, const std::optional<PathPlacement>& given_placement = std::nullopt);
 

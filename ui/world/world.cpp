@@ -5,7 +5,6 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 #include "sim/base/thread_pool.h"
-#include "sim/hidden_height.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
@@ -102,11 +101,12 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
     }
 }
 
-/// The shapes of all aircraft of a run: those that are asked for, then those of its tape.
-std::vector<std::string> shapes_of(const settings::RunSettings& settings, const std::vector<std::string>& of_tape) {
+/// The shapes of all aircraft of a run: those that are asked for, then those of its recording.
+std::vector<std::string> shapes_of(
+    const settings::RunSettings& settings, const std::vector<std::string>& of_recording) {
     std::vector<std::string> shapes;
     for (const std::string& aircraft : settings.path.aircraft) { shapes.push_back(settings::aircraft_shape(aircraft)); }
-    for (std::size_t i = shapes.size() - 1; i < of_tape.size(); ++i) { shapes.push_back(of_tape[i]); }
+    for (std::size_t i = shapes.size() - 1; i < of_recording.size(); ++i) { shapes.push_back(of_recording[i]); }
     return shapes;
 }
 
@@ -175,7 +175,7 @@ void formation_states(const Flight& flight, const Formation& formation, const si
         const sim::Trajectory& path = own->second;
         states[i] = path.state_at(time_s);
         states[i].time_s = leader.time_s;
-        if (time_s < path.start_s() || time_s > path.end_s()) { states[i].position_m.z = sim::absent_height_m; }
+        states[i].is_present = time_s >= path.start_s() && time_s <= path.end_s();
     }
 }
 

@@ -1,6 +1,5 @@
 #include "visuals/nature/detailed_ground.h"
 
-#include "sim/base/geometry2d.h"
 #include "sim/base/hash.h"
 #include "sim/base/units.h"
 

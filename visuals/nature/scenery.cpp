@@ -1,7 +1,7 @@
 #include "visuals/nature/scenery.h"
 
 #include "models/colour_vertex.h"
-#include "sim/base/geometry2d.h"
+#include "sim/base/plane.h"
 #include "sim/base/hash.h"
 
 #include <glm/common.hpp>

@@ -35,7 +35,7 @@ struct PlacedAircraft {
     int cell = 0;
     /// Whether it was in view in the last frame, and so had a representation to go on from.
     bool is_represented = false;
-    /// Whether it is not there: nothing of it is drawn.
+    /// True if the aircraft is absent (AircraftState::is_present): nothing of it is drawn.
     bool is_hidden = false;
     /// Index into AircraftModel::errors_m.
     std::size_t representation = 0;

@@ -161,7 +161,7 @@ const Registered target({
 namespace mtl {
 
 void use(const std::filesystem::path& file) {
-    for (const models::Material& material : models::polygons::read_mtl(file)) {
+    for (const models::Material& material : models::polygons::read_mtl(file).materials) {
         expect(!material.name.empty(), "a name");
         for (int part = 0; part < 3; ++part) {
             expect(material.colour[part] >= 0.0F && material.colour[part] <= 1.0F, "0 to 1");

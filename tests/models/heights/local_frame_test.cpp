@@ -3,8 +3,8 @@
 #include "models/heights/height_field_import.h"
 #include "models/heights/local_frame.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 #include "tests/models/heights/sample_maps.h"
 

@@ -4,7 +4,7 @@
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/json_schema.h"
 #include "tests/ui/flight/small_ground.h"
-#include "ui/commands/bench.h"
+#include "ui/studies/program/bench.h"
 #include "ui/commands/commands.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/statistics.h"

@@ -1,4 +1,4 @@
-#include "sim/links/cigi_responses.h"
+#include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
 #include "ui/flight/sender.h"
 

@@ -1,4 +1,4 @@
-#include "sim/base/transverse_mercator.h"
+#include "sim/base/earth_frame.h"
 #include "ui/world/flight.h"
 
 #include <catch2/catch.hpp>

@@ -213,7 +213,7 @@ TEST_CASE("aircraft with paths of their own begin beside the first one, by its c
     CHECK_THROWS_AS(ui::world::load_world(settings), Error);
 }
 
-TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what its type says") {
+TEST_CASE("a recording's aircraft fly as they flew beside each other, each as what its type says") {
     const std::filesystem::path file = tests::scratch_folder() / "two.acmi";
     write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#5\n1,T=8|47|900,Type=Air+FixedWing\n"
                      "2,T=8|47.001|950,Type=Air+Rotorcraft\n3,T=8|47|0,Type=Sea+Watercraft\n#6\n"
@@ -234,7 +234,7 @@ TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what it
     CHECK(world.flight.lowest_clearance_m == Approx(50.0));
 }
 
-TEST_CASE("a tape that leaves the map is refused with its name") {
+TEST_CASE("a recording that leaves the map is refused with its name") {
     const std::filesystem::path file = tests::scratch_folder() / "far.acmi";
     write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n1,T=8|47|900\n#900\n1,T=8|49|900\n");
     RunSettings settings = over(rolling_ground());

@@ -5,6 +5,8 @@
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
 #include "ui/flight/session.h"
+#include "ui/report/html_text.h"
+#include "ui/report/statistics.h"
 #include "ui/studies/study.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/mesh_maker.h"

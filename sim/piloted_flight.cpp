@@ -1,9 +1,9 @@
-#include "sim/levelling_autopilot.h"
+#include "sim/piloted_flight.h"
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "sim/fixed_step.h"
 #include "sim/flight_models.h"
+#include "sim/flight_steps.h"
 
 #include <glm/geometric.hpp>
 
