@@ -1,6 +1,7 @@
 #include "visuals/nature/detailed_ground.h"
 
 #include "sim/base/hash.h"
+#include "sim/base/plane.h"
 #include "sim/base/units.h"
 
 #include <glm/common.hpp>

@@ -3,6 +3,7 @@
 #include "visuals/terrain/mesh_measurement.h"
 
 #include "sim/base/nearest_rank.h"
+#include "sim/base/plane.h"
 #include "sim/base/thread_pool.h"
 #include "visuals/terrain/frustum.h"
 
