@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/comparison.h"
 #include "ui/report/html_report.h"

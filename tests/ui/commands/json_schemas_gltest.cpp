@@ -4,7 +4,6 @@
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/json_schema.h"
 #include "tests/ui/flight/small_ground.h"
-#include "ui/studies/program/bench.h"
 #include "ui/commands/commands.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/statistics.h"
@@ -122,7 +121,8 @@ TEST_CASE("schemas of rows say what the columns in the program say") {
     tests::check_row_schema(schema("fly"), "", statistics);
     tests::check_row_schema(schema("report"), "/properties/recordings/items/properties/summary", statistics);
     tests::check_row_schema(schema("run"), "/properties/summary", statistics);
-    tests::check_row_schema(schema("bench"), "/properties/scenes/items", schema_of(ui::commands::bench_columns()));
+    tests::check_row_schema(
+        schema("bench"), "/properties/scenes/items", schema_of(ui::studies::program::bench_columns()));
     tests::check_row_schema(schema("sweep"), "/properties/runs/items", schema_of(ui::sweep::result_columns()));
     tests::check_row_schema(
         schema("terrain-query"), "/properties/points/items", schema_of(ui::terrain::query_columns()));

@@ -72,7 +72,8 @@ TEST_CASE("a plot stands in a page with its data, gaps, axes and quotes") {
     plot.series[0].y[1] = std::numeric_limits<double>::quiet_NaN();
     const std::string html = page_plot(plot, PlotWidth::FullWidth);
     CHECK_THAT(html, Contains("<h3>&lt;Title&gt;</h3>") && Contains("a &lt; b</span>"));
-    CHECK_THAT(html, Contains(R"("y":"it's \u0022y\u0022","x0":null,"x1":null,"y0":0,"y1":null,"xlog":true,"log":false)"));
+    CHECK_THAT(
+        html, Contains(R"("y":"it's \u0022y\u0022","x0":null,"x1":null,"y0":0,"y1":null,"xlog":true,"log":false)"));
     CHECK_THAT(html, Contains(R"("levels":[["limit",2.5]],"marks":[["leg",1.5]])"));
     CHECK_THAT(html, Contains(R"({"n":"a \u003c b","c":"#102030","s":"points","x":[1,2,3],"y":[4,null,6]})"));
     CHECK_THAT(html, Contains(R"({"n":"","c":"#405060","s":"area","x":[1,2],"y":[3,4],"l":[1,2]})"));

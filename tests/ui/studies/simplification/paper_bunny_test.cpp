@@ -26,7 +26,8 @@ std::optional<std::filesystem::path> real_bunny() {
 TEST_CASE("the bunny of 2000 counted vertices is as the 2005 paper has it") {
     const auto file = real_bunny();
     if (!file) { return; }
-    const auto runs = paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, [] {});
+    octant::ui::base::Progress progress("bunny", 3, true);
+    const auto runs = paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, progress);
     REQUIRE(runs.size() == 3);
     for (const PaperRun& run : runs) {
         CHECK(run.result.counted_vertices == 2000);
