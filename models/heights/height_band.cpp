@@ -3,6 +3,7 @@
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/import_options.h"
+#include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 
 #include <glm/common.hpp>
@@ -31,6 +32,12 @@ namespace octant::models::heights {
 namespace {
 
 using std::filesystem::path;
+
+/// How 8-bit red, green and blue encode a height.
+enum class HeightEncoding {
+    Terrarium, ///< (R * 256 + G + B / 256) - 32768 m (Mapzen, tilezen/joerd)
+    Mapbox     ///< -10000 + (R * 65536 + G * 256 + B) * 0.1 m (Mapbox Terrain-RGB, MapTiler)
+};
 
 /// A height is the offset and each channel times its weight, in a unit in which both are exact.
 struct Weights {
@@ -209,10 +216,9 @@ bool is_coded_by(const std::vector<std::vector<std::uint8_t>>& rows, HeightEncod
     return found.are_heights(code);
 }
 
-} // namespace
-
 std::string_view name_of(HeightEncoding code) { return code == HeightEncoding::Terrarium ? "Terrarium" : "Mapbox"; }
 
+/// The encoding by its name in --band: terrarium or mapbox.
 std::optional<HeightEncoding> height_encoding_from_name(const std::string& name) {
     for (const HeightEncoding code : {HeightEncoding::Terrarium, HeightEncoding::Mapbox}) {
         if (EQUAL(name.c_str(), std::string(name_of(code)).c_str())) { return code; }
@@ -220,6 +226,9 @@ std::optional<HeightEncoding> height_encoding_from_name(const std::string& name)
     return std::nullopt;
 }
 
+/// The encoding of an image that holds heights; nothing for other images. Samples of all rows decide: all must decode
+/// to plausible heights, and heights of neighbours must be close although the channel of the lower digits jumps, which
+/// it does not in photographs.
 std::optional<HeightEncoding> height_encoding_of(void* dataset) {
     const int count = GDALGetRasterCount(dataset);
     if (count < 3 || count > 4) { return std::nullopt; }
@@ -233,6 +242,8 @@ std::optional<HeightEncoding> height_encoding_of(void* dataset) {
     return std::nullopt;
 }
 
+/// The heights of such an image, metres, as one band, followed by its alpha band if it has one. Opens `dataset` again
+/// by its name. Throws Error for an image with fewer than three bands.
 Dataset decoded_heights(const path& file, void* dataset, HeightEncoding code) {
     if (GDALGetRasterCount(dataset) < 3) {
         throw_error_in(file, fmt::format("expected red, green and blue for --band {}, got {} band(s)", name_of(code),
@@ -246,10 +257,7 @@ Dataset decoded_heights(const path& file, void* dataset, HeightEncoding code) {
     const int rows = GDALGetRasterYSize(dataset);
     if (GDALGetGeoTransform(dataset, transform.data()) == CE_None) {
         const OGRSpatialReferenceH system = GDALGetSpatialRef(dataset);
-        char* wkt = nullptr;
-        const bool is_written = system != nullptr && OSRExportToWkt(system, &wkt) == OGRERR_NONE;
-        place = place_xml(is_written ? wkt : "", transform);
-        CPLFree(wkt);
+        place = place_xml(system == nullptr ? "" : wkt_of(system), transform);
     } else if (const auto tile = tile_number(file, 1); tile && columns == rows) {
         place = mercator_place(*tile, columns);
     }
@@ -276,6 +284,8 @@ Dataset decoded_heights(const path& file, void* dataset, HeightEncoding code) {
     if (!heights) { throw_unreadable(file, "a height field", "colours that cannot be decoded"); }
     return heights;
 }
+
+} // namespace
 
 Dataset open_cesium_heightmap(const std::string& file) {
     constexpr int samples = 65;
@@ -317,8 +327,6 @@ Dataset open_cesium_heightmap(const std::string& file) {
 }
 
 namespace {
-
-using std::filesystem::path;
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -37,6 +38,12 @@ struct AffineTransform {
 /// Appends a transformed mesh to another. If one of them has colours, the other gets its material colours. Normals are
 /// kept where both have them. Notes are appended.
 void join_mesh(TriangleMesh& to, TriangleMesh from, const AffineTransform& placement);
+
+/// Removes the triangles whose entry in `gone` is true, with their entries in all lists of triangles.
+void erase_triangles(TriangleMesh& mesh, const std::vector<bool>& gone);
+
+/// Removes vertices that no triangle uses.
+void erase_unused_vertices(TriangleMesh& mesh);
 
 /// Returns the triangles of `count` materials from `first_material` on, with the materials, vertices and attributes
 /// that they use, in the same order.

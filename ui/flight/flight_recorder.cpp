@@ -13,7 +13,7 @@
 #include "ui/report/run_file.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 #include <chrono>

@@ -9,7 +9,7 @@
 #include "ui/flight/track_files.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
