@@ -6,7 +6,7 @@
 #include "ui/base/data_files.h"
 #include "ui/base/stop_signals.h"
 #include "ui/report/packed_recording.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
