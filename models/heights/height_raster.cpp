@@ -255,10 +255,9 @@ SpatialReference assumed_system(const path& file, GDALDatasetH dataset, HeightRa
         return wgs84_system();
     }
     if (signs.is_fine() || is_world) {
-        throw_error_in(
-            file, fmt::format("expected a coordinate system, got none and cells of {:g}, which are degrees or "
-                              "metres: --terrain-system EPSG:4326 or --terrain-system metres says which",
-                      signs.cell.x));
+        throw_error_in(file, fmt::format("expected a coordinate system, got none and cells of {:g}, which are degrees "
+                                         "or metres: --terrain-system EPSG:4326 or --terrain-system metres says which",
+                                 signs.cell.x));
     }
     constexpr double coarsest_deg = 10.0;
     if (std::max(signs.cell.x, signs.cell.y) <= coarsest_deg) {
@@ -332,8 +331,8 @@ void take_text(const path& file, const std::string& driver, HeightRaster& raster
     }
     if (found.numbers_left > 0) {
         note(file, raster,
-            fmt::format("{} extra number{} after the last height ignored; a row may be too long, which "
-                        "shifts all rows below it",
+            fmt::format("{} extra number{} after the last height ignored; a row may be too long, which shifts all rows "
+                        "below it",
                 found.numbers_left, found.numbers_left == 1 ? "" : "s"));
     }
 }
@@ -420,18 +419,18 @@ bool is_ellipsoidal(SpatialReferenceHandle system) {
 void note_ellipsoid(const path& file, HeightRaster& raster) {
     if (raster.system && raster.ellipsoid.is_earth() && is_ellipsoidal(raster.system.get())) {
         note(file, raster,
-            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: "
-            "--water-level METRES says where");
+            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: --water-level METRES "
+            "says where");
     }
 }
 
 } // namespace
 
-void check_import_size(const path& file, int columns, int rows) {
-    const auto fits = [](int n) { return n >= 2 && n <= max_import_samples; };
+void check_size(const path& file, double columns, double rows, int max) {
+    const auto fits = [max](double n) { return n >= 2.0 && n <= max; };
     if (!fits(columns) || !fits(rows)) {
-        throw_error_in(file, fmt::format("expected 2 x 2 to {} x {} samples, got {} x {}", max_import_samples,
-                                 max_import_samples, columns, rows));
+        throw_error_in(
+            file, fmt::format("expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}", max, columns, rows));
     }
 }
 
@@ -444,8 +443,7 @@ void check_height(const path& file, double height_m, double raw, bool declares_u
     if (!is_believed(height_m, ellipsoid)) {
         const glm::dvec2 range_m = believed_m(ellipsoid);
         throw_error_in(
-            file, fmt::format("expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as "
-                              "missing",
+            file, fmt::format("expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as missing",
                       range_m.x, range_m.y, height_m,
                       declares_unit ? "" : "--height-scale says how many metres a unit is, ", raw_text(raw)));
     }

@@ -188,10 +188,9 @@ std::vector<std::string> write_warnings(const std::filesystem::path& path, const
     }
     const bool has_textures = !mesh.corner_texture_coordinates.empty();
     if (has_textures && format.ending == ".ac" && single_picture(mesh).empty()) {
-        notes.push_back(
-            fmt::format("{}: texture coordinates are written without a picture, as the materials do not have "
-                        "one in common",
-                path.string()));
+        notes.push_back(fmt::format(
+            "{}: texture coordinates are written without a picture, as the materials do not have one in common",
+            path.string()));
     }
     for (const Material& material : format.has_origin ? mesh.materials : std::vector<Material>()) {
         const auto bytes = picture_bytes_of(material);

@@ -6,7 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/thread_pool.h"
-#include "sim/base/text_file.h"
+#include "sim/base/utf8.h"
 #include "visuals/groundfile/mapped_file.h"
 #include "visuals/terrain/ground_tiles.h"
 
@@ -248,10 +248,9 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
         throw_error_in(path, "expected a sound header, got a damaged one: import it again");
     }
     if (header.version <= 5 && !is_square_field(shape_of(header))) {
-        throw_error_in(
-            path, fmt::format("expected a ground of version {}, got version {}, whose heights end otherwise at "
-                              "the map's border: import it again",
-                      GroundHeader::current_version, header.version));
+        throw_error_in(path, fmt::format("expected a ground of version {}, got version {}, whose heights end otherwise "
+                                         "at the map's border: import it again",
+                                 GroundHeader::current_version, header.version));
     }
     if (header.layout != hash_of(shape_of(header))) {
         throw_error_in(path, "expected today's layout, got that of another release: import it again");
@@ -604,10 +603,9 @@ void verify_ground(const path& path, int threads) {
         });
         if (first_bad < count) {
             const auto across = static_cast<std::size_t>(at.tiles_across);
-            throw_error_in(
-                path, fmt::format("expected sound tiles, got damage in level {}, tile column {}, row {}: import "
-                                  "it again",
-                          level, first_bad % across, first_bad / across));
+            throw_error_in(path,
+                fmt::format("expected sound tiles, got damage in level {}, tile column {}, row {}: import it again",
+                    level, first_bad % across, first_bad / across));
         }
         before += count;
     }
@@ -619,10 +617,9 @@ std::vector<std::string> tile_damage_messages() {
     std::vector<std::string> lines;
     for (const auto& [file, tiles] : all.tiles) {
         const auto& [level, row, column] = *tiles.begin();
-        lines.push_back(
-            fmt::format("{}: expected sound tiles, got damage in {} tile{} (the coarsest in level {}, column "
-                        "{}, row {}), where a coarser ground was shown: import it again",
-                file.string(), tiles.size(), tiles.size() == 1 ? "" : "s", level, column, row));
+        lines.push_back(fmt::format("{}: expected sound tiles, got damage in {} tile{} (the coarsest in level {}, "
+                                    "column {}, row {}), where a coarser ground was shown: import it again",
+            file.string(), tiles.size(), tiles.size() == 1 ? "" : "s", level, column, row));
     }
     return lines;
 }

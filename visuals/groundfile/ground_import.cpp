@@ -238,8 +238,8 @@ void check_output(const std::vector<path>& inputs, const path& out, const path& 
 void check_partial_file(const path& part) {
     std::error_code code;
     if (!is_ground_file(part) && std::filesystem::file_size(part, code) > 0) {
-        throw_error_in(part, "expected what an earlier import left, got another kind of file: move it away or "
-                             "choose another --out");
+        throw_error_in(part,
+            "expected what an earlier import left, got another kind of file: move it away or choose another --out");
     }
 }
 

@@ -144,9 +144,8 @@ TEST_CASE("data of glTF may lie in files beside it, but not outside its folder")
     for (const std::string uri :
         {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "file:///x", "..\\\\x", ""}) {
         parts.uri = uri;
-        CHECK_THAT(
-            refused_gltf(parts), Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this "
-                                                   "one, got '"));
+        CHECK_THAT(refused_gltf(parts),
+            Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this one, got '"));
     }
     parts.uri = "none.bin";
     CHECK(
@@ -169,8 +168,8 @@ TEST_CASE("a faulty glTF file is refused in one line that says what") {
     parts.accessors =
         R"([{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
-    CHECK(refused_gltf(parts) == "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 "
-                                 "bytes of the view, got 5 from byte 0, 12 apart");
+    CHECK(refused_gltf(parts) == "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 bytes of the "
+                                 "view, got 5 from byte 0, 12 apart");
     parts.accessors =
         R"([{"sparse":{},"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
@@ -181,8 +180,8 @@ TEST_CASE("a faulty glTF file is refused in one line that says what") {
     CHECK(refused_gltf(parts) == "part.gltf: meshes[0].primitives: expected indices below 3, got 3");
     parts = {};
     parts.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
-    CHECK(refused_gltf(parts) == "part.gltf: extensionsRequired: expected plain accessors, got "
-                                 "KHR_draco_mesh_compression");
+    CHECK(refused_gltf(parts) ==
+          "part.gltf: extensionsRequired: expected plain accessors, got KHR_draco_mesh_compression");
     CHECK(error_of("part.glb", std::string("glTF\2\0\0\0\77\0\0\0", 12)) ==
           "part.glb: at byte 8: expected a length of 12, got 63");
 }
