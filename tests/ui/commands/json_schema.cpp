@@ -134,7 +134,7 @@ void check_row_schema(
     for (const auto& [name, property] : row["properties"].items()) {
         INFO(schema_file.filename() << pointer << " " << name);
         CHECK(object["properties"].value(name, Json()) == property);
-        CHECK(std::ranges::find(object["required"], name) != object["required"].end());
+        CHECK(std::ranges::find(object["required"], Json(name)) != object["required"].end());
     }
 }
 
