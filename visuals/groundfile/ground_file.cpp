@@ -6,7 +6,6 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/thread_pool.h"
-#include "sim/base/utf8.h"
 #include "visuals/groundfile/mapped_file.h"
 #include "visuals/terrain/ground_tiles.h"
 

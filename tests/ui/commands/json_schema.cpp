@@ -125,7 +125,7 @@ void check_row_schema(
     if (std::getenv("OCTANT_WRITE_SCHEMAS") != nullptr) {
         object["properties"].update(row["properties"]);
         for (const Json& name : row["required"]) {
-            if (std::ranges::find(object["required"], name) == object["required"].end()) {
+            if (std::ranges::find(object["required"], Json(name)) == object["required"].end()) {
                 object["required"].push_back(name);
             }
         }
@@ -134,7 +134,7 @@ void check_row_schema(
     for (const auto& [name, property] : row["properties"].items()) {
         INFO(schema_file.filename() << pointer << " " << name);
         CHECK(object["properties"].value(name, Json()) == property);
-        CHECK(std::ranges::find(object["required"], name) != object["required"].end());
+        CHECK(std::ranges::find(object["required"], Json(name)) != object["required"].end());
     }
 }
 

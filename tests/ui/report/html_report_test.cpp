@@ -2,6 +2,7 @@
 #include "tests/ui/report/scratch.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_report.h"
+#include "ui/report/html_text.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 

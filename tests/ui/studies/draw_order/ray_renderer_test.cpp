@@ -1,4 +1,4 @@
-#include "ui/studies/draw_order/study_hidden_surface.h"
+#include "ui/studies/draw_order/ray_renderer.h"
 #include "visuals/scene/camera.h"
 
 #include <catch2/catch.hpp>
