@@ -121,7 +121,8 @@ constexpr std::array frame_columns{
         "How many pixels any sample of the ground in the picture may lie from its triangles, without detail near the "
         "eye; 0 where C decides.")),
     optional(frame_column<&R::latency_ms>("latency_ms", milliseconds,
-        "By the clock only: from the input that the picture shows, or from when it was due, to the picture finished.")),
+        "Time from the input shown, or from when the frame was due, to the finished picture; empty unless the flight "
+        "follows the clock.")),
     frame_column<&R::missed>(
         "missed", 0, "By the clock only: 1 when the picture came later than the next one was due."),
     frame_column<&R::smooth_polygons>(
@@ -141,7 +142,7 @@ constexpr std::array frame_columns{
         "packets_lost", 0, "The same: lost, by the numbers of MAVLink and CIGI; empty where senders number none.")),
     frame_column<&R::packets_late>("packets_late", 0, "The same: dropped because they came too late."),
     frame_column<&R::packets_wrong>("packets_wrong", 0, "The same: of no known form."),
-    frame_column<&R::stale>("stale", 0, "1 when an aircraft stands still for want of packets."),
+    frame_column<&R::stale>("stale", 0, "1 if an aircraft stopped because packets are missing."),
     frame_column<&R::jitter_ms>("jitter_ms", milliseconds, "How much later than the quickest packets come, mean."),
     is_signed(
         frame_column<&R::host_frame>("host_frame", 0, "Frame of the CIGI host that the picture shows; -1 = none.")),

@@ -5,6 +5,7 @@
 #include "ui/report/plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fmt/format.h>
 
@@ -15,27 +16,14 @@ namespace {
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 void append_escaped(std::string& out, char c) {
-    switch (c) {
-    case '&':
-        out += "&amp;";
-        return;
-    case '<':
-        out += "&lt;";
-        return;
-    case '>':
-        out += "&gt;";
-        return;
-    case '"':
-        out += "&quot;";
-        return;
-    case '\'':
-        out += "&#39;";
-        return;
-    default:
-        break;
-    }
+    constexpr std::string_view special = "&<>\"'";
+    constexpr std::array names{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\t') { out += c; }
+    if (const std::size_t at = special.find(c); at != std::string_view::npos) {
+        out += names[at];
+    } else if ((byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\t') {
+        out += c;
+    }
 }
 
 } // namespace

@@ -65,7 +65,6 @@ MeasuredMesh coarsest_mesh_within(MeshMaker& maker, terrain::ProjectedErrorMeter
 } // namespace
 
 namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
 
 namespace {
 

@@ -22,7 +22,7 @@ struct ErrorMeasurement {
 report::ResultTable error_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 /// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with full and with partial
-/// fans, its c the best for it of some. `run.target_error_px` is there.
+/// fans, with the best of several values of c. `run.target_error_px` is there.
 report::ResultTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 } // namespace octant::ui::terrain

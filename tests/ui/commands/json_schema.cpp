@@ -125,7 +125,7 @@ void check_row_schema(
     if (std::getenv("OCTANT_WRITE_SCHEMAS") != nullptr) {
         object["properties"].update(row["properties"]);
         for (const Json& name : row["required"]) {
-            if (std::ranges::find(object["required"], name) == object["required"].end()) {
+            if (std::ranges::find(object["required"], Json(name)) == object["required"].end()) {
                 object["required"].push_back(name);
             }
         }

@@ -78,4 +78,8 @@ TEST_CASE("a plot stands in a page with its data, gaps, axes and quotes") {
     CHECK_THAT(html, Contains(R"({"n":"a \u003c b","c":"#102030","s":"points","x":[1,2,3],"y":[4,null,6]})"));
     CHECK_THAT(html, Contains(R"({"n":"","c":"#405060","s":"area","x":[1,2],"y":[3,4],"l":[1,2]})"));
     CHECK(page_plot(plot, PlotWidth::FullWidth) == html);
+    plot.series[0].name = "</script>";
+    const std::string attack = page_plot(plot, PlotWidth::Small);
+    CHECK_THAT(attack, Contains("\"n\":\"\\u003c/script>\"") && Contains("[[\"leg\",1.5]]"));
+    CHECK(attack.find("</script>") == attack.rfind("</script>"));
 }

@@ -519,16 +519,15 @@ report::ResultTable relief_table(const FlickerStudyOptions& options) {
     }
     parallel_for(fields.size(), 2, [&](std::size_t k, std::size_t /*worker*/) {
         FlickerGround ground(fields[k]);
-        for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
-            found[k][triangle_control] =
-                statistics_of_control(ground, triangle_controls[shown_controls[triangle_control]], options.frames);
+        for (std::size_t i = 0; i < shown_controls.size(); ++i) {
+            found[k][i] = statistics_of_control(ground, triangle_controls[shown_controls[i]], options.frames);
         }
     });
     for (std::size_t k = 0; k < fields.size(); ++k) {
-        for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
-            const ControlStatistics& control_statistics = found[k][triangle_control];
+        for (std::size_t i = 0; i < shown_controls.size(); ++i) {
+            const ControlStatistics& control_statistics = found[k][i];
             table.add({{"ground", fields[k].name}, {"relief m", "{:.0f}", relief_m[k]},
-                {"control", triangle_controls[shown_controls[triangle_control]].name},
+                {"control", triangle_controls[shown_controls[i]].name},
                 {"g, mean", gain_text(control_statistics.mean_gain)},
                 {"g, largest", gain_text(control_statistics.max_gain)},
                 {"fixed view, mean abs dn", "{:.1f}", control_statistics.fixed_change},
@@ -560,12 +559,12 @@ report::ResultTable fixed_table(const FieldRuns& runs, const char* kind) {
     constexpr std::size_t last = 50;
     report::ResultTable table{fmt::format("Fixed view over {} ground: {}", kind, runs.name)};
     for (std::size_t weight = 0; weight < runs.fixed.size(); ++weight) {
-        for (std::size_t triangle_control = 0; triangle_control < runs.fixed[weight].size(); ++triangle_control) {
-            const FlickerRun& run = runs.fixed[weight][triangle_control];
+        for (std::size_t i = 0; i < runs.fixed[weight].size(); ++i) {
+            const FlickerRun& run = runs.fixed[weight][i];
             const auto changes =
                 terrain::change_statistics(run.triangles, std::max(run.triangles.size(), last + 1) - last);
             table.add({{"c", "{:g}", flicker_weights[weight]}, {"loop gain g", "{:.2f}", runs.fixed_gains[weight]},
-                {"control", triangle_controls[triangle_control].name}, {"mean abs dn, last 50", "{:.0f}", changes.mean},
+                {"control", triangle_controls[i].name}, {"mean abs dn, last 50", "{:.0f}", changes.mean},
                 {"fans, last two frames", last_two(run.fans)},
                 {"dn = 0 for ever after, frames", frames_text(terrain::frames_until_constant(run.triangles, 10))},
                 {"within 0.5 % after, frames",
@@ -596,12 +595,12 @@ void add_path_rows(const FieldRuns& runs, report::ResultTable& table) {
         return terrain::change_statistics(run.triangles, first_measured(run.triangles.size()));
     };
     const double before = changes_of(runs.path[previous_control]).mean;
-    for (std::size_t triangle_control = 0; triangle_control < runs.path.size(); ++triangle_control) {
-        const FlickerRun& run = runs.path[triangle_control];
+    for (std::size_t i = 0; i < runs.path.size(); ++i) {
+        const FlickerRun& run = runs.path[i];
         if (run.triangles.empty()) { continue; }
         const terrain::ChangeStatistics changes = changes_of(run);
         table.add({{"ground", runs.name}, {"g, mean", "{:.2f}", gain}, {"g, largest", "{:.2f}", most},
-            {"control", triangle_controls[triangle_control].name}, {"mean abs dn", "{:.1f}", changes.mean},
+            {"control", triangle_controls[i].name}, {"mean abs dn", "{:.1f}", changes.mean},
             {"largest abs dn", changes.largest}, {"alternation", "{:.1f}", changes.flicker_triangles},
             {"within 2 % after, frames",
                 frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.02, 10))},

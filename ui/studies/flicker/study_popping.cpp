@@ -121,7 +121,6 @@ double mean_change(const visuals::scene::Picture& earlier, const visuals::scene:
 }
 
 namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
 
 namespace {
 
@@ -211,9 +210,6 @@ report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
                  "read between its pixels. Not near the aircraft; no shadows.";
     return table;
 }
-
-namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
 
 namespace {
 

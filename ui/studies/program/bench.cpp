@@ -132,7 +132,6 @@ std::vector<BenchScene> triangle_count_scenes(const BenchScene& scene) {
 }
 
 namespace planning = visuals::planning;
-namespace scene = visuals::scene;
 
 namespace {
 
