@@ -4,13 +4,10 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_field.h"
 #include "models/heights/height_raster.h"
-#include "models/heights/height_voids.h"
 #include "models/heights/map_defects.h"
 #include "models/heights/map_inputs.h"
 #include "models/heights/map_resampling.h"
 #include "sim/base/error.h"
-#include "sim/base/text_file.h"
-#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <cassert>
@@ -18,8 +15,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -222,85 +217,12 @@ private:
 
 namespace {
 
-// Source: Netpbm, pgm(5), "Plain PGM": P2, width, height, largest value, then values from the top left, separated by
-// white space; '#' starts a comment that runs to the end of its line. Deviations: none.
-
-/// Grey values of a plain PGM. Throws Error "path:line: expected ..., got ..."; `check_size` is called with width and
-/// height before any value is read and may throw too.
-HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size);
-
-/// Whether a file begins like a plain (text) PGM, which GDAL cannot read.
-bool is_plain_pgm(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    char first = 0;
-    char second = 0;
-    char third = 0;
-    in.get(first).get(second).get(third);
-    return in && first == 'P' && second == '2' && (third == '#' || third == ' ' || (third >= '\t' && third <= '\r'));
-}
-
-HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size) {
-    constexpr std::size_t largest_bytes = std::size_t{4} << 30;
-    constexpr long largest_side = 1'000'000'000;
-    const std::string text = read_text_file(path, largest_bytes);
-    TextScanner words(path, text, {.comment = '#'});
-    words.word_or_end();
-    const auto number = [&words](const char* what, long min, long max) {
-        const auto value = words.take_integer(min, max);
-        if (!value) {
-            words.refuse_next(words.peek().empty() ? what : fmt::format("{} from {} to {}", what, min, max));
-        }
-        return *value;
-    };
-    HeightGrid grid;
-    grid.columns = static_cast<int>(number("a width", 1, largest_side));
-    grid.rows = static_cast<int>(number("a height", 1, largest_side));
-    check_size(grid.columns, grid.rows);
-    const long largest = number("a largest value", 1, 65535);
-    const std::size_t columns = static_cast<std::size_t>(grid.columns);
-    const std::size_t count = columns * static_cast<std::size_t>(grid.rows);
-    if (count > text.size()) {
-        throw_error_in(path, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
-    }
-    grid.heights_m.resize(count);
-    for (int row = grid.rows - 1; row >= 0; --row) {
-        for (int column = 0; column < grid.columns; ++column) {
-            grid.heights_m[grid.index(column, row)] = static_cast<float>(number("a grey value", 0, largest));
-        }
-    }
-    return grid;
-}
-
 using std::filesystem::path;
-
-/// The heights of a plain PGM, metres; adds a note about undeclared voids.
-HeightGrid plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
-    HeightGrid grid = read_plain_pgm(file, [&file](int columns, int rows) { check_size(file, columns, rows); });
-    const double unit_m = options.height_scale.value_or(1.0);
-    const std::vector<double>& given = options.voids.values;
-    const auto is_given = [&given](
-                              float raw) { return std::ranges::find(given, static_cast<double>(raw)) != given.end(); };
-    VoidDetector survey(lowest_import_m, highest_import_m, 65536.0);
-    for (const float raw : grid.heights_m) {
-        if (!is_given(raw)) { survey.add(static_cast<double>(raw), static_cast<double>(raw) * unit_m); }
-    }
-    const UndeclaredVoids voids = options.voids.only ? UndeclaredVoids() : survey.result();
-    for (float& height : grid.heights_m) {
-        const double raw = static_cast<double>(height);
-        if (is_given(height) || voids.has(raw)) {
-            height = std::numeric_limits<float>::quiet_NaN();
-        } else {
-            check_height(file, raw * unit_m, raw, false);
-            height = static_cast<float>(raw * unit_m);
-        }
-    }
-    if (!voids.note.empty()) { notes.push_back({fmt::format("{}: {}", file.filename().string(), voids.note)}); }
-    return grid;
-}
 
 std::vector<SourceGrid> open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
     std::vector<SourceGrid> grids;
     for (const path& file : files) {
+        check_local_file(file);
         SourcePiece piece{file, open_height_raster(file, options, gdal)};
         if (files.size() > 1 && !piece.raster.map) {
             throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
@@ -321,11 +243,8 @@ struct StoredSample {
 
 struct HeightSource::Content {
     std::vector<path> files;
-    std::unique_ptr<GdalSession> gdal;
+    GdalSession gdal;
     std::vector<SourceGrid> grids;
-    std::optional<HeightGrid> whole; ///< a plain PGM
-    double whole_unit_m = 1.0;
-    std::vector<MapNote> whole_notes;
     TargetGrid lattice;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
@@ -334,19 +253,7 @@ struct HeightSource::Content {
     std::optional<SpikeFinder> spikes;
 
     void open(const ImportOptions& options) {
-        for (const path& file : files) {
-            check_local_file(file);
-            if (!is_plain_pgm(file)) { continue; }
-            if (files.size() > 1) {
-                throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
-            }
-            whole = plain_heights(file, options, whole_notes);
-            whole_unit_m = options.height_scale.value_or(1.0);
-            take_picture(whole->columns, whole->rows, options.spacing_m);
-            return;
-        }
-        gdal = std::make_unique<GdalSession>();
-        grids = open_grids(files, options, *gdal);
+        grids = open_grids(files, options, gdal);
         if (!grids.front().map()) {
             take_picture(grids.front().columns(), grids.front().rows(), options.spacing_m);
             return;
@@ -355,7 +262,7 @@ struct HeightSource::Content {
         spacing_m = lattice.step * lattice.unit_m;
         if (!lattice.is_source) { resampler.emplace(grids, lattice); }
         find_place();
-        gdal->forget(); // a system without a place on the earth is no fault
+        gdal.forget(); // a system without a place on the earth is no fault
     }
 
     /// A ground without georeference.
@@ -381,15 +288,11 @@ struct HeightSource::Content {
 
     void read(int first_row, std::span<float> heights_m) {
         const auto width = static_cast<std::size_t>(lattice.columns);
-        if (whole) {
-            const std::size_t first = static_cast<std::size_t>(first_row) * width;
-            std::copy_n(
-                whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first), heights_m.size(), heights_m.begin());
-        } else if (resampler) {
-            resampler->read(first_row, heights_m, *gdal);
+        if (resampler) {
+            resampler->read(first_row, heights_m, gdal);
         } else {
             const int count = static_cast<int>(heights_m.size() / width);
-            grids.front().read({0, lattice.columns, first_row, count}, heights_m, *gdal);
+            grids.front().read({0, lattice.columns, first_row, count}, heights_m, gdal);
         }
     }
 
@@ -399,7 +302,7 @@ struct HeightSource::Content {
         return more == 0 ? first : fmt::format("{} and {} more", first, more);
     }
 
-    bool has_map() const { return !grids.empty() && grids.front().map(); }
+    bool has_map() const { return grids.front().map().has_value(); }
 
     /// East and north of the centre.
     glm::dvec2 metres_of(const glm::dvec2& column_row) const {
@@ -418,21 +321,9 @@ struct HeightSource::Content {
         return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
     }
 
-    double whole_raw(float height_m) const { return std::round(height_m / whole_unit_m); }
-
     /// Samples of the files at most `radius` columns and rows away from a target sample.
     std::vector<StoredSample> samples_near(const glm::ivec2& column_row, int radius) const {
         std::vector<StoredSample> samples;
-        if (whole) {
-            const glm::ivec2 first = glm::max(column_row - radius, 0);
-            const glm::ivec2 last = glm::min(column_row + radius, glm::ivec2(whole->columns, whole->rows) - 1);
-            for (int row = first.y; row <= last.y; ++row) {
-                for (int column = first.x; column <= last.x; ++column) {
-                    const float height_m = whole->at(column, row);
-                    samples.push_back({whole_raw(height_m), height_m});
-                }
-            }
-        }
         for (const SourceGrid& grid : grids) {
             glm::dvec2 at(column_row);
             if (!lattice.is_source) {
@@ -450,8 +341,8 @@ struct HeightSource::Content {
                 const auto n = static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
                 std::vector<double> raw(n);
                 std::vector<float> heights_m(n);
-                read_raw(piece.file, piece.raster, window, raw, *gdal);
-                read_heights(piece.file, piece.raster, window, heights_m, *gdal);
+                read_raw(piece.file, piece.raster, window, raw, gdal);
+                read_heights(piece.file, piece.raster, window, heights_m, gdal);
                 for (std::size_t i = 0; i < n; ++i) { samples.push_back({raw[i], heights_m[i]}); }
             }
         }
@@ -482,12 +373,9 @@ struct HeightSource::Content {
             return std::ranges::any_of(numbers, [raw](double number) { return is_same_raw(raw, number); });
         };
         std::int64_t samples = 0;
-        if (whole) {
-            return std::ranges::count_if(whole->heights_m, [&](float height_m) { return is_one(whole_raw(height_m)); });
-        }
         for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
             std::vector<double> raw(static_cast<std::size_t>(row.columns));
-            read_raw(piece.file, piece.raster, row, raw, *gdal);
+            read_raw(piece.file, piece.raster, row, raw, gdal);
             samples += std::ranges::count_if(raw, is_one);
         });
         return samples;
@@ -559,7 +447,7 @@ struct HeightSource::Content {
 
     void add_seams(std::vector<MapNote>& notes) const {
         const double cell_m = std::min(lattice.cell_m.x, lattice.cell_m.y);
-        for (const SeamStep& seam : steps_at_seams(grids, cell_m, *gdal)) {
+        for (const SeamStep& seam : steps_at_seams(grids, cell_m, gdal)) {
             MapNote note;
             for (glm::dvec2 at : seam.column_row) {
                 seam.grid->frame_from_grid({&at.x, 1}, {&at.y, 1});
@@ -598,7 +486,7 @@ std::optional<CoordinateSystem> HeightSource::system() const { return content_->
 std::string HeightSource::name() const { return content_->name(); }
 
 std::string HeightSource::system_name() const {
-    const SpatialReferenceHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
+    const SpatialReferenceHandle own = content_->grids.front().system();
     const char* const name = own == nullptr ? nullptr : OSRGetName(own);
     return name == nullptr ? "" : printable(name);
 }
@@ -606,53 +494,46 @@ std::string HeightSource::system_name() const {
 glm::dvec2 HeightSource::cell_m() const { return content_->lattice.cell_m; }
 
 std::vector<MapNote> HeightSource::notes() const {
-    std::vector<MapNote> notes = content_->whole_notes;
+    std::vector<MapNote> notes;
     for (const SourceGrid& grid : content_->grids) {
         for (const SourcePiece& piece : grid.pieces()) {
             const std::vector<MapNote> own = notes_of(piece.file, piece.raster);
             notes.insert(notes.end(), own.begin(), own.end());
         }
     }
-    if (content_->gdal) {
-        for (const std::string& warning : content_->gdal->warnings()) {
-            notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
-        }
+    for (const std::string& warning : content_->gdal.warnings()) {
+        notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
     }
     content_->add_spikes(notes);
-    if (content_->gdal) { // a plain PGM has none
-        content_->add_seams(notes);
-        content_->gdal->forget();
-    }
+    content_->add_seams(notes);
+    content_->gdal.forget();
     return notes;
 }
 
 std::int64_t HeightSource::count_voids() const {
     std::int64_t voids = 0;
-    if (content_->whole) {
-        return std::ranges::count_if(content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
-    }
     content_->for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
         std::vector<float> heights_m(static_cast<std::size_t>(row.columns));
-        read_heights(piece.file, piece.raster, row, heights_m, *content_->gdal);
+        read_heights(piece.file, piece.raster, row, heights_m, content_->gdal);
         voids += std::ranges::count_if(heights_m, [](float height_m) { return std::isnan(height_m); });
     });
     return voids;
 }
 
 bool HeightSource::has_integer_metres() const {
-    return keeps_source_samples() && !content_->whole && content_->grids.front().has_integer_metres();
+    return keeps_source_samples() && content_->grids.front().has_integer_metres();
 }
 
 bool HeightSource::keeps_source_samples() const { return content_->lattice.is_source; }
 
 std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
-    assert(!content_->grids.empty() && content_->grids.front().map());
-    return source_height_m(content_->grids, content_->lattice, x_m, y_m, *content_->gdal);
+    assert(content_->grids.front().map());
+    return source_height_m(content_->grids, content_->lattice, x_m, y_m, content_->gdal);
 }
 
 std::optional<HeightDeviation> HeightSource::deviation_of(const GroundAt& ground) const {
-    if (content_->grids.empty() || !content_->grids.front().map()) { return std::nullopt; }
-    return deviation_from_source(content_->grids, content_->lattice, ground, *content_->gdal);
+    if (!content_->grids.front().map()) { return std::nullopt; }
+    return deviation_from_source(content_->grids, content_->lattice, ground, content_->gdal);
 }
 
 void HeightSource::read(int first_row, std::span<float> heights_m) {
@@ -664,7 +545,7 @@ void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
     assert(has_integer_metres());
     const auto width = static_cast<std::size_t>(columns());
     const int count = static_cast<int>(heights_m.size() / width);
-    content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
+    content_->grids.front().read({0, columns(), first_row, count}, heights_m, content_->gdal);
     std::vector<float> row(width);
     for (int i = 0; i < count; ++i) {
         const auto metres = heights_m.subspan(static_cast<std::size_t>(i) * width, width);

@@ -468,7 +468,8 @@ std::string cut_short_tile(const path& file) {
 Dataset open_raster_file(
     const path& file, GdalSession& gdal, std::optional<std::string>& band, std::vector<MapNote>& notes) {
     check_end(file);
-    Dataset dataset = open_named(file.string());
+    Dataset dataset = open_plain_pgm(file);
+    if (!dataset) { dataset = open_named(file.string()); }
     if (!dataset) {
         const std::string cut_short = cut_short_tile(file);
         if (!cut_short.empty()) { throw_unreadable(file, "a height field", cut_short); }

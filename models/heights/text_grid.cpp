@@ -2,7 +2,9 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "models/heights/height_raster.h"
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -281,6 +284,47 @@ Dataset open_grid_that_begins_with_word(const path& file) {
     const std::string sparse = "/vsisparse/" + name.string();
     Dataset dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
     if (!dataset) { throw_unreadable(file, "a height field", "a header without size, place or cells"); }
+    return dataset;
+}
+
+Dataset open_plain_pgm(const path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::array<char, 3> begin{};
+    in.read(begin.data(), begin.size());
+    if (!in || begin[0] != 'P' || begin[1] != '2' ||
+        std::string_view("# \t\n\v\f\r").find(begin[2]) == std::string::npos) {
+        return nullptr;
+    }
+    constexpr std::size_t largest_bytes = std::size_t{4} << 30;
+    constexpr long largest_side = 1'000'000'000;
+    const std::string text = read_text_file(file, largest_bytes);
+    TextScanner words(file, text, {.comment = '#'});
+    words.word_or_end();
+    const auto number = [&words](const char* what, long min, long max) {
+        const auto value = words.take_integer(min, max);
+        if (!value) {
+            words.refuse_next(words.peek().empty() ? what : fmt::format("{} from {} to {}", what, min, max));
+        }
+        return *value;
+    };
+    const auto columns = static_cast<int>(number("a width", 1, largest_side));
+    const auto rows = static_cast<int>(number("a height", 1, largest_side));
+    check_size(file, columns, rows);
+    const long largest = number("a largest value", 1, 65535);
+    const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    if (count > text.size()) {
+        throw_error_in(file, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
+    }
+    Dataset dataset(GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 1, GDT_UInt16, nullptr));
+    if (!dataset) { throw_error_in(file, "expected a height field that fits in memory, got a larger one"); }
+    std::vector<std::uint16_t> line(static_cast<std::size_t>(columns));
+    for (int row = 0; row < rows; ++row) {
+        for (std::uint16_t& grey : line) { grey = static_cast<std::uint16_t>(number("a grey value", 0, largest)); }
+        if (GDALRasterIO(GDALGetRasterBand(dataset.get(), 1), GF_Write, 0, row, columns, 1, line.data(), columns, 1,
+                GDT_UInt16, 0, 0) != CE_None) {
+            throw_error_in(file, "expected a height field that fits in memory, got a larger one");
+        }
+    }
     return dataset;
 }
 

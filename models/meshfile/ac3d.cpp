@@ -36,9 +36,6 @@ struct Ac3dObject {
     AffineTransform moved; ///< applied to positions of the file
 };
 
-/// Returns the options of an object with this name that is a child of `holder`.
-Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options);
-
 /// Whether an object's name says that it represents turning blades, a light cone or a shadow on the ground.
 bool is_stand_in(std::string name) {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -49,6 +46,7 @@ bool is_stand_in(std::string name) {
     return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
 }
 
+/// Returns the options of an object with this name that is a child of `holder`.
 Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
     Ac3dObject object = holder;
     object.is_placeholder = !holder.is_excluded && !options.placeholders && is_stand_in(name);
@@ -62,31 +60,6 @@ Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, co
     }
     return object;
 }
-
-/// The materials of an AC3D file, which surfaces name by number.
-class Ac3dMaterials {
-public:
-    /// Reads what follows `word`, which should be MATERIAL or MAT, from `words`. Throws Error.
-    void take(std::string_view word, TextScanner& words);
-
-    std::size_t count() const { return materials_.size(); }
-
-    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file or without
-    /// (empty). Materials come into the mesh in the order of their first polygon.
-    std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh);
-
-private:
-    struct FileMaterial {
-        Material material;
-        float opacity = 1.0F;
-        std::map<std::string, std::uint32_t> index_by_picture = {}; ///< by pictures
-    };
-
-    void take_line(TextScanner& words);
-    void read_block(TextScanner& words);
-
-    std::vector<FileMaterial> materials_;
-};
 
 float colour_part(std::string_view word, const TextScanner& words) {
     const auto value = finite_number(word);
@@ -110,55 +83,73 @@ std::string read_ac3d_name(std::string_view& line, const TextScanner& words) {
     return name;
 }
 
-void Ac3dMaterials::take(std::string_view word, TextScanner& words) {
-    if (word == "MATERIAL") {
-        take_line(words);
-    } else if (word == "MAT") {
-        read_block(words);
-    } else {
-        words.refuse_last("MATERIAL or OBJECT");
-    }
-}
-
-/// Reads the rest of a line MATERIAL "name" rgb R G B ...
-void Ac3dMaterials::take_line(TextScanner& words) {
-    std::string_view rest = words.rest_of_line();
-    Material material{.name = read_ac3d_name(rest, words)};
-    const auto parts = split_words(rest);
-    if (parts.size() < 4 || parts[0] != "rgb") { words.refuse("rgb and three numbers", in_quotes(rest)); }
-    for (int part = 0; part < 3; ++part) {
-        material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
-    }
-    const auto trans = std::ranges::find(parts, "trans");
-    const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
-    materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
-}
-
-/// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
-void Ac3dMaterials::read_block(TextScanner& words) {
-    std::string_view rest = words.rest_of_line();
-    Material material{.name = read_ac3d_name(rest, words)};
-    float opacity = 1.0F;
-    for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
-        for (int part = 0; word == "rgb" && part < 3; ++part) {
-            material.colour[part] = colour_part(words.word("a part of a colour"), words);
+/// The materials of an AC3D file, which surfaces name by number.
+class Ac3dMaterials {
+public:
+    /// Reads what follows `word`, which should be MATERIAL or MAT, from `words`. Throws Error.
+    void take(std::string_view word, TextScanner& words) {
+        if (word == "MATERIAL") {
+            take_line(words);
+        } else if (word == "MAT") {
+            read_block(words);
+        } else {
+            words.refuse_last("MATERIAL or OBJECT");
         }
-        const auto rest_words = split_words(words.rest_of_line());
-        if (word == "trans" && !rest_words.empty()) { opacity = opacity_of(rest_words[0]); }
     }
-    materials_.push_back({std::move(material), opacity, {}});
-}
 
-std::uint32_t Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
-    if (number == invalid_index) { return invalid_index; }
-    FileMaterial& material = materials_[number];
-    const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
-    if (is_new) {
-        material.material.picture = picture;
-        at->second = mesh.add_material(material.material, material.opacity);
+    std::size_t count() const { return materials_.size(); }
+
+    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file or without
+    /// (empty). Materials come into the mesh in the order of their first polygon.
+    std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
+        if (number == invalid_index) { return invalid_index; }
+        FileMaterial& material = materials_[number];
+        const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
+        if (is_new) {
+            material.material.picture = picture;
+            at->second = mesh.add_material(material.material, material.opacity);
+        }
+        return at->second;
     }
-    return at->second;
-}
+
+private:
+    struct FileMaterial {
+        Material material;
+        float opacity = 1.0F;
+        std::map<std::string, std::uint32_t> index_by_picture = {}; ///< by pictures
+    };
+
+    /// Reads the rest of a line MATERIAL "name" rgb R G B ...
+    void take_line(TextScanner& words) {
+        std::string_view rest = words.rest_of_line();
+        Material material{.name = read_ac3d_name(rest, words)};
+        const auto parts = split_words(rest);
+        if (parts.size() < 4 || parts[0] != "rgb") { words.refuse("rgb and three numbers", in_quotes(rest)); }
+        for (int part = 0; part < 3; ++part) {
+            material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
+        }
+        const auto trans = std::ranges::find(parts, "trans");
+        const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
+        materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
+    }
+
+    /// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
+    void read_block(TextScanner& words) {
+        std::string_view rest = words.rest_of_line();
+        Material material{.name = read_ac3d_name(rest, words)};
+        float opacity = 1.0F;
+        for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
+            for (int part = 0; word == "rgb" && part < 3; ++part) {
+                material.colour[part] = colour_part(words.word("a part of a colour"), words);
+            }
+            const auto rest_words = split_words(words.rest_of_line());
+            if (word == "trans" && !rest_words.empty()) { opacity = opacity_of(rest_words[0]); }
+        }
+        materials_.push_back({std::move(material), opacity, {}});
+    }
+
+    std::vector<FileMaterial> materials_;
+};
 
 constexpr std::size_t largest_ac3d_bytes = std::size_t{1} << 30U;
 constexpr int max_ac3d_depth = 100;
@@ -398,25 +389,15 @@ private:
     Ac3dObject object_;     ///< at hand
 };
 
-/// What the file holds, to be finished.
-MeshBuilder built(const std::filesystem::path& path, ReadOptions options) {
-    const std::string text = read_text_file(path, largest_ac3d_bytes);
-    MeshBuilder mesh = Ac3dReading(path, text, options).read();
-    if (mesh.is_empty() && !options.placeholders) {
-        options.placeholders = true;
-        return Ac3dReading(path, text, options).read();
-    }
-    return mesh;
-}
-
 } // namespace
 
-TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return built(path, options).finish();
-}
-
-MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    return built(path, options).finish_parts();
+MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
+    MeshBuilder mesh = Ac3dReading(path, text, options).read();
+    if (!mesh.is_empty() || options.placeholders) { return mesh; }
+    ReadOptions all = options;
+    all.placeholders = true;
+    return Ac3dReading(path, text, all).read();
 }
 
 std::string single_picture(const TriangleMesh& mesh) {

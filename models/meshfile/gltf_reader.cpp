@@ -737,12 +737,8 @@ private:
 
 } // namespace
 
-TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return GltfReading(path, options).read().finish();
-}
-
-MeshParts read_gltf_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    return GltfReading(path, options).read().finish_parts();
+MeshBuilder read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
+    return GltfReading(path, options).read();
 }
 
 } // namespace octant::models::meshfile

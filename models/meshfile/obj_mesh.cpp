@@ -196,14 +196,9 @@ private:
 
 } // namespace
 
-TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+MeshBuilder read_obj(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string text = read_text_file(path, largest_obj_bytes);
-    return ObjMeshReading(path, text, options).read().finish();
-}
-
-MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_obj_bytes);
-    return ObjMeshReading(path, text, options).read().finish_parts();
+    return ObjMeshReading(path, text, options).read();
 }
 
 namespace {

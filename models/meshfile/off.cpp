@@ -65,7 +65,7 @@ public:
               1 + static_cast<int>(std::ranges::count(text.substr(0, header_.body_at), '\n'))),
           mesh_(path), path_(path) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         const auto most = static_cast<long>(words_.bytes_left());
         const long vertices = words_.integer("the number of vertices", 0, most);
         const long faces = words_.integer("the number of faces", 0, most);
@@ -80,7 +80,7 @@ public:
             mesh_.add_note(
                 fmt::format("{}: colours of faces that are numbers of a colour map are not read", path_.string()));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -172,7 +172,7 @@ private:
 
 } // namespace
 
-TriangleMesh read_off_mesh(const std::filesystem::path& path) {
+MeshBuilder read_off(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     std::string text = read_text_file(path, largest_off_bytes);
     for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at)) {
         for (; at < text.size() && text[at] != '\n'; ++at) { text[at] = ' '; }

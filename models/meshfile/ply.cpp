@@ -330,7 +330,7 @@ public:
     BodyReading(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
         : header_(header), path_(path), source_(path, bytes, header), mesh_(path) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         for (const PlyElement& element : header_.elements) {
             if (element.name == "vertex" && !has_vertices_) {
                 take_vertices(element);
@@ -347,7 +347,7 @@ public:
             mesh_.add_note(
                 fmt::format("{}: properties that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -547,7 +547,7 @@ private:
 
 } // namespace
 
-TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
+MeshBuilder read_ply(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     const std::string bytes = read_file(path, largest_ply_bytes);
     const PlyHeader header = read_ply_header(path, bytes);
     return header.form == PlyEncoding::ascii ? BodyReading<WordSource>(path, bytes, header).read()

@@ -26,7 +26,7 @@ class Corners {
 public:
     void add(const glm::dvec3& place_m) { places_m_.push_back(place_m); }
 
-    TriangleMesh welded(MeshBuilder& mesh) const {
+    MeshBuilder welded(MeshBuilder& mesh) const {
         const std::vector<std::uint32_t> firsts =
             repair::first_duplicates(places_m_, {}, std::vector<bool>(places_m_.size(), true));
         std::vector<std::uint32_t> vertices(places_m_.size(), invalid_index);
@@ -37,7 +37,7 @@ public:
             mesh.add_polygon(std::array<CornerIndices, 3>{CornerIndices{vertices[corner]},
                 CornerIndices{vertices[corner + 1]}, CornerIndices{vertices[corner + 2]}});
         }
-        return mesh.finish();
+        return std::move(mesh);
     }
 
 private:
@@ -54,7 +54,7 @@ public:
     AsciiReading(const std::filesystem::path& path, std::string_view text)
         : words_(path, text, mesh_text), mesh_(path) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         take("solid");
         words_.rest_of_line();
         while (true) {
@@ -99,7 +99,7 @@ private:
     Corners corners_;
 };
 
-TriangleMesh read_binary(const std::filesystem::path& path, std::string_view bytes) {
+MeshBuilder read_binary(const std::filesystem::path& path, std::string_view bytes) {
     BinaryReader reader(bytes, path);
     MeshBuilder mesh(path);
     Corners corners;
@@ -143,7 +143,7 @@ bool is_binary(std::string_view bytes) {
 
 } // namespace
 
-TriangleMesh read_stl_mesh(const std::filesystem::path& path) {
+MeshBuilder read_stl(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     const std::string bytes = read_file(path, largest_stl_bytes);
     return is_binary(bytes) ? read_binary(path, bytes) : AsciiReading(path, bytes).read();
 }

@@ -49,7 +49,10 @@ struct VrmlNode {
     std::map<std::string_view, VrmlField> fields; ///< the last one of each name
 
     /// The field of a name; null where the node has none.
-    const VrmlField* field(std::string_view field_name) const;
+    const VrmlField* field(std::string_view field_name) const {
+        const auto found = fields.find(field_name);
+        return found == fields.end() ? nullptr : &found->second;
+    }
 };
 
 struct VrmlFile {
@@ -194,49 +197,9 @@ private:
     std::map<std::string_view, std::uint32_t> named_;
 };
 
-const VrmlField* VrmlNode::field(std::string_view field_name) const {
-    const auto found = fields.find(field_name);
-    return found == fields.end() ? nullptr : &found->second;
-}
-
 /// The nodes of a VRML 2.0 (97) file, views into `text`. USE gives the node of the DEF before it, so that no node lies
 /// in itself. Throws Error "file:line: ...".
 VrmlFile read_vrml_nodes(const std::filesystem::path& path, std::string_view text) { return Nodes(path, text).read(); }
-
-/// Values of the fields of VRML nodes; a field that a node has not gives what VRML says or what the caller does. Faults
-/// throw Error "file:line: ...".
-class VrmlFields {
-public:
-    /// Keeps references to both.
-    VrmlFields(const std::filesystem::path& path, const VrmlFile& file) : path_(path), file_(file) {}
-
-    glm::dvec3 vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const;
-
-    /// The whole numbers of a field; none where the node has no such field.
-    std::vector<long> indices(const VrmlNode& node, std::string_view name) const;
-
-    /// Triples of the list `name` of the node in a field of another node; none without either.
-    std::vector<glm::dvec3> triples(const VrmlNode& node, std::string_view field_name, std::string_view name) const;
-
-    /// The value of a field; true where the node has no such field.
-    bool flag(const VrmlNode& node, std::string_view name) const;
-
-    /// The node, or the first one, in a field; null without.
-    const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const;
-
-    /// How a Transform places the nodes that it holds.
-    AffineTransform placement(const VrmlNode& transform) const;
-
-    /// Place of a node in VrmlFile::nodes.
-    std::uint32_t place_of(const VrmlNode& node) const;
-
-private:
-    std::vector<double> numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const;
-    glm::dmat3 turn(const VrmlNode& node, std::string_view name) const;
-
-    const std::filesystem::path& path_;
-    const VrmlFile& file_;
-};
 
 constexpr double max_rad = 1e6;
 
@@ -253,84 +216,99 @@ glm::dmat3 turned_about(const glm::dvec3& axis, double angle_rad) {
     return {image({1.0, 0.0, 0.0}), image({0.0, 1.0, 0.0}), image({0.0, 0.0, 1.0})};
 }
 
-std::vector<double> VrmlFields::numbers(
-    const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const {
-    const VrmlField* field = node.field(name);
-    if (field == nullptr) { return otherwise; }
-    TextScanner words(path_, field->text, vrml_rules, field->line);
-    for (double& value : otherwise) { value = words.number(name); }
-    return otherwise;
-}
+/// Values of the fields of VRML nodes; a field that a node has not gives what VRML says or what the caller does. Faults
+/// throw Error "file:line: ...".
+class VrmlFields {
+public:
+    /// Keeps references to both.
+    VrmlFields(const std::filesystem::path& path, const VrmlFile& file) : path_(path), file_(file) {}
 
-glm::dvec3 VrmlFields::vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
-    const auto v = numbers(node, name, {otherwise.x, otherwise.y, otherwise.z});
-    return {v[0], v[1], v[2]};
-}
-
-glm::dmat3 VrmlFields::turn(const VrmlNode& node, std::string_view name) const {
-    const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
-    if (std::abs(v[3]) > max_rad) {
-        throw_error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
+    glm::dvec3 vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
+        const auto v = numbers(node, name, {otherwise.x, otherwise.y, otherwise.z});
+        return {v[0], v[1], v[2]};
     }
-    return turned_about({v[0], v[1], v[2]}, v[3]);
-}
 
-/// translation * center * rotation * scaleOrientation * scale * -scaleOrientation * -center.
-AffineTransform VrmlFields::placement(const VrmlNode& node) const {
-    const glm::dvec3 centre_m = vector(node, "center", glm::dvec3(0.0));
-    const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
-    const glm::dmat3 slant = turn(node, "scaleOrientation");
-    glm::dmat3 scaled(1.0);
-    for (int part = 0; part < 3; ++part) { scaled[part][part] = scale[part]; }
-    AffineTransform made;
-    made.turn = turn(node, "rotation");
-    if (scale != glm::dvec3(1.0)) { made.turn = made.turn * slant * scaled * glm::transpose(slant); }
-    made.shift_m = vector(node, "translation", glm::dvec3(0.0)) + centre_m - made.turn * centre_m;
-    return made;
-}
-
-const VrmlNode* VrmlFields::only_node(const VrmlNode& node, std::string_view name) const {
-    const VrmlField* field = node.field(name);
-    return field == nullptr || field->nodes.empty() ? nullptr : &file_.nodes[field->nodes.front()];
-}
-
-std::uint32_t VrmlFields::place_of(const VrmlNode& node) const {
-    return static_cast<std::uint32_t>(&node - file_.nodes.data());
-}
-
-bool VrmlFields::flag(const VrmlNode& node, std::string_view name) const {
-    const VrmlField* field = node.field(name);
-    if (field == nullptr || field->text == "TRUE") { return true; }
-    if (field->text != "FALSE") {
-        throw_error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
+    /// The whole numbers of a field; none where the node has no such field.
+    std::vector<long> indices(const VrmlNode& node, std::string_view name) const {
+        std::vector<long> found;
+        if (const VrmlField* field = node.field(name)) {
+            TextScanner words(path_, field->text, vrml_rules, field->line);
+            while (!words.peek().empty()) { found.push_back(words.integer("a whole number")); }
+        }
+        return found;
     }
-    return false;
-}
 
-std::vector<long> VrmlFields::indices(const VrmlNode& node, std::string_view name) const {
-    std::vector<long> found;
-    if (const VrmlField* field = node.field(name)) {
+    /// Triples of the list `name` of the node in a field of another node; none without either.
+    std::vector<glm::dvec3> triples(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
+        std::vector<glm::dvec3> found;
+        const VrmlNode* node = only_node(set, field_name);
+        const VrmlField* field = node == nullptr ? nullptr : node->field(name);
+        if (field == nullptr) { return found; }
         TextScanner words(path_, field->text, vrml_rules, field->line);
-        while (!words.peek().empty()) { found.push_back(words.integer("a whole number")); }
+        while (!words.peek().empty()) {
+            const double x = words.number("a number");
+            const double y = words.number("a number");
+            const double z = words.number("a number");
+            found.emplace_back(x, y, z);
+        }
+        return found;
     }
-    return found;
-}
 
-std::vector<glm::dvec3> VrmlFields::triples(
-    const VrmlNode& set, std::string_view field_name, std::string_view name) const {
-    std::vector<glm::dvec3> found;
-    const VrmlNode* node = only_node(set, field_name);
-    const VrmlField* field = node == nullptr ? nullptr : node->field(name);
-    if (field == nullptr) { return found; }
-    TextScanner words(path_, field->text, vrml_rules, field->line);
-    while (!words.peek().empty()) {
-        const double x = words.number("a number");
-        const double y = words.number("a number");
-        const double z = words.number("a number");
-        found.emplace_back(x, y, z);
+    /// The value of a field; true where the node has no such field.
+    bool flag(const VrmlNode& node, std::string_view name) const {
+        const VrmlField* field = node.field(name);
+        if (field == nullptr || field->text == "TRUE") { return true; }
+        if (field->text != "FALSE") {
+            throw_error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
+        }
+        return false;
     }
-    return found;
-}
+
+    /// The node, or the first one, in a field; null without.
+    const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const {
+        const VrmlField* field = node.field(name);
+        return field == nullptr || field->nodes.empty() ? nullptr : &file_.nodes[field->nodes.front()];
+    }
+
+    /// How a Transform places the nodes that it holds.
+    AffineTransform placement(const VrmlNode& node) const {
+        const glm::dvec3 centre_m = vector(node, "center", glm::dvec3(0.0));
+        const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
+        const glm::dmat3 slant = turn(node, "scaleOrientation");
+        glm::dmat3 scaled(1.0);
+        for (int part = 0; part < 3; ++part) { scaled[part][part] = scale[part]; }
+        AffineTransform made;
+        made.turn = turn(node, "rotation");
+        if (scale != glm::dvec3(1.0)) { made.turn = made.turn * slant * scaled * glm::transpose(slant); }
+        made.shift_m = vector(node, "translation", glm::dvec3(0.0)) + centre_m - made.turn * centre_m;
+        return made;
+    }
+
+    /// Place of a node in VrmlFile::nodes.
+    std::uint32_t place_of(const VrmlNode& node) const {
+        return static_cast<std::uint32_t>(&node - file_.nodes.data());
+    }
+
+private:
+    std::vector<double> numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const {
+        const VrmlField* field = node.field(name);
+        if (field == nullptr) { return otherwise; }
+        TextScanner words(path_, field->text, vrml_rules, field->line);
+        for (double& value : otherwise) { value = words.number(name); }
+        return otherwise;
+    }
+
+    glm::dmat3 turn(const VrmlNode& node, std::string_view name) const {
+        const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
+        if (std::abs(v[3]) > max_rad) {
+            throw_error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
+        }
+        return turned_about({v[0], v[1], v[2]}, v[3]);
+    }
+
+    const std::filesystem::path& path_;
+    const VrmlFile& file_;
+};
 
 constexpr std::size_t largest_vrml_bytes = std::size_t{1} << 28U;
 constexpr int max_vrml_depth = 200;
@@ -362,13 +340,13 @@ public:
         : path_(path), file_(read_vrml_nodes(path_, text)), fields_(path_, file_), mesh_(path),
           used_materials_(file_.nodes.size(), invalid_index) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         for (const std::uint32_t root : file_.roots) { visit(root, {}, 0, 0); }
         if (file_.has_prototypes) { mesh_.add_note(fmt::format("{}: prototypes are not read", path_.string())); }
         if (has_textures_) {
             mesh_.add_note(fmt::format("{}: texture coordinates and pictures are not read", path_.string()));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -587,7 +565,7 @@ private:
 
 } // namespace
 
-TriangleMesh read_vrml_mesh(const std::filesystem::path& path) {
+MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     const std::string text = read_text_file(path, largest_vrml_bytes);
     return VrmlReading(path, text).read();
 }

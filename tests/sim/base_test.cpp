@@ -176,19 +176,28 @@ TEST_CASE("an archive is read back, and another kind, version, size or byte is r
     const ArchiveKind kind{.content = "a thing", .signature = "octthing", .version = 7, .max_bytes = 100};
     const std::filesystem::path file = scratch("thing");
     const auto text = [](BinaryReader& in) { return std::string(in.take_text()); };
-    const auto fault_of = [&](std::size_t byte, char value) {
-        BinaryWriter body;
-        body.put_text("body");
-        write_archive(file, kind, body.bytes());
-        CHECK(read_archive(file, kind, text) == "body");
-        std::string bytes = read_file(file);
-        bytes[byte] = value;
-        write_file(file, bytes);
+    BinaryWriter body;
+    body.put_text("body");
+    write_archive(file, kind, body.bytes());
+    CHECK(read_archive(file, kind, text) == "body");
+    const std::string bytes = read_file(file);
+    const auto fault_with = [&](const std::string& changed) {
+        write_file(file, changed);
         try {
             read_archive(file, kind, text);
         } catch (const Error& fault) { return std::string(fault.what()).substr(file.string().size()); }
         return std::string();
     };
+    const auto fault_of = [&](std::size_t byte, char value) {
+        std::string changed = bytes;
+        changed[byte] = value;
+        return fault_with(changed);
+    };
+    for (std::size_t byte = 0; byte < bytes.size(); ++byte) {
+        CHECK(fault_of(byte, static_cast<char>(bytes[byte] ^ 4)).starts_with(": at byte "));
+        CHECK(fault_with(bytes.substr(0, byte)).starts_with(": at byte "));
+    }
+    CHECK(fault_with(bytes + "x") == ": at byte 16: expected 13 bytes behind the head, got 12");
     CHECK(fault_of(0, 'O') == ": at byte 0: expected a thing, got another file");
     CHECK(fault_of(8, 8) == ": at byte 8: expected version 7, got 8");
     CHECK(fault_of(12, 1) == ": at byte 12: expected 0, got 1");
