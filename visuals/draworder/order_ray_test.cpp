@@ -133,6 +133,17 @@ constexpr std::uint64_t units_of_witness = 2'000;
 constexpr std::uint64_t units_of_none = 1'000'000;
 constexpr std::uint64_t units_of_polygon_in_part = 60;
 
+/// How far an order is proved.
+struct OrderProof {
+    /// Pairs and polygons for which no proof was found.
+    std::uint64_t unproved = 0;
+    /// The first of these pairs: which is painted earlier, which later.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> unproved_pairs;
+    static constexpr std::size_t max_open = 100;
+    /// Whether the whole order was looked at; else the work was spent before.
+    bool is_complete = false;
+};
+
 /// Counts what is found, and what that costs.
 class Counting : public ProofVisitor {
 public:
@@ -176,8 +187,8 @@ private:
     OrderProof proof_;
 };
 
-} // namespace
-
+/// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core go. They are
+/// counted, not timed: the same model and order give the same proof.
 OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
     SearchBudget budget(seconds);
     OrderProof best;
@@ -198,8 +209,6 @@ OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOr
     }
     return best;
 }
-
-namespace {
 
 using models::polygons::PolygonModel;
 

@@ -288,8 +288,8 @@ constexpr double proof_share = 0.02;
 /// Of larger models: their parts are right as they are made, and a proof would not come to its end.
 constexpr double proof_share_of_large = 0.002;
 
-OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
-    const OctantOrders orders = paper_orders(model, options.paper);
+OrderedModel by_paper(models::polygons::PolygonModel model) {
+    const OctantOrders orders = paper_orders(model);
     OrderedModel out{.model = std::move(model), .order = DrawOrder(orders), .cells = {}, .notes = {}};
     for (int octant = 0; octant < 8; ++octant) {
         const glm::dvec3 signs = octant_signs(octant);
@@ -489,7 +489,7 @@ OrderedModel in_model_frame(
 } // namespace
 
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options) {
-    if (options.method == OrderMethod::Paper) { return by_paper(std::move(model), options); }
+    if (options.method == OrderMethod::Paper) { return by_paper(std::move(model)); }
     return ordered_by(std::move(model), options, {});
 }
 

@@ -21,7 +21,6 @@ struct OrderOptions {
     double seconds = 20.0;
     /// Exact: called with the share of it that is spent, 0 to 1; may be empty.
     SearchBudget::Progress progress = {};
-    PaperOrderOptions paper = {}; ///< For OrderMethod::Paper.
 };
 
 /// A model with its painting orders, in body axes.

@@ -124,8 +124,11 @@ std::vector<Plane> each_once(const std::vector<Plane>& planes) {
     return out;
 }
 
-} // namespace
-
+/// Planes by which eye space may be cut so that the occlusion relation among some polygons gets simpler, each once, the
+/// plainest first: the polygons' own planes, and planes through an edge of one polygon and a corner of another. The
+/// last kind includes all that bound the region from where one polygon hides another, so that cutting by them resolves
+/// every pair in the end. About `most` of them are made, spread evenly over all that there are. A model that is turned
+/// gets the same planes, turned.
 std::vector<Plane> candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
     const Outlines outlines = outlines_of(model, among);
     std::vector<Plane> planes;
@@ -135,6 +138,12 @@ std::vector<Plane> candidate_planes(const ModelFaces& model, std::span<const std
     add_edge_planes(planes, outlines, most);
     return each_once(planes);
 }
+
+/// Where a face lies to a plane. Both are true when it lies in the plane, and neither when it straddles it.
+struct PlaneSide {
+    bool before = false;
+    bool behind = false;
+};
 
 PlaneSide side_of(const Plane& plane, const Face& face, double on_plane) {
     double least = on_plane;
@@ -146,6 +155,8 @@ PlaneSide side_of(const Plane& plane, const Face& face, double on_plane) {
     }
     return {least >= -on_plane, largest <= on_plane};
 }
+
+} // namespace
 
 PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among) {
     PolygonsByPlaneSide sides(model.faces.size());
@@ -173,6 +184,55 @@ PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::s
 
 namespace {
 
+/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie to the plane alone.
+/// This is quick, so that thousands of planes can be judged. The edges of each component are held in rows of their own,
+/// so that small components of large models cost little; of large components only some rows are looked at, evenly
+/// spread, and stand for all. Keeps a reference to the faces.
+class PlaneScorer {
+public:
+    PlaneScorer(const ModelFaces& model, const CyclicPart& cycles);
+
+    /// Turns to a plane.
+    void set_plane(const Plane& plane);
+
+    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on cycles or not.
+    std::size_t edges_left_in_front() const;
+    /// The number of cyclic edges that remain for eyes behind the plane.
+    std::size_t edges_left_behind() const;
+
+private:
+    /// A polygon of a component, with a bounding sphere, and where its bits are.
+    struct Member {
+        std::uint32_t polygon = 0;
+        glm::dvec3 middle{0.0};
+        double radius = 0.0;
+        /// The index of its component's first word in the sets below.
+        std::size_t first_word = 0;
+        /// Its own bit, counted from that word.
+        std::size_t bit = 0;
+        /// The index of its row's first word in rows_.
+        std::size_t first_row_word = 0;
+        std::size_t words = 0;
+        /// How many rows its row stands for; 0 when it has none.
+        std::size_t weight = 0;
+    };
+
+    using Words = std::vector<std::uint64_t>;
+
+    void add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component);
+    std::size_t left(const Words& occluded, const Words& occluders, const Words& unseen) const;
+
+    const ModelFaces& model_;
+    std::vector<Member> members_;
+    Words rows_;
+    Words front_or_on_;
+    Words back_or_on_;
+    Words unseen_in_front_;
+    Words unseen_behind_;
+    bool some_unseen_ = false;
+    std::size_t edges_ = 0;
+};
+
 /// Of a component at most about this many rows are looked at.
 constexpr std::size_t max_rows = 192;
 
@@ -192,8 +252,6 @@ std::pair<glm::dvec3, double> ball_around(const std::vector<glm::dvec3>& corners
 void set(std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
     words[first_word + bit / 64] |= std::uint64_t{1} << (bit % 64);
 }
-
-} // namespace
 
 PlaneScorer::PlaneScorer(const ModelFaces& model, const CyclicPart& cycles) : model_(model), edges_(cycles.edges) {
     for (const std::vector<std::uint32_t>& component : cycles.components) { add(cycles.inner, component); }
@@ -255,11 +313,11 @@ std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, con
             ended += parted ? member.weight * count_common_bits(row, others) : 0;
             continue;
         }
-        const bool removed = has(unseen, member.first_word, member.bit);
+        const bool is_unseen = has(unseen, member.first_word, member.bit);
         mask.resize(member.words);
         for (std::size_t word = 0; word < member.words; ++word) {
             const std::size_t at = member.first_word + word;
-            mask[word] = removed ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
+            mask[word] = is_unseen ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
         }
         ended += member.weight * count_common_bits(row, mask);
     }
@@ -269,8 +327,6 @@ std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, con
 std::size_t PlaneScorer::edges_left_in_front() const { return left(front_or_on_, back_or_on_, unseen_in_front_); }
 
 std::size_t PlaneScorer::edges_left_behind() const { return left(back_or_on_, front_or_on_, unseen_behind_); }
-
-namespace {
 
 /// Graphs with more edges are judged without the exact test.
 constexpr std::size_t max_exact_edges = 4'000;
@@ -306,6 +362,13 @@ std::uint64_t units_of_cycles(const CyclicPart& cycles) {
     const std::size_t words = cycles.inner.count() / 64 + 1;
     return 2 * (30 + 4 * words) * cycles.polygons.size() + 4 * cycles.edges;
 }
+
+/// A node that was divided by a plane.
+struct CellSplit {
+    Plane plane;
+    ViewCell front;
+    ViewCell back;
+};
 
 /// Judges the planes that may divide one node.
 class SplitPlaneChooser {
@@ -460,14 +523,6 @@ std::optional<CellSplit> SplitPlaneChooser::best() const {
     return best;
 }
 
-} // namespace
-
-std::optional<CellSplit> best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search) {
-    return SplitPlaneChooser(work, node, search).best();
-}
-
-namespace {
-
 /// A branch of the tree while it grows: a finished cell, or a plane with two branches.
 struct Branch {
     std::optional<Plane> plane;
@@ -531,7 +586,7 @@ std::optional<CellSplit> TreeBuilder::settle(ViewCell& node) {
         std::optional<PersistentCycle> persistent_cycle;
         if (!search_.prefers_planes) { persistent_cycle = cycle_at_eye(graphs_, node); }
         if (!persistent_cycle) {
-            if (auto fork = best_split(work_, node, search_.plane_search)) { return fork; }
+            if (auto fork = SplitPlaneChooser(work_, node, search_.plane_search).best()) { return fork; }
             persistent_cycle = cycle_at_eye(graphs_, node);
         }
         if (!persistent_cycle) {

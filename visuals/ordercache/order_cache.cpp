@@ -229,9 +229,6 @@ std::string encode_key(const PolygonModel& model, const draworder::OrderOptions&
     BinaryWriter out;
     put_enum(out, options.method);
     out.put(options.seconds);
-    out.put(options.paper.viewpoint_radii);
-    put_enum(out, options.paper.screen);
-    put_enum(out, options.paper.listed);
     put_geometry(out, model);
     out.put(std::uint64_t{model.materials.size()});
     out.put(std::uint64_t{model.parts.size()});

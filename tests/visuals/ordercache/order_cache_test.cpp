@@ -172,11 +172,9 @@ TEST_CASE("what decides the order is in the key, names and colours are not") {
     changed[5].pivots = {{1, {0, 0, 0}, {0, 0, 1}, 6.0}};
     changed[6].parents = {0, 0};
     for (const PolygonModel& model : changed) { CHECK(encode_key(model, options) != key); }
-    std::vector<OrderOptions> asked(4);
+    std::vector<OrderOptions> asked(2);
     asked[0].method = visuals::draworder::OrderMethod::Paper;
     asked[1].seconds = 19.0;
-    asked[2].paper.viewpoint_radii = {3.0, 3.0, 4.0};
-    asked[3].paper.screen = visuals::draworder::ScreenProjection::Perspective;
     for (const OrderOptions& one : asked) { CHECK(encode_key(plates, one) != key); }
 }
 
