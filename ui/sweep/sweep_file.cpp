@@ -1,6 +1,6 @@
 #include "ui/sweep/sweep_file.h"
 
-#include "flightpaths/path_script.h"
+#include "flightpaths/toml_fields.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"

@@ -270,7 +270,8 @@ TEST_CASE("reading leaves no file behind and reads the same heights twice") {
     raster.type = GDT_UInt16;
     const auto path = scratch_file("alone.png");
     std::filesystem::remove_all(path.parent_path());
-    write_raster(scratch_file("alone.png"), "PNG", raster);
+    std::filesystem::create_directories(path.parent_path());
+    write_raster(path, "PNG", raster);
     const HeightField first = read_height_field(path);
     const HeightField second = read_height_field(path);
     for (int i = 0; i < 12; ++i) { CHECK(first.height_m(i % 4, i / 4) == second.height_m(i % 4, i / 4)); }

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
