@@ -7,6 +7,7 @@
 #include "ui/studies/study.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
+#include "visuals/refine/classic_split_rules.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/refine/refine_criterion.h"
 #include "visuals/refine/selective_refiner.h"
@@ -76,10 +77,11 @@ struct ForcedSums {
     std::size_t repairs = 0;
 };
 
-void measure(const RefinedModel& model, const std::shared_ptr<const refine::ClassicSplitRules>& classic_rules,
-    const Request& request, ForcedSums& sums) {
+using RequiredSplits = std::array<refine::RequiredSplit, rules.size()>;
+
+void measure(const RefinedModel& model, const RequiredSplits& required, const Request& request, ForcedSums& sums) {
     for (std::size_t rule = 0; rule < rules.size(); ++rule) {
-        refine::SelectiveRefiner front(model, {.rule = rules[rule], .repair = false, .classic_rules = classic_rules});
+        refine::SelectiveRefiner front(model, {.required_split = required[rule], .repair = false});
         const std::size_t requested = request(front);
         sums.forced[rule] += front.counts().splits - requested;
         if (rule == 0) {
@@ -112,12 +114,14 @@ std::vector<report::Cell> row_of(const std::string& model, const std::string& re
 report::ResultTable forced_splits_table(std::span<const RefinedModel> models) {
     report::ResultTable table{"Splits beyond those requested, percent"};
     for (const RefinedModel& model : models) {
-        const auto classic_rules = std::make_shared<const refine::ClassicSplitRules>(*model);
+        RequiredSplits required;
+        std::ranges::transform(
+            rules, required.begin(), [&](refine::SplitRule rule) { return refine::required_split_of(rule, *model); });
         ForcedSums below;
         for (const std::uint32_t root : model->roots()) {
             if (!model->is_leaf(root)) {
                 measure(
-                    model, classic_rules,
+                    model, required,
                     [&](refine::SelectiveRefiner& front) { return refine::refine_subtree(front, root); }, below);
             }
         }
@@ -131,7 +135,7 @@ report::ResultTable forced_splits_table(std::span<const RefinedModel> models) {
                 const refine::Sphere region{
                     glm::dvec3(model->position_m(leaf)) + model->parts().origin_m, 0.01 * share * diagonal_m};
                 measure(
-                    model, classic_rules,
+                    model, required,
                     [&](refine::SelectiveRefiner& front) {
                         return refine::refine_regions(front, std::span(&region, 1));
                     },
