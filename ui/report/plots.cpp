@@ -63,7 +63,7 @@ function ends(plot, key, low) {
 function draw(box) {
   const plot = box.plot, small = box.classList.contains("small");
   const width = Math.max(160, box.clientWidth), height = Number(box.dataset.height);
-  const left = small ? 42 : 58, right = 12, top = plot.marks.length ? 30 : 10, bottom = small ? 22 : 40;
+  const left = small ? 42 : 66, right = 12, top = plot.marks.length ? 30 : 10, bottom = small ? 22 : 40;
   box.querySelectorAll("svg").forEach(old => old.remove());
   const svg = node("svg", {width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
     "aria-label": box.querySelector("h3").textContent}, box);
@@ -72,7 +72,7 @@ function draw(box) {
   const x0 = box.zoom ? box.zoom[0] : plot.x0 ?? (plot.xlog ? xa / 1.1 : xa - half);
   const x1 = box.zoom ? box.zoom[1] : plot.x1 ?? (plot.xlog ? xb * 1.1 : xb + half);
   const y0 = plot.y0 ?? (plot.log ? ya / 1.2 : ya - 0.05 * (yb - ya));
-  const y1 = plot.log ? Math.max(plot.y1 ?? yb * 1.2, 10 * y0) : plot.y1 ?? yb + 0.05 * (yb - ya);
+  const y1 = plot.log ? Math.max(plot.y1 ?? yb * 1.2, 5 * y0) : plot.y1 ?? yb + 0.05 * (yb - ya);
   const part = (v, from, to, log) => log ? Math.log(Math.max(v, from) / from) / Math.log(to / from) : (v - from) / (to - from);
   const px = x => left + part(x, x0, x1, plot.xlog) * (width - left - right);
   const py = y => height - bottom - part(y, y0, y1, plot.log) * (height - top - bottom);
