@@ -108,7 +108,10 @@ bool TextScanner::next_line() {
         after_lines_ = rest_;
         lines_read_ = line_ - 1;
     }
-    if (after_lines_.empty() && !refill(after_lines_)) { return false; }
+    if (after_lines_.empty() && !refill(after_lines_)) {
+        line_ = lines_read_ + 1;
+        return false;
+    }
     current_line_ = raw_line();
     line_ = lines_read_;
     if (rules_.joins_lines && !is_comment_line(current_line_) && continues(current_line_)) {
