@@ -63,7 +63,7 @@ Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, co
 
 float colour_part(std::string_view word, const TextScanner& words) {
     const auto value = finite_number(word);
-    if (!value || *value < 0.0 || *value > 1.0) { words.refuse_last("a part of a colour of 0 to 1"); }
+    if (!value || *value < 0.0 || *value > 1.0) { words.refuse("a part of a colour of 0 to 1", in_quotes(word)); }
     return static_cast<float>(*value);
 }
 
