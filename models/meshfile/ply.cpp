@@ -25,10 +25,16 @@ namespace {
 
 enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
 
-std::size_t bytes_of(PlyType type);
+std::size_t bytes_of(PlyType type) {
+    constexpr std::array<std::size_t, 8> bytes{1, 1, 2, 2, 4, 4, 4, 8};
+    return bytes.at(static_cast<std::size_t>(type));
+}
 
 /// What stands for a colour part of 1: the largest of a whole-number type; 1 for float and double.
-double normalization_divisor(PlyType type);
+double normalization_divisor(PlyType type) {
+    constexpr std::array<double, 8> divisors{127.0, 255.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0, 1.0, 1.0};
+    return divisors.at(static_cast<std::size_t>(type));
+}
 
 struct PlyProperty {
     std::string name;
@@ -111,7 +117,10 @@ private:
     [[noreturn]] void refuse_line(std::string_view expected) const { text_.refuse(expected, in_quotes(line_)); }
 
     std::string_view next_line() {
-        if (!text_.next_line() || text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
+        if (!text_.next_line()) {
+            throw_error_at(path_, text_.line_number() + 1, "expected end_header, got the end of the file");
+        }
+        if (text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
         line_ = text_.line();
         while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' ')) { line_.remove_suffix(1); }
         return line_;
@@ -188,45 +197,6 @@ private:
     std::vector<int> element_lines_;
     PlyHeader header_;
 };
-
-std::size_t bytes_of(PlyType type) {
-    switch (type) {
-    case PlyType::i8:
-    case PlyType::u8:
-        return 1;
-    case PlyType::i16:
-    case PlyType::u16:
-        return 2;
-    case PlyType::i32:
-    case PlyType::u32:
-    case PlyType::f32:
-        return 4;
-    case PlyType::f64:
-        break;
-    }
-    return 8;
-}
-
-double normalization_divisor(PlyType type) {
-    switch (type) {
-    case PlyType::i8:
-        return 127.0;
-    case PlyType::u8:
-        return 255.0;
-    case PlyType::i16:
-        return 32767.0;
-    case PlyType::u16:
-        return 65535.0;
-    case PlyType::i32:
-        return 2147483647.0;
-    case PlyType::u32:
-        return 4294967295.0;
-    case PlyType::f32:
-    case PlyType::f64:
-        break;
-    }
-    return 1.0;
-}
 
 /// The header of a PLY file, checked for what its body can hold at most. Throws Error "file:line".
 PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view bytes) {

@@ -172,7 +172,7 @@ TEST_CASE("heights that no ground has are refused") {
     RasterFile metres = flat(4, 4, 9000.5);
     metres.unit = "m"; // --height-scale could not help
     check_raster_refused(metres, message("9000.5", ""));
-    check_text_refused("bright.pgm", "P2 2 2 65535 1 20000 30000 40000", message("30000", scale));
+    check_text_refused("bright.pgm", "P2 2 2 65535 1 20000 30000 40000", message("20000", scale));
 }
 
 TEST_CASE("sizes that are too small or too large are refused before anything is read") {
