@@ -2,7 +2,6 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
-#include "models/heights/height_raster.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
