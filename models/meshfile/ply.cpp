@@ -118,7 +118,7 @@ private:
 
     std::string_view next_line() {
         if (!text_.next_line()) {
-            throw_error_at(path_, text_.line_number() + 1, "expected end_header, got the end of the file");
+            throw_error_at(path_, text_.line_number(), "expected end_header, got the end of the file");
         }
         if (text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
         line_ = text_.line();

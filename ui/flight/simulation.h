@@ -4,6 +4,7 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/hash.h"
+#include "sim/levelling_autopilot.h"
 #include "sim/piloted_flight.h"
 #include "ui/flight/state_source.h"
 #include "ui/world/formation.h"

@@ -59,12 +59,8 @@ enum class PlotWidth {
     Small      ///< one of many; without the names of its axes
 };
 
-/// A plot for a page: its title, key and numbers, which page_script() draws at the size that it finds. Numbers have
+/// A plot for a page: its title, key and numbers, which the script of html_text.h draws at the size that it finds. Numbers have
 /// five significant digits.
 std::string page_plot(const Plot& plot, PlotWidth width);
-
-/// What draws a page's plots, with values under the pointer and zoom by dragging, and sorts its tables. Refers to
-/// nothing outside the page.
-std::string_view page_script();
 
 } // namespace octant::ui::report

@@ -1,4 +1,4 @@
-#include "sim/piloted_flight.h"
+#include "sim/levelling_autopilot.h"
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
