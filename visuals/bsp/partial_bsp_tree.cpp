@@ -37,43 +37,7 @@ struct PlaneSideBits {
     std::uint64_t behind = 0;
 };
 
-/// Some pieces with their bounding spheres and corners side by side in memory, for questions that are asked of all of
-/// them.
-class PieceTable {
-public:
-    static constexpr std::size_t pieces_per_block = 64;
-
-    /// Every `step`th of `items`, from the first one.
-    PieceTable(const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step = 1);
-
-    std::size_t count() const { return count_; }
-
-    /// How many blocks of 64 pieces there are; the last one may have fewer.
-    std::size_t blocks() const { return (count() + pieces_per_block - 1) / pieces_per_block; }
-
-    /// How many pieces a block has.
-    std::size_t count_in(std::size_t block) const;
-
-    /// PolygonPieces::sides_reached() of the pieces of a block; the bits of those that are not there are 0.
-    PlaneSideBits sides_reached(std::size_t block, const Plane& plane) const;
-
-private:
-    /// The corners beyond PieceBatch::corners.
-    struct ExtraCorners {
-        std::size_t first = 0;
-        std::size_t end = 0;
-    };
-
-    void add(const PolygonPieces& pieces, const PolygonPiece& piece);
-
-    std::size_t count_ = 0;
-    std::vector<PieceBatch> lanes_;
-    std::vector<std::uint64_t> has_extra_corners_; ///< A bit a piece: it has more than PieceBatch::corners.
-    std::vector<ExtraCorners> extra_corners_;      ///< One a piece.
-    std::vector<glm::dvec3> corners_;
-};
-
-constexpr std::size_t lanes_a_block = PieceTable::pieces_per_block / PieceBatch::pieces;
+constexpr std::size_t lanes_a_block = 64 / PieceBatch::pieces;
 
 PieceBatch empty_lanes() {
     PieceBatch lanes;
@@ -95,54 +59,82 @@ void put(PieceBatch::Points& points, std::size_t place, const glm::dvec3& point)
     points.z[place] = point.z;
 }
 
-PieceTable::PieceTable(const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step) {
-    const std::size_t count = (items.size() + step - 1) / step;
-    lanes_.assign((count + PieceBatch::pieces - 1) / PieceBatch::pieces, empty_lanes());
-    has_extra_corners_.assign((count + pieces_per_block - 1) / pieces_per_block, 0);
-    extra_corners_.reserve(count);
-    for (std::size_t i = 0; i < items.size(); i += step) { add(pieces, pieces[items[i]]); }
-}
+/// Some pieces with their bounding spheres and corners side by side in memory, for questions that are asked of all of
+/// them.
+class PieceTable {
+public:
+    static constexpr std::size_t pieces_per_block = 64;
 
-void PieceTable::add(const PolygonPieces& pieces, const PolygonPiece& piece) {
-    PieceBatch& lanes = lanes_[count_ / PieceBatch::pieces];
-    const std::size_t place = count_ % PieceBatch::pieces;
-    put(lanes.centres, place, piece.middle);
-    lanes.radii[place] = piece.radius + tolerance;
-    const std::size_t corners = piece.corners.size();
-    for (std::size_t i = 0; i < PieceBatch::corners; ++i) {
-        const std::uint32_t corner = piece.corners[std::min(i, corners - 1)];
-        put(lanes.first_corners[i], place, pieces.at(corner));
+    /// Every `step`th of `items`, from the first one.
+    PieceTable(const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step = 1) {
+        const std::size_t count = (items.size() + step - 1) / step;
+        lanes_.assign((count + PieceBatch::pieces - 1) / PieceBatch::pieces, empty_lanes());
+        has_extra_corners_.assign((count + pieces_per_block - 1) / pieces_per_block, 0);
+        extra_corners_.reserve(count);
+        for (std::size_t i = 0; i < items.size(); i += step) { add(pieces, pieces[items[i]]); }
     }
-    const std::size_t first_more = corners_.size();
-    for (std::size_t i = PieceBatch::corners; i < corners; ++i) { corners_.push_back(pieces.at(piece.corners[i])); }
-    extra_corners_.push_back({first_more, corners_.size()});
-    has_extra_corners_[count_ / pieces_per_block] |= std::uint64_t{corners > PieceBatch::corners}
-                                                     << (count_ % pieces_per_block);
-    ++count_;
-}
 
-std::size_t PieceTable::count_in(std::size_t block) const {
-    return std::min(count_ - block * pieces_per_block, pieces_per_block);
-}
+    std::size_t count() const { return count_; }
 
-PlaneSideBits PieceTable::sides_reached(std::size_t block, const Plane& plane) const {
-    const auto lanes = std::span(lanes_).subspan(block * lanes_a_block);
-    const PieceSideBits sides = sides_of(lanes.first(std::min(lanes.size(), lanes_a_block)), plane, tolerance);
-    const std::uint64_t open = ~(sides.sphere_in_front | sides.sphere_behind);
-    PlaneSideBits sides_reached{sides.sphere_in_front | (sides.corner_in_front & open),
-        sides.sphere_behind | (sides.corner_behind_plane & open)};
-    std::uint64_t left = open & has_extra_corners_[block] & ~(sides_reached.before & sides_reached.behind);
-    for (; left != 0; left &= left - 1) {
-        const auto place = static_cast<std::size_t>(std::countr_zero(left));
-        const ExtraCorners& more = extra_corners_[block * pieces_per_block + place];
-        for (std::size_t k = more.first; k < more.end; ++k) {
-            const double height = distance_m(plane, corners_[k]);
-            sides_reached.before |= std::uint64_t{height > tolerance} << place;
-            sides_reached.behind |= std::uint64_t{height < -tolerance} << place;
+    /// How many blocks of 64 pieces there are; the last one may have fewer.
+    std::size_t blocks() const { return (count() + pieces_per_block - 1) / pieces_per_block; }
+
+    /// How many pieces a block has.
+    std::size_t count_in(std::size_t block) const {
+        return std::min(count_ - block * pieces_per_block, pieces_per_block);
+    }
+
+    /// PolygonPieces::sides_reached() of the pieces of a block; the bits of those that are not there are 0.
+    PlaneSideBits sides_reached(std::size_t block, const Plane& plane) const {
+        const auto lanes = std::span(lanes_).subspan(block * lanes_a_block);
+        const PieceSideBits sides = sides_of(lanes.first(std::min(lanes.size(), lanes_a_block)), plane, tolerance);
+        const std::uint64_t open = ~(sides.sphere_in_front | sides.sphere_behind);
+        PlaneSideBits sides_reached{sides.sphere_in_front | (sides.corner_in_front & open),
+            sides.sphere_behind | (sides.corner_behind_plane & open)};
+        std::uint64_t left = open & has_extra_corners_[block] & ~(sides_reached.before & sides_reached.behind);
+        for (; left != 0; left &= left - 1) {
+            const auto place = static_cast<std::size_t>(std::countr_zero(left));
+            const ExtraCorners& more = extra_corners_[block * pieces_per_block + place];
+            for (std::size_t k = more.first; k < more.end; ++k) {
+                const double height = distance_m(plane, corners_[k]);
+                sides_reached.before |= std::uint64_t{height > tolerance} << place;
+                sides_reached.behind |= std::uint64_t{height < -tolerance} << place;
+            }
         }
+        return sides_reached;
     }
-    return sides_reached;
-}
+
+private:
+    /// The corners beyond PieceBatch::corners.
+    struct ExtraCorners {
+        std::size_t first = 0;
+        std::size_t end = 0;
+    };
+
+    void add(const PolygonPieces& pieces, const PolygonPiece& piece) {
+        PieceBatch& lanes = lanes_[count_ / PieceBatch::pieces];
+        const std::size_t place = count_ % PieceBatch::pieces;
+        put(lanes.centres, place, piece.middle);
+        lanes.radii[place] = piece.radius + tolerance;
+        const std::size_t corners = piece.corners.size();
+        for (std::size_t i = 0; i < PieceBatch::corners; ++i) {
+            const std::uint32_t corner = piece.corners[std::min(i, corners - 1)];
+            put(lanes.first_corners[i], place, pieces.at(corner));
+        }
+        const std::size_t first_more = corners_.size();
+        for (std::size_t i = PieceBatch::corners; i < corners; ++i) { corners_.push_back(pieces.at(piece.corners[i])); }
+        extra_corners_.push_back({first_more, corners_.size()});
+        has_extra_corners_[count_ / pieces_per_block] |= std::uint64_t{corners > PieceBatch::corners}
+                                                         << (count_ % pieces_per_block);
+        ++count_;
+    }
+
+    std::size_t count_ = 0;
+    std::vector<PieceBatch> lanes_;
+    std::vector<std::uint64_t> has_extra_corners_; ///< A bit a piece: it has more than PieceBatch::corners.
+    std::vector<ExtraCorners> extra_corners_;      ///< One a piece.
+    std::vector<glm::dvec3> corners_;
+};
 
 // Where to divide polygons. As in a BSP tree by polygons' own planes; across the axes, where models have gaps between
 // their parts, the number of cuts is known for all planes at once by a sweep.

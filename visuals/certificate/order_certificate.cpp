@@ -20,48 +20,6 @@ namespace octant::visuals::certificate {
 
 namespace {
 
-/// The lines of a certificate, in the order in which they are added; visuals/verify/README.md says what each means.
-class CertificateText : public draworder::ProofVisitor {
-public:
-    /// `size_m` is the length that is 1 in a LocalModel; `on_part_done` is called after each node and list.
-    CertificateText(double size_m, std::function<void()> on_part_done);
-
-    /// The header, corners, axes and polygons.
-    void add_model(const models::polygons::PolygonModel& model, const separation::LocalModel& local,
-        const models::polygons::FileAxes& axes);
-
-    /// The lists and nodes. Where a view split has nothing on a side, the line says `unclaimed` for its eyes.
-    void add_tree(
-        const draworder::DrawOrder& order, const separation::LocalModel& local, const models::polygons::FileAxes& axes);
-
-    void begin_pairs(int part, std::uint32_t later, std::size_t count) override;
-    void add_pair(separation::DecidingPolygon by) override;
-    void end_pairs() override;
-    void add_plane_proof(int part, const separation::SeparatingPlaneProof& plane_proof, std::uint32_t earlier,
-        std::uint32_t later) override;
-    void add_back_facing(int part, std::uint32_t polygon, const separation::PlaneFactors& factors) override;
-    void add_unproved(int part, std::uint32_t polygon) override;
-    void end_part(std::size_t polygons) override;
-
-    /// All lines so far, which are taken away.
-    std::string take();
-
-    /// Pairs and polygons for which no proof was found.
-    std::uint64_t unproved() const { return unproved_; }
-
-private:
-    void add_run();
-    void add_numbers(std::span<const std::uint32_t> numbers);
-    void add_walls(const separation::PlaneFactors& factors);
-
-    double size_m_;
-    std::function<void()> on_part_done_;
-    std::string text_;
-    std::uint64_t unproved_ = 0;
-    separation::DecidingPolygon run_by_ = separation::DecidingPolygon::Neither;
-    std::size_t run_length_ = 0;
-};
-
 using draworder::DrawOrder;
 using models::polygons::FileAxes;
 using separation::DecidingPolygon;
@@ -87,113 +45,133 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
-CertificateText::CertificateText(double size_m, std::function<void()> on_part_done)
-    : size_m_(size_m), on_part_done_(std::move(on_part_done)) {}
+/// The lines of a certificate, in the order in which they are added; visuals/verify/README.md says what each means.
+class CertificateText : public draworder::ProofVisitor {
+public:
+    /// `size_m` is the length that is 1 in a LocalModel; `on_part_done` is called after each node and list.
+    CertificateText(double size_m, std::function<void()> on_part_done)
+        : size_m_(size_m), on_part_done_(std::move(on_part_done)) {}
 
-void CertificateText::add_model(
-    const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
-    append(text_, "octant-certificate 1\n");
-    append(text_, "tolerance {}\n", local.tolerance * size_m_);
-    const auto place = [&](const glm::dvec3& point_m) {
-        return text_of(axes.file_from_body(point_m) - local.reference_m);
-    };
-    if (local.reference_m != glm::dvec3(0.0)) { append(text_, "about {}\n", text_of(local.reference_m)); }
-    for (const glm::dvec3& vertex_m : model.vertices_m) { append(text_, "vertex {}\n", place(vertex_m)); }
-    for (const models::polygons::Pivot& pivot : model.pivots) {
-        append(text_, "axis {} {}\n", place(pivot.point_m), text_of(axes.file_from_body(pivot.axis)));
-    }
-    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const LocalPolygon& polygon = local.polygons[i];
-        append(text_, "{} {} {}", polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
-            model.parent_of(i), text_of(local.in_metres(polygon.plane)));
-        add_numbers(model.corners(i));
-    }
-}
-
-void CertificateText::add_tree(const DrawOrder& order, const LocalModel& local, const FileAxes& axes) {
-    for (int list = 0; list < order.cell_count(); ++list) {
-        text_ += "list";
-        add_numbers(order.polygons_of(list));
-    }
-    for (const DrawOrder::Node& node : order.nodes()) {
-        const bool is_choice = node.kind == DrawOrder::Kind::ViewSplit;
-        const char* const if_nothing = is_choice ? " unclaimed" : " nothing";
-        const std::string children = text_of_child(node.front, if_nothing) + text_of_child(node.back, if_nothing);
-        if (node.kind == DrawOrder::Kind::Sequence) {
-            append(text_, "node sequence{}\n", children);
-            continue;
+    /// The header, corners, axes and polygons.
+    void add_model(const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
+        append(text_, "octant-certificate 1\n");
+        append(text_, "tolerance {}\n", local.tolerance * size_m_);
+        const auto place = [&](const glm::dvec3& point_m) {
+            return text_of(axes.file_from_body(point_m) - local.reference_m);
+        };
+        if (local.reference_m != glm::dvec3(0.0)) { append(text_, "about {}\n", text_of(local.reference_m)); }
+        for (const glm::dvec3& vertex_m : model.vertices_m) { append(text_, "vertex {}\n", place(vertex_m)); }
+        for (const models::polygons::Pivot& pivot : model.pivots) {
+            append(text_, "axis {} {}\n", place(pivot.point_m), text_of(axes.file_from_body(pivot.axis)));
         }
-        const bool parts = node.kind == DrawOrder::Kind::PolygonSplit;
-        append(text_, "node {} {}{}{}\n", parts ? "parting" : "choice",
-            text_of(local.about({axes.file_from_body(node.plane.normal), node.plane.offset_m})), children,
-            parts ? text_of_child(node.coplanar_front) + text_of_child(node.coplanar_back) : "");
+        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+            const LocalPolygon& polygon = local.polygons[i];
+            append(text_, "{} {} {}", polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
+                model.parent_of(i), text_of(local.in_metres(polygon.plane)));
+            add_numbers(model.corners(i));
+        }
     }
-}
 
-void CertificateText::begin_pairs(int part, std::uint32_t later, std::size_t /*count*/) {
-    append(text_, "pairs{} {}", text_of_child(part), later);
-    run_length_ = 0;
-}
-
-void CertificateText::add_pair(DecidingPolygon by) {
-    if (by != run_by_) {
-        add_run();
-        run_by_ = by;
+    /// The lists and nodes. Where a view split has nothing on a side, the line says `unclaimed` for its eyes.
+    void add_tree(const DrawOrder& order, const LocalModel& local, const FileAxes& axes) {
+        for (int list = 0; list < order.cell_count(); ++list) {
+            text_ += "list";
+            add_numbers(order.polygons_of(list));
+        }
+        for (const DrawOrder::Node& node : order.nodes()) {
+            const bool is_choice = node.kind == DrawOrder::Kind::ViewSplit;
+            const char* const if_nothing = is_choice ? " unclaimed" : " nothing";
+            const std::string children = text_of_child(node.front, if_nothing) + text_of_child(node.back, if_nothing);
+            if (node.kind == DrawOrder::Kind::Sequence) {
+                append(text_, "node sequence{}\n", children);
+                continue;
+            }
+            const bool parts = node.kind == DrawOrder::Kind::PolygonSplit;
+            append(text_, "node {} {}{}{}\n", parts ? "parting" : "choice",
+                text_of(local.about({axes.file_from_body(node.plane.normal), node.plane.offset_m})), children,
+                parts ? text_of_child(node.coplanar_front) + text_of_child(node.coplanar_back) : "");
+        }
     }
-    ++run_length_;
-}
 
-void CertificateText::end_pairs() {
-    add_run();
-    text_ += '\n';
-}
-
-void CertificateText::add_run() {
-    if (run_length_ > 0) {
-        const char letter = run_by_ == DecidingPolygon::Earlier ? 'e' : run_by_ == DecidingPolygon::Later ? 'l' : '-';
-        append(text_, " {}{}", run_length_, letter);
+    void begin_pairs(int part, std::uint32_t later, std::size_t /*count*/) override {
+        append(text_, "pairs{} {}", text_of_child(part), later);
         run_length_ = 0;
     }
-}
 
-void CertificateText::add_plane_proof(
-    int part, const SeparatingPlaneProof& plane_proof, std::uint32_t earlier, std::uint32_t later) {
-    const std::string where = fmt::format("{} {} {}", text_of_child(part), earlier, later);
-    if (plane_proof.kind == SeparatingPlaneProof::Kind::None) {
-        append(text_, "unproved{}\n", where);
-        ++unproved_;
-        return;
+    void add_pair(DecidingPolygon by) override {
+        if (by != run_by_) {
+            add_run();
+            run_by_ = by;
+        }
+        ++run_length_;
     }
-    append(text_, "{}{} {} {}", plane_proof.kind == SeparatingPlaneProof::Kind::Sum ? "sum" : "never", where,
-        plane_proof.factors.earlier, plane_proof.factors.later);
-    add_walls(plane_proof.factors);
-}
 
-void CertificateText::add_back_facing(int part, std::uint32_t polygon, const PlaneFactors& factors) {
-    append(text_, "away{} {}", text_of_child(part), polygon);
-    add_walls(factors);
-}
+    void end_pairs() override {
+        add_run();
+        text_ += '\n';
+    }
 
-void CertificateText::add_unproved(int part, std::uint32_t polygon) {
-    append(text_, "unproved{} {}\n", text_of_child(part), polygon);
-    ++unproved_;
-}
+    void add_plane_proof(
+        int part, const SeparatingPlaneProof& plane_proof, std::uint32_t earlier, std::uint32_t later) override {
+        const std::string where = fmt::format("{} {} {}", text_of_child(part), earlier, later);
+        if (plane_proof.kind == SeparatingPlaneProof::Kind::None) {
+            append(text_, "unproved{}\n", where);
+            ++unproved_;
+            return;
+        }
+        append(text_, "{}{} {} {}", plane_proof.kind == SeparatingPlaneProof::Kind::Sum ? "sum" : "never", where,
+            plane_proof.factors.earlier, plane_proof.factors.later);
+        add_walls(plane_proof.factors);
+    }
 
-void CertificateText::end_part(std::size_t /*polygons*/) { on_part_done_(); }
+    void add_back_facing(int part, std::uint32_t polygon, const PlaneFactors& factors) override {
+        append(text_, "away{} {}", text_of_child(part), polygon);
+        add_walls(factors);
+    }
 
-std::string CertificateText::take() { return std::move(text_); }
+    void add_unproved(int part, std::uint32_t polygon) override {
+        append(text_, "unproved{} {}\n", text_of_child(part), polygon);
+        ++unproved_;
+    }
 
-void CertificateText::add_numbers(std::span<const std::uint32_t> numbers) {
-    for (const std::uint32_t number : numbers) { append(text_, " {}", number); }
-    text_ += '\n';
-}
+    void end_part(std::size_t /*polygons*/) override { on_part_done_(); }
 
-/// The factor of 1 is a length.
-void CertificateText::add_walls(const PlaneFactors& factors) {
-    append(text_, " {}", factors.one * size_m_);
-    for (const double factor : factors.region_planes) { append(text_, " {}", factor); }
-    text_ += '\n';
-}
+    /// All lines so far, which are taken away.
+    std::string take() { return std::move(text_); }
+
+    /// Pairs and polygons for which no proof was found.
+    std::uint64_t unproved() const { return unproved_; }
+
+private:
+    void add_run() {
+        if (run_length_ > 0) {
+            const char letter = run_by_ == DecidingPolygon::Earlier ? 'e'
+                                : run_by_ == DecidingPolygon::Later ? 'l'
+                                                                    : '-';
+            append(text_, " {}{}", run_length_, letter);
+            run_length_ = 0;
+        }
+    }
+
+    void add_numbers(std::span<const std::uint32_t> numbers) {
+        for (const std::uint32_t number : numbers) { append(text_, " {}", number); }
+        text_ += '\n';
+    }
+
+    /// The factor of 1 is a length.
+    void add_walls(const PlaneFactors& factors) {
+        append(text_, " {}", factors.one * size_m_);
+        for (const double factor : factors.region_planes) { append(text_, " {}", factor); }
+        text_ += '\n';
+    }
+
+    double size_m_;
+    std::function<void()> on_part_done_;
+    std::string text_;
+    std::uint64_t unproved_ = 0;
+    separation::DecidingPolygon run_by_ = separation::DecidingPolygon::Neither;
+    std::size_t run_length_ = 0;
+};
 
 } // namespace
 

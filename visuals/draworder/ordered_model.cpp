@@ -88,19 +88,18 @@ public:
         return {std::move(model_), DrawOrder(std::move(nodes_), lists_), splits, std::move(notes_)};
     }
 
-    BspOrder completed(IncompleteOrder incomplete_cells) {
+    BspOrder completed(IncompleteOrder incomplete) {
         find_turning_parts();
-        nodes_ = std::move(incomplete_cells.nodes);
-        lists_ = std::move(incomplete_cells.lists);
+        nodes_ = std::move(incomplete.nodes);
+        lists_ = std::move(incomplete.lists);
         made_at_.assign(lists_.size(), model_.polygons.size());
         for (std::uint32_t i = 0; i < pieces_.count(); ++i) {
-            if (!pieces_[i].pivot) { pieces_.set_plane(i, incomplete_cells.planes[pieces_[i].source]); }
+            if (!pieces_[i].pivot) { pieces_.set_plane(i, incomplete.planes[pieces_[i].source]); }
         }
         std::vector<int> instead(lists_.size());
         for (std::size_t cell = 0; cell < instead.size(); ++cell) {
-            instead[cell] = incomplete_cells.incomplete_cells[cell].empty()
-                                ? ~static_cast<int>(cell)
-                                : sequence_of(incomplete_cells.incomplete_cells[cell]);
+            instead[cell] = incomplete.incomplete_cells[cell].empty() ? ~static_cast<int>(cell)
+                                                                      : sequence_of(incomplete.incomplete_cells[cell]);
         }
         for (std::size_t list = 0; list < lists_.size(); ++list) { add_new_pieces(lists_[list], made_at_[list]); }
         replace_cells(instead);

@@ -184,55 +184,6 @@ PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::s
 
 namespace {
 
-/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie to the plane alone.
-/// This is quick, so that thousands of planes can be judged. The edges of each component are held in rows of their own,
-/// so that small components of large models cost little; of large components only some rows are looked at, evenly
-/// spread, and stand for all. Keeps a reference to the faces.
-class PlaneScorer {
-public:
-    PlaneScorer(const ModelFaces& model, const CyclicPart& cycles);
-
-    /// Turns to a plane.
-    void set_plane(const Plane& plane);
-
-    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on cycles or not.
-    std::size_t edges_left_in_front() const;
-    /// The number of cyclic edges that remain for eyes behind the plane.
-    std::size_t edges_left_behind() const;
-
-private:
-    /// A polygon of a component, with a bounding sphere, and where its bits are.
-    struct Member {
-        std::uint32_t polygon = 0;
-        glm::dvec3 middle{0.0};
-        double radius = 0.0;
-        /// The index of its component's first word in the sets below.
-        std::size_t first_word = 0;
-        /// Its own bit, counted from that word.
-        std::size_t bit = 0;
-        /// The index of its row's first word in rows_.
-        std::size_t first_row_word = 0;
-        std::size_t words = 0;
-        /// How many rows its row stands for; 0 when it has none.
-        std::size_t weight = 0;
-    };
-
-    using Words = std::vector<std::uint64_t>;
-
-    void add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component);
-    std::size_t left(const Words& occluded, const Words& occluders, const Words& unseen) const;
-
-    const ModelFaces& model_;
-    std::vector<Member> members_;
-    Words rows_;
-    Words front_or_on_;
-    Words back_or_on_;
-    Words unseen_in_front_;
-    Words unseen_behind_;
-    bool some_unseen_ = false;
-    std::size_t edges_ = 0;
-};
-
 /// Of a component at most about this many rows are looked at.
 constexpr std::size_t max_rows = 192;
 
@@ -253,80 +204,120 @@ void set(std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t 
     words[first_word + bit / 64] |= std::uint64_t{1} << (bit % 64);
 }
 
-PlaneScorer::PlaneScorer(const ModelFaces& model, const CyclicPart& cycles) : model_(model), edges_(cycles.edges) {
-    for (const std::vector<std::uint32_t>& component : cycles.components) { add(cycles.inner, component); }
-}
-
-/// Adds the rows of a component.
-void PlaneScorer::add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component) {
-    const std::size_t words = (component.size() + 63) / 64;
-    const std::size_t step = component.size() / max_rows + 1;
-    const std::size_t first_word = front_or_on_.size();
-    for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
-        sets->resize(first_word + words, 0);
+/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie to the plane alone.
+/// This is quick, so that thousands of planes can be judged. The edges of each component are held in rows of their own,
+/// so that small components of large models cost little; of large components only some rows are looked at, evenly
+/// spread, and stand for all. Keeps a reference to the faces.
+class PlaneScorer {
+public:
+    PlaneScorer(const ModelFaces& model, const CyclicPart& cycles) : model_(model), edges_(cycles.edges) {
+        for (const std::vector<std::uint32_t>& component : cycles.components) { add(cycles.inner, component); }
     }
-    for (std::size_t bit = 0; bit < component.size(); ++bit) {
-        const std::uint32_t polygon = component[bit];
-        const auto [middle, radius] = ball_around(model_.faces[polygon].corners);
-        const std::size_t weight = bit % step == 0 ? step : 0;
-        members_.push_back({polygon, middle, radius, first_word, bit, rows_.size(), words, weight});
-        if (weight == 0) { continue; }
-        rows_.resize(rows_.size() + words, 0);
-        for (std::size_t other = 0; other < component.size(); ++other) {
-            if (graph.occludes(component[other], polygon)) { set(rows_, members_.back().first_row_word, other); }
+
+    /// Turns to a plane.
+    void set_plane(const Plane& plane) {
+        for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
+            std::ranges::fill(*sets, std::uint64_t{0});
+        }
+        some_unseen_ = false;
+        const double on = model_.tolerances.on_plane;
+        for (const Member& member : members_) {
+            const double height = distance_m(plane, member.middle);
+            PlaneSide side{height > member.radius, height < -member.radius};
+            if (!side.before && !side.behind) { side = side_of(plane, model_.faces[member.polygon], on); }
+            if (side.before) { set(front_or_on_, member.first_word, member.bit); }
+            if (side.behind) { set(back_or_on_, member.first_word, member.bit); }
+            const auto& own = model_.faces[member.polygon].plane;
+            if (side.before && side.behind && own) {
+                const bool along = glm::dot(plane.normal, own->normal) > 0.0;
+                set(along ? unseen_behind_ : unseen_in_front_, member.first_word, member.bit);
+                some_unseen_ = true;
+            }
         }
     }
-}
 
-void PlaneScorer::set_plane(const Plane& plane) {
-    for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
-        std::ranges::fill(*sets, std::uint64_t{0});
-    }
-    some_unseen_ = false;
-    const double on = model_.tolerances.on_plane;
-    for (const Member& member : members_) {
-        const double height = distance_m(plane, member.middle);
-        PlaneSide side{height > member.radius, height < -member.radius};
-        if (!side.before && !side.behind) { side = side_of(plane, model_.faces[member.polygon], on); }
-        if (side.before) { set(front_or_on_, member.first_word, member.bit); }
-        if (side.behind) { set(back_or_on_, member.first_word, member.bit); }
-        const auto& own = model_.faces[member.polygon].plane;
-        if (side.before && side.behind && own) {
-            const bool along = glm::dot(plane.normal, own->normal) > 0.0;
-            set(along ? unseen_behind_ : unseen_in_front_, member.first_word, member.bit);
-            some_unseen_ = true;
+    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on cycles or not.
+    std::size_t edges_left_in_front() const { return left(front_or_on_, back_or_on_, unseen_in_front_); }
+
+    /// The number of cyclic edges that remain for eyes behind the plane.
+    std::size_t edges_left_behind() const { return left(back_or_on_, front_or_on_, unseen_behind_); }
+
+private:
+    /// A polygon of a component, with a bounding sphere, and where its bits are.
+    struct Member {
+        std::uint32_t polygon = 0;
+        glm::dvec3 middle{0.0};
+        double radius = 0.0;
+        /// The index of its component's first word in the sets below.
+        std::size_t first_word = 0;
+        /// Its own bit, counted from that word.
+        std::size_t bit = 0;
+        /// The index of its row's first word in rows_.
+        std::size_t first_row_word = 0;
+        std::size_t words = 0;
+        /// How many rows its row stands for; 0 when it has none.
+        std::size_t weight = 0;
+    };
+
+    using Words = std::vector<std::uint64_t>;
+
+    /// Adds the rows of a component.
+    void add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component) {
+        const std::size_t words = (component.size() + 63) / 64;
+        const std::size_t step = component.size() / max_rows + 1;
+        const std::size_t first_word = front_or_on_.size();
+        for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
+            sets->resize(first_word + words, 0);
+        }
+        for (std::size_t bit = 0; bit < component.size(); ++bit) {
+            const std::uint32_t polygon = component[bit];
+            const auto [middle, radius] = ball_around(model_.faces[polygon].corners);
+            const std::size_t weight = bit % step == 0 ? step : 0;
+            members_.push_back({polygon, middle, radius, first_word, bit, rows_.size(), words, weight});
+            if (weight == 0) { continue; }
+            rows_.resize(rows_.size() + words, 0);
+            for (std::size_t other = 0; other < component.size(); ++other) {
+                if (graph.occludes(component[other], polygon)) { set(rows_, members_.back().first_row_word, other); }
+            }
         }
     }
-}
 
-/// The number of edges that do not disappear on one side of the plane: `occluded` are the polygons on that side or in
-/// the plane, `occluders` those on the other side or in it, and `unseen` those that face away from all eyes there.
-std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, const Words& unseen) const {
-    std::size_t ended = 0;
-    Words mask;
-    for (const Member& member : members_) {
-        const auto row = std::span(rows_).subspan(member.first_row_word, member.words);
-        if (member.weight == 0) { continue; }
-        const bool parted = has(occluded, member.first_word, member.bit);
-        if (!some_unseen_) {
-            const auto others = std::span(occluders).subspan(member.first_word, member.words);
-            ended += parted ? member.weight * count_common_bits(row, others) : 0;
-            continue;
+    /// The number of edges that do not disappear on one side of the plane: `occluded` are the polygons on that side or
+    /// in the plane, `occluders` those on the other side or in it, and `unseen` those that face away from all eyes
+    /// there.
+    std::size_t left(const Words& occluded, const Words& occluders, const Words& unseen) const {
+        std::size_t ended = 0;
+        Words mask;
+        for (const Member& member : members_) {
+            const auto row = std::span(rows_).subspan(member.first_row_word, member.words);
+            if (member.weight == 0) { continue; }
+            const bool parted = has(occluded, member.first_word, member.bit);
+            if (!some_unseen_) {
+                const auto others = std::span(occluders).subspan(member.first_word, member.words);
+                ended += parted ? member.weight * count_common_bits(row, others) : 0;
+                continue;
+            }
+            const bool is_unseen = has(unseen, member.first_word, member.bit);
+            mask.resize(member.words);
+            for (std::size_t word = 0; word < member.words; ++word) {
+                const std::size_t at = member.first_word + word;
+                mask[word] = is_unseen ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
+            }
+            ended += member.weight * count_common_bits(row, mask);
         }
-        const bool is_unseen = has(unseen, member.first_word, member.bit);
-        mask.resize(member.words);
-        for (std::size_t word = 0; word < member.words; ++word) {
-            const std::size_t at = member.first_word + word;
-            mask[word] = is_unseen ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
-        }
-        ended += member.weight * count_common_bits(row, mask);
+        return edges_ - std::min(ended, edges_);
     }
-    return edges_ - std::min(ended, edges_);
-}
 
-std::size_t PlaneScorer::edges_left_in_front() const { return left(front_or_on_, back_or_on_, unseen_in_front_); }
-
-std::size_t PlaneScorer::edges_left_behind() const { return left(back_or_on_, front_or_on_, unseen_behind_); }
+    const ModelFaces& model_;
+    std::vector<Member> members_;
+    Words rows_;
+    Words front_or_on_;
+    Words back_or_on_;
+    Words unseen_in_front_;
+    Words unseen_behind_;
+    bool some_unseen_ = false;
+    std::size_t edges_ = 0;
+};
 
 /// Graphs with more edges are judged without the exact test.
 constexpr std::size_t max_exact_edges = 4'000;
@@ -376,152 +367,143 @@ public:
     SplitPlaneChooser(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search)
         : work_(work), node_(node), search_(search) {}
 
-    std::optional<CellSplit> best() const;
+    /// Third stage: divides the node by each of the best choices and keeps the best result; for very large graphs only
+    /// the first choice.
+    std::optional<CellSplit> best() const {
+        const CyclicPart& cycles = node_.cycles;
+        std::vector<ViewSplit> choices = coarse_ranking();
+        const std::size_t tried = cycles.edges > max_exact_edges ? 1 : search_.exact;
+        choices.resize(std::min(tried, choices.size()));
+        work_.spend(2 * choices.size() * search_units(node_));
+        std::optional<CellSplit> best;
+        ViewSplit least{.plane = {}, .cost = HUGE_VAL, .number = choices.size()};
+        for (const ViewSplit& choice : choices) {
+            CellSplit made = fork(choice.plane);
+            const double left = cost(made.front.cycles.edges, made.back.cycles.edges, cycles.edges);
+            if (const ViewSplit exact{choice.plane, left, choice.number}; !best || exact < least) {
+                least = exact;
+                best = std::move(made);
+            }
+        }
+        return best;
+    }
 
 private:
-    std::vector<ViewSplit> by_sides(std::span<const Plane> planes, std::size_t first_number) const;
-    std::vector<ViewSplit> by_cycles(std::span<const ViewSplit> choices) const;
-    std::vector<ViewSplit> ranked(std::span<const Plane> planes) const;
-    std::vector<ViewSplit> of_planes(std::span<const std::uint32_t> among, std::size_t most) const;
-    std::vector<ViewSplit> coarse_ranking() const;
-    CellSplit fork(const Plane& plane) const;
-    double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
-    double little_gain(std::size_t before) const;
+    /// First stage: the best planes by where polygons lie to them. `first_number` is the number of the first plane.
+    std::vector<ViewSplit> by_sides(std::span<const Plane> planes, std::size_t first_number) const {
+        const CyclicPart& cycles = node_.cycles;
+        PlaneScorer scorer(work_.faces, cycles);
+        std::vector<ViewSplit> best;
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            const Plane& plane = planes[i];
+            if (!node_.region.intersects_front_of(plane) || !node_.region.intersects_front_of(turned_over(plane))) {
+                continue;
+            }
+            const double limit = best.size() == search_.coarse_candidates ? best.back().cost : HUGE_VAL;
+            scorer.set_plane(plane);
+            const std::size_t front_edges = scorer.edges_left_in_front();
+            if (cost(front_edges, 0, cycles.edges) >= limit) { continue; }
+            const double value = cost(front_edges, scorer.edges_left_behind(), cycles.edges);
+            if (value >= limit) { continue; }
+            const ViewSplit choice{plane, value, first_number + i};
+            best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
+            if (best.size() > search_.coarse_candidates) { best.pop_back(); }
+        }
+        return best;
+    }
+
+    /// Second stage: the cost of each choice by the edges that stay on cycles.
+    std::vector<ViewSplit> by_cycles(std::span<const ViewSplit> choices) const {
+        const CyclicPart& cycles = node_.cycles;
+        CyclicEdgeCounter counter;
+        std::vector<ViewSplit> out(choices.begin(), choices.end());
+        for (ViewSplit& choice : out) {
+            const PolygonsByPlaneSide sides = sides_of(choice.plane, work_.faces, cycles.polygons);
+            const auto& [front, back] = sides.sets;
+            const auto front_edges =
+                counter.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
+            const auto back_edges = counter.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
+            choice.cost = cost(front_edges, back_edges, cycles.edges);
+        }
+        return out;
+    }
+
+    /// Both stages over many planes, on two threads; best first.
+    std::vector<ViewSplit> ranked(std::span<const Plane> planes) const {
+        work_.spend(planes.size() * units_of_plane(node_.cycles));
+        const bool large = is_large(node_);
+        const std::size_t half = planes.size() / 2;
+        auto [choices, others] = run_both(
+            large, [&] { return by_sides(planes.first(half), 0); },
+            [&] { return by_sides(planes.subspan(half), half); });
+        choices.insert(choices.end(), others.begin(), others.end());
+        std::sort(choices.begin(), choices.end());
+        choices.resize(std::min(search_.coarse_candidates, choices.size()));
+        work_.spend(choices.size() * units_of_cycles(node_.cycles));
+        const std::size_t middle = choices.size() / 2;
+        const std::span<const ViewSplit> all(choices);
+        auto [judged, rest] = run_both(
+            large, [&] { return by_cycles(all.first(middle)); }, [&] { return by_cycles(all.subspan(middle)); });
+        judged.insert(judged.end(), rest.begin(), rest.end());
+        std::sort(judged.begin(), judged.end());
+        return judged;
+    }
+
+    /// The choices by the candidate planes of some polygons, of which there are about `most`.
+    std::vector<ViewSplit> of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
+        std::vector<Plane> planes;
+        if (search_.first_planes) { planes = search_.first_planes(work_.faces, among, 2 * most); }
+        const auto others = candidate_planes(work_.faces, among, most);
+        planes.insert(planes.end(), others.begin(), others.end());
+        return ranked(planes);
+    }
+
+    /// The choices of the first planes or, where these lead nowhere, of more.
+    std::vector<ViewSplit> coarse_ranking() const {
+        const CyclicPart& cycles = node_.cycles;
+        std::vector<ViewSplit> choices = of_planes(cycles.polygons, search_.edge_planes);
+        if (choices.empty() || choices.front().cost > little_gain(cycles.edges)) {
+            choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
+        }
+        if (choices.empty()) {
+            // Of many polygons not all candidate planes were made. All those of one cycle are enough to resolve it in
+            // the end.
+            choices = of_planes(shortest_cycle(cycles.inner, cycles.polygons), search_.edge_planes);
+        }
+        return choices;
+    }
+
+    /// Divides a node by a plane, with the exact test on both sides.
+    CellSplit fork(const Plane& plane) const {
+        const PlaneSideSets sides = sides_of(plane, work_.faces, node_.cycles.polygons).sets;
+        const PlaneSideSets turned{sides.back_or_on, sides.front_or_on};
+        const auto part = [&](const Plane& before, const PlaneSideSets& sets) {
+            OcclusionGraphBuilder graphs(work_.faces);
+            return part_of(graphs, node_, *node_.region.cut(before), &sets);
+        };
+        auto [front, back] = run_both(
+            is_large(node_), [&] { return part(plane, sides); }, [&] { return part(turned_over(plane), turned); });
+        return {plane, std::move(front), std::move(back)};
+    }
+
+    /// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is better. A side
+    /// that stays as it was is no gain at all and costs infinitely much.
+    double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const {
+        if (front_edges >= before || back_edges >= before) { return HUGE_VAL; }
+        return std::pow(static_cast<double>(front_edges), search_.power) +
+               std::pow(static_cast<double>(back_edges), search_.power);
+    }
+
+    /// The cost of a plane that leaves 15 of 16 edges on both sides.
+    double little_gain(std::size_t before) const {
+        const std::size_t left = before - before / 16;
+        return cost(left, left, before + 1);
+    }
 
     const WorkingModel& work_;
     const ViewCell& node_;
     const SplitPlaneSearch& search_;
 };
-
-/// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is better. A side that
-/// stays as it was is no gain at all and costs infinitely much.
-double SplitPlaneChooser::cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const {
-    if (front_edges >= before || back_edges >= before) { return HUGE_VAL; }
-    return std::pow(static_cast<double>(front_edges), search_.power) +
-           std::pow(static_cast<double>(back_edges), search_.power);
-}
-
-/// The cost of a plane that leaves 15 of 16 edges on both sides.
-double SplitPlaneChooser::little_gain(std::size_t before) const {
-    const std::size_t left = before - before / 16;
-    return cost(left, left, before + 1);
-}
-
-/// First stage: the best planes by where polygons lie to them. `first_number` is the number of the first plane.
-std::vector<ViewSplit> SplitPlaneChooser::by_sides(std::span<const Plane> planes, std::size_t first_number) const {
-    const CyclicPart& cycles = node_.cycles;
-    PlaneScorer scorer(work_.faces, cycles);
-    std::vector<ViewSplit> best;
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        const Plane& plane = planes[i];
-        if (!node_.region.intersects_front_of(plane) || !node_.region.intersects_front_of(turned_over(plane))) {
-            continue;
-        }
-        const double limit = best.size() == search_.coarse_candidates ? best.back().cost : HUGE_VAL;
-        scorer.set_plane(plane);
-        const std::size_t front_edges = scorer.edges_left_in_front();
-        if (cost(front_edges, 0, cycles.edges) >= limit) { continue; }
-        const double value = cost(front_edges, scorer.edges_left_behind(), cycles.edges);
-        if (value >= limit) { continue; }
-        const ViewSplit choice{plane, value, first_number + i};
-        best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
-        if (best.size() > search_.coarse_candidates) { best.pop_back(); }
-    }
-    return best;
-}
-
-/// Second stage: the cost of each choice by the edges that stay on cycles.
-std::vector<ViewSplit> SplitPlaneChooser::by_cycles(std::span<const ViewSplit> choices) const {
-    const CyclicPart& cycles = node_.cycles;
-    CyclicEdgeCounter counter;
-    std::vector<ViewSplit> out(choices.begin(), choices.end());
-    for (ViewSplit& choice : out) {
-        const PolygonsByPlaneSide sides = sides_of(choice.plane, work_.faces, cycles.polygons);
-        const auto& [front, back] = sides.sets;
-        const auto front_edges = counter.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
-        const auto back_edges = counter.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
-        choice.cost = cost(front_edges, back_edges, cycles.edges);
-    }
-    return out;
-}
-
-/// Both stages over many planes, on two threads; best first.
-std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) const {
-    work_.spend(planes.size() * units_of_plane(node_.cycles));
-    const bool large = is_large(node_);
-    const std::size_t half = planes.size() / 2;
-    auto [choices, others] = run_both(
-        large, [&] { return by_sides(planes.first(half), 0); }, [&] { return by_sides(planes.subspan(half), half); });
-    choices.insert(choices.end(), others.begin(), others.end());
-    std::sort(choices.begin(), choices.end());
-    choices.resize(std::min(search_.coarse_candidates, choices.size()));
-    work_.spend(choices.size() * units_of_cycles(node_.cycles));
-    const std::size_t middle = choices.size() / 2;
-    const std::span<const ViewSplit> all(choices);
-    auto [judged, rest] = run_both(
-        large, [&] { return by_cycles(all.first(middle)); }, [&] { return by_cycles(all.subspan(middle)); });
-    judged.insert(judged.end(), rest.begin(), rest.end());
-    std::sort(judged.begin(), judged.end());
-    return judged;
-}
-
-/// Divides a node by a plane, with the exact test on both sides.
-CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
-    const PlaneSideSets sides = sides_of(plane, work_.faces, node_.cycles.polygons).sets;
-    const PlaneSideSets turned{sides.back_or_on, sides.front_or_on};
-    const auto part = [&](const Plane& before, const PlaneSideSets& sets) {
-        OcclusionGraphBuilder graphs(work_.faces);
-        return part_of(graphs, node_, *node_.region.cut(before), &sets);
-    };
-    auto [front, back] = run_both(
-        is_large(node_), [&] { return part(plane, sides); }, [&] { return part(turned_over(plane), turned); });
-    return {plane, std::move(front), std::move(back)};
-}
-
-/// The choices by the candidate planes of some polygons, of which there are about `most`.
-std::vector<ViewSplit> SplitPlaneChooser::of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
-    std::vector<Plane> planes;
-    if (search_.first_planes) { planes = search_.first_planes(work_.faces, among, 2 * most); }
-    const auto others = candidate_planes(work_.faces, among, most);
-    planes.insert(planes.end(), others.begin(), others.end());
-    return ranked(planes);
-}
-
-/// The choices of the first planes or, where these lead nowhere, of more.
-std::vector<ViewSplit> SplitPlaneChooser::coarse_ranking() const {
-    const CyclicPart& cycles = node_.cycles;
-    std::vector<ViewSplit> choices = of_planes(cycles.polygons, search_.edge_planes);
-    if (choices.empty() || choices.front().cost > little_gain(cycles.edges)) {
-        choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
-    }
-    if (choices.empty()) {
-        // Of many polygons not all candidate planes were made. All those of one cycle are enough to resolve it in the
-        // end.
-        choices = of_planes(shortest_cycle(cycles.inner, cycles.polygons), search_.edge_planes);
-    }
-    return choices;
-}
-
-/// Third stage: divides the node by each of the best choices and keeps the best result; for very large graphs only the
-/// first choice.
-std::optional<CellSplit> SplitPlaneChooser::best() const {
-    const CyclicPart& cycles = node_.cycles;
-    std::vector<ViewSplit> choices = coarse_ranking();
-    const std::size_t tried = cycles.edges > max_exact_edges ? 1 : search_.exact;
-    choices.resize(std::min(tried, choices.size()));
-    work_.spend(2 * choices.size() * search_units(node_));
-    std::optional<CellSplit> best;
-    ViewSplit least{.plane = {}, .cost = HUGE_VAL, .number = choices.size()};
-    for (const ViewSplit& choice : choices) {
-        CellSplit made = fork(choice.plane);
-        const double left = cost(made.front.cycles.edges, made.back.cycles.edges, cycles.edges);
-        if (const ViewSplit exact{choice.plane, left, choice.number}; !best || exact < least) {
-            least = exact;
-            best = std::move(made);
-        }
-    }
-    return best;
-}
 
 /// A branch of the tree while it grows: a finished cell, or a plane with two branches.
 struct Branch {
@@ -539,17 +521,92 @@ class TreeBuilder {
 public:
     TreeBuilder(WorkingModel& work, const TreeSearch& search) : work_(work), graphs_(work.faces), search_(search) {}
 
-    std::unique_ptr<Branch> grow(ViewCell node, std::size_t depth);
+    /// The branch of a node, recursively.
+    std::unique_ptr<Branch> grow(ViewCell node, std::size_t depth) {
+        if (!search_.keeps_partial_result) { return found(node, depth); }
+        try {
+            return found(node, depth);
+        } catch (const SearchGivenUp& given_up) {
+            if (given_up.is_worse_than_best) { throw; }
+            why_open_ = why_open_.empty() ? given_up.reason : why_open_;
+            return open_leaf(node);
+        }
+    }
 
     /// Why the search was given up first; empty if it was not.
     const std::string& incomplete_reason() const { return why_open_; }
 
 private:
-    std::unique_ptr<Branch> found(ViewCell& node, std::size_t depth);
-    std::unique_ptr<Branch> open_leaf(ViewCell& node);
-    std::unique_ptr<Branch> leaf(const ViewCell& node);
-    std::optional<CellSplit> settle(ViewCell& node);
-    void check_cost() const;
+    /// The branch of a node. Throws SearchGivenUp.
+    std::unique_ptr<Branch> found(ViewCell& node, std::size_t depth) {
+        check_entries(entries_); // where a list was too much already, another one is, too
+        if (depth == search_.max_depth) {
+            throw SearchGivenUp{fmt::format("{} planes one after another make no cell", search_.max_depth)};
+        }
+        if (work_.add_new_pieces(node)) { node = part_of(graphs_, node, node.region); }
+        work_.spend(search_units(node));
+        std::optional<CellSplit> fork = settle(node);
+        if (!fork) { return leaf(node); }
+        ++cells_;
+        check_cost();
+        auto out = std::make_unique<Branch>();
+        out->plane = fork->plane;
+        out->front = grow(std::move(fork->front), depth + 1);
+        out->back = grow(std::move(fork->back), depth + 1);
+        return out;
+    }
+
+    /// The end of a branch where the search is given up.
+    std::unique_ptr<Branch> open_leaf(ViewCell& node) {
+        work_.add_new_pieces(node);
+        auto out = std::make_unique<Branch>();
+        out->incomplete_cells = component_sets(graphs_, node);
+        out->planes = node.region.planes();
+        out->polygons = node.graph.count();
+        return out;
+    }
+
+    /// The finished cell of a node without cycles.
+    std::unique_ptr<Branch> leaf(const ViewCell& node) {
+        auto out = std::make_unique<Branch>();
+        out->list = list_of(graphs_, node);
+        out->planes = node.region.planes();
+        out->polygons = node.graph.count();
+        entries_ += out->list.size();
+        check_entries(entries_);
+        return out;
+    }
+
+    /// Splits polygons until an eye in the middle of the node sees no cycle and some plane makes the node simpler, and
+    /// returns the node divided by that plane. Returns nothing once the node has no cycles.
+    std::optional<CellSplit> settle(ViewCell& node) {
+        while (node.cycles.edges > 0) {
+            std::optional<PersistentCycle> persistent_cycle;
+            if (!search_.prefers_planes) { persistent_cycle = cycle_at_eye(graphs_, node); }
+            if (!persistent_cycle) {
+                if (auto fork = SplitPlaneChooser(work_, node, search_.plane_search).best()) { return fork; }
+                persistent_cycle = cycle_at_eye(graphs_, node);
+            }
+            if (!persistent_cycle) {
+                persistent_cycle = PersistentCycle{node.cycles.components.front(), node.region, std::nullopt};
+            }
+            work_.spend(search_units(node));
+            work_.resolve(*persistent_cycle);
+            check_cost();
+            work_.add_new_pieces(node);
+            node = part_of(graphs_, node, node.region);
+        }
+        return std::nullopt;
+    }
+
+    /// Throws SearchGivenUp where the tree, which only grows, costs too much already.
+    void check_cost() const {
+        const TreeCost cost{work_.sibling_pieces.size(), cells_};
+        const bool costs_more = search_.cost_limit && cost >= *search_.cost_limit;
+        const bool splits_more =
+            cost.splits > 0 && search_.max_splits && static_cast<int>(cost.splits) > search_.max_splits();
+        if (costs_more || splits_more) { throw SearchGivenUp{"another order costs less", true}; }
+    }
 
     WorkingModel& work_;
     OcclusionGraphBuilder graphs_;
@@ -558,89 +615,6 @@ private:
     std::size_t cells_ = 1; ///< Finished ones, and one for each branch that is still to grow.
     std::string why_open_;
 };
-
-/// Throws SearchGivenUp where the tree, which only grows, costs too much already.
-void TreeBuilder::check_cost() const {
-    const TreeCost cost{work_.sibling_pieces.size(), cells_};
-    const bool costs_more = search_.cost_limit && cost >= *search_.cost_limit;
-    const bool splits_more =
-        cost.splits > 0 && search_.max_splits && static_cast<int>(cost.splits) > search_.max_splits();
-    if (costs_more || splits_more) { throw SearchGivenUp{"another order costs less", true}; }
-}
-
-/// The finished cell of a node without cycles.
-std::unique_ptr<Branch> TreeBuilder::leaf(const ViewCell& node) {
-    auto out = std::make_unique<Branch>();
-    out->list = list_of(graphs_, node);
-    out->planes = node.region.planes();
-    out->polygons = node.graph.count();
-    entries_ += out->list.size();
-    check_entries(entries_);
-    return out;
-}
-
-/// Splits polygons until an eye in the middle of the node sees no cycle and some plane makes the node simpler, and
-/// returns the node divided by that plane. Returns nothing once the node has no cycles.
-std::optional<CellSplit> TreeBuilder::settle(ViewCell& node) {
-    while (node.cycles.edges > 0) {
-        std::optional<PersistentCycle> persistent_cycle;
-        if (!search_.prefers_planes) { persistent_cycle = cycle_at_eye(graphs_, node); }
-        if (!persistent_cycle) {
-            if (auto fork = SplitPlaneChooser(work_, node, search_.plane_search).best()) { return fork; }
-            persistent_cycle = cycle_at_eye(graphs_, node);
-        }
-        if (!persistent_cycle) {
-            persistent_cycle = PersistentCycle{node.cycles.components.front(), node.region, std::nullopt};
-        }
-        work_.spend(search_units(node));
-        work_.resolve(*persistent_cycle);
-        check_cost();
-        work_.add_new_pieces(node);
-        node = part_of(graphs_, node, node.region);
-    }
-    return std::nullopt;
-}
-
-/// The end of a branch where the search is given up.
-std::unique_ptr<Branch> TreeBuilder::open_leaf(ViewCell& node) {
-    work_.add_new_pieces(node);
-    auto out = std::make_unique<Branch>();
-    out->incomplete_cells = component_sets(graphs_, node);
-    out->planes = node.region.planes();
-    out->polygons = node.graph.count();
-    return out;
-}
-
-/// The branch of a node, recursively.
-std::unique_ptr<Branch> TreeBuilder::grow(ViewCell node, std::size_t depth) {
-    if (!search_.keeps_partial_result) { return found(node, depth); }
-    try {
-        return found(node, depth);
-    } catch (const SearchGivenUp& given_up) {
-        if (given_up.is_worse_than_best) { throw; }
-        why_open_ = why_open_.empty() ? given_up.reason : why_open_;
-        return open_leaf(node);
-    }
-}
-
-/// The branch of a node. Throws SearchGivenUp.
-std::unique_ptr<Branch> TreeBuilder::found(ViewCell& node, std::size_t depth) {
-    check_entries(entries_); // where a list was too much already, another one is, too
-    if (depth == search_.max_depth) {
-        throw SearchGivenUp{fmt::format("{} planes one after another make no cell", search_.max_depth)};
-    }
-    if (work_.add_new_pieces(node)) { node = part_of(graphs_, node, node.region); }
-    work_.spend(search_units(node));
-    std::optional<CellSplit> fork = settle(node);
-    if (!fork) { return leaf(node); }
-    ++cells_;
-    check_cost();
-    auto out = std::make_unique<Branch>();
-    out->plane = fork->plane;
-    out->front = grow(std::move(fork->front), depth + 1);
-    out->back = grow(std::move(fork->back), depth + 1);
-    return out;
-}
 
 /// Appends a branch to the arrays of the tree and returns its number as a child.
 int flatten(Branch& branch, const WorkingModel& work, ViewSpaceTree& out) {

@@ -28,6 +28,16 @@ namespace {
 using draworder::DrawOrder;
 using draworder::ViewRegion;
 
+/// More cells than these, or more entries in all lists, say less than the parts do.
+constexpr std::size_t max_cells_of_parts = 1'000;
+constexpr std::size_t max_entries_of_parts = 8'000'000;
+
+/// A region of eyes and what is painted for all of them.
+struct BspCell {
+    std::vector<Plane> planes; ///< The region is in front of them; unit normals, body axes.
+    std::vector<std::uint32_t> list;
+};
+
 /// The eyes of a region on their way through the tree.
 struct MovingPolygons {
     ViewRegion region;
@@ -127,13 +137,11 @@ private:
     std::size_t entries_ = 0;
 };
 
-} // namespace
-
+/// The cells of any order. A plane that splits polygons also divides eye space, so that the cells on both sides of it
+/// are combined. Only regions with a volume become cells. Returns nothing when there are too many.
 std::optional<std::vector<BspCell>> bsp_cells(const models::polygons::PolygonModel& model, const DrawOrder& order) {
     return CellExpander(model, order).cells();
 }
-
-namespace {
 
 /// The sine of the angle below which a direction counts as lying in a plane.
 constexpr double flat = 1e-9;

@@ -17,21 +17,6 @@
 
 namespace octant::visuals::orderfile {
 
-/// More cells than these, or more entries in all lists, say less than the parts do.
-inline constexpr std::size_t max_cells_of_parts = 1'000;
-inline constexpr std::size_t max_entries_of_parts = 8'000'000;
-
-/// A region of eyes and what is painted for all of them.
-struct BspCell {
-    std::vector<Plane> planes; ///< The region is in front of them; unit normals, body axes.
-    std::vector<std::uint32_t> list;
-};
-
-/// The cells of any order. A plane that splits polygons also divides eye space, so that the cells on both sides of it
-/// are combined. Only regions with a volume become cells. Returns nothing when there are too many.
-std::optional<std::vector<BspCell>> bsp_cells(
-    const models::polygons::PolygonModel& model, const draworder::DrawOrder& order);
-
 /// How the distance of an eye from the centre is measured: L1 is |x| + |y| + |z|, L2 the usual length.
 enum class Metric { L1, L2 };
 
@@ -63,11 +48,11 @@ struct CellOrders {
     std::optional<draworder::DrawOrder> parts;
 };
 
-/// Converts a model's orders to this form. An order with polygon splits is turned into cells where these are few
-/// (bsp_cells). Octant cells are made from their paths rather than from the planes that the model gives them, except
-/// where several cells share a path (an octant divided by planes). They begin at the distance from which the model's
-/// orders hold: at its min_distance_m, or for OrderMethod::Paper, which has none, at sqrt(3) times the model's radius,
-/// so that no eye of them lies inside the radius.
+/// Converts a model's orders to this form. An order with polygon splits is turned into cells where these are few.
+/// Octant cells are made from their paths rather than from the planes that the model gives them, except where several
+/// cells share a path (an octant divided by planes). They begin at the distance from which the model's orders hold: at
+/// its min_distance_m, or for OrderMethod::Paper, which has none, at sqrt(3) times the model's radius, so that no eye
+/// of them lies inside the radius.
 CellOrders cell_orders(const draworder::OrderedModel& ordered);
 
 /// The index of the cell that an eye uses; nothing when none contains it.

@@ -82,6 +82,27 @@ ViewRegion octant_region(const glm::dvec3& signs, double min_distance) {
     return *region.cut({signs / std::sqrt(3.0), -min_distance / std::sqrt(3.0)});
 }
 
+/// The planes of the cone from the origin over a triangle.
+std::vector<Plane> cone_of(const OctantTriangle& corners) {
+    const auto& [a, b, c] = corners;
+    return {through_origin(b, c, a), through_origin(c, a, b), through_origin(a, b, c)};
+}
+
+/// Walks down a tree of planes and collects for each cell the half-spaces that it is the intersection of.
+void collect_fronts(
+    const ViewSpaceTree& tree, int at, const std::vector<Plane>& so_far, std::vector<std::vector<Plane>>& fronts) {
+    if (at < 0) {
+        fronts[static_cast<std::size_t>(~at)] = so_far;
+        return;
+    }
+    const DrawOrder::Node& node = tree.nodes[static_cast<std::size_t>(at)];
+    std::vector<Plane> next = so_far;
+    next.push_back(node.plane);
+    collect_fronts(tree, node.front, next, fronts);
+    next.back() = {-node.plane.normal, -node.plane.offset_m};
+    collect_fronts(tree, node.back, next, fronts);
+}
+
 /// Divides the octants about the faces' origin until each cell has an order. Its functions return children as
 /// DrawOrder::Node has them: node numbers >= 0 or ~cell.
 class OctantDivider {
@@ -98,9 +119,75 @@ public:
     }
 
 private:
-    int octants(int first, int axis);
-    int divide(ViewCell node, const OctantTriangle& corners, const std::string& path, int level);
-    int by_planes(const ViewCell& node, const OctantTriangle& corners, const std::string& path);
+    /// The subtree of the octants that differ from `first` in the signs of axes 0 to `axis`.
+    int octants(int first, int axis) {
+        if (axis < 0) {
+            const glm::dvec3 signs = octant_signs(first);
+            const OctantTriangle corners{{{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
+            const ViewRegion region = octant_region(signs, min_distance_);
+            return divide(view_cell(graphs_, region), corners, octant_name(first), 0);
+        }
+        glm::dvec3 normal(0.0);
+        normal[axis] = 1.0;
+        const int at = add_node({normal, 0.0});
+        const int front = octants(first, axis - 1);
+        const int back = octants(first + (1 << axis), axis - 1);
+        found_.tree.nodes[static_cast<std::size_t>(at)].front = front;
+        found_.tree.nodes[static_cast<std::size_t>(at)].back = back;
+        return at;
+    }
+
+    /// The subtree of a cell, which is divided as far as it needs.
+    int divide(ViewCell node, const OctantTriangle& corners, const std::string& path, int level) {
+        WorkingModel& work = found_.work;
+        work.spend(search_units(node));
+        if (work.add_new_pieces(node)) { node = part_of(graphs_, node, node.region); }
+        while (const auto persistent_cycle = cycle_at_eye(graphs_, node)) {
+            work.spend(search_units(node));
+            work.resolve(*persistent_cycle);
+            work.add_new_pieces(node);
+            node = part_of(graphs_, node, node.region);
+        }
+        if (node.cycles.edges == 0) { return add_cell(list_of(graphs_, node), path, cone_of(corners)); }
+        if (level == max_levels) { return by_planes(node, corners, path); }
+        const auto parts = subdivided(corners);
+        std::array<int, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            at.at(i) = add_node(through_origin(parts[3][(i + 1) % 3], parts[3][(i + 2) % 3], corners.at(i)));
+        }
+        std::array<int, 4> child{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            work.add_new_pieces(node);
+            ViewRegion part = node.region;
+            for (const Plane& plane : cone_of(parts.at(i))) { part = *part.cut(plane); }
+            child.at(i) =
+                divide(part_of(graphs_, node, std::move(part)), parts.at(i), path + fmt::format("/{}", i), level + 1);
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            DrawOrder::Node& made = found_.tree.nodes[static_cast<std::size_t>(at.at(i))];
+            made.front = child.at(i);
+            made.back = i < 2 ? at.at(i + 1) : child[3];
+        }
+        return at[0];
+    }
+
+    /// The subtree of a quarter that is divided by planes.
+    int by_planes(const ViewCell& node, const OctantTriangle& corners, const std::string& path) {
+        ViewSpaceTree tree = view_space_tree(found_.work, node, {.plane_search = {.first_planes = axis_planes}});
+        const int first_node = static_cast<int>(found_.tree.nodes.size());
+        const int first_cell = static_cast<int>(found_.tree.lists.size());
+        const auto moved = [&](int child) { return child >= 0 ? first_node + child : ~(first_cell + ~child); };
+        for (const DrawOrder::Node& part : tree.nodes) {
+            found_.tree.nodes.push_back({part.plane, moved(part.front), moved(part.back)});
+        }
+        std::vector<std::vector<Plane>> fronts(tree.lists.size());
+        const int top = tree.nodes.empty() ? ~0 : 0;
+        collect_fronts(tree, top, cone_of(corners), fronts);
+        for (std::size_t i = 0; i < tree.lists.size(); ++i) {
+            add_cell(std::move(tree.lists[i]), path, std::move(fronts[i]));
+        }
+        return moved(top);
+    }
 
     int add_node(const Plane& plane) {
         found_.tree.nodes.push_back({plane, 0, 0});
@@ -122,97 +209,6 @@ private:
     std::size_t entries_ = 0;
     std::vector<std::size_t> made_at_; ///< For each cell the number of polygons when it was made.
 };
-
-/// The subtree of the octants that differ from `first` in the signs of axes 0 to `axis`.
-int OctantDivider::octants(int first, int axis) {
-    if (axis < 0) {
-        const glm::dvec3 signs = octant_signs(first);
-        const OctantTriangle corners{{{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
-        const ViewRegion region = octant_region(signs, min_distance_);
-        return divide(view_cell(graphs_, region), corners, octant_name(first), 0);
-    }
-    glm::dvec3 normal(0.0);
-    normal[axis] = 1.0;
-    const int at = add_node({normal, 0.0});
-    const int front = octants(first, axis - 1);
-    const int back = octants(first + (1 << axis), axis - 1);
-    found_.tree.nodes[static_cast<std::size_t>(at)].front = front;
-    found_.tree.nodes[static_cast<std::size_t>(at)].back = back;
-    return at;
-}
-
-/// The planes of the cone from the origin over a triangle.
-std::vector<Plane> cone_of(const OctantTriangle& corners) {
-    const auto& [a, b, c] = corners;
-    return {through_origin(b, c, a), through_origin(c, a, b), through_origin(a, b, c)};
-}
-
-/// The subtree of a cell, which is divided as far as it needs.
-int OctantDivider::divide(ViewCell node, const OctantTriangle& corners, const std::string& path, int level) {
-    WorkingModel& work = found_.work;
-    work.spend(search_units(node));
-    if (work.add_new_pieces(node)) { node = part_of(graphs_, node, node.region); }
-    while (const auto persistent_cycle = cycle_at_eye(graphs_, node)) {
-        work.spend(search_units(node));
-        work.resolve(*persistent_cycle);
-        work.add_new_pieces(node);
-        node = part_of(graphs_, node, node.region);
-    }
-    if (node.cycles.edges == 0) { return add_cell(list_of(graphs_, node), path, cone_of(corners)); }
-    if (level == max_levels) { return by_planes(node, corners, path); }
-    const auto parts = subdivided(corners);
-    std::array<int, 3> at{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        at.at(i) = add_node(through_origin(parts[3][(i + 1) % 3], parts[3][(i + 2) % 3], corners.at(i)));
-    }
-    std::array<int, 4> child{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        work.add_new_pieces(node);
-        ViewRegion part = node.region;
-        for (const Plane& plane : cone_of(parts.at(i))) { part = *part.cut(plane); }
-        child.at(i) =
-            divide(part_of(graphs_, node, std::move(part)), parts.at(i), path + fmt::format("/{}", i), level + 1);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        DrawOrder::Node& made = found_.tree.nodes[static_cast<std::size_t>(at.at(i))];
-        made.front = child.at(i);
-        made.back = i < 2 ? at.at(i + 1) : child[3];
-    }
-    return at[0];
-}
-
-/// Walks down a tree of planes and collects for each cell the half-spaces that it is the intersection of.
-void collect_fronts(
-    const ViewSpaceTree& tree, int at, const std::vector<Plane>& so_far, std::vector<std::vector<Plane>>& fronts) {
-    if (at < 0) {
-        fronts[static_cast<std::size_t>(~at)] = so_far;
-        return;
-    }
-    const DrawOrder::Node& node = tree.nodes[static_cast<std::size_t>(at)];
-    std::vector<Plane> next = so_far;
-    next.push_back(node.plane);
-    collect_fronts(tree, node.front, next, fronts);
-    next.back() = {-node.plane.normal, -node.plane.offset_m};
-    collect_fronts(tree, node.back, next, fronts);
-}
-
-/// The subtree of a quarter that is divided by planes.
-int OctantDivider::by_planes(const ViewCell& node, const OctantTriangle& corners, const std::string& path) {
-    ViewSpaceTree tree = view_space_tree(found_.work, node, {.plane_search = {.first_planes = axis_planes}});
-    const int first_node = static_cast<int>(found_.tree.nodes.size());
-    const int first_cell = static_cast<int>(found_.tree.lists.size());
-    const auto moved = [&](int child) { return child >= 0 ? first_node + child : ~(first_cell + ~child); };
-    for (const DrawOrder::Node& part : tree.nodes) {
-        found_.tree.nodes.push_back({part.plane, moved(part.front), moved(part.back)});
-    }
-    std::vector<std::vector<Plane>> fronts(tree.lists.size());
-    const int top = tree.nodes.empty() ? ~0 : 0;
-    collect_fronts(tree, top, cone_of(corners), fronts);
-    for (std::size_t i = 0; i < tree.lists.size(); ++i) {
-        add_cell(std::move(tree.lists[i]), path, std::move(fronts[i]));
-    }
-    return moved(top);
-}
 
 // Where octants should meet. The 1989 paper takes the origin of the object's axes. Its coordinate planes may cut badly
 // through the parts of an aircraft; shifted to run between them, they order more pairs, and fewer cells have to be

@@ -15,31 +15,6 @@ namespace octant::visuals::refine {
 
 namespace {
 
-/// The neighbourhoods that the two earlier rules store for each collapse, found by replaying all collapses of the mesh
-/// once.
-class ClassicSplitRules {
-public:
-    explicit ClassicSplitRules(const ProgressiveMesh& mesh);
-
-    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the two faces that the
-    /// collapse removed; `none` on a boundary. `node` is an inner node.
-    const std::array<std::uint32_t, 4>& adjacent_faces(std::uint32_t node) const {
-        return adjacent_faces_[node - leaves_];
-    }
-
-    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed, ascending.
-    std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
-
-    /// The inner node whose split adds an original face to the active mesh; `none` for a face of the base mesh.
-    std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
-
-private:
-    std::uint32_t leaves_;
-    std::vector<std::array<std::uint32_t, 4>> adjacent_faces_;
-    std::vector<std::vector<std::uint32_t>> rings_;
-    std::vector<std::uint32_t> introducers_;
-};
-
 /// The face other than `except` at the edge between two nodes; `none` on a boundary.
 std::uint32_t face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t except) {
     std::uint32_t across = none;
@@ -64,44 +39,67 @@ std::uint32_t third_vertex(const FaceLists& faces, std::uint32_t node, std::uint
     return third;
 }
 
-/// Starts from the original mesh and performs all collapses, finest first, on a FaceLists whose vertices are nodes.
-ClassicSplitRules::ClassicSplitRules(const ProgressiveMesh& mesh)
-    : leaves_(static_cast<std::uint32_t>(mesh.leaf_count())), introducers_(mesh.face_count(), none) {
-    FaceLists faces(mesh.node_count(), mesh.face_count());
-    for (std::uint32_t node = 0; node < mesh.node_count(); ++node) { faces.add_vertex(); }
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) { faces.add(mesh.faces()[face], face); }
-    adjacent_faces_.resize(mesh.node_count() - leaves_);
-    rings_.resize(adjacent_faces_.size());
-    const std::vector<std::uint32_t> order = mesh.coarsest_first();
-    for (auto at = order.rbegin(); at != order.rend(); ++at) {
-        const std::uint32_t node = *at;
-        const VertexSplit split = mesh.split_of(node);
-        auto& adjacent = adjacent_faces_[node - leaves_];
-        std::size_t k = 0;
-        for (const std::uint32_t face : {split.left_face, split.right_face}) {
-            adjacent[k] = none;
-            adjacent[k + 1] = none;
-            if (face != none) {
-                introducers_[face] = node;
-                const std::uint32_t cut = third_vertex(faces, split.first, split.second, face);
-                adjacent[k] = face_across(faces, split.first, cut, face);
-                adjacent[k + 1] = face_across(faces, split.second, cut, face);
-                faces.remove(faces.find(split.first, face));
+/// The neighbourhoods that the two earlier rules store for each collapse, found by replaying all collapses of the mesh
+/// once.
+class ClassicSplitRules {
+public:
+    /// Starts from the original mesh and performs all collapses, finest first, on a FaceLists whose vertices are nodes.
+    explicit ClassicSplitRules(const ProgressiveMesh& mesh)
+        : leaves_(static_cast<std::uint32_t>(mesh.leaf_count())), introducers_(mesh.face_count(), none) {
+        FaceLists faces(mesh.node_count(), mesh.face_count());
+        for (std::uint32_t node = 0; node < mesh.node_count(); ++node) { faces.add_vertex(); }
+        for (std::uint32_t face = 0; face < mesh.face_count(); ++face) { faces.add(mesh.faces()[face], face); }
+        adjacent_faces_.resize(mesh.node_count() - leaves_);
+        rings_.resize(adjacent_faces_.size());
+        const std::vector<std::uint32_t> order = mesh.coarsest_first();
+        for (auto at = order.rbegin(); at != order.rend(); ++at) {
+            const std::uint32_t node = *at;
+            const VertexSplit split = mesh.split_of(node);
+            auto& adjacent = adjacent_faces_[node - leaves_];
+            std::size_t k = 0;
+            for (const std::uint32_t face : {split.left_face, split.right_face}) {
+                adjacent[k] = none;
+                adjacent[k + 1] = none;
+                if (face != none) {
+                    introducers_[face] = node;
+                    const std::uint32_t cut = third_vertex(faces, split.first, split.second, face);
+                    adjacent[k] = face_across(faces, split.first, cut, face);
+                    adjacent[k + 1] = face_across(faces, split.second, cut, face);
+                    faces.remove(faces.find(split.first, face));
+                }
+                k += 2;
             }
-            k += 2;
+            for (const std::uint32_t child : {split.first, split.second}) {
+                faces.move_corners(child, node, [](std::uint32_t) { return true; });
+            }
+            std::vector<std::uint32_t>& ring = rings_[node - leaves_];
+            faces.for_each_corner(node, [&](std::uint32_t corner) {
+                ring.push_back(faces.vertex(FaceLists::next_in_face(corner)));
+                ring.push_back(faces.vertex(FaceLists::previous_in_face(corner)));
+            });
+            std::ranges::sort(ring);
+            ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
         }
-        for (const std::uint32_t child : {split.first, split.second}) {
-            faces.move_corners(child, node, [](std::uint32_t) { return true; });
-        }
-        std::vector<std::uint32_t>& ring = rings_[node - leaves_];
-        faces.for_each_corner(node, [&](std::uint32_t corner) {
-            ring.push_back(faces.vertex(FaceLists::next_in_face(corner)));
-            ring.push_back(faces.vertex(FaceLists::previous_in_face(corner)));
-        });
-        std::ranges::sort(ring);
-        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     }
-}
+
+    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the two faces that the
+    /// collapse removed; `none` on a boundary. `node` is an inner node.
+    const std::array<std::uint32_t, 4>& adjacent_faces(std::uint32_t node) const {
+        return adjacent_faces_[node - leaves_];
+    }
+
+    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed, ascending.
+    std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
+
+    /// The inner node whose split adds an original face to the active mesh; `none` for a face of the base mesh.
+    std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
+
+private:
+    std::uint32_t leaves_;
+    std::vector<std::array<std::uint32_t, 4>> adjacent_faces_;
+    std::vector<std::vector<std::uint32_t>> rings_;
+    std::vector<std::uint32_t> introducers_;
+};
 
 /// The introducer of one of the four faces next to the node's edge that is not in the active mesh yet.
 std::uint32_t required_by_hoppe(const ClassicSplitRules& rules, const SelectiveRefiner& refiner, std::uint32_t node) {

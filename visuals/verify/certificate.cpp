@@ -96,123 +96,113 @@ public:
     StructureReader(CertificateTokens& words, Certificate& made) : words_(words), made_(made) {}
 
     /// Reads the line at hand if it is one of these; false if its first word is another.
-    bool take();
+    bool take() {
+        return words_.skip("tolerance") ? read_tolerance()
+               : words_.skip("about")   ? read_reference()
+               : words_.skip("vertex")  ? read_vertex()
+               : words_.skip("axis")    ? read_axis()
+               : words_.skip("polygon") ? read_polygon(false)
+               : words_.skip("turning") ? read_polygon(true)
+               : words_.skip("list")    ? read_list()
+                                        : words_.skip("node") && read_node();
+    }
 
 private:
-    bool read_tolerance();
-    bool read_reference();
-    bool read_vertex();
-    bool read_axis();
-    bool read_polygon(bool turning);
-    bool read_list();
-    bool read_node();
-    int child(bool may_be_nothing, bool may_be_node);
+    bool read_tolerance() {
+        if (made_.tolerance > 0.0) { words_.refuse_next("one tolerance"); }
+        made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
+        return true;
+    }
+
+    /// The reference point changes nothing in the proof, so it is only checked.
+    bool read_reference() {
+        if (!made_.vertices.empty() || !made_.axes.empty()) { words_.refuse_next("'about' before all places"); }
+        words_.vector("a coordinate");
+        return true;
+    }
+
+    bool read_vertex() {
+        words_.add(made_.vertices, words_.vector("a coordinate"));
+        return true;
+    }
+
+    bool read_axis() {
+        const Vector point = words_.vector("a coordinate");
+        words_.add(made_.axes, {point, words_.unit_vector("a direction")});
+        return true;
+    }
+
+    bool read_polygon(bool turning) {
+        CertificatePolygon polygon;
+        polygon.line = words_.line_number();
+        if (turning) { polygon.axis = words_.index("an axis", made_.axes.size()); }
+        polygon.source = words_.index("a polygon of the model's file", max_entries);
+        polygon.plane = words_.plane();
+        while (!words_.is_at_end_of_line() || polygon.corners.size() < 3) {
+            polygon.corners.push_back(words_.index("a vertex", made_.vertices.size()));
+        }
+        words_.add(made_.polygons, std::move(polygon));
+        return true;
+    }
+
+    bool read_list() {
+        OrderList list;
+        list.line = words_.line_number();
+        std::vector<bool>& used = used_;
+        used.resize(made_.polygons.size());
+        while (!words_.is_at_end_of_line()) {
+            const std::uint32_t polygon = words_.index("a polygon", made_.polygons.size());
+            if (used[polygon]) { words_.refuse_last("each polygon once"); }
+            used[polygon] = true;
+            list.polygons.push_back(polygon);
+        }
+        for (const std::uint32_t polygon : list.polygons) { used[polygon] = false; }
+        words_.add(made_.lists, std::move(list));
+        return true;
+    }
+
+    bool read_node() {
+        OrderNode node;
+        node.line = words_.line_number();
+        const bool sequence = words_.skip("sequence");
+        const bool parting = !sequence && words_.skip("parting");
+        if (!sequence && !parting && !words_.skip("choice")) { words_.refuse_next("choice, parting or sequence"); }
+        node.kind = sequence  ? OrderNode::Kind::Sequence
+                    : parting ? OrderNode::Kind::PolygonSplit
+                              : OrderNode::Kind::ViewSplit;
+        if (!sequence) { node.plane = words_.plane(); }
+        const auto side = [&] {
+            return sequence || parting        ? child(true, true)
+                   : words_.skip("unclaimed") ? OrderNode::not_covered
+                                              : child(false, true);
+        };
+        node.front = side();
+        node.back = side();
+        if (parting) {
+            node.coplanar_front = child(true, false);
+            node.coplanar_back = child(true, false);
+        }
+        words_.add(made_.nodes, std::move(node));
+        return true;
+    }
+
+    /// A child; whether it is there is known only when all are read.
+    int child(bool may_be_nothing, bool may_be_node) {
+        if (may_be_nothing && words_.skip("nothing")) { return OrderNode::nothing; }
+        if (words_.skip("list")) { return ~static_cast<int>(words_.index("a list", max_entries)); }
+        if (!may_be_node || !words_.skip("node")) {
+            words_.refuse_next(
+                fmt::format("{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
+        }
+        const std::uint32_t number = words_.index("a node", max_entries);
+        if (number <= made_.nodes.size()) { words_.refuse_last("a later node"); }
+        return static_cast<int>(number);
+    }
 
     CertificateTokens& words_;
     Certificate& made_;
     std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
 };
-
-bool StructureReader::take() {
-    return words_.skip("tolerance") ? read_tolerance()
-           : words_.skip("about")   ? read_reference()
-           : words_.skip("vertex")  ? read_vertex()
-           : words_.skip("axis")    ? read_axis()
-           : words_.skip("polygon") ? read_polygon(false)
-           : words_.skip("turning") ? read_polygon(true)
-           : words_.skip("list")    ? read_list()
-                                    : words_.skip("node") && read_node();
-}
-
-bool StructureReader::read_tolerance() {
-    if (made_.tolerance > 0.0) { words_.refuse_next("one tolerance"); }
-    made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
-    return true;
-}
-
-/// The reference point changes nothing in the proof, so it is only checked.
-bool StructureReader::read_reference() {
-    if (!made_.vertices.empty() || !made_.axes.empty()) { words_.refuse_next("'about' before all places"); }
-    words_.vector("a coordinate");
-    return true;
-}
-
-bool StructureReader::read_vertex() {
-    words_.add(made_.vertices, words_.vector("a coordinate"));
-    return true;
-}
-
-bool StructureReader::read_axis() {
-    const Vector point = words_.vector("a coordinate");
-    words_.add(made_.axes, {point, words_.unit_vector("a direction")});
-    return true;
-}
-
-bool StructureReader::read_polygon(bool turning) {
-    CertificatePolygon polygon;
-    polygon.line = words_.line_number();
-    if (turning) { polygon.axis = words_.index("an axis", made_.axes.size()); }
-    polygon.source = words_.index("a polygon of the model's file", max_entries);
-    polygon.plane = words_.plane();
-    while (!words_.is_at_end_of_line() || polygon.corners.size() < 3) {
-        polygon.corners.push_back(words_.index("a vertex", made_.vertices.size()));
-    }
-    words_.add(made_.polygons, std::move(polygon));
-    return true;
-}
-
-bool StructureReader::read_list() {
-    OrderList list;
-    list.line = words_.line_number();
-    std::vector<bool>& used = used_;
-    used.resize(made_.polygons.size());
-    while (!words_.is_at_end_of_line()) {
-        const std::uint32_t polygon = words_.index("a polygon", made_.polygons.size());
-        if (used[polygon]) { words_.refuse_last("each polygon once"); }
-        used[polygon] = true;
-        list.polygons.push_back(polygon);
-    }
-    for (const std::uint32_t polygon : list.polygons) { used[polygon] = false; }
-    words_.add(made_.lists, std::move(list));
-    return true;
-}
-
-bool StructureReader::read_node() {
-    OrderNode node;
-    node.line = words_.line_number();
-    const bool sequence = words_.skip("sequence");
-    const bool parting = !sequence && words_.skip("parting");
-    if (!sequence && !parting && !words_.skip("choice")) { words_.refuse_next("choice, parting or sequence"); }
-    node.kind = sequence  ? OrderNode::Kind::Sequence
-                : parting ? OrderNode::Kind::PolygonSplit
-                          : OrderNode::Kind::ViewSplit;
-    if (!sequence) { node.plane = words_.plane(); }
-    const auto side = [&] {
-        return sequence || parting        ? child(true, true)
-               : words_.skip("unclaimed") ? OrderNode::not_covered
-                                          : child(false, true);
-    };
-    node.front = side();
-    node.back = side();
-    if (parting) {
-        node.coplanar_front = child(true, false);
-        node.coplanar_back = child(true, false);
-    }
-    words_.add(made_.nodes, std::move(node));
-    return true;
-}
-
-/// A child; whether it is there is known only when all are read.
-int StructureReader::child(bool may_be_nothing, bool may_be_node) {
-    if (may_be_nothing && words_.skip("nothing")) { return OrderNode::nothing; }
-    if (words_.skip("list")) { return ~static_cast<int>(words_.index("a list", max_entries)); }
-    if (!may_be_node || !words_.skip("node")) {
-        words_.refuse_next(fmt::format("{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
-    }
-    const std::uint32_t number = words_.index("a node", max_entries);
-    if (number <= made_.nodes.size()) { words_.refuse_last("a later node"); }
-    return static_cast<int>(number);
-}
 
 /// The number of region planes of each node and list of a certificate: one for each view split above it.
 struct RegionPlaneCounts {
@@ -292,18 +282,98 @@ public:
         : words_(words), made_(made), region_plane_counts_(std::move(region_planes)) {}
 
     /// Reads what follows the first word of a statement.
-    void take(StatementKind kind);
+    void take(StatementKind kind) {
+        Statements& statements = current_statements();
+        const std::uint32_t polygon = this->polygon();
+        switch (kind) {
+        case StatementKind::Pairs:
+            return read_row(statements, polygon);
+        case StatementKind::Sum:
+            return read_factors(statements, PairStatement::Kind::Sum, polygon);
+        case StatementKind::Never:
+            return read_factors(statements, PairStatement::Kind::Never, polygon);
+        case StatementKind::Away:
+            return read_back_facing(statements, polygon);
+        case StatementKind::Unproved:
+            return read_unproved(statements, polygon);
+        }
+    }
 
 private:
-    Statements& current_statements();
-    void read_factors(Statements& statements, PairStatement::Kind kind, std::uint32_t polygon);
-    std::uint32_t polygon();
-    double factor();
-    void read_region_planes(StatedFactors& factors);
-    void read_back_facing(Statements& statements, std::uint32_t polygon);
-    void read_unproved(Statements& statements, std::uint32_t polygon);
-    void read_row(Statements& statements, std::uint32_t later);
-    DeciderRun run();
+    /// The statements of the list or node that the line names next.
+    Statements& current_statements() {
+        const bool of_list = words_.skip("list");
+        if (!of_list && !words_.skip("node")) { words_.refuse_next("list or node"); }
+        const std::uint32_t number =
+            of_list ? words_.index("a list", made_.lists.size()) : words_.index("a node", made_.nodes.size());
+        current_region_plane_count_ =
+            of_list ? region_plane_counts_.by_list[number] : region_plane_counts_.by_node[number];
+        return of_list ? made_.by_list[number] : made_.by_node[number];
+    }
+
+    void read_factors(Statements& statements, PairStatement::Kind kind, std::uint32_t polygon) {
+        PairStatement statement;
+        statement.kind = kind;
+        statement.pair = {polygon, this->polygon()};
+        statement.line = words_.line_number();
+        statement.factors.earlier = factor();
+        statement.factors.later = factor();
+        read_region_planes(statement.factors);
+        words_.add(statements.pairs, std::move(statement));
+    }
+
+    std::uint32_t polygon() { return words_.index("a polygon", made_.polygons.size()); }
+
+    double factor() { return words_.number("a factor", 0.0, largest_number); }
+
+    /// The factor of 1 and those of the region planes.
+    void read_region_planes(StatedFactors& factors) {
+        factors.one = factor();
+        for (std::size_t i = 0; i < current_region_plane_count_; ++i) { factors.region_planes.push_back(factor()); }
+    }
+
+    void read_back_facing(Statements& statements, std::uint32_t polygon) {
+        BackFacingStatement statement;
+        statement.line = words_.line_number();
+        statement.factors.earlier = 1.0;
+        read_region_planes(statement.factors);
+        if (!statements.away.emplace(polygon, std::move(statement)).second) { words_.refuse_last("each polygon once"); }
+    }
+
+    /// A polygon or a pair without a proof.
+    void read_unproved(Statements& statements, std::uint32_t polygon) {
+        ++made_.unproved;
+        made_.first_unproved = made_.first_unproved.value_or(words_.line_number());
+        if (words_.is_at_end_of_line()) {
+            statements.unproved.emplace(polygon, words_.line_number());
+        } else {
+            words_.add(statements.pairs,
+                {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line_number()});
+        }
+    }
+
+    void read_row(Statements& statements, std::uint32_t later) {
+        PairRow row;
+        row.later = later;
+        row.line = words_.line_number();
+        while (!words_.is_at_end_of_line()) { row.runs.push_back(run()); }
+        words_.add(statements.rows, std::move(row));
+    }
+
+    /// Reads a count and a letter.
+    DeciderRun run() {
+        const std::string_view word = words_.word("a run of pairs");
+        const auto count = whole_number(word.substr(0, word.size() - 1));
+        const char letter = word.back();
+        const bool known = letter == 'e' || letter == 'l' || letter == '-';
+        if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > max_entries) {
+            words_.refuse_last("a count with e, l or -");
+        }
+        return {letter == 'e'   ? DeciderRun::By::Earlier
+                : letter == 'l' ? DeciderRun::By::Later
+                                : DeciderRun::By::Elsewhere,
+            static_cast<std::uint32_t>(*count)};
+    }
 
     CertificateTokens& words_;
     Certificate& made_;
@@ -320,97 +390,6 @@ std::optional<StatementKind> read_statement_kind(CertificateTokens& words) {
         if (words.skip(word)) { return kind; }
     }
     return std::nullopt;
-}
-
-void StatementReader::take(StatementKind kind) {
-    Statements& statements = current_statements();
-    const std::uint32_t polygon = this->polygon();
-    switch (kind) {
-    case StatementKind::Pairs:
-        return read_row(statements, polygon);
-    case StatementKind::Sum:
-        return read_factors(statements, PairStatement::Kind::Sum, polygon);
-    case StatementKind::Never:
-        return read_factors(statements, PairStatement::Kind::Never, polygon);
-    case StatementKind::Away:
-        return read_back_facing(statements, polygon);
-    case StatementKind::Unproved:
-        return read_unproved(statements, polygon);
-    }
-}
-
-/// The statements of the list or node that the line names next.
-Statements& StatementReader::current_statements() {
-    const bool of_list = words_.skip("list");
-    if (!of_list && !words_.skip("node")) { words_.refuse_next("list or node"); }
-    const std::uint32_t number =
-        of_list ? words_.index("a list", made_.lists.size()) : words_.index("a node", made_.nodes.size());
-    current_region_plane_count_ = of_list ? region_plane_counts_.by_list[number] : region_plane_counts_.by_node[number];
-    return of_list ? made_.by_list[number] : made_.by_node[number];
-}
-
-std::uint32_t StatementReader::polygon() { return words_.index("a polygon", made_.polygons.size()); }
-
-void StatementReader::read_factors(Statements& statements, PairStatement::Kind kind, std::uint32_t polygon) {
-    PairStatement statement;
-    statement.kind = kind;
-    statement.pair = {polygon, this->polygon()};
-    statement.line = words_.line_number();
-    statement.factors.earlier = factor();
-    statement.factors.later = factor();
-    read_region_planes(statement.factors);
-    words_.add(statements.pairs, std::move(statement));
-}
-
-double StatementReader::factor() { return words_.number("a factor", 0.0, largest_number); }
-
-/// The factor of 1 and those of the region planes.
-void StatementReader::read_region_planes(StatedFactors& factors) {
-    factors.one = factor();
-    for (std::size_t i = 0; i < current_region_plane_count_; ++i) { factors.region_planes.push_back(factor()); }
-}
-
-void StatementReader::read_back_facing(Statements& statements, std::uint32_t polygon) {
-    BackFacingStatement statement;
-    statement.line = words_.line_number();
-    statement.factors.earlier = 1.0;
-    read_region_planes(statement.factors);
-    if (!statements.away.emplace(polygon, std::move(statement)).second) { words_.refuse_last("each polygon once"); }
-}
-
-/// A polygon or a pair without a proof.
-void StatementReader::read_unproved(Statements& statements, std::uint32_t polygon) {
-    ++made_.unproved;
-    made_.first_unproved = made_.first_unproved.value_or(words_.line_number());
-    if (words_.is_at_end_of_line()) {
-        statements.unproved.emplace(polygon, words_.line_number());
-    } else {
-        words_.add(
-            statements.pairs, {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line_number()});
-    }
-}
-
-void StatementReader::read_row(Statements& statements, std::uint32_t later) {
-    PairRow row;
-    row.later = later;
-    row.line = words_.line_number();
-    while (!words_.is_at_end_of_line()) { row.runs.push_back(run()); }
-    words_.add(statements.rows, std::move(row));
-}
-
-/// Reads a count and a letter.
-DeciderRun StatementReader::run() {
-    const std::string_view word = words_.word("a run of pairs");
-    const auto count = whole_number(word.substr(0, word.size() - 1));
-    const char letter = word.back();
-    const bool known = letter == 'e' || letter == 'l' || letter == '-';
-    if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > max_entries) {
-        words_.refuse_last("a count with e, l or -");
-    }
-    return {letter == 'e'   ? DeciderRun::By::Earlier
-            : letter == 'l' ? DeciderRun::By::Later
-                            : DeciderRun::By::Elsewhere,
-        static_cast<std::uint32_t>(*count)};
 }
 
 constexpr std::size_t largest_bytes = std::size_t{2} << 30;

@@ -27,10 +27,54 @@ namespace {
 /// The polygons below each node of a tree.
 class TreeContents {
 public:
-    explicit TreeContents(const Certificate& certificate);
+    explicit
+
+        TreeContents(const Certificate& certificate)
+        : by_node_(certificate.nodes.size()), by_list_(certificate.lists.size()) {
+        /// A node or list, and whether all below it has been gone through.
+        struct Visit {
+            int child = 0;
+            bool leaves = false;
+        };
+
+        std::vector<Visit> to_do{{certificate.nodes.empty() ? ~0 : 0, false}};
+        while (!to_do.empty()) {
+            const Visit visit = to_do.back();
+            to_do.pop_back();
+            if (OrderNode::is_empty(visit.child)) { continue; }
+            if (visit.child < 0) {
+                const auto list = static_cast<std::size_t>(~visit.child);
+                const auto& polygons = certificate.lists[list].polygons;
+                by_list_[list].first = entries_.size();
+                entries_.insert(entries_.end(), polygons.begin(), polygons.end());
+                by_list_[list].end = entries_.size();
+                continue;
+            }
+            const auto number = static_cast<std::size_t>(visit.child);
+            if (visit.leaves) {
+                by_node_[number].end = entries_.size();
+                continue;
+            }
+            by_node_[number].first = entries_.size();
+            const OrderNode& node = certificate.nodes[number];
+            to_do.push_back({visit.child, true});
+            for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) {
+                to_do.push_back({child, false});
+            }
+        }
+    }
 
     /// The polygons that are painted for some eye in a child, ascending.
-    std::vector<std::uint32_t> of(int child) const;
+    std::vector<std::uint32_t> of(int child) const {
+        if (OrderNode::is_empty(child)) { return {}; }
+        const Range range =
+            child < 0 ? by_list_[static_cast<std::size_t>(~child)] : by_node_[static_cast<std::size_t>(child)];
+        std::vector<std::uint32_t> polygons(entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
+            entries_.begin() + static_cast<std::ptrdiff_t>(range.end));
+        std::ranges::sort(polygons);
+        polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+        return polygons;
+    }
 
 private:
     /// A range of entries_.
@@ -43,52 +87,6 @@ private:
     std::vector<Range> by_node_;
     std::vector<Range> by_list_;
 };
-
-TreeContents::TreeContents(const Certificate& certificate)
-    : by_node_(certificate.nodes.size()), by_list_(certificate.lists.size()) {
-    /// A node or list, and whether all below it has been gone through.
-    struct Visit {
-        int child = 0;
-        bool leaves = false;
-    };
-
-    std::vector<Visit> to_do{{certificate.nodes.empty() ? ~0 : 0, false}};
-    while (!to_do.empty()) {
-        const Visit visit = to_do.back();
-        to_do.pop_back();
-        if (OrderNode::is_empty(visit.child)) { continue; }
-        if (visit.child < 0) {
-            const auto list = static_cast<std::size_t>(~visit.child);
-            const auto& polygons = certificate.lists[list].polygons;
-            by_list_[list].first = entries_.size();
-            entries_.insert(entries_.end(), polygons.begin(), polygons.end());
-            by_list_[list].end = entries_.size();
-            continue;
-        }
-        const auto number = static_cast<std::size_t>(visit.child);
-        if (visit.leaves) {
-            by_node_[number].end = entries_.size();
-            continue;
-        }
-        by_node_[number].first = entries_.size();
-        const OrderNode& node = certificate.nodes[number];
-        to_do.push_back({visit.child, true});
-        for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) {
-            to_do.push_back({child, false});
-        }
-    }
-}
-
-std::vector<std::uint32_t> TreeContents::of(int child) const {
-    if (OrderNode::is_empty(child)) { return {}; }
-    const Range range =
-        child < 0 ? by_list_[static_cast<std::size_t>(~child)] : by_node_[static_cast<std::size_t>(child)];
-    std::vector<std::uint32_t> polygons(entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
-        entries_.begin() + static_cast<std::ptrdiff_t>(range.end));
-    std::ranges::sort(polygons);
-    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-    return polygons;
-}
 
 /// A set of polygons.
 class PolygonSet {
@@ -120,60 +118,50 @@ class ProvedPairs {
 public:
     explicit ProvedPairs(std::size_t polygons) : polygons_(polygons) {}
 
-    void add(const PolygonPair& pair);
+    void add(const PolygonPair& pair) { row(pair.later).add(pair.earlier); }
 
     /// Adds what a plane proves that all eyes are before: whatever is behind it hides nothing of whatever is before it.
-    void add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides);
+    void add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides) {
+        const WrittenPlane back = reversed(wall);
+        PolygonSet behind(polygons_);
+        for (std::uint32_t i = 0; i < polygons_; ++i) {
+            if (sides.is_behind(i, wall, PartAngle::Turning)) { behind.add(i); }
+        }
+        for (std::uint32_t i = 0; i < polygons_; ++i) {
+            if (!sides.is_behind(i, back, PartAngle::Turning)) { continue; }
+            // Polygons that turn together see the plane turn.
+            const auto& axis = certificate.polygons[i].axis;
+            if (!axis) {
+                row(i).add(behind);
+                continue;
+            }
+            for (std::uint32_t earlier = 0; earlier < polygons_; ++earlier) {
+                if (behind.has(earlier) && certificate.polygons[earlier].axis != axis) { row(i).add(earlier); }
+            }
+        }
+    }
 
     /// Whether all of `painted` hide nothing of a polygon.
-    bool decide(const PolygonSet& painted, std::uint32_t later) const;
+    bool decide(const PolygonSet& painted, std::uint32_t later) const {
+        const auto known = rows_.find(later);
+        return known != rows_.end() && painted.is_subset_of(known->second);
+    }
 
     /// The first polygon of which that is not known; there is one (asserted).
-    std::uint32_t first_open(std::span<const std::uint32_t> painted, std::uint32_t later) const;
+    std::uint32_t first_open(std::span<const std::uint32_t> painted, std::uint32_t later) const {
+        const auto known = rows_.find(later);
+        const auto open = std::ranges::find_if(
+            painted, [&](std::uint32_t earlier) { return known == rows_.end() || !known->second.has(earlier); });
+        assert(open != painted.end());
+        return *open;
+    }
 
 private:
-    PolygonSet& row(std::uint32_t later);
+    PolygonSet& row(std::uint32_t later) { return rows_.try_emplace(later, polygons_).first->second; }
 
     std::size_t polygons_;
     std::unordered_map<std::uint32_t, PolygonSet> rows_; ///< By the later polygon.
 };
-
-PolygonSet& ProvedPairs::row(std::uint32_t later) { return rows_.try_emplace(later, polygons_).first->second; }
-
-void ProvedPairs::add(const PolygonPair& pair) { row(pair.later).add(pair.earlier); }
-
-void ProvedPairs::add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides) {
-    const WrittenPlane back = reversed(wall);
-    PolygonSet behind(polygons_);
-    for (std::uint32_t i = 0; i < polygons_; ++i) {
-        if (sides.is_behind(i, wall, PartAngle::Turning)) { behind.add(i); }
-    }
-    for (std::uint32_t i = 0; i < polygons_; ++i) {
-        if (!sides.is_behind(i, back, PartAngle::Turning)) { continue; }
-        // Polygons that turn together see the plane turn.
-        const auto& axis = certificate.polygons[i].axis;
-        if (!axis) {
-            row(i).add(behind);
-            continue;
-        }
-        for (std::uint32_t earlier = 0; earlier < polygons_; ++earlier) {
-            if (behind.has(earlier) && certificate.polygons[earlier].axis != axis) { row(i).add(earlier); }
-        }
-    }
-}
-
-bool ProvedPairs::decide(const PolygonSet& painted, std::uint32_t later) const {
-    const auto known = rows_.find(later);
-    return known != rows_.end() && painted.is_subset_of(known->second);
-}
-
-std::uint32_t ProvedPairs::first_open(std::span<const std::uint32_t> painted, std::uint32_t later) const {
-    const auto known = rows_.find(later);
-    const auto open = std::ranges::find_if(
-        painted, [&](std::uint32_t earlier) { return known == rows_.end() || !known->second.has(earlier); });
-    assert(open != painted.end());
-    return *open;
-}
 
 /// The region of the eyes of a list or node: it is in front of all of these planes.
 using RegionPlanes = std::vector<WrittenPlane>;
@@ -185,17 +173,42 @@ public:
     PairCheck(const Certificate& certificate, const ExactSides& sides) : certificate_(certificate), sides_(sides) {}
 
     /// That the plane of the earlier polygon has the later one before it.
-    void check_earlier(const PolygonPair& pair, int line) const;
+    void check_earlier(const PolygonPair& pair, int line) const {
+        const PartAngle pose = pose_of(pair);
+        require_fixed_plane(pair.earlier, pose, line);
+        if (!sides_.is_before(pair.later, certificate_.polygons[pair.earlier].plane, pose)) {
+            throw InvalidCertificate{
+                line, fmt::format("expected polygon {} before the plane of polygon {}, got a corner behind it",
+                          pair.later, pair.earlier)};
+        }
+    }
 
     /// That the plane of the later polygon has the earlier one behind it.
-    void check_later(const PolygonPair& pair, int line) const;
+    void check_later(const PolygonPair& pair, int line) const {
+        const PartAngle pose = pose_of(pair);
+        require_fixed_plane(pair.later, pose, line);
+        if (!sides_.is_behind(pair.earlier, certificate_.polygons[pair.later].plane, pose)) {
+            throw InvalidCertificate{
+                line, fmt::format("expected polygon {} behind the plane of polygon {}, got a corner before it",
+                          pair.earlier, pair.later)};
+        }
+    }
 
     /// The statement for the eyes before all region planes; Kind::Unproved needs no check.
-    void check(const PairStatement& statement, const RegionPlanes& region_planes) const;
+    void check(const PairStatement& statement, const RegionPlanes& region_planes) const {
+        const Sum sum{statement.pair, pose_of(statement.pair), statement.factors, region_planes, statement.line};
+        if (statement.kind == PairStatement::Kind::Sum) {
+            check_separates(sum);
+        } else if (statement.kind == PairStatement::Kind::Never) {
+            check_never(sum);
+        }
+    }
 
     /// That a polygon faces away from every eye before all region planes.
     void check_away(
-        std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const;
+        std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const {
+        check_never({{polygon, polygon}, PartAngle::Turning, statement.factors, region_planes, statement.line});
+    }
 
 private:
     /// Factors that are stated for a pair.
@@ -207,114 +220,75 @@ private:
         int line;
     };
 
-    PartAngle pose_of(const PolygonPair& pair) const;
-    void require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const;
-    ExactPlane plane_of(const Sum& sum) const;
-    void check_separates(const Sum& sum) const;
-    void check_never(const Sum& sum) const;
+    /// Polygons that turn together stand still to one another.
+    PartAngle pose_of(const PolygonPair& pair) const {
+        const auto& axis = certificate_.polygons[pair.earlier].axis;
+        const bool together = axis && axis == certificate_.polygons[pair.later].axis;
+        return together ? PartAngle::Standing : PartAngle::Turning;
+    }
+
+    void require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const {
+        if (!sides_.has_fixed_plane(polygon, pose)) {
+            throw InvalidCertificate{
+                line, fmt::format(
+                          "expected a witness without the plane of polygon {}, which turns, got one with it", polygon)};
+        }
+    }
+
+    ExactPlane plane_of(const Sum& sum) const {
+        ExactPlane plane;
+        const auto add_front = [&](double factor, std::uint32_t polygon) {
+            if (factor > 0.0) {
+                require_fixed_plane(polygon, sum.pose, sum.line);
+                add(plane, factor, exact(certificate_.polygons[polygon].plane));
+            }
+        };
+        add_front(sum.factors.earlier, sum.pair.earlier);
+        add_front(sum.factors.later, sum.pair.later);
+        const auto& axis = certificate_.polygons[sum.pair.earlier].axis;
+        for (std::size_t i = 0; i < sum.region_planes.size(); ++i) {
+            const double factor = sum.factors.region_planes[i];
+            if (factor > 0.0 && sum.pose == PartAngle::Standing && axis &&
+                !is_across(sum.region_planes[i], certificate_.axes[*axis])) {
+                throw InvalidCertificate{
+                    sum.line, fmt::format("expected a witness without wall {}, which polygons {} and {} see turn, got "
+                                          "one with it",
+                                  i, sum.pair.earlier, sum.pair.later)};
+            }
+            add(plane, factor, exact(sum.region_planes[i]));
+        }
+        plane.offset += Rational(sum.factors.one);
+        return plane;
+    }
+
+    void check_separates(const Sum& sum) const {
+        const ExactPlane plane = plane_of(sum);
+        const auto refuse = [&](std::uint32_t polygon, const char* expected, const char* got) {
+            throw InvalidCertificate{
+                sum.line, fmt::format("expected factors of a plane with polygon {} {} it, got a corner {} it", polygon,
+                              expected, got)};
+        };
+        if (largest(plane.normal) == 0) {
+            throw InvalidCertificate{sum.line, "expected factors that make a plane, got none"};
+        }
+        if (!sides_.is_behind(sum.pair.earlier, plane, sum.pose)) { refuse(sum.pair.earlier, "behind", "before"); }
+        if (!sides_.is_before(sum.pair.later, plane, sum.pose)) { refuse(sum.pair.later, "before", "behind"); }
+    }
+
+    void check_never(const Sum& sum) const {
+        const StatedFactors& factors = sum.factors;
+        const bool enough = Rational(factors.earlier) + Rational(factors.later) >= 1;
+        if (!enough || !sides_.is_impossible(plane_of(sum))) {
+            throw InvalidCertificate{sum.line,
+                fmt::format("expected factors that leave no eye before the planes of polygons {} and {}, got a "
+                            "sum that is not negative everywhere",
+                    sum.pair.earlier, sum.pair.later)};
+        }
+    }
 
     const Certificate& certificate_;
     const ExactSides& sides_;
 };
-
-/// Polygons that turn together stand still to one another.
-PartAngle PairCheck::pose_of(const PolygonPair& pair) const {
-    const auto& axis = certificate_.polygons[pair.earlier].axis;
-    const bool together = axis && axis == certificate_.polygons[pair.later].axis;
-    return together ? PartAngle::Standing : PartAngle::Turning;
-}
-
-void PairCheck::require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const {
-    if (!sides_.has_fixed_plane(polygon, pose)) {
-        throw InvalidCertificate{line,
-            fmt::format("expected a witness without the plane of polygon {}, which turns, got one with it", polygon)};
-    }
-}
-
-void PairCheck::check_earlier(const PolygonPair& pair, int line) const {
-    const PartAngle pose = pose_of(pair);
-    require_fixed_plane(pair.earlier, pose, line);
-    if (!sides_.is_before(pair.later, certificate_.polygons[pair.earlier].plane, pose)) {
-        throw InvalidCertificate{
-            line, fmt::format("expected polygon {} before the plane of polygon {}, got a corner behind it", pair.later,
-                      pair.earlier)};
-    }
-}
-
-void PairCheck::check_later(const PolygonPair& pair, int line) const {
-    const PartAngle pose = pose_of(pair);
-    require_fixed_plane(pair.later, pose, line);
-    if (!sides_.is_behind(pair.earlier, certificate_.polygons[pair.later].plane, pose)) {
-        throw InvalidCertificate{
-            line, fmt::format("expected polygon {} behind the plane of polygon {}, got a corner before it",
-                      pair.earlier, pair.later)};
-    }
-}
-
-void PairCheck::check(const PairStatement& statement, const RegionPlanes& region_planes) const {
-    const Sum sum{statement.pair, pose_of(statement.pair), statement.factors, region_planes, statement.line};
-    if (statement.kind == PairStatement::Kind::Sum) {
-        check_separates(sum);
-    } else if (statement.kind == PairStatement::Kind::Never) {
-        check_never(sum);
-    }
-}
-
-void PairCheck::check_away(
-    std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const {
-    check_never({{polygon, polygon}, PartAngle::Turning, statement.factors, region_planes, statement.line});
-}
-
-ExactPlane PairCheck::plane_of(const Sum& sum) const {
-    ExactPlane plane;
-    const auto add_front = [&](double factor, std::uint32_t polygon) {
-        if (factor > 0.0) {
-            require_fixed_plane(polygon, sum.pose, sum.line);
-            add(plane, factor, exact(certificate_.polygons[polygon].plane));
-        }
-    };
-    add_front(sum.factors.earlier, sum.pair.earlier);
-    add_front(sum.factors.later, sum.pair.later);
-    const auto& axis = certificate_.polygons[sum.pair.earlier].axis;
-    for (std::size_t i = 0; i < sum.region_planes.size(); ++i) {
-        const double factor = sum.factors.region_planes[i];
-        if (factor > 0.0 && sum.pose == PartAngle::Standing && axis &&
-            !is_across(sum.region_planes[i], certificate_.axes[*axis])) {
-            throw InvalidCertificate{
-                sum.line, fmt::format("expected a witness without wall {}, which polygons {} and {} see turn, got "
-                                      "one with it",
-                              i, sum.pair.earlier, sum.pair.later)};
-        }
-        add(plane, factor, exact(sum.region_planes[i]));
-    }
-    plane.offset += Rational(sum.factors.one);
-    return plane;
-}
-
-void PairCheck::check_separates(const Sum& sum) const {
-    const ExactPlane plane = plane_of(sum);
-    const auto refuse = [&](std::uint32_t polygon, const char* expected, const char* got) {
-        throw InvalidCertificate{
-            sum.line, fmt::format("expected factors of a plane with polygon {} {} it, got a corner {} it", polygon,
-                          expected, got)};
-    };
-    if (largest(plane.normal) == 0) {
-        throw InvalidCertificate{sum.line, "expected factors that make a plane, got none"};
-    }
-    if (!sides_.is_behind(sum.pair.earlier, plane, sum.pose)) { refuse(sum.pair.earlier, "behind", "before"); }
-    if (!sides_.is_before(sum.pair.later, plane, sum.pose)) { refuse(sum.pair.later, "before", "behind"); }
-}
-
-void PairCheck::check_never(const Sum& sum) const {
-    const StatedFactors& factors = sum.factors;
-    const bool enough = Rational(factors.earlier) + Rational(factors.later) >= 1;
-    if (!enough || !sides_.is_impossible(plane_of(sum))) {
-        throw InvalidCertificate{
-            sum.line, fmt::format("expected factors that leave no eye before the planes of polygons {} and {}, got a "
-                                  "sum that is not negative everywhere",
-                          sum.pair.earlier, sum.pair.later)};
-    }
-}
 
 /// The earlier polygons of which a row of pairs speaks, by the later one; nothing where there should be no such row.
 using EarlierOf = std::function<std::optional<std::span<const std::uint32_t>>(std::uint32_t later)>;
@@ -359,35 +333,6 @@ void check_statements(const PairCheck& check, const Statements& statements, cons
         counts.never_both_visible += statement.kind == PairStatement::Kind::Never ? 1 : 0;
     }
 }
-
-/// Checks that each polygon is painted where it can be seen, once, and over those of its own plane that it is to cover.
-/// Throws InvalidCertificate. Keeps references.
-class PaintedCheck {
-public:
-    PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check);
-
-    /// That in a child nothing is painted but what is expected, and that what is expected and not painted faces away
-    /// from all eyes before the region planes. Returns how many do.
-    std::uint64_t require_painted(int child, std::span<const std::uint32_t> expected,
-        std::span<const std::uint32_t> painted, const RegionPlanes& region_planes);
-
-    /// That no polygon lies in two parts of a node, front, back, along and against, but for flat ones in its plane that
-    /// are seen from both sides.
-    void require_disjoint(int line, const std::array<std::span<const std::uint32_t>, 4>& parts);
-
-    /// That in a list what overlaps in one plane is painted as the model's file has it.
-    void require_layer_order(std::span<const std::uint32_t> list, int line) const;
-
-    /// The same for all of one part painted before all of another.
-    void require_layer_order(
-        std::span<const std::uint32_t> first, std::span<const std::uint32_t> later, int line) const;
-
-private:
-    const Certificate& certificate_;
-    const PairCheck& pair_check_;
-    std::vector<PolygonPair> coplanar_layer_pairs_;
-    std::vector<char> mark_; ///< One for each polygon; all are 0 between checks.
-};
 
 struct Box {
     Vector least{};
@@ -460,68 +405,87 @@ std::unordered_map<std::uint32_t, std::size_t> places_of(std::span<const std::ui
     return places;
 }
 
-PaintedCheck::PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check)
-    : certificate_(certificate), pair_check_(pair_check),
-      coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides)), mark_(certificate.polygons.size(), 0) {}
+/// Checks that each polygon is painted where it can be seen, once, and over those of its own plane that it is to cover.
+/// Throws InvalidCertificate. Keeps references.
+class PaintedCheck {
+public:
+    PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check)
+        : certificate_(certificate), pair_check_(pair_check),
+          coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides)), mark_(certificate.polygons.size(), 0) {}
 
-std::uint64_t PaintedCheck::require_painted(int child, std::span<const std::uint32_t> expected,
-    std::span<const std::uint32_t> painted, const RegionPlanes& region_planes) {
-    enum : char { None, Expected, Painted };
+    /// That in a child nothing is painted but what is expected, and that what is expected and not painted faces away
+    /// from all eyes before the region planes. Returns how many do.
+    std::uint64_t require_painted(int child, std::span<const std::uint32_t> expected,
+        std::span<const std::uint32_t> painted, const RegionPlanes& region_planes) {
+        enum : char { None, Expected, Painted };
 
-    const int line = certificate_.line_of(child);
-    const Statements& statements = certificate_.statements_of(child);
-    for (const std::uint32_t polygon : expected) { mark_[polygon] = Expected; }
-    for (const std::uint32_t polygon : painted) {
-        if (std::exchange(mark_[polygon], Painted) != Expected) { fail_at_repeat(polygon, line); }
-    }
-    std::uint64_t unlisted = 0;
-    for (const std::uint32_t polygon : expected) {
-        if (std::exchange(mark_[polygon], None) == Painted || statements.unproved.contains(polygon)) { continue; }
-        const auto away = statements.away.find(polygon);
-        if (away == statements.away.end()) {
-            throw InvalidCertificate{
-                line, fmt::format("expected polygon {} painted or proved to face away, got neither", polygon)};
+        const int line = certificate_.line_of(child);
+        const Statements& statements = certificate_.statements_of(child);
+        for (const std::uint32_t polygon : expected) { mark_[polygon] = Expected; }
+        for (const std::uint32_t polygon : painted) {
+            if (std::exchange(mark_[polygon], Painted) != Expected) { fail_at_repeat(polygon, line); }
         }
-        pair_check_.check_away(polygon, away->second, region_planes);
-        ++unlisted;
-    }
-    return unlisted;
-}
-
-void PaintedCheck::require_disjoint(int line, const std::array<std::span<const std::uint32_t>, 4>& parts) {
-    constexpr std::array<char, 4> marks{1, 2, 3, 4};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        for (const std::uint32_t polygon : parts[i]) {
-            const char before = std::exchange(mark_[polygon], marks[i]);
-            if (before != 0 && !(before == marks[2] && i == 3)) { fail_at_repeat(polygon, line); }
+        std::uint64_t unlisted = 0;
+        for (const std::uint32_t polygon : expected) {
+            if (std::exchange(mark_[polygon], None) == Painted || statements.unproved.contains(polygon)) { continue; }
+            const auto away = statements.away.find(polygon);
+            if (away == statements.away.end()) {
+                throw InvalidCertificate{
+                    line, fmt::format("expected polygon {} painted or proved to face away, got neither", polygon)};
+            }
+            pair_check_.check_away(polygon, away->second, region_planes);
+            ++unlisted;
         }
+        return unlisted;
     }
-    for (const auto& part : parts) {
-        for (const std::uint32_t polygon : part) { mark_[polygon] = 0; }
-    }
-}
 
-void PaintedCheck::require_layer_order(std::span<const std::uint32_t> list, int line) const {
-    if (coplanar_layer_pairs_.empty()) { return; }
-    const auto places = places_of(list);
-    for (const PolygonPair& pair : coplanar_layer_pairs_) {
-        const auto lower = places.find(pair.earlier);
-        const auto upper = places.find(pair.later);
-        if (lower != places.end() && upper != places.end() && upper->second < lower->second) {
-            fail_layer_order(pair, line);
+    /// That no polygon lies in two parts of a node, front, back, along and against, but for flat ones in its plane that
+    /// are seen from both sides.
+    void require_disjoint(int line, const std::array<std::span<const std::uint32_t>, 4>& parts) {
+        constexpr std::array<char, 4> marks{1, 2, 3, 4};
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            for (const std::uint32_t polygon : parts[i]) {
+                const char before = std::exchange(mark_[polygon], marks[i]);
+                if (before != 0 && !(before == marks[2] && i == 3)) { fail_at_repeat(polygon, line); }
+            }
+        }
+        for (const auto& part : parts) {
+            for (const std::uint32_t polygon : part) { mark_[polygon] = 0; }
         }
     }
-}
 
-void PaintedCheck::require_layer_order(
-    std::span<const std::uint32_t> first, std::span<const std::uint32_t> later, int line) const {
-    if (coplanar_layer_pairs_.empty()) { return; }
-    const auto places_first = places_of(first);
-    const auto places_later = places_of(later);
-    for (const PolygonPair& pair : coplanar_layer_pairs_) {
-        if (places_first.contains(pair.later) && places_later.contains(pair.earlier)) { fail_layer_order(pair, line); }
+    /// That in a list what overlaps in one plane is painted as the model's file has it.
+    void require_layer_order(std::span<const std::uint32_t> list, int line) const {
+        if (coplanar_layer_pairs_.empty()) { return; }
+        const auto places = places_of(list);
+        for (const PolygonPair& pair : coplanar_layer_pairs_) {
+            const auto lower = places.find(pair.earlier);
+            const auto upper = places.find(pair.later);
+            if (lower != places.end() && upper != places.end() && upper->second < lower->second) {
+                fail_layer_order(pair, line);
+            }
+        }
     }
-}
+
+    /// The same for all of one part painted before all of another.
+    void require_layer_order(
+        std::span<const std::uint32_t> first, std::span<const std::uint32_t> later, int line) const {
+        if (coplanar_layer_pairs_.empty()) { return; }
+        const auto places_first = places_of(first);
+        const auto places_later = places_of(later);
+        for (const PolygonPair& pair : coplanar_layer_pairs_) {
+            if (places_first.contains(pair.later) && places_later.contains(pair.earlier)) {
+                fail_layer_order(pair, line);
+            }
+        }
+    }
+
+private:
+    const Certificate& certificate_;
+    const PairCheck& pair_check_;
+    std::vector<PolygonPair> coplanar_layer_pairs_;
+    std::vector<char> mark_; ///< One for each polygon; all are 0 between checks.
+};
 
 constexpr double largest_tolerance_sizes = 1e-6;
 
@@ -569,8 +533,7 @@ private:
             const CertificatePolygon& polygon = certificate_.polygons[i];
             if (!sides_.is_behind(i, polygon.plane, PartAngle::Standing) ||
                 !sides_.is_before(i, polygon.plane, PartAngle::Standing)) {
-                throw InvalidCertificate{
-                    polygon.line, "expected all corners in the polygon's plane, got one beside it"};
+                throw InvalidCertificate{polygon.line, "expected all corners in the polygon's plane, got one off it"};
             }
             if (!sides_.is_counter_clockwise(i)) {
                 throw InvalidCertificate{
@@ -713,9 +676,9 @@ private:
 
     /// Requires that the plane of a polygon split separates its parts, and that the polygons in it face the right way.
     void check_parting(
-        const OrderNode& node, const Statements& statements, const TwoParts& beside, const TwoParts& is_subset_of) {
-        const auto& [front, back] = beside;
-        const auto& [coplanar_front, coplanar_back] = is_subset_of;
+        const OrderNode& node, const Statements& statements, const TwoParts& sides, const TwoParts& coplanar) {
+        const auto& [front, back] = sides;
+        const auto& [coplanar_front, coplanar_back] = coplanar;
         const auto expect = [&](std::uint32_t polygon, bool good, const char* expected) {
             if (!good && !statements.unproved.contains(polygon)) {
                 throw InvalidCertificate{node.line,

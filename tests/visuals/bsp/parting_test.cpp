@@ -185,7 +185,7 @@ TEST_CASE("a convex shell is one list without a cut, however many polygons it ha
     const PartialBspTree tree = partial_bsp_tree(pieces, all_of(pieces));
     CHECK(tree.lists.size() == 1);
     CHECK(tree.root == ~0);
-    PolygonPieces larger(ball(100, 102)); // 10,000 polygons, parted before their graphs are looked at
+    PolygonPieces larger(ball(60, 62)); // 3,600 polygons, parted before their graphs are looked at
     const PartialBspTree parted = partial_bsp_tree(larger, all_of(larger));
     CHECK(larger.added() < 500);
     std::size_t listed = 0;

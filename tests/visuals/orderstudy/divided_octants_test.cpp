@@ -121,17 +121,17 @@ TEST_CASE("split polygons order crossing bars, cycles and rotors for every eye")
 
 TEST_CASE("an order by a few parts has cells, which hold the same orders") {
     const OrderedModel found = ordered_by_splitting(tests::three_bars());
-    const auto cells = bsp_cells(found.model, found.order);
-    REQUIRE(cells);
+    const CellOrders orders = cell_orders(found);
+    REQUIRE_FALSE(orders.parts);
     RandomGenerator dice(4);
     DrawOrder::Walk walk;
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 eye_m = dice.direction() * dice.between(0.1, 9.0);
-        const auto in = std::ranges::find_if(*cells, [&](const auto& cell) {
+        const auto in = std::ranges::find_if(orders.cells, [&](const auto& cell) {
             return std::ranges::all_of(
                 cell.planes, [&](const Plane& plane) { return distance_m(plane, eye_m) >= 0.0; });
         });
-        REQUIRE(in != cells->end());
+        REQUIRE(in != orders.cells.end());
         std::vector<std::uint32_t> painted;
         found.order.append_painted(eye_m, walk, painted);
         CHECK(in->list == painted);
