@@ -5,6 +5,7 @@
 #include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/text_file.h"
 #include "sim/base/thread_pool.h"
 #include "visuals/groundfile/mapped_file.h"
 #include "visuals/terrain/ground_tiles.h"

@@ -40,7 +40,7 @@ TEST_CASE("a table is written as CSV, Markdown, JSON and text") {
           "# Speed\n\n| name | ms, median |\n| --- | --- |\n| a | 1.5 |\n| b, \"c\" |  |\n\nmeasured\n");
     const std::string json = json_of(std::span<const ResultTable>(&table, 1));
     CHECK_THAT(json, Contains("\"ms, median\": 1.5") && Contains(R"("name": "b, \"c\"")"));
-    CHECK(text_of(table) == "name     ms, median\na        1.5\nb, \"c\"  \n");
+    CHECK(text_of(table) == "name    ms, median\na       1.5\nb, \"c\"  \n");
 }
 
 TEST_CASE("a row is written as CSV, JSON, cells and schema from one list of columns") {
