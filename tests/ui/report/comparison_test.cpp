@@ -54,7 +54,7 @@ TEST_CASE("a change is sure only where its interval leaves zero out") {
 TEST_CASE("an interval of 95 % holds no change in about 95 of 100 comparisons of the same thing") {
     RandomGenerator dice(3);
     int held = 0;
-    constexpr int trials = 300;
+    constexpr int trials = 150;
     for (int trial = 0; trial < trials; ++trial) {
         std::array<double, 9> a{};
         std::array<double, 9> b{};
