@@ -6,7 +6,7 @@
 
 namespace octant::flightpaths {
 
-/// What a pilot aims at in one moment, and how fast the aim moves.
+/// The load factor, bank and so on that a leg aims at, and how fast the aim moves.
 struct ManoeuvreTarget {
     double bank_rad = 0.0;
     double bank_rate_radps = 0.0;
@@ -18,21 +18,21 @@ struct ManoeuvreTarget {
 /// which keeps it centred on the line it started from.
 ManoeuvreTarget weave_target(const Leg& leg, double since_s, double climb_rad);
 
-/// Flies one leg: turns what the leg asks for into controls that the aircraft can follow.
+/// Flies one leg: turns the leg into controls that the aircraft can follow.
 class LegPilot {
 public:
     /// The leg must be within the limits (limits_check.h).
     LegPilot(const Leg& leg, const PointMass& start, const sim::AircraftLimits& limits);
 
-    /// Controls for the step that begins now. Roll rate and change of the load factor are within the limits; the change
-    /// of speed is what the leg asks for.
+    /// Controls for the next step. Roll rate and change of the load factor are within the limits; the change of speed
+    /// is that of the leg.
     PointMassControls controls(const PointMass& now, double since_s) const;
 
-    /// True when the leg has reached its end. A pull, a push and a turn end a little early: what is still to come while
-    /// the aircraft unloads or rolls out is counted in.
+    /// True at the end of the leg. A pull, a push and a turn end a little earlier, because the aircraft still turns
+    /// while it unloads or rolls out.
     bool done(const PointMass& now, double since_s) const;
 
-    /// To be called after every step, so that turns beyond 180 degrees are counted.
+    /// Must be called after every step, so that turns beyond 180 degrees are counted.
     void count_turn(const PointMass& now);
 
 private:

@@ -15,7 +15,7 @@ namespace octant::flightpaths {
 /// rad, g).
 std::string track_csv(const sim::Trajectory& trajectory);
 
-/// The line of the names that it begins with, and that of a state.
+/// The line of column names, and the line of a state.
 std::string track_csv_names();
 std::string track_csv_line(const sim::AircraftState& state);
 
@@ -25,14 +25,14 @@ std::string track_csv_line(const sim::AircraftState& state);
 /// speed).
 std::string exact_track_csv(const sim::Trajectory& trajectory);
 
-/// What a Tacview file says beside the motion.
+/// Information of a Tacview file besides the motion.
 struct AcmiHeader {
     std::string title;
-    /// The row of the aircraft, which says what Tacview calls it; null where it has none.
+    /// The type of the aircraft, which has its Tacview name; null if unknown.
     const sim::AircraftKind* kind = nullptr;
-    /// The name of an aircraft without a row.
+    /// The name of an aircraft without a type.
     std::string aircraft;
-    /// How the flight's axes lie on the earth; null: at 0 N, 0 E.
+    /// Position of the axes of the flight on the earth; null: at 0 N, 0 E.
     const EarthFrame* frame = nullptr;
     std::vector<LegStart> bookmarks;
 };
@@ -41,7 +41,7 @@ struct AcmiHeader {
 /// time is fixed, so that the same flight gives the same bytes.
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header);
 
-/// What it begins with, and what it says of a state, without bookmarks; more of the first one.
+/// The head of the file, and the lines of one state without bookmarks; the first state has more of them.
 std::string acmi_head(const AcmiHeader& header);
 std::string acmi_state(const sim::AircraftState& state, const AcmiHeader& header, bool is_first);
 

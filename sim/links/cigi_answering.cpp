@@ -1,4 +1,4 @@
-// What an image generator answers: the questions of a host over the ground, and its message for a picture.
+// Answers of the image generator to the requests of a host, and its message for a picture.
 
 #include "sim/links/cigi_image_generator.h"
 #include "sim/links/fix.h"
@@ -51,7 +51,7 @@ void CigiImageGenerator::answer_sight(
     add_los_response(message, {request.id, known, host_frame}, request.extended, sight);
 }
 
-/// Nothing is answered for what is no entity or not known.
+/// No answer for an entity that does not exist.
 void CigiImageGenerator::answer_position(const CigiPositionRequest& request, WireWriter& message) const {
     const auto place = place_of(request.object);
     if (request.object_class == 0 && place) {

@@ -20,14 +20,14 @@ struct CigiStartOfFrame {
     std::int8_t database = 0;
 };
 
-/// What an answer says of itself.
+/// The head of an answer.
 struct CigiResponseHeader {
     std::uint16_t id = 0;
     bool valid = false;
-    std::uint8_t host_frame = 0; ///< its four low bits
+    std::uint8_t host_frame = 0; ///< low four bits of the host frame
 };
 
-/// A surface below or before something.
+/// The surface that a request met.
 struct CigiSurfacePoint {
     glm::dvec3 place{0.0};      ///< latitude and longitude in degrees, height in metres
     double azimuth_rad = 0.0;   ///< of the normal, from north
@@ -36,7 +36,7 @@ struct CigiSurfacePoint {
 
 void add_start_of_frame(WireWriter& message, const CigiStartOfFrame& frame);
 
-/// The height asked for, HAT or HOT.
+/// The requested height, HAT or HOT.
 void add_height_response(WireWriter& message, const CigiResponseHeader& head, CigiHeightKind kind, double height_m);
 
 /// Both heights, and the surface's normal.
@@ -45,31 +45,31 @@ void add_extended_height_response(
 
 struct CigiLosResponse {
     bool visible = false;
-    std::optional<double> range_m; ///< to what is met, if anything is
+    std::optional<double> range_m; ///< distance to the surface, if any was met
     std::optional<CigiSurfacePoint> met;
 };
 
 void add_los_response(WireWriter& message, const CigiResponseHeader& head, bool extended, const CigiLosResponse& sight);
 
-/// Where an entity is: latitude and longitude in degrees, height in metres.
+/// Position of an entity: latitude and longitude in degrees, height in metres.
 void add_position(WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles);
 
-/// Sizes of these packets, to see whether one more fits into a message.
+/// Sizes of these packets, for checking that another one fits into a message.
 inline constexpr std::size_t cigi_max_response_bytes = 56;
 
-// CIGI 3.3 from host to image generator; each function adds a packet to a message in the writer's byte order. A message
-// begins with IG Control. What decode_cigi() reads comes back the same, but for angles and offsets, which are single
+// CIGI 3.3 from host to image generator; each function adds a packet to a message in the byte order of the writer. A
+// message begins with IG Control. decode_cigi() reads the same values back, except that angles and offsets have single
 // precision on the wire.
 
 void add_ig_control(WireWriter& message, const CigiIgControl& control);
 void add_entity(WireWriter& message, const CigiEntityControl& entity);
 void add_rate(WireWriter& message, const CigiRateControl& rate);
-/// All six components are enabled.
+/// Sets all six components.
 void add_view_control(WireWriter& message, const CigiViewControl& view);
-/// The four sides are enabled, near and far planes are left to the image generator.
+/// Sets the four sides; near and far planes are left to the image generator.
 void add_view_definition(WireWriter& message, const CigiViewDefinition& view);
 
-/// What a message of an image generator begins with; nothing for anything else.
+/// The Start of Frame that a message of an image generator begins with; nothing for other bytes.
 std::optional<CigiStartOfFrame> start_of_frame_of(Bytes message);
 
 } // namespace octant::sim::links

@@ -58,7 +58,7 @@ namespace {
 
 constexpr std::uint8_t low_bits(std::uint32_t frame) { return static_cast<std::uint8_t>(frame & 0xfU); }
 
-/// Keeps no more than a cap of numbered things; those that are there may always change.
+/// Inserts or replaces a numbered value; refuses new numbers beyond a limit.
 template <class Value>
 bool keep(std::map<std::uint16_t, Value>& kept, std::uint16_t id, Value value, std::size_t most) {
     if (kept.size() >= most && !kept.contains(id)) { return false; }
@@ -139,7 +139,7 @@ void CigiImageGenerator::take_rate(const CigiRateControl& rate, double arrival_s
     }
 }
 
-/// A view control of a group is one of each view that was defined to be in it.
+/// A view control of a group applies to each view defined as its member.
 void CigiImageGenerator::take_view(const CigiViewControl& view) {
     if (view.group == 0) {
         keep(views_, view.view, view, max_views);
@@ -154,7 +154,7 @@ void CigiImageGenerator::take_view(const CigiViewControl& view) {
     }
 }
 
-/// Sides that it does not set stay as they were told before.
+/// Sides that the packet does not set stay.
 void CigiImageGenerator::take_definition(const CigiViewDefinition& told) {
     CigiViewDefinition definition = told;
     if (const auto known = definitions_.find(told.view); known != definitions_.end()) {
@@ -192,7 +192,7 @@ void CigiImageGenerator::wait(Answer answer) {
     if (waiting_.size() < max_waiting) { waiting_.push_back(std::move(answer)); }
 }
 
-// A period of 0 asks once and ends what was asked periodically under the same number.
+// A period of 0 requests once and ends the periodic request of the same number.
 void CigiImageGenerator::ask(const CigiHeightRequest& request) {
     heights_.erase(request.id);
     if (request.period == 0 || !keep(heights_, request.id, request, max_periodic)) {
@@ -214,7 +214,7 @@ void CigiImageGenerator::ask(const CigiPositionRequest& request) {
     }
 }
 
-/// Asks anew what is due in this frame, with the host frame of the last IG Control.
+/// Repeats the periodic requests that are due in this frame, with the host frame of the last IG Control.
 void CigiImageGenerator::queue_periodic_requests() {
     const std::uint8_t host_frame = low_bits(control_.host_frame);
     for (const auto& [id, request] : heights_) {
@@ -227,7 +227,7 @@ void CigiImageGenerator::queue_periodic_requests() {
     ++frames_;
 }
 
-/// Where an entity is, its parents counted; nothing where one of them is unknown or there are too many.
+/// World position of an entity with its parents; nothing if a parent is unknown or there are too many.
 std::optional<glm::dvec3> CigiImageGenerator::place_of(std::uint16_t entity, int depth) const {
     constexpr int max_parents = 8;
     const auto known = entities_.find(entity);

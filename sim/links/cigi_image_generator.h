@@ -17,29 +17,28 @@
 
 namespace octant::sim::links {
 
-/// A part of an entity as its host has turned and moved it: a rotor, a flap, a store.
+/// An articulated part of an entity, such as a rotor or a flap, as its host has turned and moved it.
 struct CigiPartPose {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
-    glm::dquat turn{1.0, 0.0, 0.0, 0.0}; ///< within the body's axes
-    glm::dvec3 offset_m{0.0};            ///< along them
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0}; ///< in body axes
+    glm::dvec3 offset_m{0.0};            ///< in body axes
 };
 
-/// The articulated parts of a host's entities. Angles and offsets go on by the rates that it gives them.
+/// The articulated parts of the entities of a host. Angles and offsets change with the rates that the host sets.
 class CigiArticulatedParts {
 public:
     static constexpr std::size_t max_parts = 1024;
 
-    /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled is the model's own
-    /// again.
+    /// Applies a packet. Angles and offsets that it does not set stay; a part that it disables moves by itself again.
     void take(const CigiArticulatedPart& part, double at_s);
 
-    /// Lets a part that has been told of before go on by these rates.
+    /// Sets the rates of a part that take() knows.
     void take(const CigiRateControl& rate, double at_s);
 
     void forget(std::uint16_t entity);
 
-    /// All of them at a time of the clock that take() has.
+    /// All parts at a time of the clock of take().
     std::vector<CigiPartPose> turned(double now_s) const;
 
 private:
@@ -59,7 +58,7 @@ private:
     std::map<std::pair<std::uint16_t, std::uint8_t>, Part> parts_;
 };
 
-/// What a host may ask of the ground. Places: latitude and longitude in degrees, height in metres.
+/// Ground that a host may query. Positions: latitude and longitude in degrees, height in metres.
 class CigiGround {
 public:
     CigiGround() = default;
@@ -69,10 +68,10 @@ public:
     CigiGround(CigiGround&&) = delete;
     CigiGround& operator=(CigiGround&&) = delete;
 
-    /// The ground below or above a place; nothing outside the map.
+    /// Height of the ground at a position; nothing outside the map.
     virtual std::optional<CigiSurfacePoint> below(const glm::dvec3& place) const = 0;
 
-    /// Where a straight line first meets the ground, with the distance from its beginning.
+    /// First intersection of a straight line with the ground, with its distance from the start of the line.
     struct TerrainHit {
         double range_m = 0.0;
         CigiSurfacePoint surface;
@@ -80,15 +79,15 @@ public:
 
     virtual std::optional<TerrainHit> first_hit(const glm::dvec3& from, const glm::dvec3& to) const = 0;
 
-    /// Length of the straight line between two places.
+    /// Straight distance between two positions.
     virtual double distance_m(const glm::dvec3& from, const glm::dvec3& to) const = 0;
 
-    /// The place that lies so many metres north, east and down of another.
+    /// The position that is `ned_m` metres north, east and down of another one.
     virtual glm::dvec3 moved(const glm::dvec3& place, const glm::dvec3& ned_m) const = 0;
 };
 
-/// An image generator's side of CIGI 3.3: keeps the host's entities and views, answers what he asks. Opens no sockets
-/// and reads no clock.
+/// The image generator of CIGI 3.3: stores the entities and views of the host and answers its requests. Opens no
+/// sockets and reads no clock.
 class CigiImageGenerator {
 public:
     static constexpr std::size_t max_entities = 256;
@@ -97,26 +96,26 @@ public:
     static constexpr std::size_t max_waiting = 1024;
     static constexpr std::size_t max_message_bytes = 1472;
 
-    /// Without a ground every question is answered as outside the database. It must outlive this.
+    /// `ground` must outlive this; null: every request is answered as outside the database.
     explicit CigiImageGenerator(const CigiGround* ground) : ground_(ground) {}
 
-    /// Takes a message of the host that came at a time. Returns the entities that it moved, as fixes, by their numbers.
+    /// Reads a message of the host. Returns the fixes of the entities that it moved, by entity number.
     DecodeResult take(Bytes message, std::vector<Fix>& moved, double arrival_s = 0.0);
 
-    /// The message for a picture: Start of Frame, then answers as far as they fit; others wait.
+    /// The message for one picture: Start of Frame, then answers as far as they fit; the others wait.
     std::vector<std::byte> message_for(std::uint32_t ig_frame, double time_s);
 
-    /// Whether a host has ever spoken.
+    /// True once a message of a host was read.
     bool has_host() const { return has_host_; }
 
     std::uint32_t host_frame() const { return control_.host_frame; }
 
     CigiMode mode() const { return control_.mode; }
 
-    /// Entities that are to be seen no more, since the last call.
+    /// Entities removed since the last call.
     std::vector<std::uint16_t> take_removed() { return std::exchange(removed_, {}); }
 
-    /// The newest of each kind, if the host has given any.
+    /// The newest packet of each kind, if the host has sent any.
     const std::optional<CigiAtmosphere>& atmosphere() const { return atmosphere_; }
 
     const std::optional<CigiCelestial>& celestial() const { return celestial_; }
@@ -127,10 +126,10 @@ public:
 
     const CigiArticulatedParts& parts() const { return parts_; }
 
-    /// The type of an entity that is there.
+    /// Type of an existing entity.
     std::optional<std::uint16_t> type_of(std::uint16_t entity) const;
 
-    /// Packets that were not understood, by opcode.
+    /// Number of packets that were not understood, by opcode.
     const std::array<long, 256>& unknown() const { return unknown_; }
 
 private:
@@ -178,7 +177,7 @@ private:
     std::optional<CigiAtmosphere> atmosphere_;
     std::optional<CigiCelestial> celestial_;
     std::array<long, 256> unknown_{};
-    std::uint32_t frames_ = 0; ///< for periods
+    std::uint32_t frames_ = 0; ///< counts frames for periodic requests
 };
 
 } // namespace octant::sim::links

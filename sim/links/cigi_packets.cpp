@@ -127,7 +127,7 @@ std::optional<CigiPacket> read_atmosphere(const WireReader& reader) {
                : std::nullopt;
 }
 
-/// Components that are not enabled are left at zero.
+/// Disabled components are zero.
 std::optional<CigiPacket> read_view_control(const WireReader& reader) {
     CigiViewControl view;
     view.view = reader.at<std::uint16_t>(2);

@@ -16,11 +16,11 @@
 
 namespace octant::sim::links {
 
-/// The word by which the byte order of a CIGI 3 message is told, as its sender writes it.
+/// The word that tells the byte order of a CIGI 3 message, as its sender writes it.
 inline constexpr std::uint16_t cigi_magic = 0x8000;
 inline constexpr std::uint16_t swapped_cigi_magic = 0x0080;
 
-/// Adds a packet of zeros with its opcode and size; says where it begins.
+/// Adds a packet of zeros with its opcode and size; returns its first byte.
 inline std::size_t add_cigi_packet_header(WireWriter& message, std::uint8_t opcode, std::uint8_t size) {
     const std::size_t at = message.size();
     message.add_zeros(size);
@@ -34,9 +34,9 @@ inline void set_cigi_angle(WireWriter& message, std::size_t at, double angle_rad
     message.set(at, static_cast<float>(deg_from_rad(angle_rad)));
 }
 
-/// The Common Image Generator Interface 3.3, from host to image generator: what of it is understood. Angles are radians
-/// here, places degrees and metres. On the wire each packet begins with its opcode and its size; a message begins with
-/// IG Control, by which its byte order is told.
+/// The packets of the Common Image Generator Interface 3.3 from host to image generator that Octant understands. Angles
+/// are in radians, positions in degrees and metres. On the wire each packet begins with its opcode and its size; a
+/// message begins with IG Control, which tells its byte order.
 inline constexpr std::uint16_t cigi_port = 8004;
 
 enum class CigiMode : std::uint8_t { Standby = 0, Operate = 1, Debug = 2 };
@@ -50,7 +50,7 @@ struct CigiIgControl {
     std::uint32_t last_ig_frame = 0;
 };
 
-/// A place: latitude and longitude in degrees, height in metres; or metres from a parent along its body axes.
+/// A position: latitude and longitude in degrees, height in metres; or metres from a parent along its body axes.
 struct CigiEntityControl {
     std::uint16_t entity = 0;
     int state = 0; ///< 0 standby, 1 active, 2 destroyed
@@ -72,7 +72,7 @@ struct CigiRateControl {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     bool of_part = false;
-    bool local = false; ///< along the body's axes, else north, east, down
+    bool local = false; ///< along body axes; otherwise north, east, down
     glm::dvec3 mps{0.0};
     glm::dvec3 radps{0.0}; ///< of roll, pitch, yaw
 };
@@ -81,13 +81,13 @@ struct CigiArticulatedPart {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     bool enabled = false;
-    glm::bvec3 moves{false}; ///< x, y, z; others stay as they are
-    glm::bvec3 sets{false};  ///< roll, pitch, yaw; likewise
+    glm::bvec3 moves{false}; ///< x, y, z to be set
+    glm::bvec3 sets{false};  ///< roll, pitch, yaw to be set
     glm::dvec3 offset_m{0.0};
     EulerAngles angles;
 };
 
-/// A time of day, taken as universal, and its date.
+/// A time of day and its date, both taken as UTC.
 struct CigiCelestial {
     bool is_valid = false;
     int hour = 0;
@@ -100,7 +100,7 @@ struct CigiAtmosphere {
     double visibility_m = 0.0;
 };
 
-/// Where a view looks from: offsets along the body axes of its entity and angles from them.
+/// Position of a view: offsets along the body axes of its entity, and angles from them.
 struct CigiViewControl {
     std::uint16_t view = 0;
     std::uint8_t group = 0;
@@ -113,12 +113,12 @@ struct CigiViewControl {
 struct CigiViewDefinition {
     std::uint16_t view = 0;
     std::uint8_t group = 0;
-    glm::bvec4 sets{true}; ///< left, right, top, bottom; others stay as they are
+    glm::bvec4 sets{true}; ///< left, right, top, bottom to be set
     double left_rad = 0.0; ///< negative to the left
     double right_rad = 0.0;
     double top_rad = 0.0;
     double bottom_rad = 0.0; ///< negative below
-    bool parallel = false;   ///< an orthographic projection is asked for
+    bool parallel = false;   ///< orthographic projection
 };
 
 enum class CigiHeightKind { Hat = 0, Hot = 1, Extended = 2 };
@@ -126,13 +126,13 @@ enum class CigiHeightKind { Hat = 0, Hot = 1, Extended = 2 };
 struct CigiHeightRequest {
     std::uint16_t id = 0;
     CigiHeightKind kind = CigiHeightKind::Hat;
-    bool from_entity = false; ///< the place is in metres along the entity's axes
-    std::uint8_t period = 0;  ///< frames; 0 = once, and ends what was asked periodically
+    bool from_entity = false; ///< the position is in metres along the axes of the entity
+    std::uint8_t period = 0;  ///< frames; 0 = once, which also ends a periodic request
     std::uint16_t entity = 0;
     glm::dvec3 place{0.0};
 };
 
-/// A line of sight between two places, or along a direction.
+/// A line of sight between two positions, or along a direction.
 struct CigiLosRequest {
     std::uint16_t id = 0;
     bool extended = false;
@@ -157,7 +157,7 @@ struct CigiPositionRequest {
     int object_class = 0; ///< 0 = an entity
 };
 
-/// A packet that is not understood, or whose size is another than its opcode's.
+/// A packet with an unknown opcode, or with a size that is not that of its opcode.
 struct CigiUnknownPacket {
     std::uint8_t opcode = 0;
 };
@@ -166,8 +166,8 @@ using CigiPacket = std::variant<CigiIgControl, CigiEntityControl, CigiClampedEnt
     CigiArticulatedPart, CigiCelestial, CigiAtmosphere, CigiViewControl, CigiViewDefinition, CigiHeightRequest,
     CigiLosRequest, CigiPositionRequest, CigiUnknownPacket>;
 
-/// Reads a whole message of a host. `packets` holds what of it is right, in order; with a fault in the message's form
-/// (no IG Control first, a packet that runs over the end) nothing. Packets with numbers that are none are left out.
+/// Reads a whole message of a host. `packets` gets its valid packets in order; none if the message itself is faulty (no
+/// IG Control first, a packet beyond the end). Packets with numbers that are not finite are left out.
 DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets);
 
 std::string cigi_text(const DecodeResult& result);

@@ -16,8 +16,8 @@ namespace octant::sim::links {
 namespace {
 
 constexpr std::size_t read_bytes = 65536;
-constexpr std::size_t client_bytes = 16384; ///< that one drain() takes of a client; others wait
-constexpr int max_newcomers = 64;           ///< that one drain() takes; others wait
+constexpr std::size_t client_bytes = 16384; ///< read from a client by one drain(); the rest waits
+constexpr int max_newcomers = 64;           ///< accepted by one drain(); the rest waits
 
 } // namespace
 
@@ -60,7 +60,7 @@ LineServer& LineServer::operator=(LineServer&& other) noexcept {
     return *this;
 }
 
-/// A newcomer takes the place of a client that has not sent anything yet, where all are taken.
+/// If all places are taken, a new client replaces one that has not sent anything yet.
 void LineServer::take_clients() {
     const auto now = std::chrono::steady_clock::now();
     for (int taken = 0; taken < max_newcomers; ++taken) {
@@ -83,7 +83,7 @@ void LineServer::take_clients() {
     }
 }
 
-/// Returns false when the client has gone.
+/// Returns false if the client has disconnected.
 bool LineServer::read(Client& client, double now_s, std::vector<Datagram>& into) {
     std::array<std::byte, client_bytes> bytes{};
     const ssize_t count = ::recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);

@@ -12,11 +12,11 @@
 
 namespace octant::sim::links {
 
-/// Cuts a stream of bytes into lines (LF or CRLF). A line that grows too long is given as it is up to there, so that
-/// its reader refuses it, and the rest of it is passed over.
+/// Splits a stream of bytes into lines (LF or CRLF). A line that is too long is given cut, so that its reader refuses
+/// it, and its rest is ignored.
 class LineSplitter {
 public:
-    /// Calls take(line) for each line that is complete, without its end; empty lines are left out.
+    /// Calls take(line) for each complete line without its end; empty lines are left out.
     template <class Take>
     void add(std::span<const std::byte> bytes, Take&& take) {
         for (const std::byte byte : bytes) {
@@ -28,7 +28,7 @@ public:
         }
     }
 
-    /// The line that no line end follows, at the end of a stream.
+    /// Gives the unfinished line at the end of the stream.
     template <class Take>
     void finish(Take&& take) {
         end_line(take);
@@ -47,13 +47,13 @@ private:
     std::vector<std::byte> line_;
 };
 
-/// Lines that come on standard input.
+/// Lines from standard input.
 class StandardInput {
 public:
-    /// Appends the lines that are there, as Protocol::Lines; does not wait.
+    /// Appends the available lines as Protocol::Lines, without waiting.
     void drain(double now_s, std::vector<Datagram>& into);
 
-    /// Nothing more will come.
+    /// True at the end of standard input.
     bool has_ended() const { return ended_; }
 
 private:
@@ -61,15 +61,15 @@ private:
     bool ended_ = false;
 };
 
-/// A TCP port on which some clients may send lines at a time.
+/// A TCP port to which several clients may send lines at the same time.
 class LineServer {
 public:
     static constexpr std::size_t max_clients = 8;
-    /// A client that has never sent anything is let go after this.
+    /// A client that has never sent anything is disconnected after this time.
     static constexpr std::chrono::seconds first_line_timeout{10};
 
-    /// Throws Error where the port is taken; 0 = any free one. Clients from other addresses than `only_from`, where
-    /// there is one, are turned away before they hold a place.
+    /// Throws Error if the port is taken; 0 = any free one. If `only_from` is set, clients from other addresses are
+    /// refused before they take a place.
     LineServer(std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from = {});
     ~LineServer();
     LineServer(LineServer&& other) noexcept;
@@ -79,7 +79,7 @@ public:
 
     std::uint16_t port() const { return port_; }
 
-    /// Takes new clients and appends the lines that have come; does not wait.
+    /// Accepts new clients and appends the received lines, without waiting.
     void drain(double now_s, std::vector<Datagram>& into);
 
 private:

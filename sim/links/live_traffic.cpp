@@ -28,8 +28,8 @@ constexpr double min_apart_s = 0.005; ///< of kept samples, but for the newest
 constexpr double blend_s = 0.05;      ///< time constant: 95 % within 0.15 s
 constexpr double min_snap_m = 15.0;
 constexpr double snap_after_s = 0.25; ///< of flight at the sample's speed
-constexpr double slow_mps = 0.3;      ///< what is slower may move backwards
-constexpr double max_slowdown = 0.6;  ///< of the way of a picture, where what is shown waits
+constexpr double slow_mps = 0.3;      ///< slower vehicles may move backwards
+constexpr double max_slowdown = 0.6;  ///< share of the distance of a picture by which shown motion slows down
 constexpr double max_wait_s = 1.0;    ///< of flight
 constexpr double snap_cosine = 0.7;   ///< of half the angle: 90 degrees
 
@@ -67,9 +67,9 @@ AircraftState LiveTrack::raw_at(double sender_s) const {
     return state_between((next - 1)->state, next->state, sender_s);
 }
 
-/// Goes from what was shown on, `passed_s` ago, towards this state.
+/// Blends from the state shown `passed_s` ago towards this state.
 void LiveTrack::blend(AircraftState& state, double sender_s, double passed_s) {
-    // Where it was shown, less where it would have been shown by what is known now.
+    // Difference between the shown position and the position by the newest samples.
     const AircraftState then = raw_at(sender_s - passed_s);
     const glm::dvec3 error_m = shown_->position_m - then.position_m;
     glm::dquat turn = shown_->body_to_world * glm::conjugate(then.body_to_world);
@@ -87,7 +87,7 @@ void LiveTrack::blend(AircraftState& state, double sender_s, double passed_s) {
     }
     const double left = std::exp(-std::max(passed_s, 0.0) / blend_s);
     const glm::dquat none(1.0, 0.0, 0.0, 0.0);
-    // What stands for want of samples stands altogether.
+    // A vehicle without new samples stops completely.
     const bool rests = stale_ && state.position_m == then.position_m;
     state.position_m += rests ? error_m : left * error_m;
     if (waits && !rests) {
@@ -108,14 +108,14 @@ AircraftState LiveTrack::show(double sender_s, double passed_s) {
 
 namespace {
 
-constexpr double slow_clock_mps = 0.5;    ///< below, the way is no measure of time
-constexpr double slow_to_judge_mps = 3.0; ///< below, places that scatter do not refute a velocity
+constexpr double slow_clock_mps = 0.5;    ///< below, the distance is no measure of time
+constexpr double slow_to_judge_mps = 3.0; ///< below, scattered positions do not contradict a velocity
 constexpr int repeats_that_stand = 3;
 constexpr double max_velocity_error = 0.3;
 
 glm::dvec3 world_from_ned(const glm::dvec3& ned) { return {ned.y, ned.x, -ned.z}; }
 
-/// How long a way takes at a velocity, where the way runs along it.
+/// Time to cover a distance at a velocity, if the distance is along it.
 std::optional<double> time_along(const glm::dvec3& distance_m, const glm::dvec3& velocity_mps) {
     const double speed2 = glm::dot(velocity_mps, velocity_mps);
     if (speed2 < slow_clock_mps * slow_clock_mps) { return std::nullopt; }
@@ -129,8 +129,8 @@ std::optional<double> time_along(const glm::dvec3& distance_m, const glm::dvec3&
 
 bool moves(const glm::dvec3& velocity) { return glm::length(velocity) > 1e-3; }
 
-/// The motion through the places of the last half second, of six samples at least where there are as many, up to the
-/// newest one. Without others there is none.
+/// Motion through the positions of the last half second, at least six samples if there are as many, up to the newest
+/// one. Nothing without other samples.
 Parabola<glm::dvec3> motion_of(const std::deque<LiveSample>& before, const LiveSample& newest) {
     constexpr double length_s = 0.5;
     constexpr std::size_t min_count = 6;
@@ -154,9 +154,9 @@ Parabola<glm::dvec3> motion_of(const std::deque<LiveSample>& before, const LiveS
 
 } // namespace
 
-/// Whether the fix says of a moving vehicle what the last one said, as senders do whose places change less often than
-/// they send, networks that double packets, and senders that are paused. Those are told by how often it happens in a
-/// row.
+/// True if the fix of a moving vehicle repeats the last one. That happens with senders whose positions change less
+/// often than they send, with networks that double packets, and with paused senders. The number of repetitions in a row
+/// tells them apart.
 bool LiveVehicle::is_repeated(const Fix& fix, const glm::dvec3& world_m, double arrival_s) {
     const bool same = !track_.empty() && world_m == track_.last().state.position_m &&
                       body_to_world_from_euler(fix.attitude) == track_.last().state.body_to_world;
@@ -174,8 +174,8 @@ bool LiveVehicle::is_repeated(const Fix& fix, const glm::dvec3& world_m, double 
 
 bool LiveVehicle::is_stationary() const { return repeats_ >= repeats_that_stand + 2 * typical_repeats_; }
 
-/// The way, negative where it runs back; nothing where a second of places has no direction, as those of a vehicle that
-/// hovers.
+/// Distance along the track, negative if backwards; nothing if the positions of a second have no direction, as those of
+/// a hovering vehicle.
 std::optional<double> LiveVehicle::distance_along_track(const glm::dvec3& distance_m) const {
     constexpr double length_s = 1.0;
     constexpr double heading_s = 0.3;
@@ -202,7 +202,7 @@ TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3&
         .sent_s = fix.sent_s, .ticks = fix.ticks, .tick_s = fix.tick_s, .moved_s = {}, .distance_m = {}};
     if (track_.empty()) { return clue; }
     if (is_stationary()) {
-        // A sender that is paused goes on to send, with a clock that stands.
+        // A paused sender continues to send with a clock that stands still.
         const bool runs = fix.sent_s ? fix.sent_s > last_fix_->sent_s : fix.ticks != last_fix_->ticks;
         return runs ? clue : TimingEvidence{};
     }
@@ -216,7 +216,7 @@ TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3&
     return clue;
 }
 
-/// Whether the sender's velocity agrees with its positions.
+/// True if the velocity of the sender agrees with its positions.
 bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, double step_s) {
     if (fix.velocity_is_commanded || track_.empty() || step_s <= 0.0) { return true; }
     const glm::dvec3 moved_mps = (sample.state.position_m - track_.last().state.position_m) / step_s;
@@ -231,8 +231,8 @@ bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, doub
     return told && velocity_error_ < max_velocity_error;
 }
 
-/// Sets velocity, rate of turn and acceleration of a sample whose time, place and attitude are set: what the sender
-/// tells, or what the places of the last half second say.
+/// Sets velocity, turn rate and acceleration of a sample whose time, position and attitude are set: from the sender or
+/// from the positions of the last half second.
 void LiveVehicle::set_motion(const Fix& fix, LiveSample& sample, double step_s) {
     sample.world_radps = turn_of(fix, sample);
     sample.world_mps2 = world_from_ned(fix.acceleration_ned_mps2);
@@ -263,7 +263,7 @@ glm::dvec3 LiveVehicle::turn_of(const Fix& fix, const LiveSample& sample) const 
     const glm::dquat& attitude = sample.state.body_to_world;
     if (fix.body_rates_radps && *fix.body_rates_radps != glm::dvec3(0.0)) { return attitude * *fix.body_rates_radps; }
     if (track_.empty() || fix.velocity_is_commanded) { return glm::dvec3(0.0); }
-    // Over a tenth of a second at least: what delays do to times of packets matters less.
+    // At least a tenth of a second, so that delays of packets matter less.
     constexpr double min_length_s = 0.1;
     const auto& samples = track_.samples();
     std::size_t from = samples.size() - 1;
@@ -279,7 +279,7 @@ glm::dvec3 LiveVehicle::turn_of(const Fix& fix, const LiveSample& sample) const 
     return axis * (std::min(2.0 * std::atan2(sine, turn.w) / length_s, max_radps) / sine);
 }
 
-/// Whether no flight leads from the last place to this one.
+/// True if no flight leads from the last position to this one.
 bool LiveVehicle::has_jumped(const Fix& fix, const glm::dvec3& world_m, double arrival_s) const {
     constexpr double unknown_mps = 400.0;
     constexpr std::size_t min_samples = 4;
@@ -344,7 +344,7 @@ AircraftState LiveVehicle::show(double now_s, double delay_s, double passed_s) {
 
 namespace {
 
-/// What was wrong is said as long as this.
+/// Time for which a fault is shown.
 constexpr double wrong_said_s = 5.0;
 
 std::string motion_text(
@@ -358,8 +358,8 @@ std::string motion_text(
 
 constexpr std::size_t max_streams = 64;
 
-/// What is kept of a stream, which is new where there is room for it: of the full table those make room that were
-/// silent the longest, and for so long. Null where none was.
+/// The state of a stream. A new stream gets a place if there is one; in a full table it replaces the stream that was
+/// silent longest, if that was silent for `gone_s`. Null if there is no place.
 template <class Streams>
 typename Streams::mapped_type* stream_of(
     Streams& streams, const typename Streams::key_type& key, double arrival_s, double gone_s) {
@@ -395,8 +395,8 @@ std::string result_text(Protocol protocol, const DecodeResult& result) {
     }
 }
 
-/// The result on a packet that its port's decoder does not use: what it is in truth, where its form tells that. To a
-/// decoder of DIS, a message of CIGI 3 is a PDU of another type.
+/// The result for a packet that its decoder refused: its true kind if its form tells it. For the DIS decoder a CIGI 3
+/// message is a PDU of another type.
 DecodeResult identified(const Datagram& datagram, const DecodeResult& result) {
     const auto kind = result.fault != PacketError::None && datagram.protocol != Protocol::Lines
                           ? packet_kind(datagram.bytes)
@@ -445,7 +445,7 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
     return &vehicles_.emplace_back(key);
 }
 
-/// Notes what came of a vehicle.
+/// Updates the report of a vehicle.
 void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::string& marking) {
     auto known = reports_.find(key);
     if (known == reports_.end()) {
@@ -479,7 +479,7 @@ LiveTraffic::PacketOutcome LiveTraffic::move(const Datagram& datagram, const Fix
     return PacketOutcome::Moved;
 }
 
-/// Counts and remembers what is to be said of a packet. Never Moved.
+/// Counts a packet and stores it for the status lines. Never returns Moved.
 LiveTraffic::PacketOutcome LiveTraffic::count(const Datagram& datagram, const DecodeResult& decoded) {
     const DecodeResult result = identified(datagram, decoded);
     const bool wrong = result.fault != PacketError::None && result.fault != PacketError::Unused;
@@ -493,7 +493,7 @@ LiveTraffic::PacketOutcome LiveTraffic::count(const Datagram& datagram, const De
     return wrong ? PacketOutcome::Wrong : PacketOutcome::Right;
 }
 
-/// Counts a packet by its kind. A new kind is told where there is room for it.
+/// Counts a packet by its kind. A new kind gives a message, up to limits.
 void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& result) {
     constexpr std::size_t max_first = 200; // kinds of a fault that are the first of their sender
     constexpr std::size_t max_in_all = 100;
@@ -521,7 +521,7 @@ void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& result) {
     messages_.push_back(fmt::format("{}: {}", text_of(datagram.source), result_text(datagram.protocol, result)));
 }
 
-/// Takes the number that a packet bears in a stream of its sender.
+/// Counts lost packets by the sequence number of a packet in a stream of its sender.
 void LiveTraffic::number(const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits) {
     auto* const known =
         stream_of(sequences_, {datagram.protocol, datagram.source, stream}, datagram.arrival_s, gone_after_s);
@@ -533,7 +533,7 @@ void LiveTraffic::number(const Datagram& datagram, std::uint16_t stream, std::ui
     if (counts_.lost) { *counts_.lost += sequence.lost() - before; }
 }
 
-/// What a vehicle's sender lost of the streams that it numbers; nothing where it numbers none.
+/// Packets lost by the sender of a vehicle in its numbered streams; nothing if it has none.
 std::optional<long> LiveTraffic::lost_of(const VehicleKey& key) const {
     std::optional<long> lost;
     for (const auto& [stream, sequence] : sequences_) {
@@ -554,7 +554,7 @@ LiveTraffic::PacketOutcome LiveTraffic::take_fdm(const Datagram& datagram) {
 }
 
 LiveTraffic::PacketOutcome LiveTraffic::take_line(const Datagram& datagram) {
-    // No more clients than that are connected at a time: who is silent longest has gone.
+    // At most that many clients are connected, so the one that was silent longest has disconnected.
     auto* const stream = stream_of(columns_, datagram.source, datagram.arrival_s, 0.0);
     if (stream == nullptr) {
         ++counts_.unused;

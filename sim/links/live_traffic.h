@@ -26,43 +26,43 @@
 
 namespace octant::sim::links {
 
-/// One packet's motion in world axes. state.time_s is the sender's time.
+/// The motion in one packet, in world axes. state.time_s is the time of the sender.
 struct LiveSample {
     AircraftState state;
-    glm::dvec3 world_radps{0.0};        ///< rate of turn in world axes
+    glm::dvec3 world_radps{0.0};        ///< turn rate in world axes
     glm::dvec3 world_mps2{0.0};         ///< acceleration
-    double extrapolation_limit_s = 0.5; ///< how long the motion may go on beyond it
-    double accelerated_s = 0.5;         ///< how long it accelerates beyond it
+    double extrapolation_limit_s = 0.5; ///< longest time the motion may continue after this sample
+    double accelerated_s = 0.5;         ///< longest time it accelerates after this sample
 };
 
-/// The motion of one vehicle, put together from samples that come late, in bursts or not at all. Between samples it
-/// lies on their curve; beyond the last one it goes on by velocity and rate of turn for as long as that sample allows,
-/// then it stands. What new samples put right is blended in over about 0.15 s, unless it is too far for that; what lies
-/// behind along the flight is waited for at less speed, so that nothing flies backwards.
+/// The motion of one vehicle from samples that come late, in bursts or not at all. Between samples it follows their
+/// curve. After the last sample it continues with its velocity and turn rate as long as that sample allows, then it
+/// stops. Corrections are blended in over about 0.15 s; larger ones jump. If the new position is behind, the shown
+/// motion slows down until it is reached, so that nothing flies backwards.
 class LiveTrack {
 public:
-    /// A sample after all others (asserted). Those that are near one another in time give way, so that memory is
-    /// bounded.
+    /// Adds a sample that is later than all others (asserted). Samples close in time replace one another, so that
+    /// memory is bounded.
     void add(const LiveSample& sample);
 
     bool empty() const { return samples_.empty(); }
 
     const LiveSample& last() const { return samples_.back(); }
 
-    /// Those of the last seconds, in the order of time.
+    /// Samples of the last seconds in order of time.
     const std::deque<LiveSample>& samples() const { return samples_; }
 
-    /// Forgets all: the next sample begins another motion.
+    /// Removes all samples: the next one begins another motion.
     void clear();
 
-    /// What is to be shown `passed_s` after what was shown last, at a time of the sender's clock. There must be a
-    /// sample (asserted). time_s of what it gives is `sender_s`.
+    /// The state to show at a time of the clock of the sender, `passed_s` after the state shown last. Requires a sample
+    /// (asserted). time_s of the result is `sender_s`.
     AircraftState show(double sender_s, double passed_s);
 
-    /// Whether the last picture is so far beyond the last sample that the motion stands.
+    /// True if the last state shown was so long after the last sample that the motion stopped.
     bool is_stale() const { return stale_; }
 
-    /// How often a correction was too far to be blended in.
+    /// Number of corrections that were too large for blending.
     long snaps() const { return snaps_; }
 
 private:
@@ -76,7 +76,7 @@ private:
     long snaps_ = 0;
 };
 
-/// Who sends a vehicle's motion, and which of his vehicles it is.
+/// The sender of a vehicle and the number of the vehicle at this sender.
 struct VehicleKey {
     Protocol protocol = Protocol::Fdm;
     PacketSource source;
@@ -85,25 +85,25 @@ struct VehicleKey {
     auto operator<=>(const VehicleKey&) const = default;
 };
 
-/// One vehicle that somebody else flies: from fixes as they arrive to the motion that is shown.
+/// One vehicle flown by another program: from fixes as they arrive to the motion that is shown.
 class LiveVehicle {
 public:
     explicit LiveVehicle(const VehicleKey& key) : key_(key) {}
 
     const VehicleKey& key() const { return key_; }
 
-    /// Takes a fix and where it lies in the world. Returns false for one that came too late. Arrivals are seconds on
-    /// our clock and do not go back.
+    /// Adds a fix and its position in the world. Returns false for a late fix. Arrivals are seconds on our clock and
+    /// must not decrease.
     bool add(const Fix& fix, const glm::dvec3& world_m, double arrival_s);
 
-    /// What is to be shown at a time of our clock, `delay_s` behind it and `passed_s` after what was shown last. There
-    /// must be a fix (asserted).
+    /// The state to show at a time of our clock, delayed by `delay_s`, `passed_s` after the state shown last. Requires
+    /// a fix (asserted).
     AircraftState show(double now_s, double delay_s, double passed_s);
 
-    /// The motion of the newest fix. There must be one (asserted).
+    /// The motion of the newest fix. Requires a fix (asserted).
     const AircraftState& newest() const { return track_.last().state; }
 
-    /// Not to be seen until it is moved again.
+    /// Hides the vehicle until it is moved again.
     void hide() { hidden_ = true; }
 
     bool is_hidden() const { return hidden_; }
@@ -136,40 +136,40 @@ private:
     LiveTrack track_;
     std::optional<Fix> last_fix_;
     double last_arrival_s_ = 0.0;
-    double velocity_error_ = 0.0; ///< share by which velocities contradict positions, filtered
-    int repeats_ = 0;             ///< fixes in a row that say the same place
-    int typical_repeats_ = 0;     ///< of a sender whose places change less often than it sends
-    double moved_at_s_ = 0.0;     ///< arrival of the last fix that said another place
+    double velocity_error_ = 0.0; ///< filtered relative difference of reported velocities and positions
+    int repeats_ = 0;             ///< consecutive fixes with the same position
+    int typical_repeats_ = 0;     ///< for senders whose positions change less often than they send
+    double moved_at_s_ = 0.0;     ///< arrival of the last fix with a new position
     bool hidden_ = false;
     long late_ = 0;
     long taken_ = 0;
 };
 
-/// Where a fix lies in the world.
+/// Position of a fix in the world.
 struct WorldPosition {
     glm::dvec3 at_m{0.0};
-    double north_bearing_rad = 0.0; ///< of true north there, clockwise from the y axis
+    double north_bearing_rad = 0.0; ///< bearing of true north, clockwise from the y axis
 };
 
 using WorldFromFix = std::function<WorldPosition(const VehicleKey& key, const Fix& fix)>;
 
-/// What came so far.
+/// Counts of all packets so far.
 struct TrafficCounts {
     long accepted = 0; ///< packets that moved something
-    long wrong = 0;    ///< packets that no decoder took
-    long unused = 0;   ///< right ones of which nothing is shown, of vehicles beyond the cap too
-    /// As the numbers say that MAVLink and hosts of CIGI give their messages, whatever these hold; nothing where no
-    /// stream is numbered. The other protocols number nothing.
+    long wrong = 0;    ///< packets that every decoder refused
+    long unused = 0;   ///< correct packets of which nothing is shown, including vehicles beyond max_vehicles
+    /// Lost packets by the sequence numbers of MAVLink and of CIGI hosts; nothing if no stream is numbered. The other
+    /// protocols have no numbers.
     std::optional<long> lost;
     long late = 0;   ///< dropped
     long snaps = 0;  ///< corrections too large to be blended in
-    long untold = 0; ///< packets of so many kinds that packet_reports() leaves them out
+    long untold = 0; ///< packets that packet_reports() leaves out because there are too many kinds
 };
 
-/// What came of one vehicle, followed or not.
+/// Summary of the packets of one vehicle, followed or not.
 struct VehicleReport {
-    std::string name;    ///< as name_of() has it
-    std::string marking; ///< what a DIS entity calls itself; else empty
+    std::string name;    ///< see name_of()
+    std::string marking; ///< marking of a DIS entity; otherwise empty
     Protocol protocol = Protocol::Fdm;
     PacketSource source;
     long packets = 0;
@@ -179,33 +179,32 @@ struct VehicleReport {
     bool is_shown = false;
 };
 
-/// Packets of one form that were refused or passed over, or taken.
+/// Packets of one kind that were accepted, refused or ignored.
 struct PacketReport {
     PacketSource source;
-    std::string text; ///< what a person should be told of them
+    std::string text; ///< message
     long packets = 0;
     bool is_wrong = false;
 };
 
-/// How people call a vehicle: "1:2:3" is site, application and entity of DIS; "system 1" of MAVLink; "entity 5" of
-/// CIGI; "aircraft" where a sender has but one.
+/// Display name of a vehicle: "1:2:3" is site, application and entity of DIS; "system 1" of MAVLink; "entity 5" of
+/// CIGI; "aircraft" for senders with only one.
 std::string name_of(const VehicleKey& key);
 
-/// All vehicles that others fly. Takes packets as they came and gives what is shown at a time; no sockets and no clocks
-/// in here, so that a recording of packets repeats it.
+/// All vehicles flown by other programs. Reads packets and gives the states to show at a time. Uses no sockets and no
+/// clocks, so that a recording of packets repeats it.
 class LiveTraffic {
 public:
     static constexpr std::size_t max_vehicles = 256;
-    /// Vehicles that are reported; those beyond max_vehicles are not followed.
+    /// Most vehicles that are reported; those beyond max_vehicles are not followed.
     static constexpr std::size_t max_reported = 20000;
-    /// Silence after which a vehicle gives its place to another one.
+    /// Silence after which another vehicle may replace this one.
     static constexpr double gone_after_s = 10.0;
-    /// The same where the other one is its sender begun anew: of the same number, machine and protocol, by another
-    /// port.
+    /// The same if the other vehicle is that of the restarted sender: same number, machine and protocol, another port.
     static constexpr double restarted_after_s = 2.0;
 
-    /// Hosts of CIGI are answered over `ground`, which must outlive this; null: all is outside. `ellipsoid` is that of
-    /// the ground.
+    /// `ground` answers CIGI hosts and must outlive this; null: all is outside the map. `ellipsoid` is that of the
+    /// ground.
     explicit LiveTraffic(
         WorldFromFix world_from_fix, const CigiGround* ground = nullptr, const Ellipsoid& ellipsoid = wgs84)
         : world_from_fix_(std::move(world_from_fix)), ellipsoid_(ellipsoid), cigi_(ground) {}
@@ -215,44 +214,44 @@ public:
     const CigiImageGenerator& cigi() const { return cigi_; }
 
     enum class PacketOutcome {
-        Wrong, ///< no decoder knows it; it changed nothing but counts
-        Right, ///< it may matter for later ones
+        Wrong, ///< refused by the decoder; only counts changed
+        Right, ///< correct; may matter for later packets
         Moved
     };
 
-    /// Decodes one packet. Never throws for what it holds.
+    /// Decodes one packet. Never throws because of its contents.
     PacketOutcome take(const Datagram& datagram);
 
-    /// In the order in which they came first.
+    /// In the order of their first packets.
     std::span<const LiveVehicle> vehicles() const { return vehicles_; }
 
-    /// States of the first vehicles as their newest packets say, neither smoothed nor carried on.
+    /// States of the first vehicles from their newest packets, neither smoothed nor extrapolated. Returns the number of
+    /// states written.
     std::size_t show_newest(double now_s, std::span<AircraftState> states);
 
-    /// States of the first vehicles at a time of our clock, not before that of the last call. Returns how many of
-    /// `states` were filled in.
+    /// States of the first vehicles at a time of our clock, not before that of the last call. Returns the number of
+    /// states written.
     std::size_t show(double now_s, double delay_s, std::span<AircraftState> states);
 
     const TrafficCounts& counts() const { return counts_; }
 
-    /// Whether any vehicle that is shown has stood since the last show() for want of packets.
+    /// True if any shown vehicle stopped at the last show() for lack of packets.
     bool is_stale() const;
 
-    /// When the newest packet came that moved something, on our clock.
+    /// Arrival of the newest packet that moved a vehicle, on our clock.
     double newest_s() const { return newest_s_; }
 
-    /// What was told for the first time since the last call: each sender with each kind of packet once, a line each; of
-    /// each fault at most 16 kinds from one sender and 100 kinds in all, but always the first kind of each of 100
-    /// senders more.
+    /// Messages since the last call: one line for each kind of packet of each sender; of each fault at most 16 kinds of
+    /// one sender and 100 kinds in all, but always the first kind of each of 100 more senders.
     std::vector<std::string> take_new_messages();
 
-    /// What a person should be told, a line each: senders and what is wrong with them.
+    /// Status lines: senders and what is wrong with their packets.
     std::vector<std::string> lines() const;
 
-    /// All vehicles of which something came, by protocol, source and number.
+    /// All vehicles that sent a packet, by protocol, source and number.
     std::vector<VehicleReport> vehicle_reports() const;
 
-    /// What came, each form of packet of each sender once, with the number of such packets.
+    /// All kinds of packets of each sender with their numbers.
     std::vector<PacketReport> packet_reports() const;
 
 private:
@@ -278,14 +277,14 @@ private:
     void number(const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits);
     std::optional<long> lost_of(const VehicleKey& key) const;
 
-    /// Packets of one kind from one sender.
+    /// Number of packets of one kind from one sender.
     struct PacketTally {
         DecodeResult first;
         long packets = 0;
         bool is_uniform = true; ///< of one size
     };
 
-    /// A kind of packet. Sizes are no part of it: damaged packets have any.
+    /// A kind of packet. Sizes do not belong to it, because damaged packets have any size.
     struct PacketErrorKey {
         PacketError fault = PacketError::None;
         PacketSource source;
@@ -300,7 +299,7 @@ private:
     std::vector<LiveVehicle> vehicles_;
     std::map<VehicleKey, std::size_t> numbers_; ///< of vehicles_, by their keys
 
-    /// What is kept of a stream between its packets.
+    /// The state of a stream between its packets.
     template <class Value>
     struct Stream {
         Value value;
@@ -310,15 +309,15 @@ private:
     std::map<PacketSource, Stream<NamedColumns>> columns_;
     std::map<std::pair<PacketSource, std::uint8_t>, Stream<MavLinkPose>> poses_;
     std::map<PacketSource, Stream<XPlanePose>> xplanes_;
-    /// By sender and, for MAVLink, system and component in one number.
+    /// By sender and, for MAVLink, by system and component in one number.
     std::map<std::tuple<Protocol, PacketSource, std::uint16_t>, Stream<SequenceCount>> sequences_;
     CigiImageGenerator cigi_;
     TrafficCounts counts_;
-    /// Packets by what they were, as far as that is told.
+    /// Packets by kind, as far as they are reported.
     std::map<PacketErrorKey, PacketTally> packet_tallies_;
-    std::map<PacketError, std::size_t> error_keys_; ///< how many of packet_tallies_ have a fault
-    bool has_reported_dis_ = false;                 ///< that it knows the earth alone
-    /// Without names, which follow from the keys.
+    std::map<PacketError, std::size_t> error_keys_; ///< number of packet_tallies_ with this fault
+    bool has_reported_dis_ = false;                 ///< whether the message about the earth as the only body was given
+    /// Without names, which the keys give.
     std::map<VehicleKey, VehicleReport> reports_;
     std::vector<std::string> messages_;
     LastReport last_accepted_;

@@ -72,7 +72,7 @@ double boot_s(const WireReader& reader) {
     return reader.at<std::uint32_t>(0) / ms_per_s;
 }
 
-/// Autopilots that do not know yet where they are say 0 N, 0 E.
+/// Autopilots without a position report 0 N, 0 E.
 std::optional<Fix> plausible(const Fix& fix) {
     const bool is_somewhere = fix.latitude_deg != 0.0 || fix.longitude_deg != 0.0;
     return is_somewhere && error_of_fix(fix) == PacketError::None ? std::optional(fix) : std::nullopt;
@@ -168,7 +168,7 @@ std::optional<Fix> MavLinkPose::take_position(const MavLinkFrame& frame) {
     fix.attitude.heading_rad = heading_cdeg == no_heading ? 0.0 : rad_from_deg(heading_cdeg / cm_per_m);
     if (!plausible(fix)) { return std::nullopt; }
     position_ = fix;
-    // Attitudes come more often; while they do, they carry the position on.
+    // Attitudes come more often and move the position on between two positions.
     constexpr double attitude_kept_s = 0.5;
     const bool carried = attitude_s_ && std::abs(*fix.sent_s - *attitude_s_) < attitude_kept_s;
     return hil_ || carried ? std::nullopt : position_;

@@ -14,7 +14,7 @@ namespace octant::sim::links {
 
 inline constexpr std::uint16_t mavlink_port = 14550;
 
-/// The messages that hold a pose.
+/// The messages that contain a pose.
 enum class MavLinkKind : std::uint32_t {
     Heartbeat = 0,
     Attitude = 30,
@@ -22,22 +22,22 @@ enum class MavLinkKind : std::uint32_t {
     HilStateQuaternion = 115
 };
 
-/// One frame of MAVLink 1 or 2 whose check sum is right.
+/// One frame of MAVLink 1 or 2 with a correct checksum.
 struct MavLinkFrame {
     MavLinkKind kind = MavLinkKind::Heartbeat;
     std::uint8_t system = 0;
-    /// As long as its kind says: zeros that version 2 cuts off stand there again.
+    /// Full length of its kind: zeros that version 2 cuts off are restored.
     std::vector<std::byte> payload;
 };
 
-/// Reads the frame at the beginning of `bytes` and says how long it is; where none begins there, the length is that of
-/// what is to be skipped, at least 1. Frames of other kinds are Unused with their number as DecodeResult::got; their
-/// check sums cannot be told.
+/// Reads the frame at the beginning of `bytes` and its length. If no frame begins there, the length is the number of
+/// bytes to skip, at least 1. Frames of other kinds are Unused with their number as DecodeResult::got; their checksums
+/// are unknown.
 struct MavLinkParse {
     DecodeResult result;
     std::size_t length = 0;
     std::optional<MavLinkFrame> frame;
-    /// Of frames whose result is None or Unused.
+    /// For frames whose result is None or Unused.
     std::uint8_t system = 0;
     std::uint8_t component = 0;
     std::uint8_t sequence = 0; ///< counts the frames of a component on one link
@@ -45,11 +45,12 @@ struct MavLinkParse {
 
 MavLinkParse parse_mavlink(Bytes bytes);
 
-/// The pose of one system, from one kind of message: HIL_STATE_QUATERNION where that ever comes, else ATTITUDE over the
-/// positions of GLOBAL_POSITION_INT, which tell the height of its home to both.
+/// The pose of one system from one kind of message: HIL_STATE_QUATERNION if that ever comes, otherwise ATTITUDE
+/// combined with the positions of GLOBAL_POSITION_INT, which give the height of the home position to both.
 class MavLinkPose {
 public:
-    /// A fix where the message completes one. Attitudes between positions carry these on over the ellipsoid.
+    /// A fix if the message completes one. Attitudes between two positions move the last position on over the
+    /// ellipsoid.
     std::optional<Fix> take(const MavLinkFrame& frame, const Ellipsoid& ellipsoid = wgs84);
 
 private:

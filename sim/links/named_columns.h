@@ -11,20 +11,20 @@
 
 namespace octant::sim::links {
 
-/// Lines of numbers under named columns, as any script can write them: first the names, then a line a fix, parted by
-/// commas or tabs. Places are lat_deg and lon_deg, or north_m and east_m from the flight's place; alt_m must be there.
-/// As there may be: t_s (the sender's clock), agl_m, roll_deg, pitch_deg, yaw_deg, v_north_mps, v_east_mps, v_up_mps,
-/// id (a whole number for each aircraft). Other columns are passed over.
+/// Lines of numbers under named columns, as any script can write them: first a line of names, then one line per fix,
+/// separated by commas or tabs. Required: alt_m and either lat_deg and lon_deg or north_m and east_m (from the origin
+/// of the flight). Optional: t_s (clock of the sender), agl_m, roll_deg, pitch_deg, yaw_deg, v_north_mps, v_east_mps,
+/// v_up_mps, id (an integer for each aircraft). Other columns are ignored.
 class NamedColumns {
 public:
-    /// Longest line that is taken, bytes.
+    /// Longest accepted line, bytes.
     static constexpr std::size_t longest_line = 2048;
 
-    /// Takes a line. A line that holds no number in its first field is one of names; the first line must be one. `fix`
-    /// is set where the result is without fault; lines of names are Unused.
+    /// Reads a line. A line whose first field is not a number is a line of names; the first line must be one. Sets
+    /// `fix` if the result has no fault; lines of names are Unused.
     DecodeResult take(Bytes line, Fix& fix);
 
-    /// What a person should be told of a line.
+    /// Message about a line.
     static std::string text_of(const DecodeResult& result);
 
 private:

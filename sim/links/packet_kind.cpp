@@ -73,7 +73,7 @@ std::optional<PacketKind> cigi_kind(Bytes datagram) {
     return std::nullopt;
 }
 
-/// A PDU as long as it says, or an entity state: some senders leave the length 0.
+/// A PDU with a correct length, or an entity state: some senders leave the length 0.
 bool is_dis(Bytes datagram) {
     constexpr std::size_t header_bytes = 12;
     const WireReader reader(datagram, ByteOrder::Big);
@@ -89,7 +89,7 @@ bool is_xplane(Bytes datagram) {
     return rest > 0 && ((begins(datagram, "DATA") && rest % 36 == 0) || (begins(datagram, "RREF") && rest % 8 == 0));
 }
 
-/// The first frame is right, or of a message that is not known here and as long as it says.
+/// True if the first frame is correct, or of an unknown message with a correct length.
 bool is_mavlink(Bytes datagram) {
     const MavLinkParse parse = parse_mavlink(datagram);
     return parse.result.fault == PacketError::None ||

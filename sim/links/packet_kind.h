@@ -9,10 +9,10 @@
 
 namespace octant::sim::links {
 
-/// What a packet is by its form, whichever port it came to.
+/// The kind of a packet by its form, whatever the port.
 enum class PacketKind : std::uint32_t {
     Fdm,
-    SwappedFdm, ///< with its bytes the other way round
+    SwappedFdm, ///< little-endian
     Cigi3,
     OlderCigi, ///< 1 or 2
     Cigi4,
@@ -25,14 +25,13 @@ enum class PacketKind : std::uint32_t {
     Acmi,
 };
 
-/// The kind of a packet that begins, and is as long, as packets of that kind are; nothing for one that is of none.
+/// The kind of a packet by its beginning and its length; nothing if unknown.
 std::optional<PacketKind> packet_kind(Bytes datagram);
 
-/// The protocol that reads packets of a kind; nothing where none does.
+/// The protocol that reads packets of a kind; nothing if none does.
 std::optional<Protocol> protocol_of(PacketKind kind);
 
-/// What a person should be told of packets of a kind that came to a port where they are not read: what they are, and
-/// what to do.
+/// Message about packets of a kind that came to a port where they are not read: what they are, and what to do.
 std::string_view text_of(PacketKind kind);
 
 } // namespace octant::sim::links

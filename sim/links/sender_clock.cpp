@@ -10,10 +10,10 @@ namespace octant::sim::links {
 
 namespace {
 
-/// A longer silence of packets without a clock counts as time that passed at the sender too.
+/// A longer silence of packets without a clock also counts as time at the sender.
 constexpr double max_gap_s = 0.25;
 constexpr double restart_s = 2.0;
-constexpr double min_step_s = 1e-6; ///< what is nearer counts as the same time
+constexpr double min_step_s = 1e-6; ///< shorter differences count as the same time
 constexpr int late_before_restart = 10;
 constexpr int restarts_before_distrust = 3;
 constexpr double min_bucket_s = 0.25; ///< the least delay is that of twelve of them
@@ -21,7 +21,7 @@ constexpr double quick_fall_s = 0.1;
 constexpr double max_rise = 0.05; ///< seconds a second
 constexpr double unit_after_s = 1.0;
 constexpr double max_pace_error = 0.3;
-constexpr double min_speed_mps = 0.3; ///< below, the way is no measure of time
+constexpr double min_speed_mps = 0.3; ///< below, the distance is no measure of time
 
 } // namespace
 
@@ -89,7 +89,7 @@ void DistanceFit::fit() {
     }
 }
 
-/// Returns false where the points do not determine a line or parabola.
+/// Returns false if the points do not determine a line or parabola.
 bool DistanceFit::solve(bool curved) {
     ParabolaFit<double> sums;
     const Point& last = points_.back();
@@ -147,7 +147,7 @@ void SenderClock::begin(double arrival_s, const TimingEvidence& clue) {
     has_begun_ = true;
     consecutive_restarts_ = restarts;
     ignores_sent_time_ = useless;
-    // Goes on so that what is shown never meets older times again.
+    // Continues so that the shown time never decreases.
     sender_s_ = before_s + (before_s > 0.0 ? restart_s : 0.0);
     last_arrival_s_ = arrival_s;
     last_sent_s_ = clue.sent_s.value_or(0.0);
@@ -163,7 +163,7 @@ void SenderClock::begin_offset(double arrival_s) {
     bucket_since_s_ = arrival_s;
 }
 
-/// Time by a clock whose unit nobody told, once it is known: the power of ten that fits the arrivals of a second.
+/// Time by a clock of unknown unit, once the unit is found: the power of ten that fits the arrivals of a second.
 std::optional<double> SenderClock::step_by_ticks(double arrival_s, const TimingEvidence& clue) {
     const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
     if (ticks_rate_check_.is_wrong()) {
@@ -191,8 +191,8 @@ std::optional<double> SenderClock::step_by_ticks(double arrival_s, const TimingE
     return seconds_per_tick_ > 0.0 ? std::optional(change * seconds_per_tick_) : std::nullopt;
 }
 
-/// By the speed that the way has itself. The time that the fit gives is followed as far as speed then stays within half
-/// and double.
+/// Time from the speed of the track itself. The time of the fit is followed as long as the speed stays within half and
+/// double.
 SenderClock::Step SenderClock::step_by_distance(double arrival_s, double distance_m) {
     if (distance_m <= 0.0) {
         const double back_s = distance_fit_.is_ready() ? distance_m / distance_fit_.speed_mps() : -min_step_s;
@@ -213,7 +213,7 @@ SenderClock::Step SenderClock::step_by_distance(double arrival_s, double distanc
     return {TimeSource::Way, std::clamp(fitted_s, 0.5 * even_s, 2.0 * even_s), even_s};
 }
 
-/// By arrivals, made even over about ten packets.
+/// Time from arrivals, averaged over about ten packets.
 SenderClock::Step SenderClock::step_by_arrivals(double arrival_s) {
     const double between_s = std::max(arrival_s - last_arrival_s_, min_step_s);
     const double period_s = spacing_.period_s();
@@ -229,7 +229,7 @@ SenderClock::Step SenderClock::step_by_arrivals(double arrival_s) {
     return {TimeSource::Arrivals, std::max(step_s, min_step_s), between_s};
 }
 
-/// Time that passed at the sender since the last packet, by the best clue.
+/// Time at the sender since the last packet, from the best source.
 SenderClock::Step SenderClock::step_of(double arrival_s, const TimingEvidence& clue) {
     const std::optional<double> ticked = clue.ticks ? step_by_ticks(arrival_s, clue) : std::nullopt;
     const auto told = [](TimeSource source, double passed_s) {
@@ -249,7 +249,7 @@ SenderClock::Step SenderClock::step_of(double arrival_s, const TimingEvidence& c
                     : told(TimeSource::ReportedSpeed, *clue.moved_s);
 }
 
-/// Follows the least delay of the last seconds: downwards quickly, upwards slowly.
+/// Follows the smallest delay of the last seconds: downwards quickly, upwards slowly.
 void SenderClock::follow(double arrival_s) {
     const double delay_s = arrival_s - sender_s_;
     const double bucket_s = std::max(min_bucket_s, period_s());
@@ -273,7 +273,7 @@ void SenderClock::follow(double arrival_s) {
     jitter_s_ += jitter_share * (std::max(delay_s - min_s, 0.0) - jitter_s_);
 }
 
-/// Where a clock turns out to be wrong, what was made of it goes.
+/// Discards the state of a clock that proved wrong.
 void SenderClock::check_clock_rate(double arrival_s, const TimingEvidence& clue) {
     const double between_s = arrival_s - last_arrival_s_;
     const auto wrong = [this] {
@@ -292,7 +292,7 @@ void SenderClock::check_clock_rate(double arrival_s, const TimingEvidence& clue)
     }
 }
 
-/// Whether the packet is one that comes too late. A clock that stands is not asked any more.
+/// True if the packet is late. A clock that stands still is ignored.
 bool SenderClock::is_late(const Step& step) {
     if (step.passed_s > 0.0 || step.passed_s <= -restart_s) { return false; }
     const bool too_many = ++consecutive_late_ >= late_before_restart;

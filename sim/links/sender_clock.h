@@ -10,27 +10,28 @@
 
 namespace octant::sim::links {
 
-/// What a packet tells of the time that has passed at its sender since the last packet that was Next or Restarts.
+/// Evidence in one packet for the time that passed at its sender since the last packet with the result Next or Restarts
+/// (SenderClock::Order).
 struct TimingEvidence {
     std::optional<double> sent_s;       ///< the sender's clock
     std::optional<std::uint32_t> ticks; ///< a clock that wraps around
-    double tick_s = 0.0;                ///< its unit; 0 = to be found out
-    /// How long the way from the last place takes at the speed that the packet says.
+    double tick_s = 0.0;                ///< unit of the ticks; 0 = unknown
+    /// Time to cover the distance from the last position at the speed that the packet reports.
     std::optional<double> moved_s;
-    /// The way from the last place in metres, negative where it runs back.
+    /// Distance from the last position along the track, metres; negative if backwards.
     std::optional<double> distance_m;
 };
 
-/// The mean distance of the newest packets in the sender's time.
+/// The mean time between the newest packets, by the clock of the sender.
 class PacketSpacing {
 public:
-    /// Takes the distance of a packet from the one before, in seconds.
+    /// Adds the time between a packet and the one before, seconds.
     void add(double distance_s);
 
     /// Seconds, 0 until known.
     double period_s() const { return period_s_; }
 
-    /// Whether there are enough distances for their mean to say something.
+    /// True if there are enough packets for a mean.
     bool is_settled() const { return count_ >= 8; }
 
 private:
@@ -39,46 +40,47 @@ private:
     double period_s_ = 0.0;
 };
 
-/// Counts what a stream lacks whose sender numbers its packets one by one, with numbers that wrap around. Numbers count
-/// as missing up to 32 in a row; after more, and after two seconds of silence, the sender may have begun anew, and
-/// nothing counts.
+/// Counts the lost packets of a stream whose sender numbers its packets one by one, with numbers that wrap around. Up
+/// to 32 missing numbers in a row count as lost. After more, or after two seconds of silence, the sender may have
+/// restarted, and nothing counts as lost.
 class SequenceCount {
 public:
-    /// Takes the number of a packet, of so many bits, and its arrival. One that comes late is not missing any more; one
-    /// that comes twice counts once.
+    /// Adds a packet by its number, which has `bits` bits, and its arrival. A late packet is no longer missing; a
+    /// repeated one counts once.
     void add(std::uint32_t number, int bits, double arrival_s);
 
-    /// Whether the sender numbers this stream by itself: eight numbers came, and three quarters of all. A counter that
-    /// stands still tells nothing, nor does one that other streams share.
+    /// True if the sender numbers this stream: eight numbers came, and three quarters of them follow one another. A
+    /// counter that stands still or that several streams share is no evidence.
     bool is_numbered() const { return taken_ >= 8 && taken_ >= 3 * lost_; }
 
-    /// Packets that are missing; 0 where the stream is not numbered.
+    /// Number of missing packets; 0 if the stream is not numbered.
     long lost() const { return is_numbered() ? lost_ : 0; }
 
 private:
     std::uint32_t newest_ = 0;
-    std::uint64_t received_mask_ = 0; ///< bit i: the number newest_ - i came, or is from before the beginning
+    std::uint64_t received_mask_ = 0; ///< bit i: number newest_ - i was received or precedes the first
     double last_s_ = 0.0;
     bool has_begun_ = false;
     long taken_ = 0;
     long lost_ = 0;
 };
 
-/// When a vehicle was at a place of its way, from the way that it covered by each arrival: a parabola through the last
-/// three seconds, in which packets that are late count little. It holds where packets come in bursts, and where the
-/// sender's rate is uneven.
+/// Estimates when a vehicle was at a point of its track, from the distance covered by each arrival: a parabola through
+/// the last three seconds, in which late packets have little weight. Works for bursts and for uneven rates of the
+/// sender.
 class DistanceFit {
 public:
-    /// Takes the whole way up to a packet, in metres, and its arrival; arrivals do not go back.
+    /// Adds the distance covered up to a packet, metres, and its arrival. Arrivals must not decrease.
     void add(double arrival_s, double distance_m);
 
-    /// Whether there is enough to go by, and the vehicle is fast enough.
+    /// True if there are enough packets and the vehicle is fast enough.
     bool is_ready() const { return ready_; }
 
-    /// The time of a place near the last one, by the receiver's clock. is_ready() (asserted).
+    /// Time, by the clock of the receiver, at which a point near the last one was passed. Requires is_ready()
+    /// (asserted).
     double time_s(double distance_m) const;
 
-    /// The speed at the last packet. is_ready() (asserted).
+    /// Speed at the last packet. Requires is_ready() (asserted).
     double speed_mps() const { return fitted_.slope; }
 
 private:
@@ -94,16 +96,16 @@ private:
 
     std::vector<Point> points_;
     bool ready_ = false;
-    Parabola<double> fitted_; ///< the way by time from the last arrival
+    Parabola<double> fitted_; ///< distance over time since the last arrival
 };
 
-/// Whether a clock keeps pace with arrivals: judged after one second, then every three.
+/// Checks that a clock keeps pace with arrivals: first after one second, then every three.
 class ClockRateCheck {
 public:
-    /// Takes what passed between two packets by arrivals and by the clock.
+    /// Adds the time between two packets by arrivals and by the clock.
     void add(double arrived_s, double passed_s);
 
-    /// Whether the clock ran more than 30 % too fast or slow when it was judged last.
+    /// True if the clock was more than 30 % too fast or too slow at the last check.
     bool is_wrong() const { return wrong_; }
 
 private:
@@ -113,45 +115,45 @@ private:
     bool wrong_ = false;
 };
 
-/// Finds out when packets were sent, by our clock, from when they came: they come in bursts, at rates that nobody
-/// announced. The sender's time runs by its own clock where packets tell one whose unit can be found, else by the
-/// vehicle's own motion (the way covered over the speed that is told, else over the speed that the way itself has),
-/// else by the mean distance of arrivals. A clock that does not keep pace with arrivals is not followed. Our time from
-/// the sender's: the least delay of the last seconds, followed slowly. A function of the calls alone; no clock is read.
+/// Estimates when packets were sent, by our clock, from their arrivals, which come in bursts and at unknown rates. The
+/// time of the sender is taken, in this order, from its own clock if its unit can be found; from the distance covered
+/// over the reported speed; from the distance covered over the speed of the track itself; from the mean time between
+/// arrivals. A clock that does not keep pace with arrivals is ignored. The offset to our clock is the smallest delay of
+/// the last seconds, followed slowly. A function of its calls only; reads no clock.
 class SenderClock {
 public:
     enum class Order {
         Next,
-        Late,     ///< sent before the last one, or the same again
-        Restarts, ///< so far from the last one that the sender must have begun anew
+        Late,     ///< sent before the last packet, or a repetition of it
+        Restarts, ///< so far from the last packet that the sender must have restarted
     };
 
-    /// Takes the next packet by its arrival, seconds on our clock, which do not go back.
+    /// Adds the next packet by its arrival, seconds on our clock, which must not decrease.
     Order take(double arrival_s, const TimingEvidence& clue);
 
-    /// The sender's time of the last packet that was Next or Restarts, in seconds from the first.
+    /// Time of the sender at the last packet that was Next or Restarts, seconds since the first packet.
     double sender_s() const { return sender_s_; }
 
-    /// The sender's time that is to be shown at a time of ours.
+    /// The time of the sender for a time of our clock.
     double sender_from_ours_s(double ours_s) const { return ours_s - offset_s_; }
 
-    /// Mean distance of packets, seconds; 0 until known.
+    /// Mean time between packets, seconds; 0 until known.
     double period_s() const { return spacing_.period_s(); }
 
-    /// How much later than the quickest packets come: the mean over some of them, seconds.
+    /// Mean delay of packets beyond the quickest ones, seconds.
     double jitter_s() const { return jitter_s_; }
 
 private:
     static constexpr std::size_t buckets = 12;
 
-    /// By what the time between two packets is known.
+    /// The source of the time between two packets.
     enum class TimeSource { SentTime, Ticks, ReportedSpeed, Way, Arrivals };
 
     /// The time since the last packet.
     struct Step {
         TimeSource source = TimeSource::Arrivals;
         double passed_s = 0.0;
-        double distance_s = 0.0; ///< the same without what delays have done to it
+        double distance_s = 0.0; ///< the same without the influence of delays
     };
 
     Step step_of(double arrival_s, const TimingEvidence& clue);
@@ -169,7 +171,7 @@ private:
     double last_arrival_s_ = 0.0;
     double last_sent_s_ = 0.0;
     ClockRateCheck sent_rate_check_;
-    /// The sender's clock stands, or makes it begin anew with each packet.
+    /// True if the clock of the sender stands still or restarts with each packet.
     bool ignores_sent_time_ = false;
     std::uint32_t last_ticks_ = 0;
     // What the last second says of the unit of the ticks.

@@ -45,7 +45,7 @@ TacviewServer& TacviewServer::operator=(TacviewServer&& other) noexcept {
     return *this;
 }
 
-/// A newcomer takes the place of the client that has been shaking hands for longest, where too many are.
+/// If too many clients are in their handshake, a new one replaces the oldest.
 void TacviewServer::take_clients() {
     constexpr int max_a_call = 256;
     for (int taken = 0; taken < max_a_call; ++taken) {
@@ -63,7 +63,7 @@ void TacviewServer::take_clients() {
     }
 }
 
-/// Returns false for a client that is to be let go.
+/// Returns false if the client must be disconnected.
 bool TacviewServer::do_handshake(Client& client) const {
     std::array<char, 1024> bytes{};
     ssize_t count = 0;
@@ -85,7 +85,7 @@ bool TacviewServer::do_handshake(Client& client) const {
     return true;
 }
 
-/// Returns false for a client that does not keep up or has gone.
+/// Returns false if the client is too slow or has disconnected.
 bool TacviewServer::flush(Client& client) {
     while (!client.waiting.empty()) {
         const ssize_t sent =

@@ -12,18 +12,18 @@
 
 namespace octant::sim::links {
 
-/// Tacview's real-time telemetry: a TCP server that speaks first and then sends ACMI text as it comes. Late joiners get
-/// the header and what every object is first; readers that do not keep up are let go.
+/// A TCP server for the real-time telemetry of Tacview: it speaks first and then sends ACMI text as it is made. Late
+/// clients first get the header and the properties of all objects; clients that do not keep up are disconnected.
 class TacviewServer {
 public:
     static constexpr std::uint16_t usual_port = 42674;
     static constexpr std::size_t max_readers = 16;
-    /// Clients that have not shaken hands yet; the oldest makes room for another one.
+    /// Most clients that may be in their handshake; a further one replaces the oldest.
     static constexpr std::size_t max_handshakes = 64;
     static constexpr std::size_t max_waiting_bytes = std::size_t{1} << 20;
     static constexpr std::chrono::seconds handshake_timeout{5};
 
-    /// Throws Error where the port is taken; 0 = any free one.
+    /// Throws Error if the port is taken; 0 = any free one.
     TacviewServer(std::uint32_t address, std::uint16_t port, std::string name);
     ~TacviewServer();
     TacviewServer(TacviewServer&& other) noexcept;
@@ -33,20 +33,20 @@ public:
 
     std::uint16_t port() const { return port_; }
 
-    /// What each client gets first: the header and the objects' properties. Kept for late joiners.
+    /// Sets the text that each client gets first: the header and the properties of the objects.
     void set_head(std::string head) { head_ = std::move(head); }
 
-    /// Takes new clients, goes on with handshakes and sends this text to all others; does not wait.
+    /// Accepts new clients, continues handshakes and sends this text to all others, without waiting.
     void send(std::string_view text);
 
-    /// Clients that have shaken hands.
+    /// Number of clients that have completed the handshake.
     std::size_t readers() const;
 
 private:
     struct Client {
         int socket = -1;
         bool ready = false;
-        std::string heard; ///< of the handshake
+        std::string heard; ///< received text of the handshake
         std::string waiting;
         std::chrono::steady_clock::time_point since;
     };

@@ -150,7 +150,7 @@ UdpPort::UdpPort(std::uint32_t address, std::uint16_t port)
     }
     std::memcpy(&own, &generic, sizeof(own));
     port_ = ntohs(own.sin_port);
-    // Both are wishes: without them there are more losses and a little more jitter.
+    // Both are optional: without them there are more losses and a little more jitter.
     const int on = 1;
     const int buffer_bytes = 4 << 20;
     ::setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof(on));

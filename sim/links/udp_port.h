@@ -11,13 +11,13 @@
 
 namespace octant::sim::links {
 
-/// What a packet's bytes mean. The values stand in recordings.
+/// The protocol of a packet. The values are stored in recordings.
 enum class Protocol : std::uint8_t { Fdm = 1, Lines = 2, MavLink = 3, Dis = 4, Cigi = 5, XPlane = 6 };
 
-/// As people call it: "DIS".
+/// Display name, such as "DIS".
 std::string_view name_of(Protocol protocol);
 
-/// Where a packet came from: an IPv4 address and a port, both as numbers; 0:0 is standard input.
+/// Sender of a packet: IPv4 address and port as numbers; 0:0 is standard input.
 struct PacketSource {
     std::uint32_t address = 0;
     std::uint16_t port = 0;
@@ -28,29 +28,29 @@ struct PacketSource {
 /// "127.0.0.1:5550"; "standard input" for 0:0.
 std::string text_of(const PacketSource& source);
 
-/// One packet as it came.
+/// One received packet.
 struct Datagram {
     Protocol protocol = Protocol::Fdm;
     PacketSource source;
-    double arrival_s = 0.0; ///< on the clock of whoever received it
+    double arrival_s = 0.0; ///< by the clock of the receiver
     std::vector<std::byte> bytes;
 };
 
-/// "127.0.0.1", "0.0.0.0" or another IPv4 address as a number. Throws Error that names `option`.
+/// Parses an IPv4 address such as "127.0.0.1". Throws Error that names `option`.
 std::uint32_t address_from_text(const std::string& option, const std::string& text);
 
-/// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error "option: ...".
+/// Parses "HOST:PORT"; HOST is an IPv4 address or a name. Throws Error "option: ...".
 PacketSource peer_from_text(const std::string& option, const std::string& text);
 
-/// A UDP socket that never waits.
+/// A non-blocking UDP socket.
 class UdpPort {
 public:
-    /// Largest packet that is taken; longer ones are cut and so refused by their decoders.
+    /// Longest packet in bytes; longer ones are cut, so that their decoders refuse them.
     static constexpr std::size_t largest_bytes = 4096;
-    /// Packets that one call of drain() takes; what is beyond waits, or is dropped by the system.
+    /// Most packets that one call of drain() reads; the system keeps or drops the rest.
     static constexpr std::size_t max_a_drain = 8192;
 
-    /// Binds address:port; port 0 = any free one. Throws Error where it is taken or not ours.
+    /// Binds address:port; port 0 = any free one. Throws Error if the port is taken or the address is not local.
     UdpPort(std::uint32_t address, std::uint16_t port);
     ~UdpPort();
     UdpPort(UdpPort&& other) noexcept;
@@ -61,11 +61,11 @@ public:
     /// The port it is bound to.
     std::uint16_t port() const { return port_; }
 
-    /// Appends what has come, by the time it reached this machine, as `protocol`. `now_s` is the time on the caller's
-    /// clock; arrivals lie before it.
+    /// Appends the received packets as `protocol`, in order of arrival at this machine. `now_s` is the time on the
+    /// clock of the caller; arrivals are earlier.
     void drain(Protocol protocol, double now_s, std::vector<Datagram>& into);
 
-    /// Sends a packet and does not wait; false where it could not be sent.
+    /// Sends a packet without waiting; false if it could not be sent.
     bool send(const PacketSource& to, std::span<const std::byte> bytes);
 
 private:
@@ -76,8 +76,8 @@ private:
     std::unique_ptr<Batch> batch_;
 };
 
-/// Lets so many packets a second through from each sender, by a bucket of tokens. Senders share buckets by chance, so
-/// that no number of them takes more memory.
+/// Limits the packets per second of each sender by a token bucket. Senders may share a bucket, so that memory does not
+/// grow with their number.
 class SourceLimit {
 public:
     static constexpr double packets_per_s = 25000.0;
@@ -85,7 +85,7 @@ public:
 
     SourceLimit() { buckets_.fill({burst, 0.0}); }
 
-    /// Whether a packet that came at this time is let through.
+    /// True if a packet that arrived at this time passes.
     bool admits(const PacketSource& source, double arrival_s);
 
 private:

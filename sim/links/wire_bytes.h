@@ -20,8 +20,8 @@ using Bytes = std::span<const std::byte>;
 
 enum class ByteOrder { Big, Little };
 
-/// Reads numbers of a packet wherever they stand. A number that does not lie within the packet reads as 0: decoders
-/// check lengths before, and a mistake of theirs reads no other memory.
+/// Reads numbers at any byte of a packet. A number beyond the end reads as 0, so that a decoder with a missing length
+/// check reads no other memory.
 class WireReader {
 public:
     WireReader(Bytes bytes, ByteOrder order) : bytes_(bytes), order_(order) {}
@@ -35,7 +35,7 @@ public:
             order_ == ByteOrder::Big ? std::endian::big : std::endian::little);
     }
 
-    /// Three numbers of 4 bytes one behind the other.
+    /// Three consecutive numbers of 4 bytes.
     glm::dvec3 floats(std::size_t offset) const {
         return {static_cast<double>(at<float>(offset)), static_cast<double>(at<float>(offset + 4)),
             static_cast<double>(at<float>(offset + 8))};
@@ -48,7 +48,7 @@ private:
     ByteOrder order_;
 };
 
-/// Writes numbers behind each other, or over what stands there already.
+/// Appends numbers, or overwrites earlier ones.
 class WireWriter {
 public:
     explicit WireWriter(ByteOrder order) : order_(order) {}
@@ -61,7 +61,7 @@ public:
 
     void add_zeros(std::size_t count) { bytes_.resize(bytes_.size() + count); }
 
-    /// The number must fit into what was added so far; else nothing is written.
+    /// The number must be within the bytes added so far; otherwise nothing is written.
     template <class Number>
     void set(std::size_t offset, Number number) {
         static_assert(std::is_arithmetic_v<Number>);

@@ -39,7 +39,7 @@ enum Group : std::int32_t {
     Local = 21,
 };
 
-/// The values that are asked for. The answers bear numbers from here on, which other programs will hardly use.
+/// The requested values. The numbers of the answers begin here, where other programs are unlikely to use them.
 constexpr std::int32_t first_answer = 7001;
 
 enum Answer : std::size_t {
@@ -90,7 +90,7 @@ double& part_of(std::optional<glm::dvec3>& whole, std::size_t part) {
     return (*whole)[static_cast<int>(part)];
 }
 
-/// Whether no component is missing.
+/// True if no component is missing.
 bool is_complete(const std::optional<glm::dvec3>& whole) {
     return whole && !std::isnan(whole->x) && !std::isnan(whole->y) && !std::isnan(whole->z);
 }
@@ -217,8 +217,8 @@ Fix XPlanePose::complete() {
         const glm::dvec3& rates = *received_.body_rates_degps;
         fix.body_rates_radps = glm::dvec3(rad_from_deg(rates.x), rad_from_deg(rates.y), rad_from_deg(rates.z));
     }
-    // A clock that stands still is none: senders that are no X-Plane often leave group 1 as it is.
-    // Later it counts in steps of 1 ms and more, as its single precision has it: too coarse.
+    // A clock that stands still is ignored: other senders than X-Plane often leave group 1 unchanged. Later it counts
+    // in steps of 1 ms and more because of single precision, which is too coarse.
     constexpr double fine_until_s = 8192.0;
     if (received_.time_s && last_time_s_ && *received_.time_s > *last_time_s_ && *received_.time_s < fine_until_s) {
         fix.sent_s = received_.time_s;
@@ -227,8 +227,8 @@ Fix XPlanePose::complete() {
     return fix;
 }
 
-/// Moves the place as the local axes say, and by a twentieth of what is left to the place that is
-/// told; all of it after a jump of either.
+/// Moves the position by the local axes, and by a twentieth of the difference to the reported position; by all of it
+/// after a jump of either.
 void XPlanePose::smooth(Fix& fix) {
     constexpr double farthest_m = 20.0; // of the place from where the local axes bring it
     constexpr double share = 0.05;

@@ -12,18 +12,18 @@
 
 namespace octant::sim::links {
 
-/// Where programs usually listen for X-Plane's UDP output, and where X-Plane takes requests.
+/// The usual port for the UDP output of X-Plane, and the port where X-Plane accepts requests.
 inline constexpr std::uint16_t xplane_port = 49003;
 inline constexpr std::uint16_t xplane_request_port = 49000;
 
-/// The motion that one X-Plane sends by UDP: as DATA, the groups that are ticked "network via UDP", of which 20 (place)
-/// moves it and 1 (times), 17 (attitude), 21 or 3 and 18 (velocity) complete it, in the same packet or in others; or as
-/// RREF, the answers to xplane_requests(). Places come in single precision, steps of half a metre; where group 21 or an
-/// answer tells the local metres too, the motion between packets is theirs.
+/// The motion that one X-Plane sends by UDP: as DATA, the groups ticked "network via UDP", of which 20 (position) moves
+/// it and 1 (times), 17 (attitude), 21 or 3 and 18 (velocity) complete it, in the same or in other packets; or as RREF,
+/// the answers to xplane_requests(). Positions have single precision, steps of half a metre; if group 21 or an answer
+/// has the local metres too, the motion between packets comes from them.
 class XPlanePose {
 public:
-    /// Reads a packet. `fix` is set where it completes one and the result has no fault. A packet without a place is
-    /// Unused.
+    /// Reads a packet. Sets `fix` if the packet completes one and the result has no fault. A packet without a position
+    /// is Unused.
     DecodeResult take(Bytes datagram, std::optional<Fix>& fix);
 
 private:
@@ -32,7 +32,7 @@ private:
     Fix complete();
     void smooth(Fix& fix);
 
-    /// Values as X-Plane has them since the last fix: degrees, metres, m/s; the local axes are x east, y up, z south.
+    /// Values of X-Plane since the last fix: degrees, metres, m/s; local axes are x east, y up, z south.
     struct ReceivedValues {
         std::optional<glm::dvec3> place; ///< latitude, longitude, height above the sea
         std::optional<double> above_ground_m;
@@ -48,18 +48,18 @@ private:
     glm::dvec3 attitude_deg_{0.0}; ///< pitch, roll, true heading
     std::optional<double> last_time_s_;
     std::optional<glm::dvec3> last_local_m_;
-    glm::dvec3 smooth_{0.0}; ///< the place of the last fix
+    glm::dvec3 smooth_{0.0}; ///< smoothed position of the last fix
 };
 
-/// The packets that ask an X-Plane for the answers that XPlanePose takes, so many a second; 0 ends them. One for each
-/// value, 413 bytes.
+/// The packets, one per value and 413 bytes each, that request `per_second` answers per second for XPlanePose; 0 ends
+/// them.
 std::vector<std::vector<std::byte>> xplane_requests(int per_second);
 
 /// A packet of DATA with groups 1, 3, 17, 18, 20 and 21, as X-Plane 11 and 12 send it. The origin of the local axes is
 /// `origin`. Air is still and standard.
 std::vector<std::byte> encode_xplane(const Fix& fix, const Geodetic& origin, double time_s);
 
-/// What a person should be told of a packet.
+/// Message about a packet.
 std::string xplane_text(const DecodeResult& result);
 
 } // namespace octant::sim::links
