@@ -2,14 +2,12 @@
 
 #include "sim/base/error.h"
 #include "ui/base/stopwatch.h"
-#include "visuals/landscape/ground.h"
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace octant::ui::flight {
 
-namespace landscape = visuals::landscape;
 namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
@@ -60,21 +58,18 @@ void FrameRenderer::update_views(const scene::Camera& now) {
     const std::size_t count = settings_.view.inset ? 2 : 1;
     views_.resize(std::min(count, views_.size()));
     for (std::size_t i = 0; i < count; ++i) {
-        if (i < views_.size()) {
-            PictureView& view = *views_[i];
-            const bool other_control = !scene::same_detail_control(settings_.ground, view.settings.ground);
-            view.must_reset_detail = view.must_reset_detail || other_control;
-            std::unique_ptr<landscape::GroundMesher> mesher = view.planner->take_mesher();
-            view.planner.reset();
-            update_settings(i);
-            update_view(view, std::move(mesher));
+        const bool is_new = i == views_.size();
+        if (is_new) { views_.push_back(std::make_unique<PictureView>()); }
+        PictureView& view = *views_[i];
+        update_settings(i);
+        view.plan = nullptr;
+        if (is_new) {
+            view.planner.emplace(scene_, view.settings);
         } else {
-            views_.push_back(std::make_unique<PictureView>());
-            update_settings(i);
-            views_[i]->planner.emplace(scene_, views_[i]->settings);
+            view.planner->apply_settings();
         }
     }
-    reset_first_view(now);
+    views_.front()->planner->settle_detail(now); // loading work, which is not left to the first picture
 }
 
 /// Gives a view its part of the run's settings.
@@ -86,29 +81,13 @@ void FrameRenderer::update_settings(std::size_t view) {
     views_[view]->settings = is_first ? settings_ : inset_settings(settings_, views_[view]->rectangle);
 }
 
-/// Makes a view's planner anew, with the mesher that it had where that serves the scene's ground by these settings.
-void FrameRenderer::update_view(PictureView& view, std::unique_ptr<landscape::GroundMesher> mesher) {
-    const landscape::GroundMesher* const before = mesher.get();
-    mesher = landscape::reuse_or_make_mesher(
-        std::move(mesher), *scene_.ground, landscape::mesh_settings(view.settings, scene_.ground_texture != nullptr));
-    view.must_reset_detail = view.must_reset_detail || mesher.get() != before;
-    view.plan = nullptr;
-    view.planner.emplace(scene_, view.settings, std::move(mesher));
-}
-
-/// Loading work, which is not left to the first picture.
-void FrameRenderer::reset_first_view(const scene::Camera& now) {
-    PictureView& first = *views_.front();
-    if (std::exchange(first.must_reset_detail, false)) { first.planner->reset_detail(now); }
-}
-
 void FrameRenderer::set_sun(const scene::Camera& now) {
     apply_look();
     for (const auto& view : views_) {
         view->plan = nullptr;
-        view->must_reset_detail = !view->planner->set_sun() || view->must_reset_detail;
+        view->planner->set_sun();
     }
-    reset_first_view(now);
+    views_.front()->planner->settle_detail(now);
 }
 
 void FrameRenderer::apply_look() {
@@ -119,10 +98,8 @@ void FrameRenderer::apply_look() {
 
 planning::PlanRequest FrameRenderer::request(
     const FrameState& now, std::size_t view, const planning::SmoothTarget& smooth) {
-    PictureView& planned = *views_[view];
     // A view that was added after this state has no camera in it.
     planning::PlanRequest wanted{now.cameras[std::min(view, now.cameras.size() - 1)], now.states};
-    if (std::exchange(planned.must_reset_detail, false)) { planned.planner->reset_detail(wanted.camera); }
     wanted.smooth = smooth;
     wanted.articulated_parts = now.articulated_parts;
     if (view == 0) {
@@ -137,14 +114,13 @@ FrameRenderer::PlannedPicture FrameRenderer::plan(const FrameState& now, std::op
     planning::SmoothTarget smooth_target{.polygons = smooth, .share = std::nullopt};
     for (std::size_t i = 0; i < views_.size(); ++i) {
         PictureView& view = *views_[i];
-        planning::PlanRequest wanted = request(now, i, smooth_target);
-        base::Stopwatch stage;
+        const planning::PlanRequest wanted = request(now, i, smooth_target);
         if (i == 0) {
-            wanted.on_refined = [&] {
-                planned.refine_ms = stage.lap_ms();
-                view.planner->wait();
-                planned.mesh_wait_ms = stage.lap_ms();
-            };
+            base::Stopwatch stage;
+            view.planner->place_aircraft(wanted);
+            planned.refine_ms = stage.lap_ms();
+            view.planner->wait();
+            planned.mesh_wait_ms = stage.lap_ms();
         }
         const planning::PlannedFrame frame = view.planner->plan(wanted);
         view.plan = ids_ && i == 0 ? &ids_->of(frame.plan) : &frame.plan;

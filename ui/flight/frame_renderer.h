@@ -140,15 +140,11 @@ private:
         /// In the picture.
         visuals::scene::PixelRect rectangle;
         std::optional<visuals::planning::Planner> planner;
-        /// The detail of the ground must still be set for a first picture.
-        bool must_reset_detail = true;
         /// Of the last picture; null before the next one where the view has become another.
         const visuals::scene::FramePlan* plan = nullptr;
     };
 
     void update_settings(std::size_t view);
-    void update_view(PictureView& view, std::unique_ptr<visuals::landscape::GroundMesher> mesher);
-    void reset_first_view(const visuals::scene::Camera& now);
     visuals::planning::PlanRequest request(
         const FrameState& now, std::size_t view, const visuals::planning::SmoothTarget& smooth);
     void draw_plans();

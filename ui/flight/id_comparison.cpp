@@ -136,7 +136,6 @@ scene::Picture draw_id_picture(Session& session, const settings::RunSettings& se
     const planning::Scene& scene = session.world().scene;
     planning::Planner planner(scene, settings,
         scene.ground->mesher(landscape::mesh_settings(session.settings(), scene.ground_texture != nullptr)));
-    planner.reset_detail(session.camera());
     planning::IdPlan ids(scene);
     const auto renderer = session.renderer().sibling(settings.view.size_px, 1);
     renderer->load_models(ids.models());

@@ -5,7 +5,6 @@
 #include "ui/terrain/ground_view.h"
 #include "visuals/gl/make_renderer.h"
 #include "visuals/planning/ground_frame.h"
-#include "visuals/planning/step_writer.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <glm/geometric.hpp>
@@ -117,7 +116,8 @@ void CrackFinder::draw(const visuals::terrain::GroundMesh& mesh, const scene::Ca
     plan.background = {1.0F, 0.0F, 1.0F};
     const planning::GroundFrame ground{{vertices_, mesh.indices}, {}, {}};
     plan.ground = planning::front_facing(ground, camera.vertical_fov_rad / size_px_.y, facing_);
-    planning::StepWriter(plan).add_ground();
+    plan.steps.push_back(
+        {scene::PaintStep::Content::Ground, 0, static_cast<std::uint32_t>(plan.ground.indices.size())});
     renderer_->draw(plan);
     renderer_->finish_and_read(picture_);
 }

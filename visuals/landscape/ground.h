@@ -5,6 +5,7 @@
 #include "models/heights/runway_strip.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
+#include "visuals/landscape/ground_palette.h"
 #include "visuals/nature/backdrop.h"
 #include "visuals/nature/relief_shadows.h"
 #include "visuals/roads/road_network.h"
@@ -83,7 +84,7 @@ public:
 
     /// Whether it has the colours that these settings give it. Their palette is that of the ground: where none is
     /// named, temperate.
-    virtual bool has_colour_settings(const scene::AirSettings& /*settings*/) const { return true; }
+    bool has_colour_settings(const scene::AirSettings& settings) const { return same_colours(settings, air_); }
 
     /// Whether loading the same heights by these settings would give this ground.
     bool matches_settings(const scene::GroundSettings& ground, const scene::AirSettings& air) const {
@@ -100,6 +101,8 @@ public:
     /// What lies on it under these settings, for one view.
     nature::GroundDecorations lying_decorations(const MeshSettings& settings) const;
 
+    const scene::AirSettings& air() const { return air_; }
+
     /// The meshes of one more view. The ground has_mesh_settings() the settings say (asserted).
     std::unique_ptr<GroundMesher> mesher(const MeshSettings& settings) const;
 
@@ -107,13 +110,16 @@ public:
     const std::shared_ptr<const models::heights::RunwayStrip>& runway() const { return runway_; }
 
 protected:
-    explicit Ground(std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr)
-        : runway_(std::move(runway)) {}
+    /// `air`: gives it its colours.
+    explicit Ground(
+        const scene::AirSettings& air = {}, std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr)
+        : air_(air), runway_(std::move(runway)) {}
 
 private:
     /// A mesher without settings.
     virtual std::unique_ptr<GroundMesher> make_mesher() const = 0;
 
+    scene::AirSettings air_;
     std::shared_ptr<const models::heights::RunwayStrip> runway_;
     mutable std::once_flag backdrop_once_;
     mutable nature::Backdrop backdrop_;

@@ -1,4 +1,5 @@
 #include "visuals/landscape/ground_palette.h"
+
 #include "models/colour_vertex.h"
 #include "sim/base/units.h"
 #include "visuals/nature/climate.h"
@@ -45,19 +46,6 @@ struct LandCover {
     float rock_share = 0.0F;
 };
 
-/// The height at which temperate ground has what grows at a place's height in its climate.
-float temperate_height_m(float height_m, const nature::Climate& climate);
-
-/// The colour of temperate ground before light falls on it, display values. The height of the place is what
-/// temperate_height_m() gives.
-glm::vec3 temperate_colour(const SiteConditions& site);
-
-/// Own colour of desert ground, display values.
-glm::vec3 arid_colour(const SiteConditions& site);
-
-/// Own colour of ground on which nothing but this dust lies, display values: bare where it is steep.
-glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust);
-
 constexpr glm::vec3 snow_colour(0.93F, 0.94F, 0.96F);
 
 /// The covers of ground for scene::LandCoverContrast, by their numbers: woods or shrubs, meadows or bare soil, rock and
@@ -66,14 +54,6 @@ constexpr float woods_code = 64.0F;
 constexpr float meadow_code = 128.0F;
 constexpr float rock_code = 192.0F;
 constexpr float snow_code = 255.0F;
-std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers();
-std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers();
-std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const glm::vec3& dust);
-
-/// What temperate_colour(), arid_colour() and dust_colour() are mixed of, as such a number; at least woods_code.
-float temperate_cover_code(const SiteConditions& site);
-float arid_cover_code(const SiteConditions& site);
-float dust_cover_code(const SiteConditions& site);
 
 struct ColourStop {
     float height_m;
@@ -198,6 +178,7 @@ float tree_speckle(const SiteConditions& site) {
 /// trees, have it at the sea; fields are hardly seen where it is below some 800 m.
 float summer_share_of(const nature::Climate& climate) { return glm::smoothstep(500.0F, 1100.0F, climate.tree_line_m); }
 
+/// The height at which temperate ground has what grows at a place's height in its climate.
 float temperate_height_m(float height_m, const nature::Climate& climate) {
     if (height_m < climate.tree_line_m) { return height_m * tree_line_m / std::max(climate.tree_line_m, 1.0F); }
     const float above = (height_m - climate.tree_line_m) / std::max(climate.snow_line_m - climate.tree_line_m, 50.0F);
@@ -246,6 +227,8 @@ float scree_cover(const SiteConditions& site) {
     return steep * glm::smoothstep(-0.1F, 0.35F, streaks);
 }
 
+/// The colour of temperate ground before light falls on it, display values. The height of the place is what
+/// temperate_height_m() gives.
 glm::vec3 temperate_colour(const SiteConditions& site) {
     const LandCover cover = land_cover(site);
     const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
@@ -267,6 +250,7 @@ float shrub_cover(const SiteConditions& site) {
 
 float arid_rock(const SiteConditions& site) { return glm::smoothstep(0.05F, 0.25F, site.steepness); }
 
+/// Own colour of desert ground, display values.
 glm::vec3 arid_colour(const SiteConditions& site) {
     const glm::vec3 level = stop_colour(arid_stops, site.height_m + 60.0F * site.patchiness);
     const float height_m = site.height_m + 12.0F * site.patchiness;
@@ -283,6 +267,7 @@ glm::vec3 arid_colour(const SiteConditions& site) {
     return glm::mix(vegetated, rock, arid_rock(site)) * (1.0F + 0.10F * site.patchiness);
 }
 
+/// Own colour of ground on which nothing but this dust lies, display values: bare where it is steep.
 glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust) {
     const glm::vec3 level = dust * mottling(site, 300.0F, 0.09F);
     const glm::vec3 rock = bare_rock_share * dust * mottling(site, 40.0F, 0.09F);
@@ -304,6 +289,7 @@ std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const
         scene::LandCover{bare_rock_share * dust, 0.15F}, snow_on_ground};
 }
 
+/// What temperate_colour() is mixed of, as the number of a cover; at least woods_code. The next two do so for theirs.
 float temperate_cover_code(const SiteConditions& site) {
     const LandCover cover = land_cover(site);
     const float vegetated = glm::mix(meadow_code, woods_code, cover.forest_share);

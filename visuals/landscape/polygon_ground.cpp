@@ -29,7 +29,7 @@ public:
         glm::dvec3 max_m;
     };
 
-    PolygonGround(const models::polygons::PolygonModel& model, const scene::AirSettings& air) : air_(air) {
+    PolygonGround(const models::polygons::PolygonModel& model, const scene::AirSettings& air) : Ground(air) {
         const nature::Daylight day = daylight_of(air);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             const glm::vec3 normal(world_from_body(models::polygons::normal_of(model, i)));
@@ -61,8 +61,6 @@ public:
 
     int polygons() const { return polygons_; }
 
-    bool has_colour_settings(const scene::AirSettings& settings) const override { return same_colours(settings, air_); }
-
     std::optional<double> height_at(double x_m, double y_m) const override {
         const bool inside = std::abs(x_m) <= half_extent_m_.x && std::abs(y_m) <= half_extent_m_.y;
         return inside ? std::optional<double>(0.0) : std::nullopt;
@@ -87,7 +85,6 @@ private:
 
     static glm::dvec3 world_from_body(const glm::dvec3& v) { return {v.y, v.x, -v.z}; }
 
-    scene::AirSettings air_;
     std::vector<glm::dvec3> corners_m_;
     std::vector<std::uint32_t> colours_;
     std::vector<std::uint32_t> indices_;

@@ -67,7 +67,7 @@ public:
     QuadtreeGround(std::shared_ptr<const models::heights::HeightField> field,
         std::shared_ptr<const terrain::Quadtree> tree, const scene::AirSettings& air,
         std::shared_ptr<const models::heights::RunwayStrip> runway)
-        : Ground(std::move(runway)), field_(std::move(field)), tree_(std::move(tree)), air_(air),
+        : Ground(air, std::move(runway)), field_(std::move(field)), tree_(std::move(tree)),
           colours_(ground_colours(*field_, air)), mean_colour_(landscape::mean_colour(colours_)) {
         for (int row = 0; row < field_->rows(); ++row) {
             double sum_m = 0.0;
@@ -93,7 +93,7 @@ public:
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
     glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
-        const GroundPalette palette(air_, climate_at(field_->place), nullptr);
+        const GroundPalette palette(air(), climate_at(field_->place), nullptr);
         return nearest_colour(terrain::GroundSamples(*field_), palette, {x_m, y_m}, footprint_m);
     }
 
@@ -106,8 +106,6 @@ public:
         return ground_metric(settings) != scene::GroundMetric::ScreenError &&
                wanted.roughness == tree_->options().roughness && wanted.propagation == tree_->options().propagation;
     }
-
-    bool has_colour_settings(const scene::AirSettings& settings) const override { return same_colours(settings, air_); }
 
     std::shared_ptr<const Ground> with_settings(
         const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
@@ -125,8 +123,7 @@ private:
 
     std::shared_ptr<const models::heights::HeightField> field_;
     std::shared_ptr<const terrain::Quadtree> tree_; ///< of that field
-    scene::AirSettings air_;
-    std::vector<std::uint32_t> colours_; ///< one a sample
+    std::vector<std::uint32_t> colours_;            ///< one a sample
     glm::vec3 mean_colour_;
     double mean_height_m_ = 0.0;
 };

@@ -427,11 +427,11 @@ struct NearToFar {
     /// Appends those of some steps as they are.
     void append(
         std::size_t step, std::size_t end, std::vector<std::uint32_t>& to, std::vector<std::uint32_t>& first_of) const {
-        std::size_t detailed_mesh = to.size() / 3;
+        std::size_t next = to.size() / 3;
         to.resize(to.size() + 3 * (end - step));
-        for (; step < end; ++step, ++detailed_mesh) {
-            first_of[place(step)] = static_cast<std::uint32_t>(detailed_mesh);
-            std::copy_n(&indices[3 * triangle(step)], 3, &to[3 * detailed_mesh]);
+        for (; step < end; ++step, ++next) {
+            first_of[place(step)] = static_cast<std::uint32_t>(next);
+            std::copy_n(&indices[3 * triangle(step)], 3, &to[3 * next]);
         }
     }
 };
@@ -532,9 +532,9 @@ void DetailedGround::replace(std::vector<std::uint32_t>& triangles, std::size_t 
     std::vector<std::uint32_t>& replaced = memory_->replaced;
     replaced.clear();
     for (std::size_t i = first; i < triangles.size(); ++i) {
-        for (std::uint32_t detailed_mesh = memory_->first_index_of[triangles[i]];
-             detailed_mesh < memory_->first_index_of[triangles[i] + 1]; ++detailed_mesh) {
-            replaced.push_back(detailed_mesh);
+        for (std::uint32_t triangle = memory_->first_index_of[triangles[i]];
+             triangle < memory_->first_index_of[triangles[i] + 1]; ++triangle) {
+            replaced.push_back(triangle);
         }
     }
     triangles.resize(first);

@@ -27,7 +27,7 @@ struct NearDetailOptions {
     bool operator==(const NearDetailOptions&) const = default;
 };
 
-/// For how much detail there is room, and how much there is to see.
+/// How much detail apply_detail_budget() may add, and how much there is to see.
 struct DetailBudget {
     /// Of the usual number of triangles, which is 20,000. Nothing: there is no limit.
     std::optional<double> share = 1.0;
@@ -36,8 +36,8 @@ struct DetailBudget {
     double height_above_ground_m = 0.0; ///< the eye over the ground
 };
 
-/// Sets how long edges look that are halved, how far things stand, and the numbers of both, so that these limits are
-/// hardly ever met: what they cut off would appear in a step. Without a limit of triangles the width of the picture
+/// Sets how long edges must look to be halved, how far things stand, and the largest numbers of both, which are hardly
+/// ever met: what they cut off would appear in a step. Without a limit of triangles the width of the picture
 /// counts for nothing: pictures from one eye through lenses of one `focal_px` show the same ground wherever they
 /// overlap or meet.
 void apply_detail_budget(const DetailBudget& budget, const NearDetailOptions& detail, NearDetailView& view);

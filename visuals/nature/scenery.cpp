@@ -1,8 +1,8 @@
 #include "visuals/nature/scenery.h"
 
 #include "models/colour_vertex.h"
-#include "sim/base/plane.h"
 #include "sim/base/hash.h"
+#include "sim/base/plane.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -117,9 +117,8 @@ void add_house(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& 
     const glm::vec2 across(-along.y, along.x);
     const auto at = [&](float x, float y, float z) {
         const glm::vec2 level = along * (x * size_m.x) + across * (y * size_m.y);
-        const float height_at_offset_m = anchor.height_at_offset_m(level);
-        return anchor.at_m +
-               glm::vec3(level, height_at_offset_m + height_share * std::max(z - height_at_offset_m, 0.0F));
+        const float ground_m = anchor.height_at_offset_m(level);
+        return anchor.at_m + glm::vec3(level, ground_m + height_share * std::max(z - ground_m, 0.0F));
     };
     const float eaves_m = 0.58F * size_m.z;
     const auto quad = [&](const std::array<glm::vec3, 4>& corner, const glm::vec3& colour) {

@@ -2,12 +2,11 @@
 // heading above, a pitch ladder and a flight-path marker that lie on the world. Deviations: true instead of calibrated
 // airspeed; the air moves with the ground and has the standard atmosphere's temperature above datum (ISO 2533,
 // troposphere and tropopause); the height above ground is that straight below the aircraft.
-#include "visuals/overlay/head_up_display.h"
-
 #include "sim/base/axes.h"
 #include "sim/base/format_once.h"
 #include "sim/base/units.h"
 #include "visuals/overlay/head_up_glass.h"
+#include "visuals/overlay/overlay.h"
 #include "visuals/overlay/overlay_canvas.h"
 #include "visuals/overlay/stroke_font.h"
 
@@ -379,14 +378,14 @@ private:
 
 } // namespace
 
-scene::OverlayDraw HeadUpDisplay::draw(
-    const InstrumentReadings& inputs, const scene::Camera& camera, const glm::ivec2& size_px) {
-    const HudGlass glass = make_hud_glass(inputs.state, camera, size_px);
+scene::OverlayDraw draw_head_up_display(
+    OverlayCanvas& canvas, const InstrumentReadings& readings, const scene::Camera& camera, const glm::ivec2& size_px) {
+    const HudGlass glass = make_hud_glass(readings.state, camera, size_px);
     if (!glass.may_show(display_box_of(glass), size_px)) { return {}; }
     const float width_px = std::max(line_width * glass.unit_px, min_line_px);
-    canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), halo_colour});
-    HudPainter(inputs, glass, canvas_).draw();
-    return canvas_.finish();
+    canvas.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), halo_colour});
+    HudPainter(readings, glass, canvas).draw();
+    return canvas.finish();
 }
 
 } // namespace octant::visuals::overlay

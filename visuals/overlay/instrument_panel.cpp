@@ -279,24 +279,23 @@ void show(DialPainter& painter, const Dial& dial, const InstrumentLayout& layout
 
 } // namespace
 
-scene::OverlayDraw InstrumentPanel::draw(const InstrumentLayout& layout, const InstrumentReadings& inputs,
-    const scene::Camera& camera, const glm::ivec2& size_px) {
-    const HudGlass glass = make_hud_glass(inputs.state, camera, size_px);
-    layers_.clear();
+void add_instruments(OverlayLayers& layers, std::array<OverlayCanvas, 2>& canvases, const InstrumentLayout& layout,
+    const InstrumentReadings& readings, const scene::Camera& camera, const glm::ivec2& size_px) {
+    const HudGlass glass = make_hud_glass(readings.state, camera, size_px);
+    auto& [faces, hands] = canvases;
     for (const Dial& dial : layout.dials) {
         const double px_per_m = glass.focal_px / dial.centre_m.x;
         const glm::vec2 centre(glm::dvec2(dial.centre_m.y, dial.centre_m.z) * px_per_m);
         const auto radius = static_cast<float>(dial.radius_m * px_per_m);
         if (!glass.may_show({centre - radius, centre + radius}, size_px)) { continue; }
         const float width_px = std::max(line_share * radius, min_line_px);
-        faces_.begin(glass.to_picture, {width_px, 0.0F, white, 0});
-        hands_.begin(glass.to_picture, {1.6F * width_px, 0.0F, mark_colour, 0});
-        DialPainter painter(centre, radius, faces_, hands_);
-        show(painter, dial, layout, inputs);
-        layers_.add(faces_.finish());
-        layers_.add(hands_.finish());
+        faces.begin(glass.to_picture, {width_px, 0.0F, white, 0});
+        hands.begin(glass.to_picture, {1.6F * width_px, 0.0F, mark_colour, 0});
+        DialPainter painter(centre, radius, faces, hands);
+        show(painter, dial, layout, readings);
+        layers.add(faces.finish());
+        layers.add(hands.finish());
     }
-    return layers_.all();
 }
 
 } // namespace octant::visuals::overlay

@@ -1,14 +1,13 @@
 #pragma once
 
-#include "visuals/overlay/head_up_display.h"
+#include "visuals/overlay/overlay.h"
 #include "visuals/overlay/overlay_canvas.h"
-#include "visuals/overlay/overlay_layers.h"
 #include "visuals/scene/camera.h"
-#include "visuals/scene/frame_plan.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <vector>
 
 namespace octant::visuals::overlay {
@@ -55,19 +54,11 @@ struct InstrumentLayout {
     DialScale load_g;
 };
 
-/// Working dials in the cockpit: true airspeed in knots, altitude in feet by two hands and in digits, attitude, heading
-/// on a turning card, load factor in g. Drawn in perspective where they lie, over the cockpit's polygons; nothing where
-/// a look aside moves them out of the picture.
-class InstrumentPanel {
-public:
-    /// Valid until the next call. No allocation once warmed up.
-    scene::OverlayDraw draw(const InstrumentLayout& layout, const InstrumentReadings& inputs,
-        const scene::Camera& camera, const glm::ivec2& size_px);
-
-private:
-    OverlayCanvas faces_;
-    OverlayCanvas hands_;
-    OverlayLayers layers_;
-};
+/// Adds working dials in the cockpit to the layers: true airspeed in knots, altitude in feet by two hands and in
+/// digits, attitude, heading on a turning card, load factor in g. Drawn in perspective where they lie, over the
+/// cockpit's polygons; nothing where a look aside moves them out of the picture. `canvases`: the caller's, for faces
+/// and hands.
+void add_instruments(OverlayLayers& layers, std::array<OverlayCanvas, 2>& canvases, const InstrumentLayout& layout,
+    const InstrumentReadings& readings, const scene::Camera& camera, const glm::ivec2& size_px);
 
 } // namespace octant::visuals::overlay

@@ -1,5 +1,4 @@
-#include "visuals/overlay/picture_text.h"
-
+#include "visuals/overlay/overlay.h"
 #include "visuals/overlay/stroke_font.h"
 
 #include <glm/mat3x3.hpp>
@@ -46,23 +45,23 @@ std::string split_at_width(std::string_view& text, std::size_t most) {
 
 } // namespace
 
-scene::OverlayDraw PictureText::draw(std::span<const std::string> lines, const glm::ivec2& size_px) {
+scene::OverlayDraw draw_text(OverlayCanvas& canvas, std::span<const std::string> lines, const glm::ivec2& size_px) {
     const glm::vec2 size(size_px);
     const float letter_px = std::max(size.y / lines_per_picture_height, min_letter_px);
-    canvas_.begin(glm::mat3(1.0F), {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, halo_colour});
+    canvas.begin(glm::mat3(1.0F), {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, halo_colour});
     glm::vec2 at(letter_px, 2.0F * letter_px);
     const std::size_t most = characters_per_line(size.x - 2.0F * letter_px, letter_px);
     for (const std::string_view line : lines) {
         std::string_view rest = line;
         std::string text = split_at_width(rest, most);
         while (!text.empty() && at.y <= size.y) {
-            canvas_.text({at, letter_px}, text);
+            canvas.text({at, letter_px}, text);
             at.y += line_spacing * letter_px;
             text = split_at_width(rest, most - indent.size());
             text = text.empty() ? text : std::string(indent) + text;
         }
     }
-    return canvas_.finish();
+    return canvas.finish();
 }
 
 } // namespace octant::visuals::overlay

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
+#include "models/triangle_mesh.h"
 #include "sim/aircraft_state.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/bounding_box.h"
-#include "visuals/planning/mesh_levels.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/frame_plan.h"
@@ -20,6 +20,31 @@
 
 namespace octant::visuals::planning {
 
+/// A level of detail before it is made ready to be drawn.
+struct MeshSource {
+    /// Triangles to be drawn, in body axes.
+    const models::TriangleMesh* mesh = nullptr;
+    /// No point of it is farther than this from the original surface, nor the other way round.
+    double error_m = 0.0;
+};
+
+/// A level of detail as drawn: a range of its model's index buffer.
+struct MeshLevel {
+    scene::IndexRange range;
+    double error_m = 0.0;
+    /// How its triangles are shaded.
+    shading::ShadedPolygons shaded;
+};
+
+/// Appends a mesh to a model's buffers: corners that look the same share a vertex, but each triangle has a first corner
+/// of its own. Normals are the mesh's own where it has any, else by crease angle. Loading work.
+MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source);
+
+/// Which of several representations, finest first, is drawn: the coarsest whose error is at most `max_m`, the finest
+/// where none is. Hysteresis: `before`, the one drawn last (negative: none), is kept while it is good enough and no
+/// coarser one is good enough by a margin. Errors rise, or stay.
+int select_level(std::span<const double> errors_m, double max_m, int before);
+
 /// The dials that a cockpit's model (body axes, from the pilot's eye) has room for: one where its first part named
 /// dial_speed, dial_altitude, dial_attitude, dial_heading or dial_load begins, as large as fits into that polygon,
 /// which lies ahead and square to the x axis. Scales hold what `limits` allow. Loading work.
@@ -27,7 +52,8 @@ overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit
 
 /// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where another polygon's
 /// corner lies on a side; one index buffer that holds the polygons of the order's flat list and, behind them, all
-/// polygons in file order. As meshes, where it has levels of detail: behind both.
+/// polygons in file order. As meshes, where it has levels of detail: behind both. Representation 0 .. n - 1 are the
+/// mesh levels, finest first, or 0 the progressive mesh; the last one is the ordered polygons.
 struct AircraftModel {
     /// The polygons that the order speaks of.
     models::polygons::PolygonModel polygons;
@@ -49,7 +75,7 @@ struct AircraftModel {
     std::vector<MeshLevel> levels;
     /// In place of levels: a mesh that is refined in each frame. Body axes.
     std::shared_ptr<const refine::ProgressiveMesh> progressive;
-    /// Of each representation: the levels or the progressive mesh, then the polygons.
+    /// One for each representation.
     std::vector<double> errors_m;
     /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons. Their polygons have
     /// the number 0 each: all smooth, or all flat.
@@ -65,8 +91,8 @@ struct AircraftModel {
         return 3 * (first_vertices[polygon + 1] - first_vertices[polygon] - 2);
     }
 
-    /// Number of the representation by polygons.
-    std::size_t polygons_from_mesh() const { return errors_m.size() - 1; }
+    /// The number of the representation by polygons.
+    std::size_t polygon_representation() const { return errors_m.size() - 1; }
 
     /// What is shaded where the aircraft is shown by this level of detail, or by its polygons.
     const shading::ShadedPolygons& shaded_as(std::size_t representation) const {

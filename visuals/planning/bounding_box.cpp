@@ -1,4 +1,5 @@
 #include "visuals/planning/bounding_box.h"
+
 #include "sim/base/plane.h"
 
 #include <glm/common.hpp>

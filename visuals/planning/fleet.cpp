@@ -1,7 +1,7 @@
 #include "visuals/planning/fleet.h"
 
 #include "visuals/draworder/octant_order.h"
-#include "visuals/planning/mesh_levels.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -72,7 +72,7 @@ Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene
     was_refined_.resize(placed_.size());
 }
 
-/// Adds an aircraft of a model, with room for its parts and for those of what stands in for it.
+/// Adds an aircraft of a model, with memory for its parts and those of its far model.
 void Fleet::add(std::uint32_t model) {
     PlacedAircraft& aircraft = placed_.emplace_back();
     aircraft.number = static_cast<std::uint32_t>(placed_.size() - 1);
@@ -92,7 +92,8 @@ void Fleet::add(std::uint32_t model) {
     parts_.resize(parts_.size() + pivots + 1);
 }
 
-void Fleet::place(const FrameView& view, const PlanRequest& request, std::span<const AircraftEffects> effects) {
+void Fleet::place(
+    const FrameView& view, const PlanRequest& request, std::span<const std::optional<AxisAlignedBox>> effect_bounds) {
     const glm::dvec3& eye_m = view.camera.eye_m;
     for (std::size_t i = 0; i < request.states.size(); ++i) {
         sim::AircraftState state = sunk(request.states[i], eye_m, view.earth_radius_m);
@@ -100,7 +101,7 @@ void Fleet::place(const FrameView& view, const PlanRequest& request, std::span<c
         // Far below the eye an absent aircraft has no shadow, no effects and no part in the painting order of others.
         if (!state.is_present) { state.position_m = eye_m - glm::dvec3(0.0, 0.0, absent_depth_m); }
         place(placed_[i], state, request.articulated_parts, view);
-        bounding_boxes_[i] = bounding_box_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
+        bounding_boxes_[i] = bounding_box_of(placed_[i], state, effect_bounds[i], view);
     }
     if (placed_.size() > request.states.size()) {
         sim::AircraftState around_eye = request.states.front();
@@ -110,13 +111,13 @@ void Fleet::place(const FrameView& view, const PlanRequest& request, std::span<c
 }
 
 OrientedBox Fleet::bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
-    const AircraftEffects* effects, const FrameView& view) const {
+    const std::optional<AxisAlignedBox>& effects, const FrameView& view) const {
     const glm::dvec3 position_m = state.position_m - view.camera.eye_m;
     const double margin_m = hull_margin_m + hull_margin_px * view.pixel_rad * glm::length(position_m);
     AxisAlignedBox extent = aircraft.model->hull;
-    if (effects != nullptr && !effects->empty()) {
-        extent.min_m = glm::min(extent.min_m, effects->extent().min_m);
-        extent.max_m = glm::max(extent.max_m, effects->extent().max_m);
+    if (effects) {
+        extent.min_m = glm::min(extent.min_m, effects->min_m);
+        extent.max_m = glm::max(extent.max_m, effects->max_m);
     }
     return placed_box(extent, position_m, state.body_to_world, margin_m);
 }
@@ -157,11 +158,11 @@ void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const Fram
 /// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of all.
 void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& view) const {
     const AircraftModel& model = *aircraft.model;
-    if (model.polygons_from_mesh() == 0) { return; }
+    if (model.polygon_representation() == 0) { return; }
     const glm::dvec3 place_m(aircraft.parts[0][3]);
     const double radius_m = model.subject.radius_m;
     if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, view.frustum)) {
-        aircraft.representation = model.polygons_from_mesh();
+        aircraft.representation = model.polygon_representation();
         aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
         return;
     }

@@ -2,7 +2,6 @@
 
 #include "sim/aircraft_state.h"
 #include "visuals/draworder/draw_order.h"
-#include "visuals/planning/aircraft_effects.h"
 #include "visuals/planning/bounding_box.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/placed_aircraft.h"
@@ -15,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,9 +28,10 @@ public:
     /// The scene and the settings must outlive it.
     Fleet(const Scene& scene, const scene::Settings& settings);
 
-    /// Decides where each aircraft is, which list it is painted by and which box stands in for it. `effects`: one for
-    /// each of Scene::aircraft, which its box holds, too, or none at all.
-    void place(const FrameView& view, const PlanRequest& request, std::span<const AircraftEffects> effects);
+    /// Decides where each aircraft is, which list it is painted by and which box stands in for it. `effect_bounds`:
+    /// what the box of each of Scene::aircraft holds, too, body axes.
+    void place(const FrameView& view, const PlanRequest& request,
+        std::span<const std::optional<AxisAlignedBox>> effect_bounds);
 
     /// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep theirs as they are.
     void refine(const FrameView& view);
@@ -67,7 +68,7 @@ private:
     void choose_representation(PlacedAircraft& aircraft, const FrameView& view) const;
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
     OrientedBox bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
-        const AircraftEffects* effects, const FrameView& view) const;
+        const std::optional<AxisAlignedBox>& effects, const FrameView& view) const;
 
     const Scene& scene_;
     const scene::Settings& settings_;

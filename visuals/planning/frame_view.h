@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,8 +44,6 @@ struct PlanRequest {
     /// Triangles of ground that are aimed at, at least 1; nothing = as the settings say.
     std::optional<int> triangle_target = std::nullopt;
     SmoothTarget smooth = {};
-    /// Called when the aircraft are placed and their meshes refined: for whoever measures. May be empty.
-    std::function<void()> on_refined = nullptr;
     /// Lines written into the upper left corner of the picture.
     std::span<const std::string> overlay_lines = {};
     /// Parts that do not turn by themselves.

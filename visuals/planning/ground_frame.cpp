@@ -1,4 +1,5 @@
 #include "visuals/planning/ground_frame.h"
+
 #include "sim/base/plane.h"
 
 #include <glm/common.hpp>

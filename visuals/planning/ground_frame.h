@@ -24,10 +24,10 @@ struct ConvexVolume {
     void add(const Plane& plane) { planes[static_cast<std::size_t>(count++)] = plane; }
 };
 
-/// False only when the room holds no point of the box between two corners.
+/// False only when the volume holds no point of the box between two corners.
 bool may_intersect(const ConvexVolume& volume, const glm::dvec3& min_m, const glm::dvec3& max_m);
 
-/// A room that holds all sight lines from the eye to points of a box.
+/// A volume that holds all sight lines from the eye to points of a box.
 ConvexVolume sight_volume_of(const OrientedBox& box);
 
 /// A triangle of the ground that hides part of a box or meets it.

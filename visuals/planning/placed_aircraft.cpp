@@ -79,13 +79,13 @@ void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& 
 }
 
 void place_articulated_part(const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered,
-    const ArticulatedPart& turned, std::span<glm::dmat4> parts) {
-    const std::size_t pivot = pivot_in(model, numbered, turned.pivot);
+    const ArticulatedPart& part, std::span<glm::dmat4> parts) {
+    const std::size_t pivot = pivot_in(model, numbered, part.pivot);
     if (pivot >= model.pivots.size()) { return; }
     const models::polygons::Pivot& axis = model.pivots[pivot];
-    const glm::dvec3 about(turned.turn.x, turned.turn.y, turned.turn.z);
-    const double angle_rad = 2.0 * std::atan2(glm::dot(about, axis.axis), turned.turn.w);
-    parts[pivot + 1] = turned_about(axis, angle_rad, glm::translate(parts[0], turned.offset_m));
+    const glm::dvec3 about(part.turn.x, part.turn.y, part.turn.z);
+    const double angle_rad = 2.0 * std::atan2(glm::dot(about, axis.axis), part.turn.w);
+    parts[pivot + 1] = turned_about(axis, angle_rad, glm::translate(parts[0], part.offset_m));
 }
 
 } // namespace octant::visuals::planning

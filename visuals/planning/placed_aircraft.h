@@ -55,7 +55,7 @@ inline bool is_far(const PlacedAircraft& aircraft) {
 
 /// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are removed by depth.
 inline bool is_mesh(const PlacedAircraft& aircraft) {
-    return aircraft.representation < aircraft.model->polygons_from_mesh();
+    return aircraft.representation < aircraft.model->polygon_representation();
 }
 
 /// Whether that mesh is one that is refined in each frame.
@@ -77,9 +77,9 @@ void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& 
     std::span<glm::dmat4> parts);
 
 /// Turns and moves a part that somebody else turns; nothing where the model has no such pivot. `numbered` is the model
-/// whose pivots `articulated_parts` counts: the part of the same name turns in `model`, which is the same or stands in
+/// whose pivots `part` counts: the part of the same name turns in `model`, which is the same or stands in
 /// for it from afar. `parts` as place_parts() has them.
 void place_articulated_part(const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered,
-    const ArticulatedPart& articulated_parts, std::span<glm::dmat4> parts);
+    const ArticulatedPart& part, std::span<glm::dmat4> parts);
 
 } // namespace octant::visuals::planning

@@ -4,18 +4,16 @@
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
 #include "visuals/nature/daylight.h"
-#include "visuals/overlay/head_up_display.h"
 #include "visuals/overlay/instrument_panel.h"
-#include "visuals/overlay/overlay_layers.h"
-#include "visuals/overlay/path_annotations.h"
-#include "visuals/overlay/picture_text.h"
+#include "visuals/overlay/overlay.h"
+#include "visuals/overlay/overlay_canvas.h"
 #include "visuals/planning/fleet.h"
-#include "visuals/planning/frame_transparents.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/ground_pieces.h"
 #include "visuals/planning/scene_painter.h"
 #include "visuals/planning/sky.h"
 #include "visuals/planning/smooth_choice.h"
+#include "visuals/planning/transparents.h"
 #include "visuals/scene/detail_pattern.h"
 #include "visuals/scene/land_cover_contrast.h"
 
@@ -24,9 +22,11 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::planning {
 
@@ -47,38 +47,41 @@ public:
         layers_.add(transparents);
         if (marks_path) { layers_.add(path_marks(camera, first.position_m)); }
         if (settings_.view.kind == scene::View::Cockpit) {
-            const overlay::InstrumentReadings inputs = shown_inputs(first);
-            layers_.add(instruments_.draw(scene_.dials, inputs, camera, size_px));
-            if (settings_.view.head_up_display) { layers_.add(head_up_display_.draw(inputs, camera, size_px)); }
+            const overlay::InstrumentReadings readings = readings_of(first);
+            overlay::add_instruments(layers_, canvases_, scene_.dials, readings, camera, size_px);
+            if (settings_.view.head_up_display) {
+                layers_.add(overlay::draw_head_up_display(canvases_[0], readings, camera, size_px));
+            }
         }
-        if (!request.overlay_lines.empty()) { layers_.add(text_.draw(request.overlay_lines, size_px)); }
+        if (!request.overlay_lines.empty()) {
+            layers_.add(overlay::draw_text(canvases_[0], request.overlay_lines, size_px));
+        }
         return layers_.all();
     }
 
 private:
     /// The names of the legs of the first aircraft's path, where the legs begin.
     scene::OverlayDraw path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m) {
-        marks_.begin(camera, settings_.view.size_px, aircraft_m - camera.eye_m);
+        labels_.clear();
         for (const DrawnPath::Leg& leg : scene_.path->legs) {
-            marks_.add({scene_.path->points[leg.first_point].position_m - camera.eye_m, leg.name});
+            labels_.push_back({scene_.path->points[leg.first_point].position_m - camera.eye_m, leg.name});
         }
-        return marks_.finish();
+        return overlay::draw_path_annotations(
+            canvases_[0], camera, settings_.view.size_px, aircraft_m - camera.eye_m, labels_);
     }
 
-    overlay::InstrumentReadings shown_inputs(const sim::AircraftState& state) const {
-        overlay::InstrumentReadings inputs{state, state.position_m.z, {}};
+    overlay::InstrumentReadings readings_of(const sim::AircraftState& state) const {
+        overlay::InstrumentReadings readings{state, state.position_m.z, {}};
         if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
-            inputs.height_above_ground_m = state.position_m.z - *ground_m;
+            readings.height_above_ground_m = state.position_m.z - *ground_m;
         }
-        return inputs;
+        return readings;
     }
 
     const Scene& scene_;
     const scene::Settings& settings_;
-    overlay::InstrumentPanel instruments_;
-    overlay::HeadUpDisplay head_up_display_;
-    overlay::PathAnnotations marks_;
-    overlay::PictureText text_;
+    std::array<overlay::OverlayCanvas, 2> canvases_;
+    std::vector<overlay::WorldLabel> labels_;
     overlay::OverlayLayers layers_;
 };
 
@@ -200,27 +203,18 @@ public:
         return impl;
     }
 
-    bool set_sun() {
-        const landscape::GroundMesher* const before = mesher_.get();
+    void set_sun() {
         reuse_mesher();
         atmosphere_.emplace(scene_, settings_.air);
         transparents_.set_daylight(atmosphere_->daylight());
-        return mesher_.get() == before;
     }
-
-    void reset_detail(const scene::Camera& camera) {
-        is_settled_ = true;
-        mesher_->reset_detail(ground_request(camera, std::nullopt));
-    }
-
-    std::unique_ptr<landscape::GroundMesher> take_mesher() { return std::move(mesher_); }
 
     void settle_detail(const scene::Camera& camera) {
-        if (!is_settled_) { reset_detail(camera); }
+        if (!std::exchange(is_settled_, true)) { mesher_->reset_detail(ground_request(camera, std::nullopt)); }
     }
 
-    void begin_next_mesh(const scene::Camera& camera, std::optional<int> triangle_target,
-        const IdleThreadRunner& on_idle_thread) {
+    void begin_next_mesh(
+        const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
         mesher_->begin_next_mesh(ground_request(camera, triangle_target), on_idle_thread);
     }
 
@@ -229,7 +223,7 @@ public:
     void place_aircraft(const PlanRequest& request) {
         if (std::exchange(is_placed_, true)) { return; }
         const FrameView view = view_of(request.camera);
-        fleet_.place(view, request, transparents_.effects());
+        fleet_.place(view, request, transparents_.effect_bounds());
         fleet_.refine(view);
     }
 
@@ -239,7 +233,6 @@ public:
         PlanCounts counts;
         place_aircraft(request);
         is_placed_ = false;
-        if (request.on_refined) { request.on_refined(); }
         begin_plan(view);
         const GroundFrame ground = make_ground(request, view, counts);
         atmosphere_->write(view, plan_);
@@ -367,7 +360,7 @@ private:
     Fleet fleet_;
     SmoothChoice smooth_;
     GroundPieces pieces_;
-    FrameTransparents transparents_;
+    Transparents transparents_;
     FrameOverlay overlay_;
     ScenePainter painter_;
 };
@@ -381,16 +374,12 @@ Planner::~Planner() = default;
 
 void Planner::apply_settings() { impl_ = Impl::under_other_settings(std::move(impl_)); }
 
-bool Planner::set_sun() { return impl_->set_sun(); }
-
-void Planner::reset_detail(const scene::Camera& camera) { impl_->reset_detail(camera); }
-
-std::unique_ptr<landscape::GroundMesher> Planner::take_mesher() { return impl_->take_mesher(); }
+void Planner::set_sun() { impl_->set_sun(); }
 
 void Planner::settle_detail(const scene::Camera& camera) { impl_->settle_detail(camera); }
 
-void Planner::begin_next_mesh(const scene::Camera& camera, std::optional<int> triangle_target,
-    const IdleThreadRunner& on_idle_thread) {
+void Planner::begin_next_mesh(
+    const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
     impl_->begin_next_mesh(camera, triangle_target, on_idle_thread);
 }
 

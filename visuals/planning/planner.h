@@ -38,19 +38,12 @@ public:
     void apply_settings();
 
     /// Goes on where only the sun of the settings and the colours of the scene's ground have become others. Nothing may
-    /// be prepared then. False where the detail of the ground begins anew.
-    bool set_sun();
+    /// be prepared then.
+    void set_sun();
 
     /// Sets the detail of the ground for a camera where it begins anew, as it does in a new planner. The next plan does
     /// so where nobody has. Loading work.
     void settle_detail(const scene::Camera& camera);
-
-    /// Sets the detail of the ground for a camera. Loading work.
-    void reset_detail(const scene::Camera& camera);
-
-    /// The mesher of the ground, for the planner that follows this one in the same view. Nothing may be planned after
-    /// it.
-    std::unique_ptr<landscape::GroundMesher> take_mesher();
 
     /// Begins the work on the ground of the next plan() beside the caller, for the camera and the triangle target that
     /// it will be given; the last plan stays valid. May be left out: changes no plan.

@@ -1,4 +1,5 @@
 #include "visuals/planning/refined_aircraft.h"
+
 #include "visuals/scene/model_display.h"
 
 #include <glm/geometric.hpp>

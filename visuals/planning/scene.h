@@ -15,7 +15,7 @@
 
 namespace octant::visuals::planning {
 
-/// What a model is drawn as from where nobody sees the difference: both are painted in order.
+/// A simpler model that replaces a model far away, where nobody sees the difference. Both have painting orders.
 struct FarModel {
     /// Index into Scene::models.
     std::uint32_t model = 0;

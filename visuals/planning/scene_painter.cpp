@@ -1,5 +1,8 @@
 #include "visuals/planning/scene_painter.h"
-#include "visuals/planning/ground_frame.h"
+
+#include "visuals/planning/bounding_box.h"
+#include "visuals/planning/placed_aircraft.h"
+#include "visuals/planning/scene_order.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -7,180 +10,279 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace octant::visuals::planning {
 
-// Knots are the strongly connected components of "waits for": R. Tarjan, Depth-First Search and Linear Graph
-// Algorithms, SIAM Journal on Computing 1(2), 1972, section 4. Deviations: a path kept in memory stands in for the
-// recursion.
+namespace {
 
-void SceneOrder::arrange(std::span<const OrientedBox> boxes) {
-    place_bodies(boxes);
-    find_windows();
-    overlap_groups_.clear();
-    members_.clear();
-    std::uint32_t body = 0;
-    const auto add_single_bodies_until = [&](std::size_t end) {
-        for (; body < end; ++body) { add_overlap_group(std::span(&body, 1), 0); }
+/// Plane through the eye and an edge, `inside` in front of it; zero for an edge seen end-on.
+glm::dvec3 edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& inside_m) {
+    const glm::dvec3 across = glm::cross(from_m, to_m);
+    const double size = glm::length(across);
+    if (size <= 1e-14 * glm::length(from_m) * glm::length(to_m)) { return glm::dvec3(0.0); }
+    return across * ((glm::dot(across, inside_m) < 0.0 ? -1.0 : 1.0) / size);
+}
+
+} // namespace
+
+/// Appends to the painting steps of a plan.
+class StepWriter {
+public:
+    explicit StepWriter(scene::FramePlan& plan) : plan_(plan) {}
+
+    /// How far a plan has been written.
+    struct Checkpoint {
+        std::size_t steps = 0;
+        std::size_t last_count = 0; ///< of the last step, to which more may be added
+        std::size_t aircraft = 0;
+        std::size_t clips = 0;
+        std::size_t repaint_indices = 0;
     };
-    std::size_t next = 0;
-    while (next < windows_.size()) {
-        auto [first, last] = windows_[next++];
-        while (next < windows_.size() && windows_[next].first <= last) {
-            last = std::max(last, windows_[next++].second);
-        }
-        add_single_bodies_until(first);
-        arrange_window(first, last);
-        body = last + 1;
-    }
-    add_single_bodies_until(bodies_.size());
-}
 
-void SceneOrder::place_bodies(std::span<const OrientedBox> boxes) {
-    bodies_.clear();
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        Body& body = bodies_.emplace_back();
-        body.box = boxes[i];
-        body.index = i;
-        body.radius_m = radius_m(body.box);
-        const double distance_m = glm::length(body.box.centre_m);
-        body.power_m2 = distance_m * distance_m - body.radius_m * body.radius_m;
-        body.around_eye = distance_m <= body.radius_m;
-        if (!body.around_eye) {
-            body.towards = body.box.centre_m / distance_m;
-            body.sine = body.radius_m / distance_m;
-            body.cosine = std::sqrt(1.0 - body.sine * body.sine);
-        }
+    Checkpoint checkpoint() const {
+        return {plan_.steps.size(), plan_.steps.empty() ? 0 : plan_.steps.back().count, plan_.aircraft.size(),
+            plan_.clips.size(), plan_.repaint_indices.size()};
     }
-    std::ranges::sort(bodies_, [](const Body& a, const Body& b) {
-        return a.power_m2 != b.power_m2 ? a.power_m2 > b.power_m2 : a.index < b.index;
-    });
-}
 
-/// Sweeps along x for bodies whose spheres meet, and notes the windows of the list in which a body stands before one
-/// that it hides.
-void SceneOrder::find_windows() {
-    windows_.clear();
-    by_x_.resize(bodies_.size());
-    std::iota(by_x_.begin(), by_x_.end(), 0U);
-    const auto min_x = [&](std::uint32_t i) { return bodies_[i].box.centre_m.x - bodies_[i].radius_m; };
-    std::ranges::sort(
-        by_x_, [&](std::uint32_t a, std::uint32_t b) { return min_x(a) != min_x(b) ? min_x(a) < min_x(b) : a < b; });
-    for (std::size_t i = 0; i < by_x_.size(); ++i) {
-        const Body& body = bodies_[by_x_[i]];
-        const double max_x = body.box.centre_m.x + body.radius_m;
-        for (std::size_t k = i + 1; k < by_x_.size() && min_x(by_x_[k]) <= max_x; ++k) {
-            const Body& other = bodies_[by_x_[k]];
-            const glm::dvec3 apart_m = other.box.centre_m - body.box.centre_m;
-            const double contact_tolerance_m = body.radius_m + other.radius_m;
-            if (glm::dot(apart_m, apart_m) > contact_tolerance_m * contact_tolerance_m) { continue; }
-            const auto [earlier, later] = std::minmax(by_x_[i], by_x_[k]);
-            if (occlusion_pair(bodies_[earlier].box, bodies_[later].box).a_occludes_b) {
-                windows_.emplace_back(earlier, later);
+    /// Takes back the aircraft, the ground and the clips that were added since.
+    void roll_back(const Checkpoint& checkpoint) {
+        plan_.steps.resize(checkpoint.steps);
+        if (checkpoint.steps > 0) { plan_.steps.back().count = static_cast<std::uint32_t>(checkpoint.last_count); }
+        plan_.aircraft.resize(checkpoint.aircraft);
+        plan_.clips.resize(checkpoint.clips);
+        plan_.repaint_indices.resize(checkpoint.repaint_indices);
+    }
+
+    /// Depth becomes infinitely far there: what is drawn by depth from here on hides only itself.
+    void clear_depth(const scene::PixelBox& box) {
+        const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
+        plan_.depth_boxes.push_back(box);
+        plan_.steps.push_back({scene::PaintStep::Content::ClearDepth, place, 1});
+    }
+
+    /// The plan's sky; nothing where it is empty.
+    void add_sky(scene::DepthUse depth = scene::DepthUse::None) {
+        add_range(scene::PaintStep::Content::Sky, 0, plan_.sky.indices.size(), depth);
+    }
+
+    /// The plan's ground in its order; nothing where it is empty.
+    void add_ground() {
+        add_range(scene::PaintStep::Content::Ground, 0, plan_.ground.indices.size(), scene::DepthUse::None);
+    }
+
+    /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles that face away but
+    /// for rounding: they only close holes along edges, elsewhere their depths mean nothing.
+    void add_ground_by_depth(std::size_t edge_on_indices) {
+        const std::size_t facing = plan_.ground.indices.size() - edge_on_indices;
+        add_range(scene::PaintStep::Content::Ground, 0, facing, scene::DepthUse::Nearest);
+        add_range(scene::PaintStep::Content::Ground, facing, edge_on_indices, scene::DepthUse::EdgeOn);
+    }
+
+    /// All shadows, where ground has been drawn by depth.
+    void add_shadows_by_depth(const GroundFrame& ground) {
+        const std::size_t first = plan_.repaint_indices.size();
+        const auto pieces = ground.shadow_indices;
+        plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
+        add_range(scene::PaintStep::Content::GroundRepaint, first, pieces.size(), scene::DepthUse::OnGround);
+    }
+
+    /// A range of the plan's overlay, over what has been painted; nothing where it is empty.
+    void add_transparent(const TransparentRange& range) {
+        add_range(scene::PaintStep::Content::Transparent, range.first, range.count, scene::DepthUse::None);
+    }
+
+    /// The plan's overlay from an index on; nothing where it is empty.
+    void add_overlay(std::size_t first) {
+        add_range(
+            scene::PaintStep::Content::Overlay, first, plan_.overlay.indices.size() - first, scene::DepthUse::None);
+    }
+
+    /// A whole aircraft. Consecutive ones that are drawn alike become one step.
+    void add(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None) {
+        const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+        plan_.aircraft.push_back(draw);
+        if (!plan_.steps.empty()) {
+            scene::PaintStep& last = plan_.steps.back();
+            if (last.content == scene::PaintStep::Content::Aircraft && last.clip == scene::PaintStep::no_clip &&
+                last.depth == depth && last.opacity == 1.0F && last.first + last.count == place) {
+                ++last.count;
+                return;
             }
         }
+        plan_.steps.push_back({scene::PaintStep::Content::Aircraft, place, 1, scene::PaintStep::no_clip, depth});
     }
-    std::ranges::sort(windows_);
-}
 
-/// Adds the knots of bodies first .. last, those of great power first where that leaves a choice.
-void SceneOrder::arrange_window(std::uint32_t first, std::uint32_t last) {
-    const std::uint32_t count = last - first + 1;
-    find_occluders(first, count);
-    visited_ = 0;
-    for (std::uint32_t body = 0; body < count; ++body) {
-        if (visits_[body].number == 0) { visit_component(first, body); }
+    /// Transparent surfaces of an aircraft, blended by depth. Opacity: as PaintStep has it.
+    void add_transparent(const scene::AircraftDraw& draw, float opacity) {
+        const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+        plan_.aircraft.push_back(draw);
+        scene::PaintStep& step = plan_.steps.emplace_back();
+        step.content = scene::PaintStep::Content::Aircraft;
+        step.first = place;
+        step.count = 1;
+        step.depth = scene::DepthUse::Nearest;
+        step.opacity = opacity;
     }
-}
 
-/// False when the spheres around two boxes are seen apart, with nothing said about the boxes.
-bool SceneOrder::may_overlap_on_screen(const Body& a, const Body& b) {
-    return a.around_eye || b.around_eye ||
-           glm::dot(a.towards, b.towards) >= a.cosine * b.cosine - a.sine * b.sine - 1e-9;
-}
-
-void SceneOrder::find_occluders(std::uint32_t first, std::uint32_t count) {
-    occluders_.clear();
-    for (std::uint32_t a = 0; a < count; ++a) {
-        const Body& earlier = bodies_[first + a];
-        for (std::uint32_t b = a + 1; b < count; ++b) {
-            const Body& later = bodies_[first + b];
-            if (!may_overlap_on_screen(earlier, later)) { continue; }
-            const OcclusionPair pair = occlusion_pair(earlier.box, later.box);
-            if (pair.a_occludes_b) { occluders_.emplace_back(a, b); }
-            if (pair.b_occludes_a) { occluders_.emplace_back(b, a); }
-        }
+    /// A mesh that was refined for this frame, by depth.
+    void add(const scene::RefinedDraw& draw) {
+        const auto place = static_cast<std::uint32_t>(plan_.refined.size());
+        plan_.refined.push_back(draw);
+        plan_.steps.push_back(
+            {scene::PaintStep::Content::Refined, place, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest});
     }
-    std::ranges::sort(occluders_);
-    visits_.assign(count, {});
-    for (std::uint32_t i = 0; i < occluders_.size(); ++i) {
-        ComponentVisit& visit = visits_[occluders_[i].first];
-        visit.next = visit.end == 0 ? i : visit.next;
-        visit.end = i + 1;
+
+    /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
+    void add_within(const scene::AircraftDraw& draw, const ViewPolygon& region) {
+        const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+        plan_.aircraft.push_back(draw);
+        for_each_clip(region, [&](std::uint32_t clip) {
+            plan_.steps.push_back({scene::PaintStep::Content::Aircraft, place, 1, clip});
+        });
     }
-}
 
-void SceneOrder::begin_visit(std::uint32_t body) {
-    visits_[body].number = ++visited_;
-    visits_[body].least = visited_;
-    path_.push_back(body);
-    open_.push_back(body);
-}
-
-/// Walks along what each body waits for. A body from which no lesser number is reached than its own closes a knot with
-/// all that are open since.
-void SceneOrder::visit_component(std::uint32_t first, std::uint32_t body) {
-    path_.clear();
-    open_.clear();
-    begin_visit(body);
-    while (!path_.empty()) {
-        const std::uint32_t at = path_.back();
-        ComponentVisit& visit = visits_[at];
-        if (visit.next < visit.end) {
-            const std::uint32_t other = occluders_[visit.next++].second;
-            if (visits_[other].number == 0) {
-                begin_visit(other);
-            } else if (!visits_[other].is_in_group) {
-                visit.least = std::min(visit.least, visits_[other].number);
+    /// Paints triangles once more where they lie before a box, with their shadows, as far as they are seen in `cone`:
+    /// of the box or of one inside it. They are in painting order; those that meet the box are cut to the outside of
+    /// its sides. The eye is outside the box.
+    void add_in_front(const GroundFrame& ground, std::span<const GroundInFrontTriangle> triangles,
+        const OrientedBox& box, const ViewCone& cone) {
+        std::uint32_t cone_clip = scene::PaintStep::no_clip;
+        bool continues = false; // the last step, with the cone alone
+        for (const GroundInFrontTriangle& near : triangles) {
+            if (near.intersects) {
+                add_outside(ground, near.triangle, box, cone);
+                continues = false;
+                continue;
             }
-            continue;
-        }
-        path_.pop_back();
-        if (!path_.empty()) {
-            ComponentVisit& back = visits_[path_.back()];
-            back.least = std::min(back.least, visit.least);
-        }
-        if (visit.least == visit.number) {
-            std::size_t overlap_group = open_.size();
-            do { visits_[open_[--overlap_group]].is_in_group = true; } while (open_[overlap_group] != at);
-            add_overlap_group(std::span(open_).subspan(overlap_group), first);
-            open_.resize(overlap_group);
+            const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+            add_indices(ground, near.triangle);
+            const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+            if (continues) {
+                plan_.steps.back().count += count;
+                continue;
+            }
+            cone_clip = cone_clip == scene::PaintStep::no_clip ? add_clip(cone.planes()) : cone_clip;
+            plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, cone_clip});
+            continues = true;
         }
     }
-}
 
-/// `bodies` count from body `first`.
-void SceneOrder::add_overlap_group(std::span<const std::uint32_t> bodies, std::uint32_t first) {
-    OverlapGroup& overlap_group = overlap_groups_.emplace_back();
-    overlap_group.first = static_cast<std::uint32_t>(members_.size());
-    overlap_group.count = static_cast<std::uint32_t>(bodies.size());
-    overlap_group.box = bodies_[first + bodies.front()].box;
-    AxisAlignedBox extent = world_bounds(overlap_group.box);
-    for (const std::uint32_t body : bodies) {
-        const AxisAlignedBox own = world_bounds(bodies_[first + body].box);
-        extent.min_m = glm::min(extent.min_m, own.min_m);
-        extent.max_m = glm::max(extent.max_m, own.max_m);
-        members_.push_back(bodies_[first + body].index);
+    /// Paints one triangle once more where `region`, a part of it, is seen.
+    void add_within(const GroundFrame& ground, std::uint32_t triangle, const ViewPolygon& region) {
+        const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+        add_indices(ground, triangle);
+        const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+        for_each_clip(region, [&](std::uint32_t clip) {
+            plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, clip});
+        });
     }
-    if (overlap_group.count > 1) {
-        overlap_group.box = oriented_box(extent);
-        std::ranges::sort(std::span(members_).subspan(overlap_group.first));
+
+    /// Gives depth to ground that what comes next by depth may stick in: triangles that have been painted.
+    void occlude_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles) {
+        const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+        for (const std::uint32_t triangle : triangles) {
+            const auto own = ground.all.indices.subspan(std::size_t{3} * triangle, 3);
+            plan_.repaint_indices.insert(plan_.repaint_indices.end(), own.begin(), own.end());
+        }
+        const auto count = static_cast<std::uint32_t>(3 * triangles.size());
+        plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, scene::PaintStep::no_clip,
+            scene::DepthUse::DepthOnly});
     }
-}
+
+private:
+    void add_range(scene::PaintStep::Content content, std::size_t first, std::size_t count, scene::DepthUse depth) {
+        if (count > 0) {
+            plan_.steps.push_back({content, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                scene::PaintStep::no_clip, depth});
+        }
+    }
+
+    /// Index of a new clip by planes through the eye, at most Clip::max_planes.
+    std::uint32_t add_clip(std::span<const glm::dvec3> normals) {
+        assert(normals.size() <= std::size_t{scene::Clip::max_planes});
+        scene::Clip& clip = plan_.clips.emplace_back();
+        for (const glm::dvec3& normal : normals) {
+            clip.planes[static_cast<std::size_t>(clip.count++)] = glm::vec4(glm::vec3(normal), 0.0F);
+        }
+        return static_cast<std::uint32_t>(plan_.clips.size() - 1);
+    }
+
+    /// A sight line enters a box through the last of the sides that face the eye, so that a point in the cone lies
+    /// before the box if it lies outside any of them.
+    void add_outside(const GroundFrame& ground, std::uint32_t triangle, const OrientedBox& box, const ViewCone& cone) {
+        const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+        std::uint32_t count = 0;
+        for (int side = 0; side < 6; ++side) {
+            const Plane plane = side_of(box, side);
+            if (plane.offset_m <= 0.0) { continue; }
+            place_triangle(ground.all, triangle, piece_);
+            clip_to_front(piece_, plane, 0.0, scratch_);
+            clip_to_cone(piece_, cone.planes(), scratch_);
+            if (solid_angle_sr(piece_) < min_solid_angle_sr) { continue; }
+            if (count == 0) {
+                add_indices(ground, triangle);
+                count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+            }
+            const std::uint32_t index = add_clip(cone.planes());
+            scene::Clip& clip = plan_.clips[index];
+            clip.planes[static_cast<std::size_t>(clip.count++)] =
+                glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset_m));
+            plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, index});
+        }
+    }
+
+    void add_indices(const GroundFrame& ground, std::uint32_t triangle) {
+        const auto own = ground.all.indices.subspan(std::size_t{3} * triangle, 3);
+        plan_.repaint_indices.insert(plan_.repaint_indices.end(), own.begin(), own.end());
+        for (const ShadowPieces& shadow : shadows_on(ground, triangle)) {
+            const auto pieces = ground.shadow_indices.subspan(shadow.first, shadow.count);
+            plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
+        }
+    }
+
+    /// Calls paint(clip) for each convex piece of `region` that few enough planes bound.
+    template <class Paint>
+    void for_each_clip(const ViewPolygon& region, const Paint& paint) {
+        constexpr std::size_t most = scene::Clip::max_planes;
+        const auto cuts = static_cast<std::size_t>(
+            std::ranges::count_if(region, [](const ViewVertex& corner) { return corner.cut; }));
+        const auto add_edges = [&](const ViewPolygon& piece, bool all) {
+            normals_.clear();
+            const glm::dvec3 middle_m = middle_of(piece);
+            for (std::size_t i = 0; i < piece.size(); ++i) {
+                const glm::dvec3 normal =
+                    edge_normal(piece[i].at_m, piece[i + 1 < piece.size() ? i + 1 : 0].at_m, middle_m);
+                if ((all || piece[i].cut) && normal != glm::dvec3(0.0)) { normals_.push_back(normal); }
+            }
+            paint(add_clip(normals_));
+        };
+        if (cuts <= most) {
+            add_edges(region, false);
+            return;
+        }
+        // A fan of pieces with few edges each.
+        for (std::size_t from = 1; from + 1 < region.size(); from += most - 2) {
+            const std::size_t to = std::min(from + most - 2, region.size() - 1);
+            piece_.assign(1, region[0]);
+            for (std::size_t i = from; i <= to; ++i) { piece_.push_back(region[i]); }
+            add_edges(piece_, true);
+        }
+    }
+
+    scene::FramePlan& plan_;
+    ViewPolygon piece_;
+    ViewPolygon scratch_;
+    std::vector<glm::dvec3> normals_;
+};
 
 namespace {
 
@@ -189,126 +291,169 @@ constexpr double touching = 1e-9;
 
 } // namespace
 
-std::optional<int> PolygonRepaint::paint(std::span<const PlacedAircraft* const> aircraft, const OrientedBox& box,
-    const GroundFrame& ground, std::span<const std::uint32_t> intersecting, double rounding_rad, StepWriter& steps) {
-    painted_.clear();
-    corners_.clear();
-    repaint_count_ = 0;
-    comparison_count_ = 0;
-    ground_ = &ground;
-    for (const std::uint32_t triangle : intersecting) {
-        place_triangle(ground.all, triangle, part_);
-        clip_to_box(part_, box, scratch_);
-        record({is_ground, triangle, 0, 0, 0}, part_);
-    }
-    for (std::uint32_t owner = 0; owner < aircraft.size() && !exceeds_limits(); ++owner) {
-        paint_aircraft(aircraft, owner, rounding_rad, steps);
-    }
-    return exceeds_limits() ? std::nullopt : std::optional(repaint_count_);
-}
-
-void PolygonRepaint::record(PaintedItem painted, const ViewPolygon& part) {
-    painted.first_corner = corners_.size();
-    painted.corner_count = part.size();
-    corners_.insert(corners_.end(), part.begin(), part.end());
-    painted_.push_back(painted);
-}
-
-void PolygonRepaint::paint_aircraft(
-    std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner, double rounding_rad, StepWriter& steps) {
-    for (const scene::IndexRange& range : aircraft[owner]->ranges) {
-        paint_range(aircraft, owner, range, rounding_rad, steps);
-    }
-}
-
-void PolygonRepaint::paint_range(std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner,
-    const scene::IndexRange& range, double rounding_rad, StepWriter& steps) {
-    const PlacedAircraft& own = *aircraft[owner];
-    std::uint32_t run_first = range.first_index;
-    std::uint32_t next = run_first;
-    const auto polygons = own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
-    for (const std::uint32_t polygon : polygons) {
-        if (exceeds_limits()) { return; }
-        const std::uint32_t first = next;
-        next += own.model->index_count_of(polygon);
-        place_polygon(own, polygon, polygon_);
-        const Plane plane = plane_of(polygon_);
-        if (plane.offset_m <= 0.0) {
-            continue; // seen from behind: not drawn
+/// Paints aircraft that no order puts right as wholes: boxes that meet each other or the ground. It keeps its memory
+/// from frame to frame.
+///
+/// Polygon by polygon: after each polygon P everything painted before is painted once more, in its order, as far as it
+/// lies in the cone of the eye over P and before the plane of P. If the picture was right before P, it is right after:
+/// where nothing lies before P, P is seen; elsewhere what was on top lies before P (the nearest does when any does) and
+/// comes on top again. Polygons of the same aircraft are in order already and are not compared. What is painted again
+/// is cut to a convex part of itself by planes through the eye.
+class PolygonRepaint {
+public:
+    /// Paints the aircraft in `box` over ground that has been painted; `intersecting` are the triangles that meet the
+    /// box, in painting order, and only what lies inside it is painted again. `rounding_rad`: how far a renderer may
+    /// move an edge. Returns how many triangles and polygons were painted again; nothing, with some of it written,
+    /// where that would be more than `max_repaints` or more than `max_comparisons` pairs would have to be compared.
+    std::optional<int> paint(std::span<const PlacedAircraft* const> aircraft, const OrientedBox& box,
+        const GroundFrame& ground, std::span<const std::uint32_t> intersecting, double rounding_rad,
+        StepWriter& steps) {
+        painted_.clear();
+        corners_.clear();
+        repaint_count_ = 0;
+        comparison_count_ = 0;
+        ground_ = &ground;
+        for (const std::uint32_t triangle : intersecting) {
+            place_triangle(ground.all, triangle, part_);
+            clip_to_box(part_, box, scratch_);
+            record({is_ground, triangle, 0, 0, 0}, part_);
         }
-        const std::size_t before = painted_.size();
-        record({owner, first, next - first, 0, 0}, polygon_);
-        const std::size_t hiding = painted_.size();
-        find_occluding(plane, owner, before, rounding_rad);
-        if (painted_.size() == hiding) { continue; }
-        steps.add(draw_of(own, run_first, next - run_first));
-        run_first = next;
-        for (std::size_t i = hiding; i < painted_.size(); ++i) {
-            write(aircraft, painted_[i], steps);
-            ++repaint_count_;
+        for (std::uint32_t owner = 0; owner < aircraft.size() && !exceeds_limits(); ++owner) {
+            paint_aircraft(aircraft, owner, rounding_rad, steps);
+        }
+        return exceeds_limits() ? std::nullopt : std::optional(repaint_count_);
+    }
+
+private:
+    /// More take longer than a frame has: some hundred are usual where two aircraft meet.
+    static constexpr int max_repaints = 1500;
+    static constexpr std::size_t max_comparisons = 250'000;
+
+    static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
+
+    /// Something painted: a part of a polygon or of a triangle.
+    struct PaintedItem {
+        /// Index of the aircraft, or is_ground.
+        std::uint32_t owner = is_ground;
+        /// The number of the triangle; else the first index of the polygon.
+        std::uint32_t item = 0;
+        /// How many indices the polygon has; 0 for a triangle of the ground.
+        std::uint32_t index_count = 0;
+        /// Where the corners of its part begin in corners_.
+        std::size_t first_corner = 0;
+        std::size_t corner_count = 0;
+    };
+
+    bool exceeds_limits() const { return repaint_count_ > max_repaints || comparison_count_ > max_comparisons; }
+
+    void record(PaintedItem painted, const ViewPolygon& part) {
+        painted.first_corner = corners_.size();
+        painted.corner_count = part.size();
+        corners_.insert(corners_.end(), part.begin(), part.end());
+        painted_.push_back(painted);
+    }
+
+    void paint_aircraft(
+        std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner, double rounding_rad, StepWriter& steps) {
+        for (const scene::IndexRange& range : aircraft[owner]->ranges) {
+            paint_range(aircraft, owner, range, rounding_rad, steps);
         }
     }
-    if (next > run_first) { steps.add(draw_of(own, run_first, next - run_first)); }
-}
 
-/// Notes the parts of what was painted before that hide part of polygon_.
-void PolygonRepaint::find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
-    cone_of(polygon_, rounding_rad, cone_);
-    const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
-    comparison_count_ += before;
-    for (std::size_t i = 0; i < before; ++i) {
-        const PaintedItem painted = painted_[i];
-        if (painted.owner == owner) { continue; }
+    void paint_range(std::span<const PlacedAircraft* const> aircraft, std::uint32_t owner,
+        const scene::IndexRange& range, double rounding_rad, StepWriter& steps) {
+        const PlacedAircraft& own = *aircraft[owner];
+        std::uint32_t run_first = range.first_index;
+        std::uint32_t next = run_first;
+        const auto polygons = own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
+        for (const std::uint32_t polygon : polygons) {
+            if (exceeds_limits()) { return; }
+            const std::uint32_t first = next;
+            next += own.model->index_count_of(polygon);
+            place_polygon(own, polygon, polygon_);
+            const Plane plane = plane_of(polygon_);
+            if (plane.offset_m <= 0.0) {
+                continue; // seen from behind: not drawn
+            }
+            const std::size_t before = painted_.size();
+            record({owner, first, next - first, 0, 0}, polygon_);
+            const std::size_t hiding = painted_.size();
+            find_occluding(plane, owner, before, rounding_rad);
+            if (painted_.size() == hiding) { continue; }
+            steps.add(draw_of(own, run_first, next - run_first));
+            run_first = next;
+            for (std::size_t i = hiding; i < painted_.size(); ++i) {
+                write(aircraft, painted_[i], steps);
+                ++repaint_count_;
+            }
+        }
+        if (next > run_first) { steps.add(draw_of(own, run_first, next - run_first)); }
+    }
+
+    /// Notes the parts of what was painted before that hide part of polygon_.
+    void find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
+        cone_of(polygon_, rounding_rad, cone_);
+        const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
+        comparison_count_ += before;
+        for (std::size_t i = 0; i < before; ++i) {
+            const PaintedItem painted = painted_[i];
+            if (painted.owner == owner) { continue; }
+            const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
+            part_.assign(corners.begin(), corners.end());
+            clip_to_front(part_, plane, tolerance_m, scratch_);
+            clip_to_cone(part_, cone_, scratch_);
+            if (solid_angle_sr(part_) < min_solid_angle_sr) { continue; }
+            record(painted, part_);
+        }
+    }
+
+    void write(std::span<const PlacedAircraft* const> aircraft, const PaintedItem& painted, StepWriter& steps) {
         const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
         part_.assign(corners.begin(), corners.end());
-        clip_to_front(part_, plane, tolerance_m, scratch_);
-        clip_to_cone(part_, cone_, scratch_);
-        if (solid_angle_sr(part_) < min_solid_angle_sr) { continue; }
-        record(painted, part_);
+        if (painted.owner == is_ground) {
+            steps.add_within(*ground_, painted.item, part_);
+        } else {
+            steps.add_within(draw_of(*aircraft[painted.owner], painted.item, painted.index_count), part_);
+        }
     }
-}
 
-void PolygonRepaint::write(
-    std::span<const PlacedAircraft* const> aircraft, const PaintedItem& painted, StepWriter& steps) {
-    const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
-    part_.assign(corners.begin(), corners.end());
-    if (painted.owner == is_ground) {
-        steps.add_within(*ground_, painted.item, part_);
-    } else {
-        steps.add_within(draw_of(*aircraft[painted.owner], painted.item, painted.index_count), part_);
-    }
-}
-
-namespace {
-
-/// The share of the box's size that must lie before the eye.
-constexpr double nearest = 1e-6;
-
-} // namespace
-
-scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
-    const glm::dmat4 world_to_clip = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
-    const glm::dvec2 size(size_px);
-    glm::dvec2 least(std::numeric_limits<double>::max());
-    glm::dvec2 most(std::numeric_limits<double>::lowest());
-    for (const glm::dvec3& corner_m : corners_of(box)) {
-        const glm::dvec4 clip = world_to_clip * glm::dvec4(corner_m, 1.0);
-        if (clip.w <= nearest * radius_m(box)) { return {glm::ivec2(0), size_px}; }
-        const glm::dvec2 at = glm::dvec2(clip.x, -clip.y) / clip.w;
-        least = glm::min(least, at);
-        most = glm::max(most, at);
-    }
-    const auto in_pixels = [&](const glm::dvec2& at) { return (at * 0.5 + 0.5) * size; };
-    const glm::dvec2 from = glm::clamp(glm::floor(in_pixels(least)), glm::dvec2(0.0), size);
-    const glm::dvec2 to = glm::clamp(glm::ceil(in_pixels(most)), glm::dvec2(0.0), size);
-    return {glm::ivec2(from), glm::ivec2(to)};
-}
+    std::vector<PaintedItem> painted_;
+    std::vector<ViewVertex> corners_;
+    const GroundFrame* ground_ = nullptr;
+    ViewPolygon polygon_;
+    ViewPolygon part_;
+    ViewPolygon scratch_;
+    std::vector<glm::dvec3> cone_;
+    int repaint_count_ = 0;
+    std::size_t comparison_count_ = 0;
+};
 
 namespace {
 
 /// A little more than two rounding steps of renderers (1/256 pixel). What is painted again is cut this much too wide
 /// where only that rounding could tell, so that no line of the covered thing shows along the cut.
 constexpr double paint_rounding_px = 0.01;
+
+/// The pixels that hold a box as FramePlan::world_to_view and view_to_clip show it; the whole picture where part of the
+/// box lies behind the eye.
+scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
+    const glm::dmat4 world_to_clip = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
+    const glm::dvec2 size(size_px);
+    glm::dvec2 low(std::numeric_limits<double>::max());
+    glm::dvec2 high(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& corner_m : corners_of(box)) {
+        const glm::dvec4 clip = world_to_clip * glm::dvec4(corner_m, 1.0);
+        constexpr double nearest = 1e-6; // share of the box's size that must lie in front of the eye
+        if (clip.w <= nearest * radius_m(box)) { return {glm::ivec2(0), size_px}; }
+        const glm::dvec2 at = glm::dvec2(clip.x, -clip.y) / clip.w;
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    const auto in_pixels = [&](const glm::dvec2& at) { return (at * 0.5 + 0.5) * size; };
+    const glm::dvec2 from = glm::clamp(glm::floor(in_pixels(low)), glm::dvec2(0.0), size);
+    const glm::dvec2 to = glm::clamp(glm::ceil(in_pixels(high)), glm::dvec2(0.0), size);
+    return {glm::ivec2(from), glm::ivec2(to)};
+}
 
 double away_m2(const OrientedBox& box) { return glm::dot(box.centre_m, box.centre_m); }
 
@@ -320,214 +465,236 @@ bool is_nearer(std::span<const OrientedBox> boxes, std::uint32_t a, std::uint32_
     return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
 }
 
-bool is_above_clouds(const FrameScene& frame, double height_m) {
-    const auto clouds_m = frame.transparents.cloud_height_m();
-    return clouds_m && height_m > *clouds_m;
-}
-
-/// Whether the middle of a knot's box and the eye are on different sides of the clouds.
-bool is_beyond_clouds(const FrameScene& frame, const OverlapGroup& overlap_group) {
-    const double eye_m = frame.view.camera.eye_m.z;
-    return is_above_clouds(frame, eye_m + overlap_group.box.centre_m.z) != is_above_clouds(frame, eye_m);
-}
-
 } // namespace
 
-void ScenePainter::paint(const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts) {
-    if (hidden_surface == scene::HiddenSurface::DepthBuffer) {
-        paint_by_depth(frame);
-    } else {
-        paint_in_order(frame, counts);
-    }
-    steps_.add_overlay(frame.transparents.draw().indices.size());
-}
+class ScenePainter::Painter {
+public:
+    explicit Painter(scene::FramePlan& plan) : plan_(plan), steps_(plan) {}
 
-void ScenePainter::paint_by_depth(const FrameScene& frame) {
-    const auto placed = frame.fleet.placed();
-    const auto bounding_boxes = frame.fleet.bounding_boxes();
-    near_to_far_.resize(bounding_boxes.size());
-    std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
-    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(bounding_boxes, a, b); });
-    steps_.clear_depth({glm::ivec2(0), frame.view.size_px});
-    if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) { paint(frame, *cockpit, scene::DepthUse::Nearest); }
-    // What is refined comes apart, so that all others become one step.
-    for (const bool refined : {false, true}) {
-        for (const std::uint32_t i : near_to_far_) {
-            if (is_refined(placed[i]) == refined && !placed[i].is_hidden) {
-                paint(frame, placed[i], scene::DepthUse::Nearest);
+    void paint(const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts) {
+        frame_ = &frame;
+        counts_ = &counts;
+        hulls_ = frame.fleet.bounding_boxes();
+        if (hidden_surface == scene::HiddenSurface::DepthBuffer) {
+            paint_by_depth();
+        } else {
+            paint_in_order();
+        }
+        steps_.add_overlay(frame.transparents.draw().indices.size());
+    }
+
+private:
+    void paint_by_depth() {
+        const auto placed = frame_->fleet.placed();
+        near_to_far_.resize(hulls_.size());
+        std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
+        std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(hulls_, a, b); });
+        steps_.clear_depth({glm::ivec2(0), frame_->view.size_px});
+        if (const PlacedAircraft* cockpit = frame_->fleet.cockpit()) { paint(*cockpit, scene::DepthUse::Nearest); }
+        // What is refined comes apart, so that all others become one step.
+        for (const bool refined : {false, true}) {
+            for (const std::uint32_t i : near_to_far_) {
+                if (is_refined(placed[i]) == refined && !placed[i].is_hidden) {
+                    paint(placed[i], scene::DepthUse::Nearest);
+                }
+            }
+        }
+        std::size_t edge_on_indices = 0;
+        plan_.ground = front_facing_first(frame_->ground.all, frame_->view.pixel_rad, facing_indices_, edge_on_indices);
+        steps_.add_ground_by_depth(edge_on_indices);
+        steps_.add_shadows_by_depth(frame_->ground);
+        steps_.add_sky(scene::DepthUse::InfinitelyFar);
+        for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
+            for (const Transparent& one : transparents_of(*i)) {
+                if (one.place == Transparent::Place::Glass && !placed[*i].is_hidden) { paint_transparent(one); }
             }
         }
     }
-    std::size_t edge_on_indices = 0;
-    plan_.ground = front_facing_first(frame.ground.all, frame.view.pixel_rad, facing_indices_, edge_on_indices);
-    steps_.add_ground_by_depth(edge_on_indices);
-    steps_.add_shadows_by_depth(frame.ground);
-    steps_.add_sky(scene::DepthUse::InfinitelyFar);
-    for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
-        if (!placed[*i].is_hidden) { paint_transparent(frame, placed[*i]); }
-    }
-}
 
-void ScenePainter::paint_in_order(const FrameScene& frame, PlanCounts& counts) {
-    plan_.ground = front_facing(frame.ground, frame.view.pixel_rad, facing_indices_);
-    boxes_.assign(frame.fleet.bounding_boxes().begin(), frame.fleet.bounding_boxes().end());
-    for (const PathRibbon::Dash& dash : frame.transparents.dashes()) { boxes_.push_back(dash.box); }
-    order_.arrange(boxes_);
-    steps_.add_sky();
-    // The clouds lie above all ground.
-    const bool from_above = is_above_clouds(frame, frame.view.camera.eye_m.z);
-    if (from_above) { steps_.add_ground(); }
-    if (frame.transparents.cloud_height_m()) {
-        paint_groups(frame, true, counts);
-        steps_.add_transparent_range(frame.transparents.clouds().first, frame.transparents.clouds().count);
+    void paint_in_order() {
+        plan_.ground = front_facing(frame_->ground, frame_->view.pixel_rad, facing_indices_);
+        boxes_.assign(hulls_.begin(), hulls_.end());
+        const auto apart = frame_->transparents.boxes();
+        boxes_.insert(boxes_.end(), apart.begin(), apart.end());
+        order_.arrange(boxes_);
+        steps_.add_sky();
+        // The clouds lie above all ground.
+        const bool from_above = is_above_clouds(frame_->view.camera.eye_m.z);
+        if (from_above) { steps_.add_ground(); }
+        if (frame_->transparents.cloud_height_m()) {
+            paint_groups(true);
+            for (const Transparent& one : frame_->transparents.list()) {
+                if (one.place == Transparent::Place::CloudLayer) { paint_transparent(one); }
+            }
+        }
+        if (!from_above) { steps_.add_ground(); }
+        paint_groups(false);
+        if (const PlacedAircraft* cockpit = frame_->fleet.cockpit()) { paint(*cockpit, scene::DepthUse::None); }
     }
-    if (!from_above) { steps_.add_ground(); }
-    paint_groups(frame, false, counts);
-    if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) { paint(frame, *cockpit, scene::DepthUse::None); }
-}
 
-/// Paints the knots that lie beyond the clouds, or those that do not.
-void ScenePainter::paint_groups(const FrameScene& frame, bool beyond_clouds, PlanCounts& counts) {
-    for (const OverlapGroup& overlap_group : order_.overlap_groups()) {
-        if (is_beyond_clouds(frame, overlap_group) == beyond_clouds) { paint_group(frame, overlap_group, counts); }
+    bool is_above_clouds(double height_m) const {
+        const auto clouds_m = frame_->transparents.cloud_height_m();
+        return clouds_m && height_m > *clouds_m;
     }
-}
 
-void ScenePainter::collect_members(const FrameScene& frame, const OverlapGroup& overlap_group) {
-    members_.clear();
-    group_dashes_.clear();
-    for (const std::uint32_t member : order_.members(overlap_group)) {
-        if (member >= frame.fleet.bounding_boxes().size()) {
-            group_dashes_.push_back(member);
-        } else if (!frame.fleet.placed()[member].is_hidden) {
-            members_.push_back(&frame.fleet.placed()[member]);
+    /// Paints the groups that lie beyond the clouds, or those that do not.
+    void paint_groups(bool beyond_clouds) {
+        const double eye_m = frame_->view.camera.eye_m.z;
+        for (const OverlapGroup& group : order_.overlap_groups()) {
+            const bool is_beyond = is_above_clouds(eye_m + group.box.centre_m.z) != is_above_clouds(eye_m);
+            if (is_beyond == beyond_clouds) { paint_group(group); }
         }
     }
-}
 
-/// Paints a knot and again what lies before it; nothing again where it is out of view.
-void ScenePainter::paint_group(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
-    collect_members(frame, overlap_group);
-    if (members_.empty() && group_dashes_.empty()) { return; }
-    if (!in_view(overlap_group.box, frame.view)) {
-        for (const PlacedAircraft* member : members_) { steps_.add(draw_of(*member)); }
-        return;
-    }
-    in_front_.find(overlap_group.box, frame.mesher, frame.ground.all, frame.view.camera.eye_m);
-    paint_with_effects(frame, overlap_group, counts);
-    if (in_front_.found().empty() || contains_eye(overlap_group.box)) { return; }
-    // Not in the cone of a knot's box: between the members a farther knot may be seen before the ground. What was
-    // painted earlier and is seen in a member's cone lies behind the member.
-    for (const std::uint32_t member : order_.members(overlap_group)) {
-        steps_.add_in_front(frame.ground, in_front_.found(), overlap_group.box, cone_of(boxes_[member]));
-        counts.cuts += static_cast<int>(in_front_.found().size());
-    }
-}
-
-/// The aircraft of a knot with their effects, and the dashes of a ribbon behind and before them.
-void ScenePainter::paint_with_effects(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
-    constexpr double infinite_distance_m2 = std::numeric_limits<double>::infinity();
-    const double group_distance_m2 = members_.empty() ? 0.0 : away_m2(overlap_group.box);
-    paint_dashes(frame, infinite_distance_m2, group_distance_m2);
-    if (!members_.empty()) {
-        paint_effects(frame, false);
-        paint_members(frame, overlap_group, counts);
-        paint_effects(frame, true);
-    }
-    paint_dashes(frame, group_distance_m2, -1.0);
-}
-
-/// Of the knot's aircraft, what lies behind them or before them.
-void ScenePainter::paint_effects(const FrameScene& frame, bool after) {
-    for (const PlacedAircraft* member : members_) {
-        const AircraftEffects::TransparentRanges ranges = frame.transparents.effects_of(member->number);
-        const TransparentRange& range = after ? ranges.after : ranges.before;
-        steps_.add_transparent_range(range.first, range.count);
-    }
-}
-
-/// Of the knot's dashes those whose middles lie so far off, the farthest first.
-void ScenePainter::paint_dashes(const FrameScene& frame, double farther_m2, double nearer_m2) {
-    std::ranges::sort(group_dashes_, [&](std::uint32_t a, std::uint32_t b) {
-        const double a_m2 = away_m2(boxes_[a]);
-        const double b_m2 = away_m2(boxes_[b]);
-        return a_m2 != b_m2 ? a_m2 > b_m2 : a < b;
-    });
-    for (const std::uint32_t box : group_dashes_) {
-        if (away_m2(boxes_[box]) <= farther_m2 && away_m2(boxes_[box]) > nearer_m2) {
-            const TransparentRange& range =
-                frame.transparents.dashes()[box - frame.fleet.bounding_boxes().size()].range;
-            steps_.add_transparent_range(range.first, range.count);
+    /// Paints a group and again what lies before it; nothing again where it is out of view.
+    void paint_group(const OverlapGroup& group) {
+        collect(group);
+        if (members_.empty() && group_transparents_.empty()) { return; }
+        if (!in_view(group.box, frame_->view)) {
+            for (const PlacedAircraft* member : members_) { steps_.add(draw_of(*member)); }
+            return;
+        }
+        in_front_.find(group.box, frame_->mesher, frame_->ground.all, frame_->view.camera.eye_m);
+        paint_with_transparents(group);
+        if (in_front_.found().empty() || contains_eye(group.box)) { return; }
+        // Not in the cone of a group's box: between the members a farther group may be seen before the ground. What was
+        // painted earlier and is seen in a member's cone lies behind the member.
+        for (const std::uint32_t member : order_.members(group)) {
+            steps_.add_in_front(frame_->ground, in_front_.found(), group.box, cone_of(boxes_[member]));
+            counts_->cuts += static_cast<int>(in_front_.found().size());
         }
     }
-}
 
-/// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
-void ScenePainter::paint_members(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
-    const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
-    const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
-    counts.overlap_groups += alone ? 0 : 1;
-    if (has_mesh) {
-        paint_members_by_depth(frame, overlap_group);
-    } else if (alone) {
-        steps_.add(draw_of(*members_.front()));
-    } else {
-        paint_intersecting(frame, overlap_group, counts);
+    /// Notes the aircraft of a group that are there, and the transparent things of the group.
+    void collect(const OverlapGroup& group) {
+        members_.clear();
+        group_transparents_.clear();
+        for (const std::uint32_t member : order_.members(group)) {
+            if (member < hulls_.size()) {
+                const PlacedAircraft& aircraft = frame_->fleet.placed()[member];
+                if (aircraft.is_hidden) { continue; }
+                members_.push_back(&aircraft);
+            }
+            const auto own = transparents_of(member);
+            group_transparents_.insert(group_transparents_.end(), own.begin(), own.end());
+        }
     }
-}
 
-/// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would take too long.
-void ScenePainter::paint_intersecting(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
-    const StepWriter::Checkpoint before = steps_.checkpoint();
-    const double rounding_rad = paint_rounding_px * frame.view.pixel_rad;
-    const auto cuts =
-        repaint_.paint(members_, overlap_group.box, frame.ground, in_front_.intersecting(), rounding_rad, steps_);
-    if (cuts) {
-        counts.cuts += *cuts;
-        return;
+    std::span<const Transparent> transparents_of(std::uint32_t box) const {
+        const auto own = std::ranges::equal_range(frame_->transparents.list(), box, {}, &Transparent::box);
+        return {own.begin(), own.end()};
     }
-    steps_.roll_back(before);
-    counts.unordered += static_cast<int>(members_.size());
-    paint_members_by_depth(frame, overlap_group);
-}
 
-/// By a depth buffer that holds nothing else but the ground that meets them.
-void ScenePainter::paint_members_by_depth(const FrameScene& frame, const OverlapGroup& overlap_group) {
-    steps_.clear_depth(pixel_box(overlap_group.box, plan_, frame.view.size_px));
-    if (!in_front_.intersecting().empty()) { steps_.occlude_by_ground(frame.ground, in_front_.intersecting()); }
-    for (const PlacedAircraft* member : members_) { paint(frame, *member, scene::DepthUse::Nearest); }
-    std::ranges::sort(members_, [&](const PlacedAircraft* a, const PlacedAircraft* b) {
-        return is_nearer(frame.fleet.bounding_boxes(), b->number, a->number);
-    });
-    for (const PlacedAircraft* member : members_) { paint_transparent(frame, *member); }
-}
-
-/// Paints a whole aircraft. What was refined for this frame is always drawn by depth.
-void ScenePainter::paint(const FrameScene& frame, const PlacedAircraft& aircraft, scene::DepthUse depth) {
-    if (!is_refined(aircraft)) {
-        steps_.add(draw_of(aircraft), depth);
-        return;
+    /// Sorts the transparent things of a group, by their places and from far to near, and paints them and the aircraft.
+    void paint_with_transparents(const OverlapGroup& group) {
+        const double group_m2 = members_.empty() ? 0.0 : away_m2(group.box);
+        const auto stage_of = [&](const Transparent& one) {
+            constexpr int last = static_cast<int>(Transparent::Place::CloudLayer);
+            const bool is_in_front = one.place == Transparent::Place::Apart && away_m2(boxes_[one.box]) <= group_m2;
+            return is_in_front ? last : static_cast<int>(one.place);
+        };
+        std::ranges::sort(group_transparents_, [&](const Transparent& a, const Transparent& b) {
+            const int a_stage = stage_of(a);
+            const int b_stage = stage_of(b);
+            return a_stage != b_stage ? a_stage < b_stage : is_nearer(boxes_, b.box, a.box);
+        });
+        auto next = group_transparents_.begin();
+        for (; next != group_transparents_.end() && stage_of(*next) < static_cast<int>(Transparent::Place::Glass);
+             ++next) {
+            paint_transparent(*next);
+        }
+        if (!members_.empty()) { paint_members(group); }
+        for (; next != group_transparents_.end(); ++next) { paint_transparent(*next); }
     }
-    scene::RefinedDraw draw = frame.fleet.refined()[aircraft.number]->draw();
-    draw.first_part = aircraft.first_part;
-    draw.first_smooth = frame.smooth.refined_word_index();
-    draw.tints = aircraft.tints;
-    steps_.add(draw);
-    if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
-        scene::AircraftDraw turning_draw = draw_of(aircraft, turning.first_index, turning.index_count);
-        turning_draw.first_smooth = frame.smooth.turning_word_index();
-        steps_.add(turning_draw, scene::DepthUse::Nearest);
-    }
-}
 
-/// Paints what is transparent of an aircraft that was refined for this frame: after all that it may be seen before.
-void ScenePainter::paint_transparent(const FrameScene& frame, const PlacedAircraft& aircraft) {
-    const scene::IndexRange& transparent = aircraft.model->transparent;
-    if (is_refined(aircraft) && transparent.index_count > 0) {
-        scene::AircraftDraw draw = draw_of(aircraft, transparent.first_index, transparent.index_count);
-        draw.first_smooth = frame.smooth.turning_word_index();
+    /// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
+    void paint_members(const OverlapGroup& group) {
+        const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
+        const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
+        counts_->overlap_groups += alone ? 0 : 1;
+        if (has_mesh) {
+            paint_members_by_depth(group);
+        } else if (alone) {
+            steps_.add(draw_of(*members_.front()));
+        } else {
+            paint_intersecting(group);
+        }
+    }
+
+    /// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would take too long.
+    void paint_intersecting(const OverlapGroup& group) {
+        const StepWriter::Checkpoint before = steps_.checkpoint();
+        const double rounding_rad = paint_rounding_px * frame_->view.pixel_rad;
+        const auto cuts =
+            repaint_.paint(members_, group.box, frame_->ground, in_front_.intersecting(), rounding_rad, steps_);
+        if (cuts) {
+            counts_->cuts += *cuts;
+            return;
+        }
+        steps_.roll_back(before);
+        counts_->unordered += static_cast<int>(members_.size());
+        paint_members_by_depth(group);
+    }
+
+    /// By a depth buffer that holds nothing else but the ground that meets them.
+    void paint_members_by_depth(const OverlapGroup& group) {
+        steps_.clear_depth(pixel_box(group.box, plan_, frame_->view.size_px));
+        if (!in_front_.intersecting().empty()) { steps_.occlude_by_ground(frame_->ground, in_front_.intersecting()); }
+        for (const PlacedAircraft* member : members_) { paint(*member, scene::DepthUse::Nearest); }
+    }
+
+    /// Paints a whole aircraft. What was refined for this frame is always drawn by depth.
+    void paint(const PlacedAircraft& aircraft, scene::DepthUse depth) {
+        if (!is_refined(aircraft)) {
+            steps_.add(draw_of(aircraft), depth);
+            return;
+        }
+        scene::RefinedDraw draw = frame_->fleet.refined()[aircraft.number]->draw();
+        draw.first_part = aircraft.first_part;
+        draw.first_smooth = frame_->smooth.refined_word_index();
+        draw.tints = aircraft.tints;
+        steps_.add(draw);
+        if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
+            scene::AircraftDraw turning_draw = draw_of(aircraft, turning.first_index, turning.index_count);
+            turning_draw.first_smooth = frame_->smooth.turning_word_index();
+            steps_.add(turning_draw, scene::DepthUse::Nearest);
+        }
+    }
+
+    void paint_transparent(const Transparent& one) {
+        if (one.place != Transparent::Place::Glass) {
+            steps_.add_transparent(one.range);
+            return;
+        }
+        const PlacedAircraft& aircraft = frame_->fleet.placed()[one.box];
+        const scene::IndexRange& glass = aircraft.model->transparent;
+        scene::AircraftDraw draw = draw_of(aircraft, glass.first_index, glass.index_count);
+        draw.first_smooth = frame_->smooth.turning_word_index();
         steps_.add_transparent(draw, aircraft.model->opacity);
     }
+
+    scene::FramePlan& plan_;
+    StepWriter steps_;
+    SceneOrder order_;
+    GroundInFront in_front_;
+    PolygonRepaint repaint_;
+    const FrameScene* frame_ = nullptr;
+    PlanCounts* counts_ = nullptr;
+    std::span<const OrientedBox> hulls_; ///< of the aircraft
+    std::vector<OrientedBox> boxes_;     ///< all that have a place: the aircraft's, then those of transparent things
+    /// Of the group that is painted.
+    std::vector<const PlacedAircraft*> members_;
+    std::vector<Transparent> group_transparents_;
+    std::vector<std::uint32_t> near_to_far_;
+    std::vector<std::uint32_t> facing_indices_;
+};
+
+ScenePainter::ScenePainter(scene::FramePlan& plan) : painter_(std::make_unique<Painter>(plan)) {}
+
+ScenePainter::~ScenePainter() = default;
+
+void ScenePainter::paint(const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts) {
+    painter_->paint(frame, hidden_surface, counts);
 }
 
 } // namespace octant::visuals::planning

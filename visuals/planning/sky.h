@@ -16,7 +16,7 @@ glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, co
 
 /// What the sky shows below the horizon, where the map has ended: an endless plain.
 struct SurroundingPlain {
-    /// Zero, less or not finite = there is no plain, only haze.
+    /// Zero, less or not finite: there is no plain, only haze.
     double height_below_eye_m = 0.0;
     /// The level distance from the eye to the nearest edge of the map.
     double map_edge_m = 0.0;

@@ -42,7 +42,7 @@ public:
     /// AircraftDraw::first_smooth of parts that turn beside what is refined.
     std::uint32_t turning_word_index() const { return static_cast<std::uint32_t>(bits_.size() - 2); }
 
-    /// Of how many polygons, and how many of them.
+    /// How many polygons could be smooth, and how many are.
     struct Count {
         int polygons = 0;
         int smooth = 0;

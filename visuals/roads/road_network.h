@@ -14,7 +14,7 @@
 
 namespace octant::visuals::roads {
 
-/// What roads on a ground keep to.
+/// The limits of where roads may run.
 struct RoadConstraints {
     double water_m = 0.0;
     /// Nobody lives higher above the water than this.
@@ -23,8 +23,8 @@ struct RoadConstraints {
     std::function<bool(const glm::dvec2& place_m)> is_blocked;
 };
 
-/// A ground as builders of roads see it: on cells some hundred metres wide, how steep it is, how high above the floor
-/// of its valley, and where nobody builds. Cells are numbered row after row from the south-west.
+/// The ground in cells some hundred metres wide, for those who build roads: how steep each is, how high above the floor
+/// of its valley, and whether nobody builds there. Cells are numbered row after row from the south-west.
 class RoadCostGrid {
 public:
     /// The ground is needed by the constructor alone. Without cells where the ground is too small or its cells would be
@@ -103,10 +103,10 @@ struct RoadPoint {
 /// How far a level's middle line may lie off the finest one, metres.
 inline constexpr std::array<double, 4> level_error_m = {0.1, 0.5, 2.0, 8.0};
 
-/// No stretch of a level is longer, but for one step of the finest line: each has one light.
+/// No segment of a level is longer, except one step of the finest line: each segment has one light.
 inline constexpr std::array<double, level_error_m.size()> max_segment_length_m = {25.0, 60.0, 150.0, 400.0};
 
-/// A piece of a road some hundred metres long, in levels of detail whose ends are the same. World axes.
+/// A section of a road some hundred metres long, in levels of detail whose ends are the same. World axes.
 struct RoadSection {
     std::array<std::vector<RoadPoint>, level_error_m.size()> levels; ///< at least two points each
     glm::dvec2 min_m{0.0};                                           ///< of its edges
@@ -126,7 +126,7 @@ double distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, c
 /// them.
 std::vector<std::size_t> simplify_line(std::span<const glm::dvec2> line_m, double error_m, double max_gap_m);
 
-/// A line in pieces; a half width longer at both ends, so that roads that meet there leave no gap.
+/// Cuts a line into sections; it is a half width longer at both ends, so that roads that meet there leave no gap.
 void append_sections(std::vector<glm::dvec2> line_m, std::vector<RoadSection>& sections);
 
 /// Made-up roads along the valleys of a ground. They follow from its heights alone, and from what they have to keep
@@ -142,7 +142,7 @@ public:
     /// False only where no road touches this box.
     bool may_intersect(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
 
-    /// Appends numbers of the pieces that may touch this box, some of them more than once.
+    /// Appends numbers of the sections that may touch this box, some of them more than once.
     void sections_in_box(const glm::dvec2& min_m, const glm::dvec2& max_m, std::vector<std::uint32_t>& numbers) const;
 
     /// Whether a road's middle line is nearer than so much.
@@ -168,7 +168,7 @@ private:
     glm::ivec2 grid_size_{0};
     std::vector<std::uint32_t> first_of_; ///< for each square, and the end, a place in sections_by_cell_
     std::vector<std::uint32_t> sections_by_cell_;
-    /// How often a piece lies in a square south-west of here: (columns + 1) x (rows + 1).
+    /// How often a section lies in a square south-west of here: (columns + 1) x (rows + 1).
     std::vector<std::uint32_t> sums_;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "visuals/scene/above_ground.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
 #include "visuals/scene/tower.h"

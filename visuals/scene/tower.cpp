@@ -289,4 +289,5 @@ Tower tower_for(const TowerRequest& request, const GroundHeight& ground) {
         std::ranges::max_element(candidates, [](const auto& a, const auto& b) { return a.first < b.first; });
     return tower_at(best->second, request, ground);
 }
+
 } // namespace octant::visuals::scene

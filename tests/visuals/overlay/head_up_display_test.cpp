@@ -1,6 +1,6 @@
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "visuals/overlay/head_up_display.h"
+#include "visuals/overlay/overlay.h"
 #include "visuals/scene/camera_rig.h"
 
 #include <catch2/catch.hpp>
@@ -58,20 +58,20 @@ std::vector<glm::vec2> places(const OverlayDraw& draw) {
 }
 
 std::vector<glm::vec2> drawn_places(const InstrumentReadings& inputs) {
-    HeadUpDisplay display;
-    return places(display.draw(inputs, cockpit_camera(inputs), size_px));
+    OverlayCanvas display;
+    return places(draw_head_up_display(display, inputs, cockpit_camera(inputs), size_px));
 }
 
 } // namespace
 
 TEST_CASE("the horizon lies on the world's in any bank, climb and look") {
-    HeadUpDisplay display;
+    OverlayCanvas display;
     for (const double roll_rad : {0.0, 0.9, -2.4}) {
         for (const double pitch_rad : {0.0, 0.12, -0.1}) {
             const InstrumentReadings inputs = flying({1.0, pitch_rad, roll_rad}, 200.0, pitch_rad);
             for (const double look_deg : {0.0, 14.0}) {
                 const Camera camera = cockpit_camera(inputs, look_deg, -0.5 * look_deg);
-                const OverlayDraw draw = display.draw(inputs, camera, size_px);
+                const OverlayDraw draw = draw_head_up_display(display, inputs, camera, size_px);
                 for (const double aside_rad : {-0.06, 0.06}) {
                     const glm::dvec3 far = direction_from_heading(1.0 + aside_rad);
                     INFO(roll_rad << " " << pitch_rad << " " << look_deg);
@@ -83,9 +83,9 @@ TEST_CASE("the horizon lies on the world's in any bank, climb and look") {
 }
 
 TEST_CASE("a rung lies at its pitch, whole above the horizon and dashed below") {
-    HeadUpDisplay display;
+    OverlayCanvas display;
     const Camera camera = cockpit_camera(level);
-    const OverlayDraw draw = display.draw(level, camera, size_px);
+    const OverlayDraw draw = draw_head_up_display(display, level, camera, size_px);
     const glm::dvec3 level_ahead = direction_from_heading(1.0);
     const glm::dvec3 level_right = direction_from_heading(1.0 + 0.5 * pi);
     const auto ink_along = [&](double pitch_deg) {
@@ -105,11 +105,11 @@ TEST_CASE("a rung lies at its pitch, whole above the horizon and dashed below") 
 }
 
 TEST_CASE("the flight-path marker rings where the flight goes") {
-    HeadUpDisplay display;
+    OverlayCanvas display;
     for (const double roll_rad : {0.0, 1.2, 3.0}) {
         const InstrumentReadings inputs = flying({1.0, 0.12, roll_rad}, 200.0, 0.05);
         const Camera camera = cockpit_camera(inputs);
-        const OverlayDraw draw = display.draw(inputs, camera, size_px);
+        const OverlayDraw draw = draw_head_up_display(display, inputs, camera, size_px);
         const glm::vec2 at = seen_at(camera, inputs.state.velocity_mps);
         const auto radius = 0.0115F * static_cast<float>(size_px.y);
         int ring = 0;
@@ -159,9 +159,9 @@ TEST_CASE("speed is shown in whole knots, height in tens of feet, load in tenths
 }
 
 TEST_CASE("the display stays ahead of the pilot: a look aside moves it out of the picture") {
-    HeadUpDisplay display;
+    OverlayCanvas display;
     const auto middle_x = [&](double azimuth_deg) {
-        const auto drawn = places(display.draw(level, cockpit_camera(level, azimuth_deg), size_px));
+        const auto drawn = places(draw_head_up_display(display, level, cockpit_camera(level, azimuth_deg), size_px));
         float least = std::numeric_limits<float>::max();
         float most = std::numeric_limits<float>::lowest();
         for (const glm::vec2& place : drawn) {
@@ -174,15 +174,15 @@ TEST_CASE("the display stays ahead of the pilot: a look aside moves it out of th
     CHECK(middle_x(15.0) < 450.0F);
     CHECK(middle_x(-15.0) > 830.0F);
     for (const double azimuth_deg : {80.0, 180.0, -120.0}) {
-        CHECK(display.draw(level, cockpit_camera(level, azimuth_deg), size_px).indices.empty());
+        CHECK(draw_head_up_display(display, level, cockpit_camera(level, azimuth_deg), size_px).indices.empty());
     }
 }
 
 TEST_CASE("the display is as large in a larger picture, and drawn at all in a small one") {
-    HeadUpDisplay display;
+    OverlayCanvas display;
     const auto width_share = [&](const glm::ivec2& size) {
         float most = 0.0F;
-        for (const glm::vec2& place : places(display.draw(level, cockpit_camera(level), size))) {
+        for (const glm::vec2& place : places(draw_head_up_display(display, level, cockpit_camera(level), size))) {
             most = std::max(most, std::abs(place.x - 0.5F * static_cast<float>(size.x)));
         }
         return most / static_cast<float>(size.y);
@@ -194,10 +194,10 @@ TEST_CASE("the display is as large in a larger picture, and drawn at all in a sm
 }
 
 TEST_CASE("straight up and straight down something is drawn, all of it finite") {
-    HeadUpDisplay display;
+    OverlayCanvas display;
     for (const double pitch_deg : {90.0, 89.9, -90.0, 85.0, -84.0}) {
         const InstrumentReadings inputs = flying({1.0, rad_from_deg(pitch_deg), 0.3}, 200.0, rad_from_deg(pitch_deg));
-        const auto drawn = places(display.draw(inputs, cockpit_camera(inputs), size_px));
+        const auto drawn = places(draw_head_up_display(display, inputs, cockpit_camera(inputs), size_px));
         CHECK(drawn.size() > 500);
         CHECK(std::ranges::all_of(
             drawn, [](const glm::vec2& place) { return std::abs(place.x) < 2000.0F && std::abs(place.y) < 2000.0F; }));

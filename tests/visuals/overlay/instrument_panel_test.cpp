@@ -43,6 +43,18 @@ InstrumentLayout one_dial(Quantity quantity) {
         {{quantity, {0.78, 0.1, 0.2}, dial_radius_m}}, speed_scale_kt(mps_from_kt(800.0)), load_scale_g(-3.0, 7.33)};
 }
 
+/// Dials in memory of their own.
+struct Panel {
+    std::array<OverlayCanvas, 2> canvases;
+    OverlayLayers layers;
+
+    OverlayDraw draw(const InstrumentLayout& layout, const InstrumentReadings& inputs, const Camera& camera) {
+        layers.clear();
+        add_instruments(layers, canvases, layout, inputs, camera, size_px);
+        return layers.all();
+    }
+};
+
 /// Colour of what is drawn last at a place of the dial above: radii right and down from its middle.
 std::uint32_t colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::uint32_t nothing = 0) {
     const double px_per_m = 0.5 * size_px.y / std::tan(rad_from_deg(22.5)) / 0.78;
@@ -64,8 +76,8 @@ std::uint32_t colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::u
 
 /// Whether a hand lies half-way out at an angle clockwise from the top, and none opposite.
 bool points_at(Quantity quantity, const InstrumentReadings& inputs, double angle_deg) {
-    InstrumentPanel panel;
-    const OverlayDraw draw = panel.draw(one_dial(quantity), inputs, cockpit_camera(inputs), size_px);
+    Panel panel;
+    const OverlayDraw draw = panel.draw(one_dial(quantity), inputs, cockpit_camera(inputs));
     const double angle_rad = rad_from_deg(angle_deg);
     const glm::dvec2 out(std::sin(angle_rad), -std::cos(angle_rad));
     const auto is_light = [&](const glm::dvec2& at) { return (colour_at(draw, at) & 0xffU) > 0xe0U; };
@@ -94,11 +106,10 @@ TEST_CASE("the hands of dials point at what known states are") {
 }
 
 TEST_CASE("the horizon of the attitude dial lies as the world's does") {
-    InstrumentPanel panel;
+    Panel panel;
     const auto is_sky = [&](const EulerAngles& attitude, const glm::dvec2& radii) {
         const InstrumentReadings inputs = flying(attitude, 300.0, 1000.0, 1.0);
-        return is_blue(
-            colour_at(panel.draw(one_dial(Quantity::Attitude), inputs, cockpit_camera(inputs), size_px), radii));
+        return is_blue(colour_at(panel.draw(one_dial(Quantity::Attitude), inputs, cockpit_camera(inputs)), radii));
     };
     const EulerAngles level{};
     CHECK(is_sky(level, {0.3, -0.3}));
@@ -128,13 +139,13 @@ TEST_CASE("scales hold the limits of the aircraft and have few round numbers") {
 }
 
 TEST_CASE("dials stay on the panel: a look aside moves them out of the picture") {
-    InstrumentPanel panel;
+    Panel panel;
     const InstrumentReadings inputs = flying({1.0, 0.1, 0.3}, 400.0, 2500.0, 1.0);
     const InstrumentLayout layout = one_dial(Quantity::Heading);
-    CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs), size_px).indices.empty());
-    CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs, 20.0), size_px).indices.empty());
+    CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs)).indices.empty());
+    CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs, 20.0)).indices.empty());
     for (const double azimuth_deg : {90.0, 180.0, -60.0}) {
         const Camera camera = cockpit_camera(inputs, azimuth_deg);
-        CHECK(panel.draw(layout, inputs, camera, size_px).indices.empty());
+        CHECK(panel.draw(layout, inputs, camera).indices.empty());
     }
 }

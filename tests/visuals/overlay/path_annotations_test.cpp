@@ -1,4 +1,4 @@
-#include "visuals/overlay/path_annotations.h"
+#include "visuals/overlay/overlay.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,34 +11,31 @@ namespace {
 
 constexpr glm::ivec2 marks_px(800, 600);
 
-std::size_t corners_of(const glm::dvec3& look, const WorldLabel* place) {
-    PathAnnotations marks;
-    const Camera camera = camera_looking_at({0.0, 0.0, 0.0}, look);
-    marks.begin(camera, marks_px, {0.0, 100.0, 0.0});
-    if (place != nullptr) { marks.add(*place); }
-    return marks.finish().vertices.size();
+const Camera north = camera_looking_at({0.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+
+std::size_t corners_of(std::span<const WorldLabel> labels) {
+    OverlayCanvas canvas;
+    return draw_path_annotations(canvas, north, marks_px, {0.0, 100.0, 0.0}, labels).vertices.size();
 }
 
 } // namespace
 
 TEST_CASE("north mark and scale are drawn, names only before the eye and near enough") {
-    const glm::dvec3 north(0.0, 100.0, 0.0);
-    const std::size_t bare = corners_of(north, nullptr);
+    const std::size_t bare = corners_of({});
     CHECK(bare > 50);
-    const WorldLabel ahead{{10.0, 200.0, 5.0}, "turn"};
-    const WorldLabel behind{{10.0, -200.0, 5.0}, "turn"};
-    const WorldLabel far{{10.0, 20000.0, 5.0}, "turn"};
-    CHECK(corners_of(north, &ahead) > bare);
-    CHECK(corners_of(north, &behind) == bare);
-    CHECK(corners_of(north, &far) == bare);
+    const auto corners_at = [](const glm::dvec3& at_m) {
+        const WorldLabel label{at_m, "turn"};
+        return corners_of(std::span(&label, 1));
+    };
+    CHECK(corners_at({10.0, 200.0, 5.0}) > bare);
+    CHECK(corners_at({10.0, -200.0, 5.0}) == bare);
+    CHECK(corners_at({10.0, 20000.0, 5.0}) == bare);
 }
 
 TEST_CASE("the scale is a round length of what is as far as the aircraft") {
     const auto right_px = [](double aircraft_m) {
-        PathAnnotations marks;
-        const Camera camera = camera_looking_at({0.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
-        marks.begin(camera, marks_px, {0.0, aircraft_m, 0.0});
-        const OverlayDraw draw = marks.finish();
+        OverlayCanvas canvas;
+        const OverlayDraw draw = draw_path_annotations(canvas, north, marks_px, {0.0, aircraft_m, 0.0}, {});
         float right = 0.0F; // of what stands below the north mark: the scale and its caption
         for (const OverlayVertex& vertex : draw.vertices) {
             right = std::max(right, vertex.at_px.y > 560.0F ? vertex.at_px.x : 0.0F);

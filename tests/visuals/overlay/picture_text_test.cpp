@@ -1,4 +1,4 @@
-#include "visuals/overlay/picture_text.h"
+#include "visuals/overlay/overlay.h"
 
 #include <catch2/catch.hpp>
 
@@ -19,8 +19,8 @@ struct Drawn {
 };
 
 Drawn drawn(const std::vector<std::string>& lines, const glm::ivec2& picture_px) {
-    overlay::PictureText text;
-    const scene::OverlayDraw draw = text.draw(lines, picture_px);
+    overlay::OverlayCanvas canvas;
+    const scene::OverlayDraw draw = overlay::draw_text(canvas, lines, picture_px);
     Drawn all{.vertices = draw.vertices.size()};
     for (const scene::OverlayVertex& vertex : draw.vertices) {
         all.right_px = std::max(all.right_px, vertex.at_px.x);

@@ -1,4 +1,4 @@
-#include "visuals/planning/aircraft_effects.h"
+#include "visuals/planning/transparents.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -48,53 +48,67 @@ PolygonModel helicopter(double rotor_down_m) {
 struct Painted {
     std::size_t before = 0;
     std::size_t after = 0;
+    std::optional<AxisAlignedBox> bounds;
 };
 
-Painted painted(AircraftEffects& effects, const glm::dvec3& eye_m, const EffectStrength& strength,
+Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_factor = 1.0,
     std::span<const ArticulatedPart> articulated_parts = {}) {
+    Scene scene;
+    scene.ground = cell_ground(2, 10.0, [](double, double) { return -500.0; });
+    scene.add_model(convex_aircraft(model));
+    scene.aircraft = {0};
+    Settings settings = plain_settings();
+    settings.surface.effects = true;
     const Camera camera = camera_looking_at(eye_m, {0.0, 0.0, 0.0});
-    TransparentGeometry transparents;
-    const Haze haze;
-    transparents.begin(view_to_clip(camera, 1.0) * world_to_view(camera), {400, 400}, haze);
-    glm::dmat4 place(1.0);
-    place[3] = glm::dvec4(-eye_m, 1.0);
-    const auto ranges = effects.add(place, strength, articulated_parts, 1, transparents);
-    return {ranges.before.count / 3, ranges.after.count / 3};
+    FramePlan plan;
+    plan.world_to_view = world_to_view(camera);
+    plan.view_to_clip = view_to_clip(camera, 1.0);
+    std::array states{state_at({0.0, 0.0, 0.0})};
+    states.front().load_factor = load_factor;
+    const PlanRequest request{.camera = camera, .states = states, .articulated_parts = articulated_parts};
+    const FrameView view = frame_view(camera, {400, 400}, 0.0);
+    Transparents transparents(scene, settings, visuals::nature::Daylight({}));
+    Fleet fleet(scene, settings);
+    fleet.place(view, request, transparents.effect_bounds());
+    transparents.make(view, request, fleet, plan);
+    Painted painted{0, 0, transparents.effect_bounds().front()};
+    for (const Transparent& one : transparents.list()) {
+        (one.place == Transparent::Place::InFront ? painted.after : painted.before) += one.range.count / 3;
+    }
+    return painted;
 }
 
 } // namespace
 
 TEST_CASE("a plume is painted after the aircraft for eyes behind it, else before") {
-    AircraftEffects effects(jet());
-    const EffectStrength strength{1.0, 1.0, 0.0};
-    const Painted from_behind = painted(effects, {-60.0, 3.0, -5.0}, strength);
+    const Painted from_behind = painted(jet(), {-60.0, 3.0, -5.0});
     CHECK(from_behind.before == 0);
     CHECK(from_behind.after > 20);
-    const Painted from_ahead = painted(effects, {60.0, 3.0, -5.0}, strength);
+    const Painted from_ahead = painted(jet(), {60.0, 3.0, -5.0});
     CHECK(from_ahead.before > 20);
     CHECK(from_ahead.after == 0);
-    CHECK(effects.extent().min_m.x < -11.0);
+    CHECK(from_ahead.bounds->min_m.x < -11.0);
 }
 
 TEST_CASE("vapour lies beyond each wingtip and only under load") {
-    AircraftEffects effects(jet());
-    const Painted with = painted(effects, {10.0, 60.0, -5.0}, {0.0, 0.0, 1.0});
-    const Painted without = painted(effects, {10.0, 60.0, -5.0}, {0.0, 0.0, 0.0});
+    const Painted with = painted(jet(), {10.0, 60.0, -5.0}, 6.0);
+    const Painted without = painted(jet(), {10.0, 60.0, -5.0});
     CHECK(with.after > without.after);   // of the right wingtip
     CHECK(with.before > without.before); // of the left one
 }
 
 TEST_CASE("a rotor has a disc only where a plane parts it from the rest") {
-    AircraftEffects above(helicopter(-1.6));
-    CHECK(!above.empty());
-    CHECK(painted(above, {-20.0, 3.0, -15.0}, {}).after > 0);
-    CHECK(painted(above, {-20.0, 3.0, 15.0}, {}).before > 0);
-    CHECK(AircraftEffects(helicopter(0.0)).empty());
-    const std::vector<ArticulatedPart> of_another{{0, 0}};
-    const std::vector<ArticulatedPart> held{{1, 0}};
-    CHECK(painted(above, {-20.0, 3.0, -15.0}, {}, of_another).after > 0);
-    CHECK(painted(above, {-20.0, 3.0, -15.0}, {}, held).after == 0);
-    CHECK(AircraftEffects(box_model({4.0, 0.8, 1.0})).empty());
+    const glm::dvec3 above_m(-20.0, 3.0, -15.0);
+    const PolygonModel model = helicopter(-1.6);
+    CHECK(painted(model, above_m).bounds);
+    CHECK(painted(model, above_m).after > 0);
+    CHECK(painted(model, {-20.0, 3.0, 15.0}).before > 0);
+    CHECK_FALSE(painted(helicopter(0.0), above_m).bounds);
+    const std::vector<ArticulatedPart> of_another{{1, 0}};
+    const std::vector<ArticulatedPart> held{{0, 0}};
+    CHECK(painted(model, above_m, 1.0, of_another).after > 0);
+    CHECK(painted(model, above_m, 1.0, held).after == 0);
+    CHECK_FALSE(painted(box_model({4.0, 0.8, 1.0}), above_m).bounds);
 }
 
 TEST_CASE("afterburners follow thrust, vapour follows load") {

@@ -1,4 +1,4 @@
-#include "visuals/planning/mesh_levels.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <catch2/catch.hpp>
 

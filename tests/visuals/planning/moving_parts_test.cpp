@@ -19,11 +19,7 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
     model.parts.emplace_back("top");
     model.polygons[5].part = 1;
     model.pivots.push_back({1, {0.5, 0.0, -1.0}, {0.0, 0.0, 1.0}, 0.3});
-    Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
-    scene.add_model(convex_aircraft(model));
-    scene.aircraft = {0, 1, 1};
+    Scene scene = small_scene({convex_aircraft(box_model({1, 1, 1})), convex_aircraft(model)}, {0, 1, 1});
     const AircraftModel& aircraft = *scene.models[1];
     for (std::size_t i = 0; i < aircraft.buffers.vertices.size(); ++i) {
         CHECK(aircraft.buffers.vertices[i].part == (i / 4 == 5 ? 1U : 0U));
@@ -64,11 +60,7 @@ TEST_CASE("a far model stands in by distance, and others turn its part of the sa
     std::swap(far_off.pivots[0], far_off.pivots[1]);
     far_off.pivots[0].part = 1;
     far_off.pivots[1].part = 2;
-    Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(convex_aircraft(near_by));
-    scene.add_model(convex_aircraft(far_off));
-    scene.aircraft = {0};
+    Scene scene = small_scene({convex_aircraft(near_by), convex_aircraft(far_off)}, {0});
     scene.far_models = {{0, 1, 0.1}};
     const double quarter_rad = 0.5 * 3.14159265358979;
     const std::vector<ArticulatedPart> turned = {{0, 0, glm::angleAxis(quarter_rad, glm::dvec3(0.0, 0.0, 1.0))}};
@@ -93,11 +85,8 @@ TEST_CASE("a far model stands in by distance, and others turn its part of the sa
 }
 
 TEST_CASE("a far model is drawn only where its distance from the near one is not seen") {
-    Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(convex_aircraft(box_model({4.0, 1.0, 1.0})));
-    scene.add_model(convex_aircraft(box_model({4.0, 1.0, 0.5})));
-    scene.aircraft = {0};
+    Scene scene =
+        small_scene({convex_aircraft(box_model({4.0, 1.0, 1.0})), convex_aircraft(box_model({4.0, 1.0, 0.5}))}, {0});
     constexpr double error_m = 0.5;
     scene.far_models = {{0, 1, error_m}};
     const Settings settings = plain_settings();
@@ -128,11 +117,7 @@ TEST_CASE("aircraft whose models change are placed as by a planner that never sa
     turning.pivots = {{1, {0, 0, -1}, {0, 0, 1}, 3.0}, {2, {-2, 0, 0}, {0, 1, 0}, 5.0}};
     turning.polygons[5].part = 1;
     turning.polygons[0].part = 2;
-    Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(convex_aircraft(turning));
-    scene.add_model(convex_aircraft(box_model({4.0, 1.0, 1.0})));
-    scene.aircraft = {1, 0, 0};
+    Scene scene = small_scene({convex_aircraft(turning), convex_aircraft(box_model({4.0, 1.0, 1.0}))}, {1, 0, 0});
     scene.far_models = {{0, 1, 0.1}, {1, 0, 0.1}}; // one loses its pivots, one gets some
     const Settings settings = plain_settings();
     Planner flown(scene, settings);
@@ -165,10 +150,7 @@ TEST_CASE("a part that somebody moves lies so far along the body's axes, and tur
     model.parts = {"body", "store"};
     model.polygons[5].part = 1;
     model.pivots.push_back({1, {0.5, 0.0, 1.0}, {1.0, 0.0, 0.0}, 0.0});
-    Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(convex_aircraft(model));
-    scene.aircraft = {0};
+    Scene scene = small_scene({convex_aircraft(model)}, {0});
     const double quarter_rad = 0.5 * 3.14159265358979;
     const std::vector<ArticulatedPart> turned = {
         {0, 0, glm::angleAxis(quarter_rad, glm::dvec3(1.0, 0.0, 0.0)), {-2.0, 3.0, 0.5}}};
@@ -187,10 +169,7 @@ TEST_CASE("a part that somebody moves lies so far along the body's axes, and tur
 }
 
 TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
-    Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
-    scene.aircraft = {0, 0, 0};
+    Scene scene = small_scene({convex_aircraft(box_model({1, 1, 1}))}, {0, 0, 0});
     Settings settings = plain_settings();
     settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
     Planner planner(scene, settings);

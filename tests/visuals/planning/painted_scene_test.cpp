@@ -24,18 +24,36 @@ struct Total {
     int cuts = 0;
     int overlap_groups = 0;
     int unordered = 0;
+
+    void check_right(int min_seen) const {
+        CHECK(seen > min_seen);
+        CHECK(wrong == 0);
+        CHECK(unordered == 0);
+    }
 };
 
+using PlaceChoice = std::function<glm::dvec3(PlaceDice&)>;
+
+/// Within a box around a place so high.
+PlaceChoice around(const glm::dvec3& half_m, double height_m) {
+    return [=](PlaceDice& dice) { return dice.in_box(half_m) + glm::dvec3(0, 0, height_m); };
+}
+
+/// Above the ridges, within a square around the middle.
+PlaceChoice over_ridges(double half_m, double min_m, double max_m) {
+    return [=](PlaceDice& dice) {
+        const glm::dvec3 at = dice.in_box({half_m, half_m, 0});
+        return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(min_m, max_m));
+    };
+}
+
 /// Boxes and concave bodies where `place` puts them, seen from `eye`.
-Total paint_scenes(int scenes, int aircraft, std::shared_ptr<const Ground> ground,
-    const std::function<glm::dvec3(PlaceDice&)>& place, const std::function<glm::dvec3(PlaceDice&)>& eye,
-    const Settings& settings = plain_settings()) {
+Total paint_scenes(int scenes, int aircraft, std::shared_ptr<const Ground> ground, const PlaceChoice& place,
+    const PlaceChoice& eye, const Settings& settings = plain_settings()) {
     Total total;
     PlaceDice dice(1989);
-    Scene scene;
-    scene.ground = std::move(ground);
-    scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
-    scene.add_model(concave_aircraft(0.1));
+    Scene scene =
+        small_scene({convex_aircraft(box_model({10.0, 3.0, 2.0})), concave_aircraft(0.1)}, {}, std::move(ground));
     for (int i = 0; i < aircraft; ++i) { scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2)); }
     Planner planner(scene, settings);
     for (int i = 0; i < scenes; ++i) {
@@ -65,65 +83,31 @@ const Height level = [](double, double) { return 0.0; };
 } // namespace
 
 TEST_CASE("aircraft apart over level ground are painted right without repaints") {
-    const Total total = paint_scenes(
-        100, 6, cells(level),
-        [](PlaceDice& dice) {
-            return dice.in_box({300, 300, 60}) + glm::dvec3(0, 0, 100);
-        },
-        [](PlaceDice& dice) {
-            return dice.in_box({350, 350, 60}) + glm::dvec3(0, 0, 100);
-        });
-    CHECK(total.seen > 10000);
-    CHECK(total.wrong == 0);
+    const Total total =
+        paint_scenes(100, 6, cells(level), around({300, 300, 60}, 100.0), around({350, 350, 60}, 100.0));
+    total.check_right(10000);
     CHECK(total.cuts == 0);
-    CHECK(total.unordered == 0);
 }
 
 TEST_CASE("aircraft among ridges are painted right") {
-    const Total total = paint_scenes(
-        100, 5, cells(rugged),
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({300, 300, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(18.0, 60.0));
-        },
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({380, 380, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
-        });
-    CHECK(total.seen > 10000);
-    CHECK(total.wrong == 0);
+    const Total total =
+        paint_scenes(100, 5, cells(rugged), over_ridges(300.0, 18.0, 60.0), over_ridges(380.0, 3.0, 60.0));
+    total.check_right(10000);
     CHECK(total.cuts > 100);
-    CHECK(total.unordered == 0);
 }
 
 TEST_CASE("aircraft that touch the ground are painted right") {
-    const Total total = paint_scenes(
-        100, 3, cells(rugged),
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({300, 300, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(-2.0, 8.0));
-        },
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({380, 380, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
-        });
-    CHECK(total.seen > 5000);
-    CHECK(total.wrong == 0);
+    const Total total =
+        paint_scenes(100, 3, cells(rugged), over_ridges(300.0, -2.0, 8.0), over_ridges(380.0, 3.0, 60.0));
+    total.check_right(5000);
     CHECK(total.overlap_groups > 50);
-    CHECK(total.unordered == 0);
 }
 
 TEST_CASE("aircraft close together, in rings and through each other are painted right") {
     for (const double spread_m : {8.0, 15.0, 30.0}) {
-        const Total total = paint_scenes(
-            60, 5, cells(rugged),
-            [&](PlaceDice& dice) { return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150); },
-            [](PlaceDice& dice) {
-                return dice.in_box({120, 120, 60}) + glm::dvec3(0, 0, 150);
-            });
-        CHECK(total.seen > 5000);
-        CHECK(total.wrong == 0);
-        CHECK(total.unordered == 0);
+        const Total total =
+            paint_scenes(60, 5, cells(rugged), around(glm::dvec3(spread_m), 150.0), around({120, 120, 60}, 150.0));
+        total.check_right(5000);
         CHECK(total.overlap_groups > 10);
     }
 }
@@ -136,21 +120,14 @@ TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
             const int i = next++;
             return 20.0 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 + 4);
         },
-        [](PlaceDice& dice) {
-            return dice.in_box({70, 70, 40}) + glm::dvec3(0, 0, 100);
-        });
-    CHECK(total.seen > 10000);
-    CHECK(total.wrong == 0);
-    CHECK(total.unordered == 0);
+        around({70, 70, 40}, 100.0));
+    total.check_right(10000);
     CHECK(total.overlap_groups > 30);
     CHECK(total.cuts > 0);
 }
 
 TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving up") {
-    Scene scene;
-    scene.ground = cells(level);
-    scene.add_model(convex_aircraft(box_model({9.7, 6.5, 2.2})));
-    scene.add_model(concave_aircraft(0.1));
+    Scene scene = small_scene({convex_aircraft(box_model({9.7, 6.5, 2.2})), concave_aircraft(0.1)}, {}, cells(level));
     PlaceDice dice(1989);
     std::vector<sim::AircraftState> states;
     for (int i = 0; i < 125; ++i) {
@@ -168,13 +145,11 @@ TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving u
 
 TEST_CASE("a heap of aircraft that meet in thousands of places is drawn by depth, each once") {
     constexpr int count = 60;
-    Scene scene;
-    scene.ground = cells(level);
-    scene.add_model(convex_aircraft(box_model({9.7, 6.5, 2.2})));
+    const Scene scene =
+        small_scene({convex_aircraft(box_model({9.7, 6.5, 2.2}))}, std::vector<std::uint32_t>(count, 0), cells(level));
     PlaceDice dice(1989);
     std::vector<sim::AircraftState> states;
     for (int i = 0; i < count; ++i) {
-        scene.aircraft.push_back(0);
         states.push_back(state_at(glm::dvec3(0, 0, 120) + dice.in_box({4, 4, 4}), dice.attitude()));
     }
     const Settings settings = plain_settings();
@@ -193,15 +168,12 @@ TEST_CASE("a heap of aircraft that meet in thousands of places is drawn by depth
     CHECK(heap->depth == DepthUse::Nearest);
 }
 
-TEST_CASE("ground before a knot stays behind what is seen between the members") {
+TEST_CASE("ground before a group stays behind what is seen between the members") {
     // Two bars meet in a corner. Before the box around both stands a wall, before it a small box that is painted first,
     // as its sphere is farther than theirs.
-    Scene scene;
-    scene.ground = triangle_ground({{{{20, 7, 20}, {100, 7, 20}, {20, 7, 100}}}});
-    scene.add_model(convex_aircraft(box_model({50, 1, 1})));
-    scene.add_model(convex_aircraft(box_model({1, 1, 50})));
-    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
-    scene.aircraft = {0, 1, 2};
+    const Scene scene = small_scene({convex_aircraft(box_model({50, 1, 1})), convex_aircraft(box_model({1, 1, 50})),
+                                        convex_aircraft(box_model({1, 1, 1}))},
+        {0, 1, 2}, triangle_ground({{{{20, 7, 20}, {100, 7, 20}, {20, 7, 100}}}}));
     const std::vector states = {state_at({50, 11, 0}), state_at({0, 11, 50}), state_at({40, 5, 40})};
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
@@ -224,13 +196,8 @@ TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
             const glm::dvec3 at = 21.0 * glm::dvec3(i % 9 - 4, i / 9 % 3 - 1, 0);
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + 9.0);
         },
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({250, 250, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 30.0));
-        });
-    CHECK(total.seen > 10000);
-    CHECK(total.wrong == 0);
-    CHECK(total.unordered == 0);
+        over_ridges(250.0, 3.0, 30.0));
+    total.check_right(10000);
     CHECK(total.overlap_groups > 30);
 }
 
@@ -244,19 +211,9 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     Settings settings = plain_settings();
     settings.ground.triangles = 600;
     settings.ground.mesh = GroundMetric::Midpoint;
-    const Total total = paint_scenes(
-        60, 5, make_quadtree_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({300, 300, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));
-        },
-        [](PlaceDice& dice) {
-            const glm::dvec3 at = dice.in_box({380, 380, 0});
-            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
-        },
-        settings);
-    CHECK(total.seen > 5000);
-    CHECK(total.wrong == 0);
+    const Total total =
+        paint_scenes(60, 5, make_quadtree_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
+            over_ridges(300.0, 0.0, 60.0), over_ridges(380.0, 3.0, 60.0), settings);
+    total.check_right(5000);
     CHECK(total.cuts > 100);
-    CHECK(total.unordered == 0);
 }

@@ -1,4 +1,4 @@
-#include "visuals/planning/mesh_levels.h"
+#include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/refined_aircraft.h"
 #include "visuals/scene/model_display.h"
 
@@ -226,7 +226,7 @@ TEST_CASE("far away, where its polygons are good enough, a refined aircraft is d
     const auto drawn_at = [&](double away_m) { return planning::select_level(model.errors_m, away_m * 0.001, -1); };
     REQUIRE(model.errors_m.size() == 2);
     CHECK(drawn_at(100.0) == 0);
-    CHECK(drawn_at(1000.0) == static_cast<int>(model.polygons_from_mesh()));
+    CHECK(drawn_at(1000.0) == static_cast<int>(model.polygon_representation()));
 }
 
 TEST_CASE("what is clear of refined aircraft is drawn after all of them, the farthest first by depth") {
@@ -236,10 +236,7 @@ TEST_CASE("what is clear of refined aircraft is drawn after all of them, the far
     pane.vertices_m = {{0, 0, -2}, {1, 0, -2}, {0, 1, -2}};
     pane.triangles = {{0, 2, 1}};
     planning::add_transparent(model, pane, 0.4F);
-    planning::Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(std::move(model));
-    scene.aircraft = {0, 0};
+    planning::Scene scene = small_scene({std::move(model)}, {0, 0});
     const auto hidden = GENERATE(scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer);
     const std::size_t nearest = GENERATE(0U, 1U);
     std::array states{state_at({0, 34, 0}), state_at({0, 34, 0})};
@@ -279,10 +276,7 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
     CHECK(model.hull.max_m.y == Approx(std::sqrt(37.0))); // wherever the blade points
     CHECK(model.hull.min_m.z == Approx(-std::sqrt(37.0)));
 
-    planning::Scene scene;
-    scene.ground = triangle_ground({});
-    scene.add_model(std::move(model));
-    scene.aircraft = {0};
+    planning::Scene scene = small_scene({std::move(model)}, {0});
     for (const auto kind : {scene::AircraftShading::Hybrid, scene::AircraftShading::Flat}) {
         scene::Settings settings = plain_settings();
         settings.shading.kind = kind;

@@ -1,4 +1,4 @@
-#include "visuals/planning/frame_transparents.h"
+#include "visuals/planning/transparents.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -30,19 +30,43 @@ DrawnPath eastward() {
 constexpr glm::dvec3 view_eye_m(0.0, -600.0, 260.0);
 constexpr double ribbon_time_s = 10.0; ///< the aircraft is in the middle
 
-/// The dashes and their veils as that eye sees them.
+Scene scene_with_path(const glm::dvec3& aircraft_half_m) {
+    Scene scene;
+    // A ridge between the eyes and the path, with gaps in it.
+    scene.ground = cell_ground(16, 60.0, [](double x_m, double y_m) {
+        return std::abs(y_m + 150.0) < 40.0 ? 190.0 + 60.0 * std::sin(x_m / 90.0) : 40.0;
+    });
+    scene.add_model(convex_aircraft(box_model(aircraft_half_m)));
+    scene.path = std::make_shared<const DrawnPath>(eastward());
+    return scene;
+}
+
+Settings settings_with_ribbon() {
+    Settings settings = plain_settings();
+    settings.view.path_ribbon = true;
+    return settings;
+}
+
+/// The dashes as that eye sees them, with the aircraft somewhere else on the path.
 struct SeenRibbon {
-    DrawnPath path = eastward();
-    PathRibbon ribbon{path};
-    Haze haze{};
-    TransparentGeometry transparents;
-    std::vector<PathRibbon::Dash> dashes;
+    Scene scene = scene_with_path({11.0, 3.0, 2.0});
+    Settings settings = settings_with_ribbon();
+    FramePlan plan;
+    Transparents transparents{scene, settings, visuals::nature::Daylight({})};
 
     explicit SeenRibbon(double time_s = ribbon_time_s) {
+        scene.aircraft = {0};
         const Camera camera = camera_looking_at(view_eye_m, {0.0, 0.0, 200.0});
-        transparents.begin(view_to_clip(camera, 2.0) * world_to_view(camera), {800, 400}, haze);
-        const auto made = ribbon.dashes({view_eye_m, 0.0, time_s, 3.0, 20.0}, transparents);
-        dashes.assign(made.begin(), made.end());
+        plan.world_to_view = world_to_view(camera);
+        plan.view_to_clip = view_to_clip(camera, 2.0);
+        plan.haze = {};
+        std::array states{state_at({50.0 * (time_s - 10.0), 0.0, 200.0})};
+        states.front().time_s = time_s;
+        const FrameView view = frame_view(camera, {800, 400}, 0.0);
+        const PlanRequest request{camera, states};
+        Fleet fleet(scene, settings);
+        fleet.place(view, request, std::array{std::optional<AxisAlignedBox>()});
+        transparents.make(view, request, fleet, plan);
     }
 };
 
@@ -62,18 +86,19 @@ TEST_CASE("dashes of a ribbon do not meet each other and leave the aircraft free
     for (const double time_s : {10.0, 10.27, 10.5, 10.8, 10.93}) {
         INFO(time_s);
         const SeenRibbon seen(time_s);
-        REQUIRE(seen.dashes.size() >= 18);
-        for (std::size_t i = 0; i + 1 < seen.dashes.size(); ++i) {
-            CHECK(!occlusion_pair(seen.dashes[i].box, seen.dashes[i + 1].box).intersect);
+        const auto dashes = seen.transparents.boxes();
+        REQUIRE(dashes.size() >= 18);
+        for (std::size_t i = 0; i + 1 < dashes.size(); ++i) {
+            CHECK(!occlusion_pair(dashes[i], dashes[i + 1]).intersect);
         }
         double nearest_m = 1e9;
-        for (const PathRibbon::Dash& dash : seen.dashes) {
-            const double middle_m = dash.box.centre_m.x + view_eye_m.x - 50.0 * (time_s - 10.0);
-            const double gap_m = std::abs(middle_m) - dash.box.half_m.x;
-            CHECK(gap_m > 19.0);
+        for (const OrientedBox& dash : dashes) {
+            const double middle_m = dash.centre_m.x + view_eye_m.x - 50.0 * (time_s - 10.0);
+            const double gap_m = std::abs(middle_m) - dash.half_m.x;
+            CHECK(gap_m > 19.0); // 1.8 radii of 11.6 m
             nearest_m = std::min(nearest_m, gap_m);
-            CHECK(dash.range.count > 0);
         }
+        CHECK(seen.transparents.list().size() == dashes.size());
         CHECK(nearest_m < 32.0);
     }
 }
@@ -81,11 +106,11 @@ TEST_CASE("dashes of a ribbon do not meet each other and leave the aircraft free
 TEST_CASE("what has been flown of a ribbon is stronger, legs differ in colour") {
     const SeenRibbon seen;
     const OverlayDraw draw = seen.transparents.draw();
-    const auto colour_of = [&](const PathRibbon::Dash& dash) {
+    const auto colour_of = [&](const Transparent& dash) {
         return draw.vertices[draw.indices[dash.range.first]].colour;
     };
-    const std::uint32_t flown = colour_of(seen.dashes.front());
-    const std::uint32_t coming = colour_of(seen.dashes.back());
+    const std::uint32_t flown = colour_of(seen.transparents.list().front());
+    const std::uint32_t coming = colour_of(seen.transparents.list().back());
     CHECK(flown >> 24U > coming >> 24U);
     CHECK((flown & 0xffffffU) != (coming & 0xffffffU));
     for (const OverlayVertex& vertex : draw.vertices) {
@@ -95,16 +120,9 @@ TEST_CASE("what has been flown of a ribbon is stronger, legs differ in colour") 
 }
 
 TEST_CASE("with a ribbon among them ground and aircraft are painted in the right order") {
-    Scene scene;
-    // A ridge between the eyes and the path, with gaps in it.
-    scene.ground = cell_ground(16, 60.0, [](double x_m, double y_m) {
-        return std::abs(y_m + 150.0) < 40.0 ? 190.0 + 60.0 * std::sin(x_m / 90.0) : 40.0;
-    });
-    scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
+    Scene scene = scene_with_path({10.0, 3.0, 2.0});
     scene.aircraft = {0, 0, 0};
-    scene.path = std::make_shared<const DrawnPath>(eastward());
-    Settings settings = plain_settings();
-    settings.view.path_ribbon = true;
+    const Settings settings = settings_with_ribbon();
     Planner planner(scene, settings);
     PlaceDice dice(5);
     int seen = 0;

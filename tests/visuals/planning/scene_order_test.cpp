@@ -1,4 +1,4 @@
-#include "visuals/planning/scene_painter.h"
+#include "visuals/planning/scene_order.h"
 
 #include <catch2/catch.hpp>
 

@@ -56,7 +56,7 @@ scene::Camera camera_at(int frame) { return scene::camera_looking_at({-600.0 + 2
 std::vector<int> flown(planning::Planner& planner, const std::function<void()>& between) {
     std::vector<int> triangles;
     const std::array there{state_at({0, 0, 100})};
-    planner.reset_detail(camera_at(0));
+    planner.settle_detail(camera_at(0));
     for (int frame = 0; frame < 12; ++frame) {
         triangles.push_back(planner.plan({camera_at(frame), there}).counts.ground.triangles);
         between();
@@ -86,7 +86,7 @@ TEST_CASE("a second view of the same ground does not disturb the detail control 
     coarse.ground.triangles = 100;
     planning::Planner first(scene, settings);
     planning::Planner second(scene, coarse);
-    second.reset_detail(scene::camera_looking_at({500, 500, 900}, {0, 0, 0}));
+    second.settle_detail(scene::camera_looking_at({500, 500, 900}, {0, 0, 0}));
     const std::array there{state_at({0, 0, 100})};
     int of_second = 0;
     const std::vector<int> triangles = flown(first, [&] {
@@ -98,24 +98,15 @@ TEST_CASE("a second view of the same ground does not disturb the detail control 
     CHECK(of_second < 500);
 }
 
-TEST_CASE("a planner that is given the last one's mesher goes on with its detail") {
+TEST_CASE("a planner whose settings are applied anew goes on with its detail") {
     const scene::Settings settings = damped();
     const planning::Scene scene =
         scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
     planning::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
-    const std::array there{state_at({0, 0, 100})};
-    auto planner = std::make_unique<planning::Planner>(scene, settings);
-    planner->reset_detail(camera_at(0));
-    std::vector<int> triangles;
-    for (int frame = 0; frame < 12; ++frame) {
-        triangles.push_back(planner->plan({camera_at(frame), there}).counts.ground.triangles);
-        planner = std::make_unique<planning::Planner>(scene, settings,
-            landscape::reuse_or_make_mesher(
-                planner->take_mesher(), *scene.ground, landscape::mesh_settings(settings, false)));
-    }
-    CHECK(triangles == expected);
+    planning::Planner planner(scene, settings);
+    CHECK(flown(planner, [&] { planner.apply_settings(); }) == expected);
 }
 
 TEST_CASE("meshes made ahead and meshes made when they are asked for are the same") {
@@ -210,14 +201,19 @@ TEST_CASE("ground says which settings it suits and is made anew of its heights f
     CHECK(tiles->with_settings(settings.ground, settings.air) == nullptr);
 }
 
-TEST_CASE("whoever measures is called once a frame, before the ground is meshed") {
-    const scene::Settings settings = plain_settings();
-    const planning::Scene scene = scene_over(cell_ground(4, 100.0, [](double, double) { return 0.0; }));
-    planning::Planner planner(scene, settings);
+TEST_CASE("a plan is the same whether its aircraft were placed before it or not") {
+    const scene::Settings settings = damped();
+    const planning::Scene scene =
+        scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
+    planning::Planner at_once(scene, settings);
+    planning::Planner in_parts(scene, settings);
     const std::array there{state_at({0, 0, 100})};
-    int calls = 0;
-    planner.plan({.camera = camera_at(0), .states = there, .on_refined = [&] { ++calls; }});
-    CHECK(calls == 1);
-    planner.plan({camera_at(1), there});
-    CHECK(calls == 1);
+    for (int frame = 0; frame < 4; ++frame) {
+        const planning::PlanRequest request{camera_at(frame), there};
+        in_parts.place_aircraft(request);
+        const auto [expected, expected_counts] = at_once.plan(request);
+        const auto [plan, counts] = in_parts.plan(request);
+        CHECK(counts.ground.triangles == expected_counts.ground.triangles);
+        CHECK(plan.parts == expected.parts);
+    }
 }

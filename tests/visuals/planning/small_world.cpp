@@ -228,6 +228,15 @@ planning::AircraftModel concave_aircraft(double scale) {
     return planning::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0));
 }
 
+planning::Scene small_scene(std::vector<planning::AircraftModel> models, std::vector<std::uint32_t> aircraft,
+    std::shared_ptr<const landscape::Ground> ground) {
+    planning::Scene scene;
+    scene.ground = ground ? std::move(ground) : triangle_ground({});
+    for (planning::AircraftModel& model : models) { scene.add_model(std::move(model)); }
+    scene.aircraft = std::move(aircraft);
+    return scene;
+}
+
 sim::AircraftState state_at(const glm::dvec3& position_m, const glm::dquat& attitude) {
     sim::AircraftState state;
     state.position_m = position_m;

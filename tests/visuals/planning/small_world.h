@@ -44,6 +44,10 @@ visuals::planning::AircraftModel convex_aircraft(models::polygons::PolygonModel 
 /// The concave example of the 1989 paper scaled down, painted by its eight orders, which are right for every eye.
 visuals::planning::AircraftModel concave_aircraft(double scale);
 
+/// Aircraft of these models over a ground; without one there is nothing to see below them.
+visuals::planning::Scene small_scene(std::vector<visuals::planning::AircraftModel> models,
+    std::vector<std::uint32_t> aircraft, std::shared_ptr<const visuals::landscape::Ground> ground = nullptr);
+
 sim::AircraftState state_at(const glm::dvec3& position_m, const glm::dquat& attitude = {1.0, 0.0, 0.0, 0.0});
 
 /// 640 x 480, no sky, no shadows.

@@ -9,7 +9,6 @@
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
 #include "visuals/gl/bare_grid.h"
-#include "visuals/planning/step_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -131,8 +130,6 @@ std::vector<BenchScene> triangle_count_scenes(const BenchScene& scene) {
     return scenes;
 }
 
-namespace planning = visuals::planning;
-
 namespace {
 
 constexpr int baseline_triangles = 20000;
@@ -154,7 +151,8 @@ public:
             scene::view_to_clip({}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
         grid_ = visuals::gl::bare_grid(baseline_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
-        planning::StepWriter(plan_).add_ground();
+        plan_.steps.push_back(
+            {scene::PaintStep::Content::Ground, 0, static_cast<std::uint32_t>(plan_.ground.indices.size())});
         renderer_->warm_up();
     }
 
