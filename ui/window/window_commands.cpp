@@ -1,11 +1,11 @@
 #include "ui/window/window_commands.h"
 
 #include "sim/base/error.h"
-#include "ui/base/progress.h"
+#include "ui/base/data_files.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/base/stopwatch.h"
-#include "ui/base/data_files.h"
 #include "ui/commands/listen.h"
 #include "ui/commands/setting_option.h"
 #include "ui/report/statistics.h"
@@ -15,6 +15,7 @@
 #include "ui/world/world.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -51,25 +52,19 @@ WindowTimes times_of(const std::vector<double>& frame_ms) {
     return {statistics.p50_ms, statistics.p99_ms};
 }
 
-ViewOptions without_vsync_and_realtime(ViewOptions options) {
-    options.vsync = false;
-    options.config_folder.clear();
-    return options;
-}
-
 /// Takes turns between the three ways, frame by frame, and times each whole turn, from the simulation to the picture
 /// read or shown with everything that the window does in between. Opens a window. Throws Error.
-WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
-    Viewer viewer(without_vsync_and_realtime(options));
+WindowBench bench_window(ViewOptions options, int frames, bool quiet) {
+    options.vsync = false;
+    options.config_folder.clear();
+    Viewer viewer(options);
     settings::RunSettings settings = viewer.session().settings();
     settings.drawing.context = settings::ContextKind::OsMesa;
     flight::Session session(settings);
     const int count = std::min(frames + warm_up_frames, session.frames());
     viewer.state().playback.speed = 0.5;
     viewer.state().open.timing = true;
-    std::vector<double> without;
-    std::vector<double> hidden;
-    std::vector<double> open;
+    std::array<std::vector<double>, 3> times;
     base::Progress progress("window", count, quiet);
     for (int frame = 0; frame < count; ++frame) {
         const auto timed = [&](std::vector<double>& all, const auto& work) {
@@ -77,34 +72,29 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
             work();
             if (frame >= warm_up_frames) { all.push_back(watch.ms()); }
         };
-        timed(without, [&] { session.draw(frame); });
+        timed(times[0], [&] { session.draw(frame); });
         viewer.state().open.shown = false;
-        timed(hidden, [&] { viewer.run_frame(); });
+        timed(times[1], [&] { viewer.run_frame(); });
         viewer.state().open.shown = true;
-        timed(open, [&] { viewer.run_frame(); });
+        timed(times[2], [&] { viewer.run_frame(); });
         progress.show(frame + 1);
     }
     progress.finish();
-    return {times_of(without), times_of(hidden), times_of(open)};
+    return {times_of(times[0]), times_of(times[1]), times_of(times[2])};
 }
-
-} // namespace
-
-namespace fs = std::filesystem;
-
-namespace {
 
 base::JsonValue figures_of(const WindowTimes& times) {
     return {{"median_ms", times.median_ms}, {"p99_ms", times.p99_ms}};
 }
 
-void print_bench_as_json(const WindowBench& bench) {
-    base::print_value({{"without_window", figures_of(bench.without)}, {"panels_hidden", figures_of(bench.hidden)},
-                          {"panels_open", figures_of(bench.open)}},
-        true);
-}
+void print_bench(const WindowBench& bench, bool as_json) {
+    if (as_json) {
+        base::print_value({{"without_window", figures_of(bench.without)}, {"panels_hidden", figures_of(bench.hidden)},
+                              {"panels_open", figures_of(bench.open)}},
+            true);
+        return;
+    }
 
-void print_bench(const WindowBench& bench) {
     const auto line = [](std::string_view name, const WindowTimes& times, const std::string& rest) {
         std::fputs(
             fmt::format("{:<28} {:>9.2f} {:>9.2f}  {}\n", name, times.median_ms, times.p99_ms, rest).c_str(), stdout);
@@ -117,6 +107,16 @@ void print_bench(const WindowBench& bench) {
         fmt::format("{:+.2f} ms", bench.open.median_ms - bench.hidden.median_ms));
 }
 
+/// Shows pictures until a person leaves, a stop signal comes or so many were shown; then ends the recording.
+void run_window(Viewer& viewer, const std::optional<int>& max_frames, bool quiet) {
+    const base::StopSignals stop_signals;
+    int frames = 0;
+    while (viewer.run_frame() && !base::StopSignals::received()) {
+        if (max_frames && ++frames >= *max_frames) { break; }
+    }
+    if (const auto report = viewer.finish_recording()) { base::print_note(quiet, *report); }
+}
+
 void view(const ViewOptions& options, const std::vector<std::string>& given, bool quiet) {
     Viewer viewer(options);
     const world::World& world = viewer.session().world();
@@ -124,12 +124,7 @@ void view(const ViewOptions& options, const std::vector<std::string>& given, boo
     for (const std::string& note : world::near_detail_warnings(world, options.settings.ground, given)) {
         base::print_note(quiet, "note: " + note);
     }
-    const base::StopSignals stop_signals;
-    int frames = 0;
-    while (viewer.run_frame() && !base::StopSignals::received()) {
-        if (options.settings.time.frames && ++frames >= *options.settings.time.frames) { break; }
-    }
-    if (const auto report = viewer.finish_recording()) { base::print_note(quiet, *report); }
+    run_window(viewer, options.settings.time.frames, quiet);
 }
 
 struct ViewWork {
@@ -150,20 +145,24 @@ void view_or_bench(ViewWork work) {
     work.view.config_folder = base::configuration_folder();
     work.view.settings = world::with_absolute_paths(work.view.settings);
     if (work.bench) {
-        const WindowBench bench = bench_window(work.view, *work.bench, work.quiet);
-        work.json ? print_bench_as_json(bench) : print_bench(bench);
+        print_bench(bench_window(work.view, *work.bench, work.quiet), work.json);
     } else {
         view(work.view, work.given, work.quiet);
     }
 }
 
+/// The options of every window.
+void add_window_options(std::vector<commands::Option>& table, ViewOptions& view) {
+    using commands::flag;
+    table.push_back(flag("--full-screen", "fill the screen (F11)", view.full_screen));
+    table.push_back(flag("--vsync,!--no-vsync", "limit to the display's refresh rate", view.vsync));
+    table.push_back(flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels));
+}
+
 std::vector<commands::Option> options_of(ViewWork& work) {
     using namespace commands;
     ViewOptions& view = work.view;
-    std::vector<Option> table = {flag("--by-hand", "in the pilot's hands from the start", view.by_hand),
-        flag("--full-screen", "fill the screen (F11)", view.full_screen),
-        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be", view.vsync),
-        flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels),
+    std::vector<Option> table = {flag("--by-hand", "start in manual flight", view.by_hand),
         text_option("--record", "DIR", "record from the first frame into this folder", view.record),
         with_shown_default(view.recordings_folder.string(),
             text_option(
@@ -176,6 +175,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
         list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as octant fly --send", Arity::Repeatable, view.send),
         flag("--json", "the times of --bench as JSON", work.json), flag("--quiet", "no notes", work.quiet)};
+    add_window_options(table, view);
     add_setting_options(table, view.settings, &work.given);
     return table;
 }
@@ -221,12 +221,7 @@ void listen_in_window(ListenWork work) {
     work.view.record = work.listen.record.folder;
     work.view.quiet = work.listen.quiet;
     Viewer viewer(work.view);
-    const base::StopSignals stop_signals;
-    int frames = 0;
-    while (viewer.run_frame() && !base::StopSignals::received()) {
-        if (work.view.settings.time.frames && ++frames >= *work.view.settings.time.frames) { break; }
-    }
-    if (const auto report = viewer.finish_recording()) { base::print_note(work.listen.quiet, *report); }
+    run_window(viewer, work.view.settings.time.frames, work.listen.quiet);
 }
 
 void listen(ListenWork work) {
@@ -262,11 +257,8 @@ std::vector<commands::Option> options_of(ListenWork& work) {
             "is until F9 ends it",
             listen.record.folder),
         text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", listen.record.video),
-        flag("--json", "with --headless: summary as JSON, with every vehicle and what its packets were", listen.json),
-        flag("--full-screen", "fill the screen (F11)", work.view.full_screen),
-        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be",
-            work.view.vsync),
-        flag("--panels,!--no-panels", "begin with panels shown (Tab)", work.view.panels)};
+        flag("--json", "with --headless: summary as JSON, with packet counts of every vehicle", listen.json)};
+    add_window_options(table, work.view);
     std::vector<Option> shared = listen_options(listen);
     table.insert(table.end(), std::make_move_iterator(shared.begin()), std::make_move_iterator(shared.end()));
     return table;
@@ -278,8 +270,9 @@ commands::Command listen_command() {
     auto work = std::make_shared<ListenWork>();
     work->view.recordings_folder = ".";
     return {.name = "listen",
-        .summary = "Displays aircraft that other programs control: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
-                   "numbers",
+        .summary =
+            "Displays aircraft that other programs control: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
+            "numbers",
         .options = options_of(*work),
         .footer = "Examples:\n"
                   "  octant listen\n"

@@ -28,6 +28,7 @@
 
 namespace octant::ui::world {
 
+namespace fs = std::filesystem;
 namespace refine = visuals::refine;
 
 namespace {
@@ -118,8 +119,6 @@ RefineMesh load_refine_mesh(const RefineMeshOptions& input) {
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Library {
     /// What octant-read-mesh calls it.
