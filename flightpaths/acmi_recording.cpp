@@ -2,9 +2,10 @@
 
 #include "flightpaths/derived_motion.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "sim/base/transverse_mercator.h"
+#include "sim/base/text_scanner.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -31,7 +32,7 @@ namespace {
 // Source: Tacview, "Technical Reference - ACMI flight recordings 2.2". A line is a time (#), the end of an object (-),
 // or an object's number and properties between commas; a backslash takes a comma or a line's end for what it is.
 
-/// Where an object is, as far as a tape has said: degrees and metres.
+/// Where an object is, as far as the recording has said: degrees and metres.
 struct AcmiSample {
     double time_s = 0.0;
     double longitude_deg = 0.0;
@@ -55,34 +56,6 @@ constexpr double longest_s = 86400.0;
 constexpr std::size_t max_objects = 1000000;
 /// The most places of all objects together.
 constexpr std::size_t max_places = 20000000;
-
-struct Source {
-    const std::filesystem::path& file;
-    int line;
-
-    [[noreturn]] void refuse(std::string_view wanted, std::string_view got) const {
-        constexpr std::size_t shown = 60;
-        throw_error_at(
-            file, line, fmt::format("expected {}, got '{}'", wanted, printable(std::string(got.substr(0, shown)))));
-    }
-};
-
-double number_from(std::string_view text, const Source& at) {
-    const auto value = finite_number(text);
-    if (!value) { at.refuse("a number", text); }
-    return *value;
-}
-
-std::uint64_t id_from(std::string_view text, const Source& at) {
-    constexpr int hexadecimal = 16;
-    std::uint64_t id = 0;
-    const char* const end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, id, hexadecimal);
-    if (text.empty() || read.ec != std::errc() || read.ptr != end) {
-        at.refuse("an object's number in hexadecimal digits, a # or a -", text);
-    }
-    return id;
-}
 
 /// Fields between commas that no backslash precedes.
 std::vector<std::string_view> fields_of(std::string_view line) {
@@ -109,24 +82,54 @@ std::string plain(std::string_view text) {
     return out;
 }
 
-class Reader {
+/// Reads the objects of an ACMI text in the order in which they appear. Throws Error with file and line.
+class AcmiReader {
 public:
-    explicit Reader(const std::filesystem::path& file) : file_(file) {}
+    AcmiReader(const std::filesystem::path& file, std::string_view text) : text_(file, text, {.joins_lines = true}) {}
 
-    void take(std::string_view line, int number) {
-        const Source at{file_, number};
-        if (line.starts_with("#")) {
-            take_time(line.substr(1), at);
-        } else if (line.starts_with("-")) {
-            now_.erase(id_from(line.substr(1), at));
-        } else if (!line.starts_with("//")) {
-            take_object(line, at);
+    std::vector<AcmiObject> read() {
+        constexpr std::string_view type = "FileType=text/acmi/tacview";
+        constexpr std::string_view version = "FileVersion=2.";
+        if (next_line() != type) { refuse(type, text_.line()); }
+        if (!next_line().starts_with(version)) { refuse("FileVersion=2.x", text_.line()); }
+        while (text_.next_line()) {
+            const std::string_view line = text_.line();
+            if (line.starts_with("#")) {
+                take_time(line.substr(1));
+            } else if (line.starts_with("-")) {
+                now_.erase(id_from(line.substr(1)));
+            } else if (!text_.peek().empty() && !line.starts_with("//")) {
+                take_object(line);
+            }
         }
+        return std::move(objects_);
     }
 
-    std::vector<AcmiObject> objects() && { return std::move(objects_); }
-
 private:
+    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
+        text_.refuse(expected, in_quotes(got));
+    }
+
+    /// A line of the head of the file; empty where the file ends.
+    std::string_view next_line() { return text_.next_line() ? text_.line() : std::string_view(); }
+
+    double number_from(std::string_view text) const {
+        const auto value = finite_number(text);
+        if (!value) { refuse("a number", text); }
+        return *value;
+    }
+
+    std::uint64_t id_from(std::string_view text) const {
+        constexpr int hexadecimal = 16;
+        std::uint64_t id = 0;
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, id, hexadecimal);
+        if (text.empty() || read.ec != std::errc() || read.ptr != end) {
+            refuse("an object's number in hexadecimal digits, a # or a -", text);
+        }
+        return id;
+    }
+
     /// What is known of an object that is there.
     struct Present {
         std::size_t object = 0;
@@ -134,47 +137,47 @@ private:
         bool has_place = false;
     };
 
-    void take_time(std::string_view text, const Source& at) {
-        time_s_ = number_from(text, at);
+    void take_time(std::string_view text) {
+        time_s_ = number_from(text);
         first_s_ = first_s_.value_or(time_s_);
         if (!(std::abs(time_s_ - *first_s_) <= longest_s)) {
-            at.refuse(fmt::format("a time within {:.0f} s of the first", longest_s), text);
+            refuse(fmt::format("a time within {:.0f} s of the first", longest_s), text);
         }
     }
 
-    void take_object(std::string_view line, const Source& at) {
+    void take_object(std::string_view line) {
         const std::vector<std::string_view> fields = fields_of(line);
-        const std::uint64_t id = id_from(fields.front(), at);
+        const std::uint64_t id = id_from(fields.front());
         if (id == 0) {
-            for (std::size_t i = 1; i < fields.size(); ++i) { take_global(fields[i], at); }
+            for (std::size_t i = 1; i < fields.size(); ++i) { take_global(fields[i]); }
             return;
         }
         const auto [found, is_new] = now_.try_emplace(id, Present{objects_.size(), {}, false});
         if (is_new) {
-            if (objects_.size() == max_objects) { at.refuse(fmt::format("at most {} objects", max_objects), line); }
+            if (objects_.size() == max_objects) { refuse(fmt::format("at most {} objects", max_objects), line); }
             objects_.emplace_back();
         }
-        for (std::size_t i = 1; i < fields.size(); ++i) { take_property(fields[i], found->second, at); }
+        for (std::size_t i = 1; i < fields.size(); ++i) { take_property(fields[i], found->second); }
     }
 
-    void take_global(std::string_view field, const Source& at) {
+    void take_global(std::string_view field) {
         const std::size_t equals = field.find('=');
         const std::string_view name = field.substr(0, equals);
         if (name == "ReferenceLongitude") {
-            longitude_deg_ = number_from(field.substr(equals + 1), at);
+            longitude_deg_ = number_from(field.substr(equals + 1));
         } else if (name == "ReferenceLatitude") {
-            latitude_deg_ = number_from(field.substr(equals + 1), at);
+            latitude_deg_ = number_from(field.substr(equals + 1));
         }
     }
 
-    void take_property(std::string_view field, Present& present, const Source& at) {
+    void take_property(std::string_view field, Present& present) {
         AcmiObject& object = objects_[present.object];
         const std::size_t equals = field.find('=');
         if (equals == std::string_view::npos) { return; }
         const std::string_view value = field.substr(equals + 1);
         const std::string_view name = field.substr(0, equals);
         if (name == "T") {
-            take_place(value, present, at);
+            take_place(value, present);
         } else if (name == "Name") {
             object.name = plain(value);
         } else if (name == "Type") {
@@ -183,7 +186,7 @@ private:
     }
 
     /// Longitude, latitude, altitude; then U, V or roll, pitch, yaw or these five and a heading.
-    void take_place(std::string_view text, Present& present, const Source& at) {
+    void take_place(std::string_view text, Present& present) {
         const std::vector<std::string_view> parts = split_fields(text, '|');
         constexpr std::size_t bare = 3;
         constexpr std::size_t flat = 5;
@@ -191,7 +194,7 @@ private:
         constexpr std::size_t whole = 9;
         const std::size_t count = parts.size();
         if (count != bare && count != flat && count != turned && count != whole) {
-            at.refuse("3, 5, 6 or 9 components after T=", text);
+            refuse("3, 5, 6 or 9 components after T=", text);
         }
         AcmiSample& place = present.place;
         const std::array<double*, turned> targets{&place.longitude_deg, &place.latitude_deg, &place.altitude_m,
@@ -200,7 +203,7 @@ private:
         for (std::size_t i = 0; i < used; ++i) {
             if (!parts[i].empty()) {
                 const double reference = i == 0 ? longitude_deg_ : i == 1 ? latitude_deg_ : 0.0;
-                *targets[i] = reference + number_from(parts[i], at);
+                *targets[i] = reference + number_from(parts[i]);
                 present.has_place = present.has_place || i < 2;
             }
         }
@@ -208,12 +211,12 @@ private:
         object.has_attitude = object.has_attitude || count >= turned;
         place.time_s = time_s_;
         if (present.has_place) {
-            if (++places_ > max_places) { at.refuse(fmt::format("at most {} places", max_places), text); }
+            if (++places_ > max_places) { refuse(fmt::format("at most {} places", max_places), text); }
             object.places.push_back(place);
         }
     }
 
-    const std::filesystem::path& file_;
+    TextScanner text_;
     double time_s_ = 0.0;
     std::optional<double> first_s_;
     double longitude_deg_ = 0.0;
@@ -222,39 +225,6 @@ private:
     std::vector<AcmiObject> objects_;
     std::size_t places_ = 0;
 };
-
-void check_head(const std::vector<std::string_view>& lines, const std::filesystem::path& file) {
-    constexpr std::string_view type = "FileType=text/acmi/tacview";
-    constexpr std::string_view version = "FileVersion=2.";
-    const std::string_view first = lines.empty() ? std::string_view() : lines.front();
-    if (first != type) { Source{file, 1}.refuse(type, first); }
-    const std::string_view second = lines.size() < 2 ? std::string_view() : lines[1];
-    if (!second.starts_with(version)) { Source{file, 2}.refuse("FileVersion=2.x", second); }
-}
-
-/// The objects of an ACMI text in the order in which they appear. Throws Error with file and line.
-std::vector<AcmiObject> parse_acmi_objects(std::string_view text, const std::filesystem::path& file) {
-    constexpr std::string_view mark = "\xef\xbb\xbf";
-    if (text.starts_with(mark)) { text.remove_prefix(mark.size()); }
-    const std::vector<std::string_view> lines = split_lines(text);
-    check_head(lines, file);
-    Reader reader(file);
-    std::string broken; // a line that goes on on the next one
-    int begun_at = 0;
-    for (std::size_t i = 2; i < lines.size(); ++i) {
-        std::string_view line = lines[i];
-        begun_at = broken.empty() ? static_cast<int>(i) + 1 : begun_at;
-        if (line.ends_with('\\') && i + 1 < lines.size()) {
-            line.remove_suffix(1);
-            broken.append(line).append(" ");
-            continue;
-        }
-        broken.append(line);
-        if (!split_words(broken).empty()) { reader.take(broken, begun_at); }
-        broken.clear();
-    }
-    return std::move(reader).objects();
-}
 
 constexpr double fastest_mps = 3000.0;
 constexpr double furthest_m = 1e6;
@@ -299,13 +269,13 @@ std::vector<AcmiSample> in_order(std::vector<AcmiSample> places, Omitted& omitte
 
 double span_s(const std::vector<AcmiSample>& places) { return places.back().time_s - places.front().time_s; }
 
-sim::AircraftState state_of(const AcmiSample& taped, const EarthFrame& frame, double begin_s) {
+sim::AircraftState state_of(const AcmiSample& sample, const EarthFrame& frame, double begin_s) {
     sim::AircraftState state;
-    state.time_s = taped.time_s - begin_s;
-    const FramePosition local = frame.place_of({taped.latitude_deg, taped.longitude_deg});
-    state.position_m = glm::dvec3(local.east_north_m, taped.altitude_m);
-    state.body_to_world = body_to_world_from_euler({rad_from_deg(taped.heading_deg) + local.north_bearing_rad,
-        rad_from_deg(taped.pitch_deg), rad_from_deg(taped.roll_deg)});
+    state.time_s = sample.time_s - begin_s;
+    const FramePosition local = frame.place_of({sample.latitude_deg, sample.longitude_deg});
+    state.position_m = glm::dvec3(local.east_north_m, sample.altitude_m);
+    state.body_to_world = body_to_world_from_euler({rad_from_deg(sample.heading_deg) + local.north_bearing_rad,
+        rad_from_deg(sample.pitch_deg), rad_from_deg(sample.roll_deg)});
     return state;
 }
 
@@ -342,7 +312,7 @@ std::vector<std::string> notes_of(const Omitted& omitted, const std::filesystem:
     tell(omitted.others, "objects that are no aircraft");
     tell(omitted.once, "aircraft that are seen at one time alone");
     tell(omitted.far, "aircraft more than 1,000 km away");
-    tell(omitted.many, fmt::format("aircraft beyond {}", max_taped_aircraft));
+    tell(omitted.many, fmt::format("aircraft beyond {}", max_recorded_aircraft));
     tell(omitted.samples, "samples off the earth or faster than 3,000 m/s");
     return notes;
 }
@@ -350,7 +320,7 @@ std::vector<std::string> notes_of(const Omitted& omitted, const std::filesystem:
 } // namespace
 
 AcmiRecording parse_acmi(std::string_view text, const std::filesystem::path& file) {
-    std::vector<AcmiObject> objects = parse_acmi_objects(text, file);
+    std::vector<AcmiObject> objects = AcmiReader(file, text).read();
     Omitted omitted;
     const auto count = static_cast<int>(objects.size());
     std::erase_if(objects, [](const AcmiObject& object) { return !flies(object); });
@@ -367,22 +337,22 @@ AcmiRecording parse_acmi(std::string_view text, const std::filesystem::path& fil
     double begin_s = objects.front().places.front().time_s;
     for (const AcmiObject& object : objects) { begin_s = std::min(begin_s, object.places.front().time_s); }
     const AcmiSample& first = objects.front().places.front();
-    AcmiRecording tape{{}, {first.latitude_deg, first.longitude_deg}, {}};
-    const TransverseMercator frame(tape.origin);
+    AcmiRecording recording{{}, {first.latitude_deg, first.longitude_deg}, {}};
+    const TransverseMercator frame(recording.origin);
     for (AcmiObject& object : objects) {
-        if (tape.aircraft.size() == max_taped_aircraft) {
+        if (recording.aircraft.size() == max_recorded_aircraft) {
             ++omitted.many;
             continue;
         }
         auto trajectory = trajectory_of(object.places, object.has_attitude, frame, begin_s, omitted);
         if (trajectory) {
-            tape.aircraft.push_back({std::move(object.name), std::move(object.type), std::move(*trajectory)});
-        } else if (tape.aircraft.empty()) {
+            recording.aircraft.push_back({std::move(object.name), std::move(object.type), std::move(*trajectory)});
+        } else if (recording.aircraft.empty()) {
             throw_error_in(file, "expected an aircraft that moves slower than 3,000 m/s, got none");
         }
     }
-    tape.notes = notes_of(omitted, file);
-    return tape;
+    recording.notes = notes_of(omitted, file);
+    return recording;
 }
 
 } // namespace octant::flightpaths

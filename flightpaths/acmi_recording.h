@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_position.h"
+#include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace octant::flightpaths {
 
-/// An aircraft of a Tacview tape: at least 2 samples, in a TransverseMercator frame at the tape's origin and metres
-/// above the sea, seconds since the first sample of any.
+/// An aircraft of a Tacview recording: at least 2 samples, in a TransverseMercator frame at the recording's origin and
+/// metres above the sea, seconds since the first sample of any aircraft.
 struct RecordedAircraft {
-    /// As the tape has it, empty where it has none.
+    /// As the recording has it; empty if it has none.
     std::string name;
-    /// Its tags, such as "Air+Rotorcraft"; empty where it has none.
+    /// Its tags, such as "Air+Rotorcraft"; empty if it has none.
     std::string type;
     sim::Trajectory trajectory;
 };
@@ -29,14 +29,14 @@ struct AcmiRecording {
     std::vector<std::string> notes;
 };
 
-inline constexpr std::size_t max_taped_aircraft = 256;
+inline constexpr std::size_t max_recorded_aircraft = 256;
 
 /// Reads Tacview's ACMI 2.x text ("Technical Reference - ACMI flight recordings 2.2"): objects whose tags have Air
 /// among them, or that have none. What moves by fewer than 2 samples, lies more than 1,000 km from the first or is one
 /// of too many is left out, so are samples that would need more than 3,000 m/s. Missing attitudes and velocities are
-/// derived from the motion (derived_motion.h). `file` names the tape in messages. Throws Error with file and line for
-/// other text, what is no number where one belongs, more than a day, more than a million objects or 20 million places,
-/// and a tape without any aircraft.
+/// derived from the motion (derived_motion.h). `file` names the recording in messages. Throws Error with file and line
+/// for other text, what is no number where one belongs, more than a day, more than a million objects or 20 million
+/// places, and a recording without any aircraft.
 AcmiRecording parse_acmi(std::string_view text, const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

@@ -2,7 +2,7 @@
 
 #include "flightpaths/path_script.h"
 #include "sim/aircraft_kind.h"
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "sim/trajectory.h"
 
 #include <string>

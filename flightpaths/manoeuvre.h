@@ -2,7 +2,7 @@
 
 #include "flightpaths/path_script.h"
 #include "flightpaths/point_mass.h"
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 
 namespace octant::flightpaths {
 

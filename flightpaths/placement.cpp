@@ -3,7 +3,7 @@
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
-#include "sim/fixed_step.h"
+#include "sim/flight_steps.h"
 
 #include <glm/geometric.hpp>
 

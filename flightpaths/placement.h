@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/error.h"
 #include "sim/base/ground_height.h"
 #include "sim/height_mode.h"

@@ -4,10 +4,9 @@
 #include "flightpaths/track_table.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
-#include "sim/base/geo_position.h"
 #include "sim/base/text_file.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>

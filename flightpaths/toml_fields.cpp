@@ -1,13 +1,17 @@
 #include "flightpaths/toml_fields.h"
 
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "sim/base/units.h"
+#include "sim/flight_steps.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <sstream>
+#include <utility>
 
 namespace octant::flightpaths {
 

@@ -6,8 +6,8 @@
 
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/format_once.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>

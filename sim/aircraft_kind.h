@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/units.h"
 
 #include <glm/vec3.hpp>

@@ -5,6 +5,25 @@
 
 namespace octant::sim {
 
+/// What an aircraft can fly. A path that asks for more is refused (or clipped when asked to).
+struct AircraftLimits {
+    /// The limits of lift over weight, in g.
+    double min_load_factor = 0.0;
+    double max_load_factor = 0.0;
+    /// The fastest change of the load factor (g onset), g/s.
+    double load_factor_rate_gps = 0.0;
+    /// The fastest roll.
+    double roll_rate_radps = 0.0;
+    /// The steepest bank; pi = no limit.
+    double bank_rad = 0.0;
+    double min_speed_mps = 0.0;
+    double max_speed_mps = 0.0;
+    /// The steepest climb that can be sustained.
+    double climb_rate_mps = 0.0;
+    /// The fastest change of speed along the path, up or down.
+    double acceleration_mps2 = 0.0;
+};
+
 /// Motion of one aircraft at one time. World: x east, y north, z up (sim/base/axes.h).
 struct AircraftState {
     double time_s = 0.0;
@@ -19,6 +38,8 @@ struct AircraftState {
     /// The change of speed along the path, smoothed over about a second; with climb, drag and weight it says how much
     /// thrust the motion needs (flight_models.h).
     double speed_rate_mps2 = 0.0;
+    /// False for an aircraft that nobody flies or whose track has not begun or has ended: nothing of it is shown.
+    bool is_present = true;
 };
 
 } // namespace octant::sim

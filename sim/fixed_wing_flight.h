@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "sim/atmosphere.h"
 #include "sim/flight_steps.h"
 #include "sim/piloted_flight.h"

@@ -3,7 +3,7 @@
 #include "models/heights/height_field_export.h"
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_import.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 #include <cmath>

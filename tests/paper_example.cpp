@@ -1,5 +1,6 @@
 #include "tests/paper_example.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -23,6 +24,23 @@ models::polygons::PolygonModel paper_example() {
     model.materials.emplace_back();
     model.parts.emplace_back("default");
     return model;
+}
+
+bool keeps_table_4(const std::function<std::span<const std::uint32_t>(const glm::dvec3& signs)>& list_at) {
+    struct Row {
+        glm::dvec3 signs;
+        std::uint32_t first;
+        std::array<std::uint32_t, 3> later; // polygons from 0
+    };
+    const std::array<Row, 4> rows{{{{1, -1, 1}, 1, {3, 5, 7}}, {{1, -1, -1}, 1, {3, 5, 9}}, {{-1, 1, 1}, 2, {0, 4, 6}},
+        {{-1, 1, -1}, 2, {0, 4, 8}}}};
+    return std::ranges::all_of(rows, [&](const Row& row) {
+        const auto list = list_at(row.signs);
+        const auto first = std::ranges::find(list, row.first);
+        return std::ranges::all_of(row.later, [&](std::uint32_t later) {
+            return first < std::ranges::find(list, later) && std::ranges::count(list, later) == 1;
+        });
+    });
 }
 
 } // namespace octant::tests

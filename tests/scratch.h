@@ -37,4 +37,11 @@ inline std::filesystem::path empty_folder(const std::string& name) {
     return folder;
 }
 
+/// A path in the scratch folder; a file of that name is removed first.
+inline std::filesystem::path scratch_file(const std::string& name) {
+    std::filesystem::create_directories(scratch_folder()); // a test may have removed it
+    std::filesystem::remove_all(scratch_folder() / name);
+    return scratch_folder() / name;
+}
+
 } // namespace octant::tests

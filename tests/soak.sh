@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# soak.sh PROGRAM MINUTES FOLDER: a window flies one path over and over; FOLDER/memory.csv holds its memory second by second,
-# FOLDER/memory.png shows it. Exit code 1 when it grew by more than 2 MB after the first minute, or the program ended.
+# soak.sh PROGRAM MINUTES FOLDER: a window flies one path over and over; FOLDER/memory.csv holds its memory second by second.
+# Exit code 1 when it grew by more than 2 MB after the first minute, or the program ended.
 set -euo pipefail
 [[ $# -eq 3 ]] || { echo "error: expected PROGRAM MINUTES FOLDER, got $# words" >&2; exit 2; }
 program=$1 minutes=$2 folder=$3
@@ -22,9 +22,6 @@ for ((second = 0; second <= 60 * minutes; ++second)); do
     '/^VmRSS/ {kb=$2} /^Threads/ {threads=$2} END {print s "," kb "," threads "," files}' "/proc/$viewer/status" >>"$folder/memory.csv"
   sleep 1
 done
-gnuplot -e "set datafile separator ','; set terminal png size 900,300; set output '$folder/memory.png'; set key off; \
-  set xlabel 'seconds'; set ylabel 'resident, MB'; set yrange [0:*]; plot '$folder/memory.csv' every ::1 using 1:(\$2/1024) with lines" ||
-  echo "no graph: gnuplot failed"
 awk -F, 'NR > 1 && $1 <= 60 && $2 > first {first = $2}
   NR > 1 && $1 > 60 && $2 > most {most = $2}
   END {

@@ -103,7 +103,6 @@ OCTANT_GDAL(OSRGetLinearUnits);
 OCTANT_GDAL(OSRGetName);
 OCTANT_GDAL(OSRGetSemiMajor);
 OCTANT_GDAL(OSRGetTargetLinearUnits);
-OCTANT_GDAL(OSRImportFromProj4);
 OCTANT_GDAL(OSRIsGeographic);
 OCTANT_GDAL(OSRIsLocal);
 OCTANT_GDAL(OSRIsProjected);

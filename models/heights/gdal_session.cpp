@@ -2,7 +2,7 @@
 
 #include "models/heights/gdal_functions.h"
 #include "sim/base/error.h"
-#include "sim/base/utf8.h"
+#include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <array>

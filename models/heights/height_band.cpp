@@ -3,6 +3,7 @@
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/import_options.h"
+#include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 
 #include <glm/common.hpp>
@@ -31,6 +32,12 @@ namespace octant::models::heights {
 namespace {
 
 using std::filesystem::path;
+
+/// How 8-bit red, green and blue encode a height.
+enum class HeightEncoding {
+    Terrarium, ///< (R * 256 + G + B / 256) - 32768 m (Mapzen, tilezen/joerd)
+    Mapbox     ///< -10000 + (R * 65536 + G * 256 + B) * 0.1 m (Mapbox Terrain-RGB, MapTiler)
+};
 
 /// A height is the offset and each channel times its weight, in a unit in which both are exact.
 struct Weights {
@@ -209,10 +216,9 @@ bool is_coded_by(const std::vector<std::vector<std::uint8_t>>& rows, HeightEncod
     return found.are_heights(code);
 }
 
-} // namespace
-
 std::string_view name_of(HeightEncoding code) { return code == HeightEncoding::Terrarium ? "Terrarium" : "Mapbox"; }
 
+/// The encoding by its name in --band: terrarium or mapbox.
 std::optional<HeightEncoding> height_encoding_from_name(const std::string& name) {
     for (const HeightEncoding code : {HeightEncoding::Terrarium, HeightEncoding::Mapbox}) {
         if (EQUAL(name.c_str(), std::string(name_of(code)).c_str())) { return code; }
@@ -220,6 +226,9 @@ std::optional<HeightEncoding> height_encoding_from_name(const std::string& name)
     return std::nullopt;
 }
 
+/// The encoding of an image that holds heights; nothing for other images. Samples of all rows decide: all must decode
+/// to plausible heights, and heights of neighbours must be close although the channel of the lower digits jumps, which
+/// it does not in photographs.
 std::optional<HeightEncoding> height_encoding_of(void* dataset) {
     const int count = GDALGetRasterCount(dataset);
     if (count < 3 || count > 4) { return std::nullopt; }
@@ -233,6 +242,8 @@ std::optional<HeightEncoding> height_encoding_of(void* dataset) {
     return std::nullopt;
 }
 
+/// The heights of such an image, metres, as one band, followed by its alpha band if it has one. Opens `dataset` again
+/// by its name. Throws Error for an image with fewer than three bands.
 Dataset decoded_heights(const path& file, void* dataset, HeightEncoding code) {
     if (GDALGetRasterCount(dataset) < 3) {
         throw_error_in(file, fmt::format("expected red, green and blue for --band {}, got {} band(s)", name_of(code),
@@ -246,10 +257,7 @@ Dataset decoded_heights(const path& file, void* dataset, HeightEncoding code) {
     const int rows = GDALGetRasterYSize(dataset);
     if (GDALGetGeoTransform(dataset, transform.data()) == CE_None) {
         const OGRSpatialReferenceH system = GDALGetSpatialRef(dataset);
-        char* wkt = nullptr;
-        const bool is_written = system != nullptr && OSRExportToWkt(system, &wkt) == OGRERR_NONE;
-        place = place_xml(is_written ? wkt : "", transform);
-        CPLFree(wkt);
+        place = place_xml(system == nullptr ? "" : wkt_of(system), transform);
     } else if (const auto tile = tile_number(file, 1); tile && columns == rows) {
         place = mercator_place(*tile, columns);
     }
@@ -277,6 +285,8 @@ Dataset decoded_heights(const path& file, void* dataset, HeightEncoding code) {
     return heights;
 }
 
+} // namespace
+
 Dataset open_cesium_heightmap(const std::string& file) {
     constexpr int samples = 65;
     constexpr std::size_t heights_bytes = std::size_t{2} * samples * samples;
@@ -296,8 +306,7 @@ Dataset open_cesium_heightmap(const std::string& file) {
         name = "/vsigzip/" + std::filesystem::absolute(file).string();
     }
     if (std::ranges::find(sizes, size) == sizes.end()) {
-        throw_error_in(file, "expected a Cesium heightmap of 65 x 65 samples, got another kind of terrain tile, "
-                             "such "
+        throw_error_in(file, "expected a Cesium heightmap of 65 x 65 samples, got another kind of terrain tile, such "
                              "as a quantized mesh");
     }
     std::string place;
@@ -317,8 +326,6 @@ Dataset open_cesium_heightmap(const std::string& file) {
 }
 
 namespace {
-
-using std::filesystem::path;
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
@@ -365,52 +372,28 @@ bool is_unspecified(std::string_view unit) {
 std::optional<double> metres_of_name(std::string_view name) {
     constexpr double foot_m = 0.3048;
     constexpr double survey_foot_m = 1200.0 / 3937.0;
-    constexpr std::array<std::pair<std::string_view, double>, 42> known = {{
-        {"m", 1.0},
-        {"metre", 1.0},
-        {"meter", 1.0},
-        {"ft", foot_m},
-        {"foot", foot_m},
-        {"ift", foot_m},
-        {"ftintl", foot_m},
-        {"footintl", foot_m},
-        {"intlft", foot_m},
-        {"intlfoot", foot_m},
-        {"internationalft", foot_m},
-        {"internationalfoot", foot_m},
-        {"footinternational", foot_m},
-        {"usft", survey_foot_m},
-        {"usfoot", survey_foot_m},
-        {"ftus", survey_foot_m},
-        {"footus", survey_foot_m},
-        {"sft", survey_foot_m},
-        {"sfoot", survey_foot_m},
-        {"ussft", survey_foot_m},
-        {"ussurveyft", survey_foot_m},
-        {"ussurveyfoot", survey_foot_m},
-        {"surveyft", survey_foot_m},
-        {"surveyfoot", survey_foot_m},
-        {"footussurvey", survey_foot_m},
-        {"ftussurvey", survey_foot_m},
-        {"dm", 0.1},
-        {"decimetre", 0.1},
-        {"decimeter", 0.1},
-        {"cm", 0.01},
-        {"centimetre", 0.01},
-        {"centimeter", 0.01},
-        {"mm", 0.001},
-        {"millimetre", 0.001},
-        {"millimeter", 0.001},
-        {"km", 1000.0},
-        {"kilometre", 1000.0},
-        {"kilometer", 1000.0},
-        {"yard", 0.9144},
-        {"yd", 0.9144},
-        {"fathom", 1.8288},
-        {"inch", 0.0254},
+    struct Unit {
+        std::string_view names; ///< each between blanks
+        double metres;
+    };
+    constexpr std::array<Unit, 10> units{{
+        {" m metre meter ", 1.0},
+        {" ft foot ift ftintl footintl intlft intlfoot internationalft internationalfoot footinternational ", foot_m},
+        {" usft usfoot ftus footus sft sfoot ussft ussurveyft ussurveyfoot surveyft surveyfoot footussurvey "
+         "ftussurvey ",
+            survey_foot_m},
+        {" dm decimetre decimeter ", 0.1},
+        {" cm centimetre centimeter ", 0.01},
+        {" mm millimetre millimeter ", 0.001},
+        {" km kilometre kilometer ", 1000.0},
+        {" yard yd ", 0.9144},
+        {" fathom ", 1.8288},
+        {" inch ", 0.0254},
     }};
-    const auto found = std::ranges::find(known, name, &std::pair<std::string_view, double>::first);
-    return found == known.end() ? std::nullopt : std::optional(found->second);
+    const std::string word = fmt::format(" {} ", name);
+    const auto found =
+        std::ranges::find_if(units, [&](const Unit& unit) { return unit.names.find(word) != unit.names.npos; });
+    return found == units.end() ? std::nullopt : std::optional(found->metres);
 }
 
 std::string singular(std::string word) {
@@ -439,10 +422,9 @@ void note_feet(const path& file, OGRSpatialReferenceH system, HeightBand& band) 
     char* name = nullptr; // the system's own
     const double unit_m = OSRGetLinearUnits(system, &name);
     if (std::abs(unit_m - 0.3048) < 1e-5) {
-        band.notes.push_back(
-            {fmt::format("{}: the coordinate system is in feet ({}), heights name no unit and count as metres: "
-                         "--height-scale {:.9g} says that they are feet, too",
-                file.filename().string(), name == nullptr ? "no name" : name, unit_m)});
+        band.notes.push_back({fmt::format("{}: the coordinate system is in feet ({}), heights name no unit and count "
+                                          "as metres: --height-scale {:.9g} says that they are feet, too",
+            file.filename().string(), name == nullptr ? "no name" : name, unit_m)});
     }
 }
 
@@ -452,10 +434,9 @@ void take_unit(const path& file, OGRSpatialReferenceH system, const std::optiona
     const bool is_named = !is_unspecified(unit);
     const auto named = is_named ? metres_from_unit(unit) : vertical_unit_m(system);
     if (!named && !given && is_named) {
-        throw_error_in(
-            file, fmt::format("expected heights in metres or feet, got '{}': --height-scale says how many metres "
-                              "that is",
-                      printable(unit)));
+        throw_error_in(file,
+            fmt::format("expected heights in metres or feet, got '{}': --height-scale says how many metres that is",
+                printable(unit)));
     }
     if (!named && !given) { note_feet(file, system, band); }
     band.declares_unit = named.has_value();
@@ -560,10 +541,9 @@ int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& no
     const bool has_alpha = count > 1 && colour_of(dataset, count) == GCI_AlphaBand;
     const int others = count - 1 - (has_alpha ? 1 : 0);
     if (named.empty() && others >= 2 && is_bytes(dataset)) {
-        throw_error_in(
-            file, fmt::format("expected one band of heights, got {} of 8 bits, which make a picture: --band N "
-                              "takes one of them for heights",
-                      count));
+        throw_error_in(file, fmt::format("expected one band of heights, got {} of 8 bits, which make a picture: --band "
+                                         "N takes one of them for heights",
+                                 count));
     }
     if (others > 0 && (named.size() != 1 || number > 1)) { // a single one in front is no guess
         notes.push_back({fmt::format("{}: band {} of {} is taken for heights: --band N|NAME chooses another",
@@ -646,10 +626,9 @@ HeightBand height_band_of(const path& file, void* dataset, const ImportOptions& 
     const std::optional<HeightEncoding> code = options.band ? forced : height_encoding_of(dataset);
     if (code) {
         band.decoded = decoded_heights(file, dataset, *code);
-        band.notes.push_back(
-            {fmt::format("{}: heights are decoded from colours by the rule of {} tiles: --band N takes one band "
-                         "as it is",
-                file.filename().string(), name_of(*code))});
+        band.notes.push_back({fmt::format(
+            "{}: heights are decoded from colours by the rule of {} tiles: --band N takes one band as it is",
+            file.filename().string(), name_of(*code))});
         take_band(file, band.decoded.get(), options, band);
         return band;
     }

@@ -118,6 +118,17 @@ void read_window(const path& file, const HeightRaster& raster, GDALRasterBandH b
     }
 }
 
+/// 0 for each sample of a window that the raster's mask leaves out; empty without a mask.
+std::vector<std::uint8_t> validity_of(
+    const path& file, const HeightRaster& raster, const GridWindow& window, const GdalSession& gdal) {
+    std::vector<std::uint8_t> is_valid;
+    if (raster.mask != nullptr) {
+        is_valid.resize(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows));
+        read_window(file, raster, raster.mask, window, is_valid.data(), gdal);
+    }
+    return is_valid;
+}
+
 /// Raw numbers of one line, NaN without data by the file's word or the options'.
 void read_raw_line(const path& file, const HeightRaster& raster, const GridWindow& line, std::span<double> raw,
     const GdalSession& gdal) {
@@ -127,13 +138,9 @@ void read_raw_line(const path& file, const HeightRaster& raster, const GridWindo
         const std::int64_t from_north = raster.rows - 1 - line.first_row;
         raster.text_voids.apply(from_north * raster.columns + line.first_column, raw);
     }
-    std::vector<std::uint8_t> path_exists;
-    if (raster.mask != nullptr) {
-        path_exists.resize(raw.size());
-        read_window(file, raster, raster.mask, line, path_exists.data(), gdal);
-    }
+    const std::vector<std::uint8_t> is_valid = validity_of(file, raster, line, gdal);
     for (std::size_t x = 0; x < raw.size(); ++x) {
-        if ((!path_exists.empty() && path_exists[x] == 0) || is_void(raw[x], raster)) {
+        if ((!is_valid.empty() && is_valid[x] == 0) || is_void(raw[x], raster)) {
             raw[x] = std::numeric_limits<double>::quiet_NaN();
         }
     }
@@ -169,6 +176,12 @@ float height_from_raw(const path& file, double raw, const HeightRaster& raster, 
     return static_cast<float>(height_m);
 }
 
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return lower;
+}
+
 /// Whether attributes of axes by the CF conventions say degrees east or north.
 bool has_cf_degrees(GDALDatasetH dataset) {
     char** const list = GDALGetMetadata(dataset, nullptr);
@@ -176,8 +189,7 @@ bool has_cf_degrees(GDALDatasetH dataset) {
         const std::string_view entry = list[i];
         const std::size_t value = entry.find("#units=");
         if (value == std::string_view::npos) { continue; }
-        std::string unit(entry.substr(value + 7));
-        std::ranges::transform(unit, unit.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        std::string unit = lower_case(entry.substr(value + 7));
         std::erase(unit, '_');
         std::erase(unit, ' ');
         const bool is_degrees = unit.starts_with("degree");
@@ -243,10 +255,9 @@ SpatialReference assumed_system(const path& file, GDALDatasetH dataset, HeightRa
         return wgs84_system();
     }
     if (signs.is_fine() || is_world) {
-        throw_error_in(
-            file, fmt::format("expected a coordinate system, got none and cells of {:g}, which are degrees or "
-                              "metres: --terrain-system EPSG:4326 or --terrain-system metres says which",
-                      signs.cell.x));
+        throw_error_in(file, fmt::format("expected a coordinate system, got none and cells of {:g}, which are degrees "
+                                         "or metres: --terrain-system EPSG:4326 or --terrain-system metres says which",
+                                 signs.cell.x));
     }
     constexpr double coarsest_deg = 10.0;
     if (std::max(signs.cell.x, signs.cell.y) <= coarsest_deg) {
@@ -275,8 +286,7 @@ void check_degrees(const path& file, GDALDatasetH dataset, const HeightRaster& r
 /// Whether a geographic system of the Earth leaves its datum open.
 bool has_unnamed_datum(SpatialReferenceHandle system) {
     const char* const datum = OSRGetAttrValue(system, "DATUM", 0);
-    std::string name = datum == nullptr ? "" : datum;
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string name = lower_case(datum == nullptr ? "" : datum);
     std::ranges::replace(name, '_', ' ');
     constexpr std::array<std::string_view, 4> open = {"unknown", "not specified", "unnamed", "undefined"};
     const bool is_open = name.empty() || std::ranges::any_of(open, [&](std::string_view word) {
@@ -321,8 +331,8 @@ void take_text(const path& file, const std::string& driver, HeightRaster& raster
     }
     if (found.numbers_left > 0) {
         note(file, raster,
-            fmt::format("{} extra number{} after the last height ignored; a row may be too long, which "
-                        "shifts all rows below it",
+            fmt::format("{} extra number{} after the last height ignored; a row may be too long, which shifts all rows "
+                        "below it",
                 found.numbers_left, found.numbers_left == 1 ? "" : "s"));
     }
 }
@@ -409,18 +419,18 @@ bool is_ellipsoidal(SpatialReferenceHandle system) {
 void note_ellipsoid(const path& file, HeightRaster& raster) {
     if (raster.system && raster.ellipsoid.is_earth() && is_ellipsoidal(raster.system.get())) {
         note(file, raster,
-            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: "
-            "--water-level METRES says where");
+            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: --water-level METRES "
+            "says where");
     }
 }
 
 } // namespace
 
-void check_import_size(const path& file, int columns, int rows) {
-    const auto fits = [](int n) { return n >= 2 && n <= max_import_samples; };
+void check_size(const path& file, double columns, double rows, int max) {
+    const auto fits = [max](double n) { return n >= 2.0 && n <= max; };
     if (!fits(columns) || !fits(rows)) {
-        throw_error_in(file, fmt::format("expected 2 x 2 to {} x {} samples, got {} x {}", max_import_samples,
-                                 max_import_samples, columns, rows));
+        throw_error_in(
+            file, fmt::format("expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}", max, columns, rows));
     }
 }
 
@@ -433,8 +443,7 @@ void check_height(const path& file, double height_m, double raw, bool declares_u
     if (!is_believed(height_m, ellipsoid)) {
         const glm::dvec2 range_m = believed_m(ellipsoid);
         throw_error_in(
-            file, fmt::format("expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as "
-                              "missing",
+            file, fmt::format("expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as missing",
                       range_m.x, range_m.y, height_m,
                       declares_unit ? "" : "--height-scale says how many metres a unit is, ", raw_text(raw)));
     }
@@ -443,23 +452,18 @@ void check_height(const path& file, double height_m, double raw, bool declares_u
 HeightRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
     HeightRaster raster;
     ImportOptions own = options;
-    raster.datasets.push_back(open_raster_file(file, gdal, own.band, raster.notes));
+    std::vector<MapNote> notes;
+    raster.datasets.push_back(open_raster_file(file, gdal, own.band, notes));
     check_whole(file, raster.datasets.back().get());
-    HeightBand band = height_band_of(file, raster.datasets.back().get(), own);
-    if (band.decoded) { raster.datasets.push_back(std::move(band.decoded)); }
-    raster.band = band.band;
-    raster.mask = band.mask;
-    raster.no_data = band.no_data;
+    static_cast<HeightBand&>(raster) = height_band_of(file, raster.datasets.back().get(), own);
+    raster.notes.insert(raster.notes.begin(), notes.begin(), notes.end());
+    if (raster.decoded) { raster.datasets.push_back(std::move(raster.decoded)); }
     raster.user_void_values = options.voids.values;
     if (options.voids.only) {
         raster.no_data.reset();
         raster.undeclared.emplace(); // nothing is searched for
     }
-    raster.scale_m = band.scale_m;
-    raster.offset_m = band.offset_m;
-    raster.declares_unit = band.declares_unit;
-    raster.notes.insert(raster.notes.end(), band.notes.begin(), band.notes.end());
-    if (Dataset grid = grid_by_control_points(file, raster.datasets.back().get(), band.number, gdal)) {
+    if (Dataset grid = grid_by_control_points(file, raster.datasets.back().get(), raster.number, gdal)) {
         raster.datasets.push_back(std::move(grid));
         raster.band = GDALGetRasterBand(raster.datasets.back().get(), 1);
         raster.mask = nullptr;
@@ -523,17 +527,13 @@ void read_integer_metres(const path& file, const HeightRaster& raster, const Gri
     std::span<std::int16_t> heights_m, const GdalSession& gdal) {
     assert(raster.has_integer_metres);
     read_window(file, raster, raster.band, window, heights_m.data(), gdal);
-    std::vector<std::uint8_t> path_exists;
-    if (raster.mask != nullptr) {
-        path_exists.resize(heights_m.size());
-        read_window(file, raster, raster.mask, window, path_exists.data(), gdal);
-    }
+    const std::vector<std::uint8_t> is_valid = validity_of(file, raster, window, gdal);
     constexpr int lowest_sure_m = -998; // all usual marks are below, or above the highest height
     constexpr int highest_sure_m = 9000;
     for (std::size_t i = 0; i < heights_m.size(); ++i) {
         const int metres = heights_m[i];
         const bool is_sure = metres >= lowest_sure_m && metres <= highest_sure_m;
-        const bool is_left_out = (!path_exists.empty() && path_exists[i] == 0) || is_void(metres, raster) ||
+        const bool is_left_out = (!is_valid.empty() && is_valid[i] == 0) || is_void(metres, raster) ||
                                  (!is_sure && std::isnan(height_from_raw(file, metres, raster, gdal)));
         if (is_left_out) { heights_m[i] = void_height_m; }
     }

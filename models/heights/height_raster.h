@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/heights/gdal_session.h"
+#include "models/heights/height_band.h"
 #include "models/heights/height_voids.h"
 #include "models/heights/import_options.h"
 #include "models/heights/local_frame.h"
@@ -17,24 +18,17 @@ namespace octant::models::heights {
 
 /// A file of heights, open to be read piece by piece: its band of heights and how raw numbers become metres. Row 0 is
 /// the south and column 0 the west, where it is upright.
-struct HeightRaster {
+struct HeightRaster : HeightBand {
     std::vector<Dataset> datasets;        ///< the file's, then those derived from it; the last one owns `band`
-    void* band = nullptr;                 ///< GDALRasterBandH
-    void* mask = nullptr;                 ///< GDALRasterBandH that is 0 where there is no data; null: none
-    std::optional<double> no_data;        ///< raw number that the file declares
     std::vector<double> user_void_values; ///< raw numbers of the options
     TextVoids text_voids;                 ///< of a text grid
     /// Found by the first read that meets a doubtful number, from all samples.
     mutable std::optional<UndeclaredVoids> undeclared;
-    double scale_m = 1.0;
-    double offset_m = 0.0;
-    bool declares_unit = false; ///< whether the file names the unit of heights
     int columns = 0;
     int rows = 0;
     bool rows_run_west = false;       ///< its lines run westward
     bool first_row_is_south = false;  ///< its first line is the southernmost
     bool has_integer_metres = false;  ///< its numbers are metres that fit 16 bits
-    std::vector<MapNote> notes;       ///< messages about the file
     std::optional<GridTransform> map; ///< nothing for a file without georeference
     Ellipsoid ellipsoid;              ///< of its system; WGS 84 without one
     SpatialReference system;          ///< null where lengths are metres without a place on the earth
@@ -51,8 +45,8 @@ struct GridWindow {
 /// Marks a sample without data among heights in whole metres.
 inline constexpr std::int16_t void_height_m = std::numeric_limits<std::int16_t>::min();
 
-/// Throws Error unless both are from 2 to max_import_samples.
-void check_import_size(const std::filesystem::path& file, int columns, int rows);
+/// Throws Error unless both are from 2 to `max`.
+void check_size(const std::filesystem::path& file, double columns, double rows, int max = max_import_samples);
 
 /// Throws Error unless the height is within the bounds of import_options.h for this body. The error names the options
 /// that can help: --void with the raw number, and --height-scale unless the file names the unit of its heights.

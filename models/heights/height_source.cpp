@@ -4,12 +4,10 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_field.h"
 #include "models/heights/height_raster.h"
-#include "models/heights/height_voids.h"
 #include "models/heights/map_defects.h"
 #include "models/heights/map_inputs.h"
 #include "models/heights/map_resampling.h"
 #include "sim/base/error.h"
-#include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <cassert>
@@ -17,8 +15,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -27,41 +23,6 @@
 #include <vector>
 
 namespace octant::models::heights {
-
-/// Resamples source grids to a target grid: bilinear, from the first source grid that has data at a position. A source
-/// sample that is higher than its eight neighbours keeps its height at the nearest target sample, which preserves
-/// summits.
-class Resampler {
-public:
-    /// The source grids must be in the target grid's frame. Both must outlive the resampler.
-    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice) : grids_(grids), lattice_(lattice) {}
-
-    /// Rows from `first_row` on, as many as fill the span; NaN without data. Throws Error.
-    void read(int first_row, std::span<float> heights_m, const GdalSession& gdal);
-
-private:
-    /// Columns and rows of the lattice that are read at a time.
-    struct Block {
-        int first_column = 0;
-        int columns = 0;
-        int first_row = 0;
-        int rows = 0;
-    };
-
-    void locate_samples(const SourceGrid& grid, const Block& block);
-    GridWindow window_of(const SourceGrid& grid) const;
-    void sample(const Block& block, const GridWindow& window);
-    float surface_m(const GridWindow& window, double column, double row) const;
-    float summit_m(const GridWindow& window, double column, double row) const;
-
-    const std::vector<SourceGrid>& grids_;
-    const TargetGrid& lattice_;
-    std::vector<double> x_; ///< for each sample of a block its column in the grid; NaN outside
-    std::vector<double> y_;
-    std::vector<float> source_m_;
-    std::vector<float> block_m_;
-    glm::dvec2 half_step_{0.0}; ///< of the lattice, in cells of the grid
-};
 
 namespace {
 
@@ -79,266 +40,189 @@ double mixed(const std::vector<double>& at, std::size_t low, std::size_t high, d
 
 } // namespace
 
-void Resampler::read(int first_row, std::span<float> heights_m, const GdalSession& gdal) {
-    const auto width = static_cast<std::size_t>(lattice_.columns);
-    const int count = static_cast<int>(heights_m.size() / width);
-    std::fill(heights_m.begin(), heights_m.end(), no_height);
-    for (int row = 0; row < count; row += block_edge) {
-        for (int column = 0; column < lattice_.columns; column += block_edge) {
-            const Block block{column, std::min(block_edge, lattice_.columns - column), first_row + row,
-                std::min(block_edge, count - row)};
-            block_m_.assign(static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows), no_height);
-            for (const SourceGrid& grid : grids_) {
-                locate_samples(grid, block);
-                const GridWindow window = window_of(grid);
-                if (window.columns > 0 && window.rows > 0) {
-                    source_m_.resize(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows));
-                    grid.read(window, source_m_, gdal);
-                    sample(block, window);
+/// Resamples source grids to a target grid: bilinear, from the first source grid that has data at a position. A source
+/// sample that is higher than its eight neighbours keeps its height at the nearest target sample, which preserves
+/// summits.
+class Resampler {
+public:
+    /// The source grids must be in the target grid's frame. Both must outlive the resampler.
+    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice) : grids_(grids), lattice_(lattice) {}
+
+    /// Rows from `first_row` on, as many as fill the span; NaN without data. Throws Error.
+    void read(int first_row, std::span<float> heights_m, const GdalSession& gdal) {
+        const auto width = static_cast<std::size_t>(lattice_.columns);
+        const int count = static_cast<int>(heights_m.size() / width);
+        std::fill(heights_m.begin(), heights_m.end(), no_height);
+        for (int row = 0; row < count; row += block_edge) {
+            for (int column = 0; column < lattice_.columns; column += block_edge) {
+                const Block block{column, std::min(block_edge, lattice_.columns - column), first_row + row,
+                    std::min(block_edge, count - row)};
+                block_m_.assign(
+                    static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows), no_height);
+                for (const SourceGrid& grid : grids_) {
+                    locate_samples(grid, block);
+                    const GridWindow window = window_of(grid);
+                    if (window.columns > 0 && window.rows > 0) {
+                        source_m_.resize(
+                            static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows));
+                        grid.read(window, source_m_, gdal);
+                        sample(block, window);
+                    }
+                }
+                for (int r = 0; r < block.rows; ++r) {
+                    std::copy_n(block_m_.begin() + std::ptrdiff_t{r} * block.columns, block.columns,
+                        heights_m.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row + r) * width +
+                                                                        static_cast<std::size_t>(column)));
                 }
             }
-            for (int r = 0; r < block.rows; ++r) {
-                std::copy_n(block_m_.begin() + std::ptrdiff_t{r} * block.columns, block.columns,
-                    heights_m.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row + r) * width +
-                                                                    static_cast<std::size_t>(column)));
-            }
         }
-    }
-}
-
-/// The positions of a block's samples in a grid: exact every place_step samples, linear between.
-void Resampler::locate_samples(const SourceGrid& grid, const Block& block) {
-    const int across = (block.columns - 1) / place_step + 2;
-    const int up = (block.rows - 1) / place_step + 2;
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int j = 0; j < up; ++j) {
-        for (int i = 0; i < across; ++i) {
-            x.push_back(lattice_.west + (block.first_column + i * place_step) * lattice_.step);
-            y.push_back(lattice_.south + (block.first_row + j * place_step) * lattice_.step);
-        }
-    }
-    grid.grid_from_frame(x, y);
-    half_step_ = 0.5 *
-                 glm::dvec2(std::hypot(x[1] - x[0], y[1] - y[0]), std::hypot(x[static_cast<std::size_t>(across)] - x[0],
-                                                                      y[static_cast<std::size_t>(across)] - y[0])) /
-                 static_cast<double>(place_step);
-    x_.clear();
-    y_.clear();
-    const double last_column = grid.columns() - 1.0;
-    const double last_row = grid.rows() - 1.0;
-    for (int r = 0; r < block.rows; ++r) {
-        const double v = static_cast<double>(r % place_step) / place_step;
-        for (int c = 0; c < block.columns; ++c) {
-            const auto low = static_cast<std::size_t>(r / place_step * across + c / place_step);
-            const std::size_t high = low + static_cast<std::size_t>(across);
-            const double u = static_cast<double>(c % place_step) / place_step;
-            const double column = mixed(x, low, high, u, v);
-            const double row = mixed(y, low, high, u, v);
-            const bool inside = column >= -rim && column <= last_column + rim && row >= -rim && row <= last_row + rim;
-            x_.push_back(inside ? std::clamp(column, 0.0, last_column) : std::nan(""));
-            y_.push_back(inside ? std::clamp(row, 0.0, last_row) : std::nan(""));
-        }
-    }
-}
-
-/// The part of a grid that a block's positions need; empty if all are outside.
-GridWindow Resampler::window_of(const SourceGrid& grid) const {
-    double west = std::numeric_limits<double>::infinity();
-    double east = -west;
-    double south = west;
-    double north = -west;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        if (!std::isnan(x_[i])) {
-            west = std::min(west, x_[i]);
-            east = std::max(east, x_[i]);
-            south = std::min(south, y_[i]);
-            north = std::max(north, y_[i]);
-        }
-    }
-    if (west > east) { return {}; }
-    constexpr int beside = 2; // for the neighbours of summits
-    const int first_column = std::max(0, static_cast<int>(west) - beside);
-    const int first_row = std::max(0, static_cast<int>(south) - beside);
-    return {first_column, std::min(grid.columns(), static_cast<int>(east) + beside + 2) - first_column, first_row,
-        std::min(grid.rows(), static_cast<int>(north) + beside + 2) - first_row};
-}
-
-void Resampler::sample(const Block& block, const GridWindow& window) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows); ++i) {
-        if (std::isnan(block_m_[i]) && !std::isnan(x_[i])) {
-            const double column = x_[i] - window.first_column;
-            const double row = y_[i] - window.first_row;
-            const float surface = surface_m(window, column, row);
-            const float summit = summit_m(window, column, row);
-            block_m_[i] = summit > surface ? summit : surface;
-        }
-    }
-}
-
-/// The bilinear height of the known samples if they have at least half of the weight, else NaN.
-float Resampler::surface_m(const GridWindow& window, double column, double row) const {
-    const int c = std::min(static_cast<int>(column), std::max(window.columns - 2, 0));
-    const int r = std::min(static_cast<int>(row), std::max(window.rows - 2, 0));
-    const double u = column - c;
-    const double v = row - r;
-    double sum = 0.0;
-    double known = 0.0;
-    for (int j = 0; j < 2; ++j) {
-        for (int i = 0; i < 2; ++i) {
-            const double weight = (i == 0 ? 1.0 - u : u) * (j == 0 ? 1.0 - v : v);
-            if (weight > 1e-6) {
-                const auto height_m = static_cast<double>(
-                    source_m_[static_cast<std::size_t>(r + j) * static_cast<std::size_t>(window.columns) +
-                              static_cast<std::size_t>(c + i)]);
-                sum += std::isnan(height_m) ? 0.0 : weight * height_m;
-                known += std::isnan(height_m) ? 0.0 : weight;
-            }
-        }
-    }
-    return known >= 0.5 ? static_cast<float>(sum / known) : no_height;
-}
-
-/// The height of the source sample to which this place is the nearest of the lattice, if that one is higher than all
-/// around it; else the lowest number.
-float Resampler::summit_m(const GridWindow& window, double column, double row) const {
-    constexpr float none = std::numeric_limits<float>::lowest();
-    const int c = static_cast<int>(std::lround(column));
-    const int r = static_cast<int>(std::lround(row));
-    if (c < 1 || r < 1 || c + 1 >= window.columns || r + 1 >= window.rows || std::abs(column - c) > half_step_.x ||
-        std::abs(row - r) > half_step_.y) {
-        return none;
-    }
-    const auto at = [&](int x, int y) {
-        return source_m_[static_cast<std::size_t>(y) * static_cast<std::size_t>(window.columns) +
-                         static_cast<std::size_t>(x)];
-    };
-    const float own = at(c, r);
-    for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) {
-            if ((i != 0 || j != 0) && !(at(c + i, r + j) < own)) { return none; }
-        }
-    }
-    return own;
-}
-
-namespace {
-
-// Source: Netpbm, pgm(5), "Plain PGM": P2, width, height, largest value, then values from the top left, separated by
-// white space; '#' starts a comment that runs to the end of its line. Deviations: none.
-
-/// Grey values of a plain PGM. Throws Error "path:line: expected ..., got ..."; `check_size` is called with width and
-/// height before any value is read and may throw too.
-HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size);
-
-/// Reads the words of a text with their line numbers.
-class Words {
-public:
-    explicit Words(std::string_view text) : text_(text) {}
-
-    int line() const { return line_; }
-
-    /// The next word; empty at the end of the text.
-    std::string_view next() {
-        while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == '#')) {
-            if (text_[at_] == '#') {
-                at_ = std::min(text_.find('\n', at_), text_.size());
-            } else {
-                line_ += text_[at_] == '\n' ? 1 : 0;
-                ++at_;
-            }
-        }
-        const std::size_t start = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '#') { ++at_; }
-        return text_.substr(start, at_ - start);
     }
 
 private:
-    static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+    /// Columns and rows of the lattice that are read at a time.
+    struct Block {
+        int first_column = 0;
+        int columns = 0;
+        int first_row = 0;
+        int rows = 0;
+    };
 
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int line_ = 1;
+    /// The positions of a block's samples in a grid: exact every place_step samples, linear between.
+    void locate_samples(const SourceGrid& grid, const Block& block) {
+        const int across = (block.columns - 1) / place_step + 2;
+        const int up = (block.rows - 1) / place_step + 2;
+        std::vector<double> x;
+        std::vector<double> y;
+        for (int j = 0; j < up; ++j) {
+            for (int i = 0; i < across; ++i) {
+                x.push_back(lattice_.west + (block.first_column + i * place_step) * lattice_.step);
+                y.push_back(lattice_.south + (block.first_row + j * place_step) * lattice_.step);
+            }
+        }
+        grid.grid_from_frame(x, y);
+        half_step_ =
+            0.5 *
+            glm::dvec2(std::hypot(x[1] - x[0], y[1] - y[0]),
+                std::hypot(x[static_cast<std::size_t>(across)] - x[0], y[static_cast<std::size_t>(across)] - y[0])) /
+            static_cast<double>(place_step);
+        x_.clear();
+        y_.clear();
+        const double last_column = grid.columns() - 1.0;
+        const double last_row = grid.rows() - 1.0;
+        for (int r = 0; r < block.rows; ++r) {
+            const double v = static_cast<double>(r % place_step) / place_step;
+            for (int c = 0; c < block.columns; ++c) {
+                const auto low = static_cast<std::size_t>(r / place_step * across + c / place_step);
+                const std::size_t high = low + static_cast<std::size_t>(across);
+                const double u = static_cast<double>(c % place_step) / place_step;
+                const double column = mixed(x, low, high, u, v);
+                const double row = mixed(y, low, high, u, v);
+                const bool inside =
+                    column >= -rim && column <= last_column + rim && row >= -rim && row <= last_row + rim;
+                x_.push_back(inside ? std::clamp(column, 0.0, last_column) : std::nan(""));
+                y_.push_back(inside ? std::clamp(row, 0.0, last_row) : std::nan(""));
+            }
+        }
+    }
+
+    /// The part of a grid that a block's positions need; empty if all are outside.
+    GridWindow window_of(const SourceGrid& grid) const {
+        double west = std::numeric_limits<double>::infinity();
+        double east = -west;
+        double south = west;
+        double north = -west;
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+            if (!std::isnan(x_[i])) {
+                west = std::min(west, x_[i]);
+                east = std::max(east, x_[i]);
+                south = std::min(south, y_[i]);
+                north = std::max(north, y_[i]);
+            }
+        }
+        if (west > east) { return {}; }
+        constexpr int beside = 2; // for the neighbours of summits
+        const int first_column = std::max(0, static_cast<int>(west) - beside);
+        const int first_row = std::max(0, static_cast<int>(south) - beside);
+        return {first_column, std::min(grid.columns(), static_cast<int>(east) + beside + 2) - first_column, first_row,
+            std::min(grid.rows(), static_cast<int>(north) + beside + 2) - first_row};
+    }
+
+    void sample(const Block& block, const GridWindow& window) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows);
+             ++i) {
+            if (std::isnan(block_m_[i]) && !std::isnan(x_[i])) {
+                const double column = x_[i] - window.first_column;
+                const double row = y_[i] - window.first_row;
+                const float surface = surface_m(window, column, row);
+                const float summit = summit_m(window, column, row);
+                block_m_[i] = summit > surface ? summit : surface;
+            }
+        }
+    }
+
+    /// The bilinear height of the known samples if they have at least half of the weight, else NaN.
+    float surface_m(const GridWindow& window, double column, double row) const {
+        const int c = std::min(static_cast<int>(column), std::max(window.columns - 2, 0));
+        const int r = std::min(static_cast<int>(row), std::max(window.rows - 2, 0));
+        const double u = column - c;
+        const double v = row - r;
+        double sum = 0.0;
+        double known = 0.0;
+        for (int j = 0; j < 2; ++j) {
+            for (int i = 0; i < 2; ++i) {
+                const double weight = (i == 0 ? 1.0 - u : u) * (j == 0 ? 1.0 - v : v);
+                if (weight > 1e-6) {
+                    const auto height_m = static_cast<double>(
+                        source_m_[static_cast<std::size_t>(r + j) * static_cast<std::size_t>(window.columns) +
+                                  static_cast<std::size_t>(c + i)]);
+                    sum += std::isnan(height_m) ? 0.0 : weight * height_m;
+                    known += std::isnan(height_m) ? 0.0 : weight;
+                }
+            }
+        }
+        return known >= 0.5 ? static_cast<float>(sum / known) : no_height;
+    }
+
+    /// The height of the source sample to which this place is the nearest of the lattice, if that one is higher than
+    /// all around it; else the lowest number.
+    float summit_m(const GridWindow& window, double column, double row) const {
+        constexpr float none = std::numeric_limits<float>::lowest();
+        const int c = static_cast<int>(std::lround(column));
+        const int r = static_cast<int>(std::lround(row));
+        if (c < 1 || r < 1 || c + 1 >= window.columns || r + 1 >= window.rows || std::abs(column - c) > half_step_.x ||
+            std::abs(row - r) > half_step_.y) {
+            return none;
+        }
+        const auto at = [&](int x, int y) {
+            return source_m_[static_cast<std::size_t>(y) * static_cast<std::size_t>(window.columns) +
+                             static_cast<std::size_t>(x)];
+        };
+        const float own = at(c, r);
+        for (int j = -1; j <= 1; ++j) {
+            for (int i = -1; i <= 1; ++i) {
+                if ((i != 0 || j != 0) && !(at(c + i, r + j) < own)) { return none; }
+            }
+        }
+        return own;
+    }
+
+    const std::vector<SourceGrid>& grids_;
+    const TargetGrid& lattice_;
+    std::vector<double> x_; ///< for each sample of a block its column in the grid; NaN outside
+    std::vector<double> y_;
+    std::vector<float> source_m_;
+    std::vector<float> block_m_;
+    glm::dvec2 half_step_{0.0}; ///< of the lattice, in cells of the grid
 };
 
-long number_between(const std::filesystem::path& path, Words& words, long lowest, long highest, const char* what) {
-    const std::string_view word = words.next();
-    if (word.empty()) { throw_error_at(path, words.line(), fmt::format("expected {}, got the end of the file", what)); }
-    const auto number = whole_number(word);
-    if (!number || *number < lowest || *number > highest) {
-        const std::string got = printable(std::string(word));
-        throw_error_at(
-            path, words.line(), fmt::format("expected {} from {} to {}, got '{}'", what, lowest, highest, got));
-    }
-    return *number;
-}
-
-/// Whether a file begins like a plain (text) PGM, which GDAL cannot read.
-bool is_plain_pgm(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    char first = 0;
-    char second = 0;
-    char third = 0;
-    in.get(first).get(second).get(third);
-    return in && first == 'P' && second == '2' && (third == '#' || third == ' ' || (third >= '\t' && third <= '\r'));
-}
-
-HeightGrid read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, int)>& check_size) {
-    constexpr std::size_t largest_bytes = std::size_t{4} << 30;
-    constexpr long largest_side = 1'000'000'000;
-    const std::string text = read_text_file(path, largest_bytes);
-    Words words(text);
-    words.next();
-    HeightGrid grid;
-    grid.columns = static_cast<int>(number_between(path, words, 1, largest_side, "a width"));
-    grid.rows = static_cast<int>(number_between(path, words, 1, largest_side, "a height"));
-    check_size(grid.columns, grid.rows);
-    const long largest = number_between(path, words, 1, 65535, "a largest value");
-    const std::size_t columns = static_cast<std::size_t>(grid.columns);
-    const std::size_t count = columns * static_cast<std::size_t>(grid.rows);
-    if (count > text.size()) {
-        throw_error_in(path, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
-    }
-    grid.heights_m.resize(count);
-    for (int row = grid.rows - 1; row >= 0; --row) {
-        for (int column = 0; column < grid.columns; ++column) {
-            grid.heights_m[grid.index(column, row)] =
-                static_cast<float>(number_between(path, words, 0, largest, "a grey value"));
-        }
-    }
-    return grid;
-}
+namespace {
 
 using std::filesystem::path;
-
-/// The heights of a plain PGM, metres; adds a note about undeclared voids.
-HeightGrid plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
-    HeightGrid grid = read_plain_pgm(file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
-    const double unit_m = options.height_scale.value_or(1.0);
-    const std::vector<double>& given = options.voids.values;
-    const auto is_given = [&given](
-                              float raw) { return std::ranges::find(given, static_cast<double>(raw)) != given.end(); };
-    VoidDetector survey(lowest_import_m, highest_import_m, 65536.0);
-    for (const float raw : grid.heights_m) {
-        if (!is_given(raw)) { survey.add(static_cast<double>(raw), static_cast<double>(raw) * unit_m); }
-    }
-    const UndeclaredVoids voids = options.voids.only ? UndeclaredVoids() : survey.result();
-    for (float& height : grid.heights_m) {
-        const double raw = static_cast<double>(height);
-        if (is_given(height) || voids.has(raw)) {
-            height = std::numeric_limits<float>::quiet_NaN();
-        } else {
-            check_height(file, raw * unit_m, raw, false);
-            height = static_cast<float>(raw * unit_m);
-        }
-    }
-    if (!voids.note.empty()) { notes.push_back({fmt::format("{}: {}", file.filename().string(), voids.note)}); }
-    return grid;
-}
 
 std::vector<SourceGrid> open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
     std::vector<SourceGrid> grids;
     for (const path& file : files) {
+        check_local_file(file);
         SourcePiece piece{file, open_height_raster(file, options, gdal)};
         if (files.size() > 1 && !piece.raster.map) {
             throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
@@ -359,11 +243,8 @@ struct StoredSample {
 
 struct HeightSource::Content {
     std::vector<path> files;
-    std::unique_ptr<GdalSession> gdal;
+    GdalSession gdal;
     std::vector<SourceGrid> grids;
-    std::optional<HeightGrid> whole; ///< a plain PGM
-    double whole_unit_m = 1.0;
-    std::vector<MapNote> whole_notes;
     TargetGrid lattice;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
@@ -371,253 +252,216 @@ struct HeightSource::Content {
     std::optional<CoordinateSystem> system;
     std::optional<SpikeFinder> spikes;
 
-    void open(const ImportOptions& options);
-    void take_picture(int columns, int rows, double spacing);
-    void find_place();
-    void read(int first_row, std::span<float> heights_m);
-    std::string name() const;
+    void open(const ImportOptions& options) {
+        grids = open_grids(files, options, gdal);
+        if (!grids.front().map()) {
+            take_picture(grids.front().columns(), grids.front().rows(), options.spacing_m);
+            return;
+        }
+        lattice = target_grid_for(files.front(), grids);
+        spacing_m = lattice.step * lattice.unit_m;
+        if (!lattice.is_source) { resampler.emplace(grids, lattice); }
+        find_place();
+        gdal.forget(); // a system without a place on the earth is no fault
+    }
 
-    bool has_map() const { return !grids.empty() && grids.front().map(); }
+    /// A ground without georeference.
+    void take_picture(int columns, int rows, double spacing) {
+        check_size(files.front(), columns, rows, SourceGrid::largest_samples);
+        lattice.columns = columns;
+        lattice.rows = rows;
+        lattice.is_source = true;
+        lattice.cell_m = {spacing, spacing};
+        spacing_m = spacing;
+    }
 
-    glm::dvec2 metres_of(const glm::dvec2& column_row) const;
-    std::string words_of(const glm::dvec2& at_m) const;
+    void find_place() {
+        if (!lattice.frame) { return; }
+        system = lattice.system();
+        const SpatialReference globe = geographic_coordinate_system(ellipsoid_of(system->wkt));
+        const Transformation to_globe = between(lattice.frame.get(), globe.get());
+        const auto middle = to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
+        if (middle && std::abs(middle->y) <= 90.0) {
+            place = GeoPosition{middle->y, middle->x, ellipsoid_of(system->wkt)};
+        }
+    }
 
-    double whole_raw(float height_m) const { return std::round(height_m / whole_unit_m); }
+    void read(int first_row, std::span<float> heights_m) {
+        const auto width = static_cast<std::size_t>(lattice.columns);
+        if (resampler) {
+            resampler->read(first_row, heights_m, gdal);
+        } else {
+            const int count = static_cast<int>(heights_m.size() / width);
+            grids.front().read({0, lattice.columns, first_row, count}, heights_m, gdal);
+        }
+    }
 
-    std::vector<StoredSample> samples_near(const glm::ivec2& column_row, int radius) const;
-    std::vector<StoredSample> samples_of(const Spike& spike) const;
-    std::int64_t count_of(std::span<const double> numbers) const;
-    std::string cure_of(std::span<const StoredSample> samples) const;
+    std::string name() const {
+        const std::string first = files.front().filename().string();
+        const std::size_t more = files.size() - 1;
+        return more == 0 ? first : fmt::format("{} and {} more", first, more);
+    }
+
+    bool has_map() const { return grids.front().map().has_value(); }
+
+    /// East and north of the centre.
+    glm::dvec2 metres_of(const glm::dvec2& column_row) const {
+        return (column_row - 0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1)) * spacing_m;
+    }
+
+    /// A position as text for messages: latitude and longitude if they are known.
+    std::string words_of(const glm::dvec2& at_m) const {
+        std::string geo;
+        if (place) {
+            const SpatialReference globe = geographic_coordinate_system(place->ellipsoid);
+            const glm::dvec2 centre(system->centre_x, system->centre_y);
+            const auto there = moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
+            geo = there ? fmt::format("{:.5f}, {:.5f}, ", there->y, there->x) : "";
+        }
+        return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
+    }
+
+    /// Samples of the files at most `radius` columns and rows away from a target sample.
+    std::vector<StoredSample> samples_near(const glm::ivec2& column_row, int radius) const {
+        std::vector<StoredSample> samples;
+        for (const SourceGrid& grid : grids) {
+            glm::dvec2 at(column_row);
+            if (!lattice.is_source) {
+                at = glm::dvec2(lattice.west, lattice.south) + at * lattice.step;
+                grid.grid_from_frame({&at.x, 1}, {&at.y, 1});
+            }
+            const glm::ivec2 centre(glm::round(at));
+            for (const SourcePiece& piece : grid.pieces()) {
+                const glm::ivec2 corner(piece.column, piece.row);
+                const glm::ivec2 size(piece.raster.columns, piece.raster.rows);
+                const glm::ivec2 first = glm::max(centre - radius - corner, 0);
+                const glm::ivec2 count = glm::min(centre + radius + 1 - corner, size) - first;
+                if (count.x <= 0 || count.y <= 0) { continue; }
+                const GridWindow window{first.x, count.x, first.y, count.y};
+                const auto n = static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
+                std::vector<double> raw(n);
+                std::vector<float> heights_m(n);
+                read_raw(piece.file, piece.raster, window, raw, gdal);
+                read_heights(piece.file, piece.raster, window, heights_m, gdal);
+                for (std::size_t i = 0; i < n; ++i) { samples.push_back({raw[i], heights_m[i]}); }
+            }
+        }
+        std::erase_if(samples, [](const StoredSample& each) { return std::isnan(each.height_m); });
+        return samples;
+    }
+
+    /// The samples of the files that form a spike, the one with the largest difference to its surroundings first.
+    std::vector<StoredSample> samples_of(const Spike& spike) const {
+        // A sample of the ground lies up to one sample of the file away from the file's own.
+        const int radius = spike.radius + (lattice.is_source ? 0 : 1);
+        std::vector<StoredSample> samples = samples_near({spike.column, spike.row}, radius);
+        const bool is_pit = spike.above_m < 0.0F;
+        std::ranges::stable_sort(samples, [is_pit](const StoredSample& a, const StoredSample& b) {
+            return is_pit ? a.height_m < b.height_m : a.height_m > b.height_m;
+        });
+        // What lies around is all of above_m away from the first.
+        const float limit_m = samples.empty() ? 0.0F : samples.front().height_m - 0.5F * spike.above_m;
+        std::erase_if(samples, [is_pit, limit_m](const StoredSample& each) {
+            return is_pit ? each.height_m > limit_m : each.height_m < limit_m;
+        });
+        return samples;
+    }
+
+    /// The number of samples of the files with one of these numbers. Reads all samples.
+    std::int64_t count_of(std::span<const double> numbers) const {
+        const auto is_one = [numbers](double raw) {
+            return std::ranges::any_of(numbers, [raw](double number) { return is_same_raw(raw, number); });
+        };
+        std::int64_t samples = 0;
+        for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
+            std::vector<double> raw(static_cast<std::size_t>(row.columns));
+            read_raw(piece.file, piece.raster, row, raw, gdal);
+            samples += std::ranges::count_if(raw, is_one);
+        });
+        return samples;
+    }
+
+    /// The option that declares the samples of a spike as missing, and the number of samples that it affects in all.
+    std::string cure_of(std::span<const StoredSample> samples) const {
+        constexpr std::size_t max_numbers = 16;
+        std::vector<double> numbers;
+        std::vector<std::string> texts;
+        for (const StoredSample& sample : samples) {
+            if (std::ranges::find(numbers, sample.raw) == numbers.end()) {
+                numbers.push_back(sample.raw);
+                texts.push_back(raw_text(sample.raw));
+            }
+        }
+        if (numbers.size() > max_numbers) {
+            return fmt::format("its {} different numbers are too many for --void", numbers.size());
+        }
+        const std::int64_t count = count_of(numbers);
+        return fmt::format("--void {} treats every sample of {} as missing ({} in all)", fmt::join(texts, ","),
+            numbers.size() == 1 ? "that value" : "these values", count);
+    }
+
+    /// Calls act(piece, window) for each row of each file.
     template <typename Do>
-    void for_each_row(const Do& act) const;
-    void add_spikes(std::vector<MapNote>& notes) const;
-    void add_seams(std::vector<MapNote>& notes) const;
-};
-
-void HeightSource::Content::open(const ImportOptions& options) {
-    for (const path& file : files) {
-        check_local_file(file);
-        if (!is_plain_pgm(file)) { continue; }
-        if (files.size() > 1) {
-            throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
-        }
-        whole = plain_heights(file, options, whole_notes);
-        whole_unit_m = options.height_scale.value_or(1.0);
-        take_picture(whole->columns, whole->rows, options.spacing_m);
-        return;
-    }
-    gdal = std::make_unique<GdalSession>();
-    grids = open_grids(files, options, *gdal);
-    if (!grids.front().map()) {
-        take_picture(grids.front().columns(), grids.front().rows(), options.spacing_m);
-        return;
-    }
-    lattice = target_grid_for(files.front(), grids);
-    spacing_m = lattice.step * lattice.unit_m;
-    if (!lattice.is_source) { resampler.emplace(grids, lattice); }
-    find_place();
-    gdal->forget(); // a system without a place on the earth is no fault
-}
-
-/// A ground without georeference.
-void HeightSource::Content::take_picture(int columns, int rows, double spacing) {
-    const auto fits = [](int n) { return n >= 2 && n <= largest_samples; };
-    if (!fits(columns) || !fits(rows)) {
-        throw_error_in(files.front(), fmt::format("expected 2 x 2 to {0} x {0} samples, got {1} x {2}",
-                                          static_cast<int>(largest_samples), columns, rows));
-    }
-    lattice.columns = columns;
-    lattice.rows = rows;
-    lattice.is_source = true;
-    lattice.cell_m = {spacing, spacing};
-    spacing_m = spacing;
-}
-
-void HeightSource::Content::find_place() {
-    if (!lattice.frame) { return; }
-    system = lattice.system();
-    const SpatialReference globe = geographic_coordinate_system(ellipsoid_of(system->wkt));
-    const Transformation to_globe = between(lattice.frame.get(), globe.get());
-    const auto middle = to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
-    if (middle && std::abs(middle->y) <= 90.0) { place = GeoPosition{middle->y, middle->x, ellipsoid_of(system->wkt)}; }
-}
-
-std::string HeightSource::Content::name() const {
-    const std::string first = files.front().filename().string();
-    const std::size_t more = files.size() - 1;
-    return more == 0 ? first : fmt::format("{} and {} more", first, more);
-}
-
-/// East and north of the centre.
-glm::dvec2 HeightSource::Content::metres_of(const glm::dvec2& column_row) const {
-    return (column_row - 0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1)) * spacing_m;
-}
-
-/// A position as text for messages: latitude and longitude if they are known.
-std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
-    std::string geo;
-    if (place) {
-        const SpatialReference globe = geographic_coordinate_system(place->ellipsoid);
-        const glm::dvec2 centre(system->centre_x, system->centre_y);
-        const auto there = moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
-        geo = there ? fmt::format("{:.5f}, {:.5f}, ", there->y, there->x) : "";
-    }
-    return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
-}
-
-/// Calls act(piece, window) for each row of each file.
-template <typename Do>
-void HeightSource::Content::for_each_row(const Do& act) const {
-    for (const SourceGrid& grid : grids) {
-        for (const SourcePiece& piece : grid.pieces()) {
-            for (int y = 0; y < piece.raster.rows; ++y) { act(piece, GridWindow{0, piece.raster.columns, y, 1}); }
-        }
-    }
-}
-
-/// Samples of the files at most `radius` columns and rows away from a target sample.
-std::vector<StoredSample> HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) const {
-    std::vector<StoredSample> samples;
-    if (whole) {
-        const glm::ivec2 first = glm::max(column_row - radius, 0);
-        const glm::ivec2 last = glm::min(column_row + radius, glm::ivec2(whole->columns, whole->rows) - 1);
-        for (int row = first.y; row <= last.y; ++row) {
-            for (int column = first.x; column <= last.x; ++column) {
-                const float height_m = whole->at(column, row);
-                samples.push_back({whole_raw(height_m), height_m});
+    void for_each_row(const Do& act) const {
+        for (const SourceGrid& grid : grids) {
+            for (const SourcePiece& piece : grid.pieces()) {
+                for (int y = 0; y < piece.raster.rows; ++y) { act(piece, GridWindow{0, piece.raster.columns, y, 1}); }
             }
         }
     }
-    for (const SourceGrid& grid : grids) {
-        glm::dvec2 at(column_row);
-        if (!lattice.is_source) {
-            at = glm::dvec2(lattice.west, lattice.south) + at * lattice.step;
-            grid.grid_from_frame({&at.x, 1}, {&at.y, 1});
+
+    void add_spikes(std::vector<MapNote>& notes) const {
+        constexpr std::size_t max_told = 3;
+        constexpr std::size_t min_steep = 30; // so many are rather a wrong width of cells
+        std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
+        std::ranges::stable_sort(
+            found, [](const Spike& a, const Spike& b) { return std::abs(a.above_m) > std::abs(b.above_m); });
+        if (found.size() >= min_steep && !lattice.frame) {
+            MapNote note{fmt::format("{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
+                name(), spikes->count(), spacing_m, has_map() ? "" : ": --terrain-spacing says how wide they are")};
+            for (const Spike& spike : found) { note.places_m.push_back(metres_of({spike.column, spike.row})); }
+            notes.push_back(std::move(note));
+            return;
         }
-        const glm::ivec2 centre(glm::round(at));
-        for (const SourcePiece& piece : grid.pieces()) {
-            const glm::ivec2 corner(piece.column, piece.row);
-            const glm::ivec2 size(piece.raster.columns, piece.raster.rows);
-            const glm::ivec2 first = glm::max(centre - radius - corner, 0);
-            const glm::ivec2 count = glm::min(centre + radius + 1 - corner, size) - first;
-            if (count.x <= 0 || count.y <= 0) { continue; }
-            const GridWindow window{first.x, count.x, first.y, count.y};
-            const auto n = static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
-            std::vector<double> raw(n);
-            std::vector<float> heights_m(n);
-            read_raw(piece.file, piece.raster, window, raw, *gdal);
-            read_heights(piece.file, piece.raster, window, heights_m, *gdal);
-            for (std::size_t i = 0; i < n; ++i) { samples.push_back({raw[i], heights_m[i]}); }
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const Spike& spike = found[i];
+            const glm::dvec2 at_m = metres_of({spike.column, spike.row});
+            if (i >= max_told) {
+                notes.back().places_m.push_back(at_m);
+                continue;
+            }
+            const std::vector<StoredSample> samples = samples_of(spike);
+            notes.push_back(
+                {fmt::format("{}: {} {:.6g} m, {:.0f} m {} all {} neighbours, at {}; {}", name(),
+                     samples.size() == 1 ? "one sample is" : fmt::format("{} samples are up to", samples.size()),
+                     samples.empty() ? spike.height_m : samples.front().height_m, std::abs(spike.above_m),
+                     spike.above_m > 0.0F ? "above" : "below", samples.size() == 1 ? "its" : "their", words_of(at_m),
+                     cure_of(samples)),
+                    {at_m}});
         }
-    }
-    std::erase_if(samples, [](const StoredSample& each) { return std::isnan(each.height_m); });
-    return samples;
-}
-
-/// The samples of the files that form a spike, the one with the largest difference to its surroundings first.
-std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) const {
-    // A sample of the ground lies up to one sample of the file away from the file's own.
-    const int radius = spike.radius + (lattice.is_source ? 0 : 1);
-    std::vector<StoredSample> samples = samples_near({spike.column, spike.row}, radius);
-    const bool is_pit = spike.above_m < 0.0F;
-    std::ranges::stable_sort(samples, [is_pit](const StoredSample& a, const StoredSample& b) {
-        return is_pit ? a.height_m < b.height_m : a.height_m > b.height_m;
-    });
-    // What lies around is all of above_m away from the first.
-    const float limit_m = samples.empty() ? 0.0F : samples.front().height_m - 0.5F * spike.above_m;
-    std::erase_if(samples, [is_pit, limit_m](const StoredSample& each) {
-        return is_pit ? each.height_m > limit_m : each.height_m < limit_m;
-    });
-    return samples;
-}
-
-/// The number of samples of the files with one of these numbers. Reads all samples.
-std::int64_t HeightSource::Content::count_of(std::span<const double> numbers) const {
-    const auto is_one = [numbers](double raw) {
-        return std::ranges::any_of(numbers, [raw](double number) { return is_same_raw(raw, number); });
-    };
-    std::int64_t samples = 0;
-    if (whole) {
-        return std::ranges::count_if(whole->heights_m, [&](float height_m) { return is_one(whole_raw(height_m)); });
-    }
-    for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
-        std::vector<double> raw(static_cast<std::size_t>(row.columns));
-        read_raw(piece.file, piece.raster, row, raw, *gdal);
-        samples += std::ranges::count_if(raw, is_one);
-    });
-    return samples;
-}
-
-/// The option that declares the samples of a spike as missing, and the number of samples that it affects in all.
-std::string HeightSource::Content::cure_of(std::span<const StoredSample> samples) const {
-    constexpr std::size_t max_numbers = 16;
-    std::vector<double> numbers;
-    std::vector<std::string> texts;
-    for (const StoredSample& sample : samples) {
-        if (std::ranges::find(numbers, sample.raw) == numbers.end()) {
-            numbers.push_back(sample.raw);
-            texts.push_back(raw_text(sample.raw));
+        if (found.size() > max_told) {
+            notes.back().text = fmt::format("{}; {} more such places are marked in --picture", notes.back().text,
+                spikes->count() - static_cast<std::int64_t>(max_told));
         }
     }
-    if (numbers.size() > max_numbers) {
-        return fmt::format("its {} different numbers are too many for --void", numbers.size());
-    }
-    const std::int64_t count = count_of(numbers);
-    return fmt::format("--void {} treats every sample of {} as missing ({} in all)", fmt::join(texts, ","),
-        numbers.size() == 1 ? "that value" : "these values", count);
-}
 
-void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
-    constexpr std::size_t max_told = 3;
-    constexpr std::size_t min_steep = 30; // so many are rather a wrong width of cells
-    std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
-    std::ranges::stable_sort(
-        found, [](const Spike& a, const Spike& b) { return std::abs(a.above_m) > std::abs(b.above_m); });
-    if (found.size() >= min_steep && !lattice.frame) {
-        MapNote note{fmt::format("{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
-            name(), spikes->count(), spacing_m, has_map() ? "" : ": --terrain-spacing says how wide they are")};
-        for (const Spike& spike : found) { note.places_m.push_back(metres_of({spike.column, spike.row})); }
-        notes.push_back(std::move(note));
-        return;
-    }
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const Spike& spike = found[i];
-        const glm::dvec2 at_m = metres_of({spike.column, spike.row});
-        if (i >= max_told) {
-            notes.back().places_m.push_back(at_m);
-            continue;
+    void add_seams(std::vector<MapNote>& notes) const {
+        const double cell_m = std::min(lattice.cell_m.x, lattice.cell_m.y);
+        for (const SeamStep& seam : steps_at_seams(grids, cell_m, gdal)) {
+            MapNote note;
+            for (glm::dvec2 at : seam.column_row) {
+                seam.grid->frame_from_grid({&at.x, 1}, {&at.y, 1});
+                note.places_m.push_back(metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
+            }
+            note.text = fmt::format("{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
+                                    "slope "
+                                    "on both sides, at {}. To avoid the step, load only one of the two files",
+                seam.a->file.filename().string(), seam.b->file.filename().string(), std::abs(seam.rise_m),
+                std::abs(seam.step_m), words_of(note.places_m[note.places_m.size() / 2]));
+            notes.push_back(std::move(note));
         }
-        const std::vector<StoredSample> samples = samples_of(spike);
-        notes.push_back(
-            {fmt::format("{}: {} {:.6g} m, {:.0f} m {} all {} neighbours, at {}; {}", name(),
-                 samples.size() == 1 ? "one sample is" : fmt::format("{} samples are up to", samples.size()),
-                 samples.empty() ? spike.height_m : samples.front().height_m, std::abs(spike.above_m),
-                 spike.above_m > 0.0F ? "above" : "below", samples.size() == 1 ? "its" : "their", words_of(at_m),
-                 cure_of(samples)),
-                {at_m}});
     }
-    if (found.size() > max_told) {
-        notes.back().text = fmt::format("{}; {} more such places are marked in --picture", notes.back().text,
-            spikes->count() - static_cast<std::int64_t>(max_told));
-    }
-}
-
-void HeightSource::Content::add_seams(std::vector<MapNote>& notes) const {
-    const double cell_m = std::min(lattice.cell_m.x, lattice.cell_m.y);
-    for (const SeamStep& seam : steps_at_seams(grids, cell_m, *gdal)) {
-        MapNote note;
-        for (glm::dvec2 at : seam.column_row) {
-            seam.grid->frame_from_grid({&at.x, 1}, {&at.y, 1});
-            note.places_m.push_back(metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
-        }
-        note.text = fmt::format("{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
-                                "slope "
-                                "on both sides, at {}. To avoid the step, load only one of the two files",
-            seam.a->file.filename().string(), seam.b->file.filename().string(), std::abs(seam.rise_m),
-            std::abs(seam.step_m), words_of(note.places_m[note.places_m.size() / 2]));
-        notes.push_back(std::move(note));
-    }
-}
+};
 
 HeightSource::HeightSource(std::vector<path> files, const ImportOptions& options)
     : content_(std::make_unique<Content>()) {
@@ -642,7 +486,7 @@ std::optional<CoordinateSystem> HeightSource::system() const { return content_->
 std::string HeightSource::name() const { return content_->name(); }
 
 std::string HeightSource::system_name() const {
-    const SpatialReferenceHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
+    const SpatialReferenceHandle own = content_->grids.front().system();
     const char* const name = own == nullptr ? nullptr : OSRGetName(own);
     return name == nullptr ? "" : printable(name);
 }
@@ -650,66 +494,46 @@ std::string HeightSource::system_name() const {
 glm::dvec2 HeightSource::cell_m() const { return content_->lattice.cell_m; }
 
 std::vector<MapNote> HeightSource::notes() const {
-    std::vector<MapNote> notes = content_->whole_notes;
+    std::vector<MapNote> notes;
     for (const SourceGrid& grid : content_->grids) {
         for (const SourcePiece& piece : grid.pieces()) {
             const std::vector<MapNote> own = notes_of(piece.file, piece.raster);
             notes.insert(notes.end(), own.begin(), own.end());
         }
     }
-    if (content_->gdal) {
-        for (const std::string& warning : content_->gdal->warnings()) {
-            notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
-        }
+    for (const std::string& warning : content_->gdal.warnings()) {
+        notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
     }
     content_->add_spikes(notes);
-    if (content_->gdal) { // a plain PGM has none
-        content_->add_seams(notes);
-        content_->gdal->forget();
-    }
+    content_->add_seams(notes);
+    content_->gdal.forget();
     return notes;
 }
 
 std::int64_t HeightSource::count_voids() const {
     std::int64_t voids = 0;
-    if (content_->whole) {
-        return std::ranges::count_if(content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
-    }
     content_->for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
         std::vector<float> heights_m(static_cast<std::size_t>(row.columns));
-        read_heights(piece.file, piece.raster, row, heights_m, *content_->gdal);
+        read_heights(piece.file, piece.raster, row, heights_m, content_->gdal);
         voids += std::ranges::count_if(heights_m, [](float height_m) { return std::isnan(height_m); });
     });
     return voids;
 }
 
 bool HeightSource::has_integer_metres() const {
-    return keeps_source_samples() && !content_->whole && content_->grids.front().has_integer_metres();
+    return keeps_source_samples() && content_->grids.front().has_integer_metres();
 }
 
 bool HeightSource::keeps_source_samples() const { return content_->lattice.is_source; }
 
 std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
-    assert(!content_->grids.empty() && content_->grids.front().map());
-    return source_height_m(content_->grids, content_->lattice, x_m, y_m, *content_->gdal);
+    assert(content_->grids.front().map());
+    return source_height_m(content_->grids, content_->lattice, x_m, y_m, content_->gdal);
 }
 
 std::optional<HeightDeviation> HeightSource::deviation_of(const GroundAt& ground) const {
-    if (content_->grids.empty() || !content_->grids.front().map()) { return std::nullopt; }
-    return deviation_from_source(content_->grids, content_->lattice, ground, *content_->gdal);
-}
-
-void HeightSource::Content::read(int first_row, std::span<float> heights_m) {
-    const auto width = static_cast<std::size_t>(lattice.columns);
-    if (whole) {
-        const std::size_t first = static_cast<std::size_t>(first_row) * width;
-        std::copy_n(whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first), heights_m.size(), heights_m.begin());
-    } else if (resampler) {
-        resampler->read(first_row, heights_m, *gdal);
-    } else {
-        const int count = static_cast<int>(heights_m.size() / width);
-        grids.front().read({0, lattice.columns, first_row, count}, heights_m, *gdal);
-    }
+    if (!content_->grids.front().map()) { return std::nullopt; }
+    return deviation_from_source(content_->grids, content_->lattice, ground, content_->gdal);
 }
 
 void HeightSource::read(int first_row, std::span<float> heights_m) {
@@ -721,7 +545,7 @@ void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
     assert(has_integer_metres());
     const auto width = static_cast<std::size_t>(columns());
     const int count = static_cast<int>(heights_m.size() / width);
-    content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
+    content_->grids.front().read({0, columns(), first_row, count}, heights_m, content_->gdal);
     std::vector<float> row(width);
     for (int i = 0; i < count; ++i) {
         const auto metres = heights_m.subspan(static_cast<std::size_t>(i) * width, width);

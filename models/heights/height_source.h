@@ -22,8 +22,6 @@ namespace octant::models::heights {
 /// Each of several files must be georeferenced.
 class HeightSource {
 public:
-    static constexpr int largest_samples = 65536; ///< of width and of height
-
     /// Opens all files. Throws Error as read_height_field, and for files that do not fit together.
     HeightSource(std::vector<std::filesystem::path> files, const ImportOptions& options = {});
     ~HeightSource();

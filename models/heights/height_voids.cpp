@@ -129,7 +129,6 @@ UndeclaredVoids VoidDetector::result() const {
 namespace {
 
 constexpr int sweeps_a_level = 24;
-constexpr float void_height = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<std::size_t> voids_of(const HeightGrid& grid) {
     std::vector<std::size_t> voids;
@@ -137,35 +136,6 @@ std::vector<std::size_t> voids_of(const HeightGrid& grid) {
         if (std::isnan(grid.heights_m[i])) { voids.push_back(i); }
     }
     return voids;
-}
-
-/// Mean of the known samples of the 2 x 2 block from a sample on, NaN without any.
-float block_mean(const HeightGrid& grid, int column, int row) {
-    double sum = 0.0;
-    int known = 0;
-    for (int y = row; y < std::min(row + 2, grid.rows); ++y) {
-        for (int x = column; x < std::min(column + 2, grid.columns); ++x) {
-            const float height = grid.at(x, y);
-            if (!std::isnan(height)) {
-                sum += height;
-                ++known;
-            }
-        }
-    }
-    return known == 0 ? void_height : static_cast<float>(sum / known);
-}
-
-HeightGrid halved(const HeightGrid& grid) {
-    HeightGrid half;
-    half.columns = (grid.columns + 1) / 2;
-    half.rows = (grid.rows + 1) / 2;
-    half.heights_m.reserve(static_cast<std::size_t>(half.columns) * static_cast<std::size_t>(half.rows));
-    for (int row = 0; row < grid.rows; row += 2) {
-        for (int column = 0; column < grid.columns; column += 2) {
-            half.heights_m.push_back(block_mean(grid, column, row));
-        }
-    }
-    return half;
 }
 
 float mean_of_neighbours(const HeightGrid& grid, int column, int row) {
@@ -211,7 +181,8 @@ void fill(HeightGrid& grid, const std::vector<std::size_t>& voids, const Guess& 
 long fill_voids(HeightGrid& grid) {
     const std::vector<std::size_t> voids = voids_of(grid);
     if (voids.empty() || voids.size() == grid.heights_m.size()) { return static_cast<long>(voids.size()); }
-    HeightGrid coarse = halved(grid);
+    HeightGrid coarse =
+        block_means(grid.columns, grid.rows, 2, [&](int column, int row) { return grid.at(column, row); });
     fill_voids(coarse);
     fill(grid, voids, [&coarse](int column, int row) { return from_coarser(coarse, column, row); });
     return static_cast<long>(voids.size());

@@ -2,6 +2,9 @@
 
 #include "models/heights/height_field.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -34,8 +37,8 @@ bool is_common_void_value(double raw);
 /// - a common number (is_common_void_value) that is far from all other heights; deep-sea maps have true heights of
 ///   -9999 m;
 /// - numbers outside the plausible heights, if there is one of them, or if there are up to three that have fewer
-/// samples
-///   than heights, are far from all heights and are whole or a power of ten; more are heights in an unknown unit;
+///   samples than heights, are far from all heights and are whole or a power of ten; more are heights in an unknown
+///   unit;
 /// - negative heights stored in unsigned numbers;
 /// - all numbers from undeclared_void_threshold on.
 class VoidDetector {
@@ -73,6 +76,30 @@ private:
     Mark wrapped_;             ///< the smallest of them, and their number
     double max_wrapped_ = 0.0;
 };
+
+/// A coarser grid: the means of the known samples of blocks of `edge` x `edge` samples, NaN for blocks without any.
+/// `height_at(column, row)` gives a sample of the grid of `columns` x `rows`, NaN without data.
+template <typename HeightAt>
+HeightGrid block_means(int columns, int rows, int edge, const HeightAt& height_at) {
+    HeightGrid means{(columns + edge - 1) / edge, (rows + edge - 1) / edge, {}};
+    means.heights_m.reserve(static_cast<std::size_t>(means.columns) * static_cast<std::size_t>(means.rows));
+    for (int south = 0; south < rows; south += edge) {
+        for (int west = 0; west < columns; west += edge) {
+            double sum = 0.0;
+            int known = 0;
+            for (int row = south; row < std::min(south + edge, rows); ++row) {
+                for (int column = west; column < std::min(west + edge, columns); ++column) {
+                    const float height = height_at(column, row);
+                    sum += std::isnan(height) ? 0.0 : static_cast<double>(height);
+                    known += std::isnan(height) ? 0 : 1;
+                }
+            }
+            means.heights_m.push_back(
+                known == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(sum / known));
+        }
+    }
+    return means;
+}
 
 /// Gives each NaN sample a height that interpolates the border of its void smoothly (a membrane). Returns the number of
 /// such samples. Known samples stay as they are. A grid without known samples stays unchanged. Needs temporary memory

@@ -284,9 +284,9 @@ GroundArea area_of(const HeightField& field) {
 Image resampled_to_ground(Image image, const GroundArea& ground, int largest_px) {
     const bool placed = !image.wkt.empty();
     if (placed && !ground.system) {
-        throw Error(fmt::format("{}: expected an image without a coordinate system over ground without one ({}), got "
-                                "one with",
-            image.name, ground.name));
+        throw Error(
+            fmt::format("{}: expected an image without a coordinate system over ground without one ({}), got one with",
+                image.name, ground.name));
     }
     if (!placed && image.width <= largest_px && image.height <= largest_px) { return image; }
     GdalSession gdal;

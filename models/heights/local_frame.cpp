@@ -19,14 +19,17 @@ namespace octant::models::heights {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+/// MapFrame uses the map's system up to this distance. No ground is wider.
+constexpr double furthest_m = 1.0e6;
 
 SpatialReference counted(OGRSpatialReferenceH system) {
     return {system, [](void* own) { OSRRelease(own); }};
 }
 
-SpatialReference reference_from_proj(const std::string& text) {
+/// The system that GDAL makes of a text, x before y; null if it makes none.
+SpatialReference reference_from(const std::string& text) {
     SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
-    if (OSRImportFromProj4(reference.get(), text.c_str()) != OGRERR_NONE) { return nullptr; }
+    if (OSRSetFromUserInput(reference.get(), text.c_str()) != OGRERR_NONE) { return nullptr; }
     OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
 }
@@ -97,24 +100,16 @@ Ellipsoid ellipsoid_of(const std::string& wkt) {
 }
 
 SpatialReference geographic_coordinate_system(const Ellipsoid& ellipsoid) {
-    return reference_from_proj(fmt::format("+proj=longlat {} +no_defs", proj_text(ellipsoid)));
+    return reference_from(fmt::format("+proj=longlat {} +no_defs", proj_text(ellipsoid)));
 }
 
 SpatialReference coordinate_system_from_name(const std::string& name) {
     const bool is_address = name.find("://") != std::string::npos;
-    SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
-    if (is_address || OSRSetFromUserInput(reference.get(), name.c_str()) != OGRERR_NONE) {
+    SpatialReference reference = is_address ? nullptr : reference_from(name);
+    if (!reference) {
         throw Error(
             fmt::format("--terrain-system: expected a coordinate system such as EPSG:4326, got '{}'", printable(name)));
     }
-    OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    return reference;
-}
-
-SpatialReference coordinate_system_of(const CoordinateSystem& system) {
-    SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
-    if (OSRSetFromUserInput(reference.get(), system.wkt.c_str()) != OGRERR_NONE) { return nullptr; }
-    OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
 }
 
@@ -123,7 +118,7 @@ SpatialReference spatial_reference_of(SpatialReferenceHandle system) {
 }
 
 SpatialReference local_coordinate_system(const GeoPosition& place) {
-    return reference_from_proj(
+    return reference_from(
         fmt::format("+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
             place.latitude_deg, place.longitude_deg, proj_text(place.ellipsoid)));
 }
@@ -152,7 +147,7 @@ std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point) {
 std::optional<ProjectionDistortion> distortion_at_corners(
     const CoordinateSystem& system, const glm::dvec2& half_extent_m) {
     const GdalSession gdal;
-    const SpatialReference own = coordinate_system_of(system);
+    const SpatialReference own = reference_from(system.wkt);
     if (!own) { return std::nullopt; }
     const Ellipsoid ellipsoid = ellipsoid_of(wkt_of(own.get()));
     const SpatialReference globe = geographic_coordinate_system(ellipsoid);
@@ -182,38 +177,47 @@ std::optional<ProjectionDistortion> distortion_at_corners(
 
 namespace {
 
-/// How far away systems are still asked: no ground is wider.
-constexpr double furthest_m = 1.0e6;
+class MapFrame final : public EarthFrame {
+public:
+    /// `system` must be georeferenced; `middle` is the geographic position of the ground's centre.
+    MapFrame(const CoordinateSystem& system, const GeoPosition& middle) : system_(system), about_(middle) {
+        const GdalSession gdal;
+        const SpatialReference own = reference_from(system.wkt);
+        const SpatialReference globe = geographic_coordinate_system(middle.ellipsoid);
+        if (own) {
+            from_globe_ = between(globe.get(), own.get());
+            to_globe_ = between(own.get(), globe.get());
+        }
+    }
+
+    GeoPosition origin() const override { return about_.origin(); }
+
+    glm::dvec2 local_from_geo(const GeoPosition& place) const override {
+        const glm::dvec2 about_m = about_.local_from_geo(place);
+        if (!from_globe_ || !(glm::length(about_m) <= furthest_m)) { return about_m; }
+        const GdalSession gdal;
+        const auto at = moved(from_globe_, {place.longitude_deg, place.latitude_deg});
+        return at ? (*at - centre()) * system_.unit_m : about_m;
+    }
+
+    GeoPosition geo_from_local(const glm::dvec2& east_north_m) const override {
+        const bool asks = to_globe_ && glm::length(east_north_m) <= furthest_m;
+        const GdalSession gdal;
+        const auto at = asks ? moved(to_globe_, centre() + east_north_m / system_.unit_m) : std::nullopt;
+        return at ? GeoPosition{std::clamp(at->y, -90.0, 90.0), at->x, about_.origin().ellipsoid}
+                  : about_.geo_from_local(east_north_m);
+    }
+
+private:
+    glm::dvec2 centre() const { return {system_.centre_x, system_.centre_y}; }
+
+    CoordinateSystem system_;
+    TransverseMercator about_;
+    Transformation from_globe_;
+    Transformation to_globe_;
+};
 
 } // namespace
-
-MapFrame::MapFrame(const CoordinateSystem& system, const GeoPosition& middle) : system_(system), about_(middle) {
-    const GdalSession gdal;
-    const SpatialReference own = coordinate_system_of(system);
-    const SpatialReference globe = geographic_coordinate_system(middle.ellipsoid);
-    if (own) {
-        from_globe_ = between(globe.get(), own.get());
-        to_globe_ = between(own.get(), globe.get());
-    }
-}
-
-glm::dvec2 MapFrame::local_from_geo(const GeoPosition& place) const {
-    const glm::dvec2 about_m = about_.local_from_geo(place);
-    if (!from_globe_ || !(glm::length(about_m) <= furthest_m)) { return about_m; }
-    const GdalSession gdal;
-    const auto at = moved(from_globe_, {place.longitude_deg, place.latitude_deg});
-    const glm::dvec2 centre(system_.centre_x, system_.centre_y);
-    return at ? (*at - centre) * system_.unit_m : about_m;
-}
-
-GeoPosition MapFrame::geo_from_local(const glm::dvec2& east_north_m) const {
-    const glm::dvec2 centre(system_.centre_x, system_.centre_y);
-    const bool asks = to_globe_ && glm::length(east_north_m) <= furthest_m;
-    const GdalSession gdal;
-    const auto at = asks ? moved(to_globe_, centre + east_north_m / system_.unit_m) : std::nullopt;
-    return at ? GeoPosition{std::clamp(at->y, -90.0, 90.0), at->x, about_.origin().ellipsoid}
-              : about_.geo_from_local(east_north_m);
-}
 
 std::shared_ptr<const EarthFrame> frame_of_ground(
     const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "sim/base/transverse_mercator.h"
+#include "sim/base/earth_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -86,9 +86,6 @@ inline constexpr std::string_view local_metres_name = "metres";
 /// The system that a value of ImportOptions::system names. Throws Error for an unknown name.
 SpatialReference coordinate_system_from_name(const std::string& name);
 
-/// The system of a ground; null if GDAL does not understand its text.
-SpatialReference coordinate_system_of(const CoordinateSystem& system);
-
 /// A copy of a system with shared ownership.
 SpatialReference spatial_reference_of(SpatialReferenceHandle system);
 
@@ -116,26 +113,8 @@ std::optional<ProjectionDistortion> distortion_at_corners(
     const CoordinateSystem& system, const glm::dvec2& half_extent_m);
 
 /// The frame of ground whose axes are those of a map's coordinate system. Farther than 1,000 km from the ground, and
-/// where the system is not defined, positions follow the TransverseMercator frame at the ground's centre.
-class MapFrame final : public EarthFrame {
-public:
-    /// `system` must be georeferenced; `middle` is the geographic position of the ground's centre.
-    MapFrame(const CoordinateSystem& system, const GeoPosition& middle);
-
-    GeoPosition origin() const override { return about_.origin(); }
-
-    glm::dvec2 local_from_geo(const GeoPosition& place) const override;
-    GeoPosition geo_from_local(const glm::dvec2& east_north_m) const override;
-
-private:
-    CoordinateSystem system_;
-    TransverseMercator about_;
-    Transformation from_globe_;
-    Transformation to_globe_;
-};
-
-/// The MapFrame of ground with a coordinate system, the TransverseMercator frame of ground with a position only; null
-/// for ground without a position.
+/// where the system is not defined, positions follow the transverse Mercator projection at the ground's centre, which
+/// is also the frame of ground with a position only. Null for ground without a position.
 std::shared_ptr<const EarthFrame> frame_of_ground(
     const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place);
 

@@ -17,10 +17,11 @@ bool is_subdataset_name(const std::string& name);
 /// Throws Error unless the path is a readable, regular local file with content, or a name within one.
 void check_local_file(const std::filesystem::path& file);
 
-/// Opens a raster by whichever of GDAL's drivers knows it. Of a file with sub-datasets, that is the only one; the one
-/// that `band` names, which is then reset; or the only one whose name says heights (height_band.h), with a note. Throws
-/// Error: another kind of file, several sub-datasets (they are named), a file that refers to others that are not on
-/// this computer.
+/// Opens a raster by whichever of GDAL's drivers knows it. For a file with several sub-datasets it opens
+/// - the one that `band` names; `band` is then reset; else
+/// - the only one whose name says heights (height_band.h), and adds a note.
+/// Throws Error: another kind of file, several sub-datasets (the message lists them), a file that refers to others that
+/// are not on this computer.
 Dataset open_raster_file(const std::filesystem::path& file, GdalSession& gdal, std::optional<std::string>& band,
     std::vector<MapNote>& notes);
 

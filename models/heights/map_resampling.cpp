@@ -19,6 +19,8 @@
 
 namespace octant::models::heights {
 
+using std::filesystem::path;
+
 namespace {
 
 constexpr double step_tolerance = 1e-6;
@@ -161,8 +163,6 @@ void SourceGrid::read(const GridWindow& window, std::span<std::int16_t> heights_
 
 namespace {
 
-using std::filesystem::path;
-
 constexpr double square_tolerance = 1e-6;
 constexpr double scale_tolerance = 0.01;
 constexpr double widest_m = 1.0e6;
@@ -217,10 +217,8 @@ MapRectangle rectangle_of(const Outline& outline) {
 }
 
 [[noreturn]] void error_no_frame(const path& file, std::string_view got) {
-    throw_error_in(
-        file, fmt::format("expected ground up to 1000 km wide and away from the poles that a local frame fits, "
-                          "got {}",
-                  got));
+    throw_error_in(file,
+        fmt::format("expected ground up to 1000 km wide and away from the poles that a local frame fits, got {}", got));
 }
 
 constexpr std::string_view no_way_to_globe =
@@ -278,9 +276,9 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
         const path& own = grid.pieces().front().file;
         const SpatialReferenceHandle system = grid.system();
         if (system == nullptr && grids.size() > 1 && grids.front().system() != nullptr) {
-            throw_error_in(own, fmt::format("expected a coordinate system, as {} has, got none: --terrain-system says "
-                                            "which",
-                                    file.filename().string()));
+            throw_error_in(
+                own, fmt::format("expected a coordinate system, as {} has, got none: --terrain-system says which",
+                         file.filename().string()));
         }
         if (!has_length_unit(system) && OSRIsGeographic(system) == 0) {
             throw_error_in(own, "expected a map projection or degrees, got another coordinate system");
@@ -340,14 +338,6 @@ double common_step(const glm::dvec2& sides) {
     return fine;
 }
 
-void check_samples(const path& file, double columns, double rows) {
-    const auto fits = [](double n) { return n >= 2.0 && n <= SourceGrid::largest_samples; };
-    if (!fits(columns) || !fits(rows)) {
-        throw_error_in(file, fmt::format("expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}",
-                                 static_cast<int>(SourceGrid::largest_samples), columns, rows));
-    }
-}
-
 /// How many steps fit on a length, forgiving a rounding error of its end, and one more.
 double samples_on(double length, double step) { return std::floor(length / step + 1e-6) + 1.0; }
 
@@ -367,7 +357,7 @@ void lay_samples(const path& file, const MapRectangle& extent, TargetGrid& latti
     const glm::dvec2 size = extent.size();
     const double columns = samples_on(size.x, lattice.step);
     const double rows = samples_on(size.y, lattice.step);
-    check_samples(file, columns, rows);
+    check_size(file, columns, rows, SourceGrid::largest_samples);
     lattice.columns = static_cast<int>(columns);
     lattice.rows = static_cast<int>(rows);
 }

@@ -40,6 +40,19 @@ double RunwayStrip::plane_m(const glm::dvec2& place_m) const {
     return height_m + rise * glm::dot(place_m - begin_m, along());
 }
 
+namespace {
+
+/// Up to here from the runway all samples lie in its plane. Of a cell whose nearest point is levelled the farthest
+/// corner is a diagonal away.
+double level_m(double spacing_m) { return level_margin_m + std::sqrt(2.0) * spacing_m; }
+
+/// A rectangle of samples: first and last column and row, inclusive.
+struct SampleBox {
+    glm::ivec2 first;
+    glm::ivec2 last;
+};
+
+/// The samples that may be within `reach_m` of a runway.
 SampleBox samples_around(const RunwayStrip& strip, const HeightField& field, double reach_m) {
     glm::dvec2 min = strip.begin_m;
     glm::dvec2 max = strip.begin_m;
@@ -57,16 +70,7 @@ SampleBox samples_around(const RunwayStrip& strip, const HeightField& field, dou
     return {glm::ivec2(glm::floor(sample_at(min - reach_m))), glm::ivec2(glm::ceil(sample_at(max + reach_m)))};
 }
 
-namespace {
-
-/// Up to here from the runway all samples lie in its plane. Of a cell whose nearest point is levelled the farthest
-/// corner is a diagonal away.
-double level_m(double spacing_m) { return level_margin_m + std::sqrt(2.0) * spacing_m; }
-
-} // namespace
-
-double reach_m(const HeightField& field) { return level_m(field.spacing_m()) + side_slope_end_m; }
-
+/// The height of the levelled ground at a position whose original height is `own_m`.
 double levelled_m(const RunwayStrip& strip, double spacing_m, const glm::dvec2& place_m, double own_m) {
     const double beyond_m = std::max(strip.distance_m(place_m) - level_m(spacing_m), 0.0);
     if (beyond_m >= side_slope_end_m) { return own_m; }
@@ -75,6 +79,10 @@ double levelled_m(const RunwayStrip& strip, double spacing_m, const glm::dvec2& 
     const double graded_m = std::clamp(own_m, plane_m - side_m, plane_m + side_m);
     return glm::mix(graded_m, own_m, glm::smoothstep(0.5 * side_slope_end_m, side_slope_end_m, beyond_m));
 }
+
+} // namespace
+
+double reach_m(const HeightField& field) { return level_m(field.spacing_m()) + side_slope_end_m; }
 
 HeightField levelled(const HeightField& field, const RunwayStrip& strip) {
     const auto columns = static_cast<std::size_t>(field.columns());

@@ -55,18 +55,6 @@ inline constexpr double side_slope_end_m = 400.0;
 /// The largest mean slope that Annex 14 (volume I, chapter 3) allows for a runway of this length.
 inline constexpr double max_rise = 0.01;
 
-/// A rectangle of samples: first and last column and row, inclusive.
-struct SampleBox {
-    glm::ivec2 first;
-    glm::ivec2 last;
-};
-
-/// The samples that may be within `reach_m` of a runway.
-SampleBox samples_around(const RunwayStrip& strip, const HeightField& field, double reach_m);
-
-/// The height of the levelled ground at a position whose original height is `own_m`.
-double levelled_m(const RunwayStrip& strip, double spacing_m, const glm::dvec2& place_m, double own_m);
-
 /// The largest distance from a runway at which levelling changes samples.
 double reach_m(const HeightField& field);
 

@@ -3,15 +3,17 @@
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 namespace octant::models::heights {
@@ -36,88 +38,14 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, N>& wor
     return std::ranges::any_of(words, [&](std::string_view w) { return is_same_word(word, w); });
 }
 
-/// Words of a text with the lines on which they stand, read piece by piece.
-class WordFile {
-    static constexpr std::size_t max_letters = 1000;
-
-public:
-    /// `separators` beside white space.
-    WordFile(const path& file, std::string_view separators)
-        : file_(file), separators_(separators), stream_(VSIFOpenL(file.c_str(), "rb")) {
-        if (stream_ == nullptr) { throw_error_in(file, "cannot be opened for reading"); }
-    }
-
-    ~WordFile() { VSIFCloseL(stream_); }
-
-    WordFile(const WordFile&) = delete;
-    WordFile& operator=(const WordFile&) = delete;
-    WordFile(WordFile&&) = delete;
-    WordFile& operator=(WordFile&&) = delete;
-
-    /// The next word, valid until the next call; nothing at the end. Throws Error for a word that is too long for a
-    /// number.
-    std::optional<std::string_view> next() {
-        word_.clear();
-        line_of_word_ = line_;
-        while (const std::optional<char> c = next_char()) {
-            const bool ends_line = *c == '\n' || (*c == '\r' && peek() != '\n');
-            const bool parts =
-                ends_line || *c == ' ' || *c == '\t' || *c == '\r' || separators_.find(*c) != std::string_view::npos;
-            if (!parts) {
-                word_ += *c;
-                if (word_.size() > max_letters) {
-                    line_of_word_ = line_;
-                    refuse("a number", fmt::format("a word of more than {} letters", max_letters));
-                }
-                continue;
-            }
-            line_of_word_ = line_;
-            line_ += ends_line ? 1 : 0;
-            if (!word_.empty()) { return word_; }
-        }
-        line_of_word_ = line_;
-        return word_.empty() ? std::nullopt : std::optional<std::string_view>(word_);
-    }
-
-    /// Where the last word begins in the file, if a separator follows it.
-    std::uint64_t begin_of_word() const { return bytes_ + at_ - 1 - word_.size(); }
-
-    /// Of the last word; of the file's last one at the end.
-    int line() const { return line_of_word_; }
-
-    [[noreturn]] void refuse(std::string_view expected, const std::string& got) const {
-        throw_error_at(file_, line_of_word_, fmt::format("expected {}, got {}", expected, got));
-    }
-
-    [[noreturn]] void refuse_word(std::string_view expected, std::string_view word) const {
-        refuse(expected, fmt::format("'{}'", printable(std::string(word))));
-    }
-
-private:
-    bool fill() {
-        if (at_ == filled_) {
-            bytes_ += filled_;
-            filled_ = VSIFReadL(piece_.data(), 1, piece_.size(), stream_);
-            at_ = 0;
-        }
-        return at_ < filled_;
-    }
-
-    std::optional<char> next_char() { return fill() ? std::optional(piece_.at(at_++)) : std::nullopt; }
-
-    char peek() { return fill() ? piece_.at(at_) : '\0'; }
-
-    const path& file_;
-    std::string_view separators_;
-    VSILFILE* stream_;
-    std::array<char, 1 << 16> piece_{};
-    std::size_t at_ = 0;
-    std::size_t filled_ = 0;
-    std::uint64_t bytes_ = 0; ///< of the file before the piece
-    std::string word_;
-    int line_ = 1;
-    int line_of_word_ = 1;
-};
+/// Reads a file through GDAL. Lines of a text grid may be longer than memory, so it is read word by word.
+TextScanner words_of(const path& file, const TextRules& rules) {
+    const std::shared_ptr<VSILFILE> stream(VSIFOpenL(file.c_str(), "rb"), [](VSILFILE* opened) {
+        if (opened != nullptr) { VSIFCloseL(opened); }
+    });
+    if (!stream) { throw_error_in(file, "cannot be opened for reading"); }
+    return {file, [stream](char* to, std::size_t size) { return VSIFReadL(to, 1, size, stream.get()); }, rules};
+}
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
     std::size_t end = at;
@@ -223,69 +151,78 @@ private:
 class GridCheck {
 public:
     GridCheck(const path& file, const std::string& driver, int columns, int rows)
-        : words_(file, driver == points ? ",;" : ""), driver_(driver), samples_(std::int64_t{columns} * rows) {}
+        : words_(words_of(file, {.separators = driver == points ? ",;" : ""})), driver_(driver),
+          samples_(std::int64_t{columns} * rows) {}
 
     TextVoids run() {
         if (driver_ == points) {
             check_points();
             return {};
         }
-        const std::optional<std::string_view> first = driver_ == surfer ? surfer_header() : keyed_header();
-        check_samples(first);
+        check_samples(driver_ == surfer ? surfer_header() : keyed_header());
         return voids_;
     }
 
 private:
-    /// Lines of a key and its value. Returns the first word behind them.
-    std::optional<std::string_view> keyed_header() {
-        while (const auto word = words_.next()) {
-            if (!is_key(*word)) { return word; }
-            const std::string key(*word);
-            const auto value = words_.next();
-            if (!value) { words_.refuse(fmt::format("a value of {}", printable(key)), "the end of the file"); }
-            check_value(key, *value);
+    /// The next word, valid until the next call; empty at the end. Throws Error for a word that is too long for a
+    /// number.
+    std::string_view next() {
+        constexpr std::size_t max_letters = 1000;
+        const std::string_view word = words_.word_or_end();
+        if (word.size() > max_letters) {
+            words_.refuse("a number", fmt::format("a word of more than {} letters", max_letters));
         }
-        return std::nullopt;
+        return word;
+    }
+
+    /// Lines of a key and its value. Returns the first word behind them.
+    std::string_view keyed_header() {
+        while (true) {
+            const std::string_view word = next();
+            if (word.empty() || !is_key(word)) { return word; }
+            const std::string key(word);
+            const std::string_view value = next();
+            if (value.empty()) { words_.refuse_next(fmt::format("a value of {}", printable(key))); }
+            check_value(key, value);
+        }
     }
 
     void check_value(std::string_view key, std::string_view value) {
         constexpr std::array<std::string_view, 9> numbers = {
             "ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx", "dy"};
-        if (is_one_of(key, numbers) && !is_number(value)) {
-            words_.refuse_word(fmt::format("a number for {}", key), value);
-        }
+        if (is_one_of(key, numbers) && !is_number(value)) { words_.refuse_last(fmt::format("a number for {}", key)); }
         const bool is_mark = is_same_word(key, "nodata_value") || is_same_word(key, "null:");
         voids_.declares_no_number =
             voids_.declares_no_number || (is_mark && !is_number(value) && !is_not_finite(value));
     }
 
-    std::optional<std::string_view> surfer_header() {
+    std::string_view surfer_header() {
         constexpr int header_numbers = 8;
-        words_.next(); // DSAA
-        for (int i = 0; i < header_numbers; ++i) { check_number(words_.next()); }
-        return words_.next();
+        next(); // DSAA
+        for (int i = 0; i < header_numbers; ++i) { check_number(next()); }
+        return next();
     }
 
-    void check_number(const std::optional<std::string_view>& word) const {
-        if (!word) { words_.refuse("a number", "the end of the file"); }
-        if (!is_number(*word) && !is_not_finite(*word)) { words_.refuse_word("a number", *word); }
+    void check_number(std::string_view word) {
+        if (word.empty()) { words_.refuse_next("a number"); }
+        if (!is_number(word) && !is_not_finite(word)) { words_.refuse_last("a number"); }
     }
 
-    void check_samples(std::optional<std::string_view> word) {
+    void check_samples(std::string_view word) {
         std::int64_t seen = 0;
-        for (; word && seen < samples_; word = words_.next()) {
-            if (!is_number(*word)) {
-                if (driver_ == surfer || !(is_void_word(*word) || is_not_finite(*word))) {
-                    words_.refuse_word("a height", *word);
+        for (; !word.empty() && seen < samples_; word = next()) {
+            if (!is_number(word)) {
+                if (driver_ == surfer || !(is_void_word(word) || is_not_finite(word))) {
+                    words_.refuse_last("a height");
                 }
-                add_void(seen, *word); // GDAL makes 0 of NaN in a grid of whole numbers
+                add_void(seen, word); // GDAL makes 0 of NaN in a grid of whole numbers
             }
             ++seen;
         }
         if (seen < samples_) {
             words_.refuse(fmt::format("{} heights", samples_), fmt::format("the end of the file after {}", seen));
         }
-        for (; word; word = words_.next()) { ++voids_.numbers_left; }
+        for (; !word.empty(); word = next()) { ++voids_.numbers_left; }
     }
 
     void add_void(std::int64_t sample, std::string_view word) {
@@ -298,19 +235,19 @@ private:
     void check_points() {
         std::string name; // a word of the first line that is no number
         bool has_number = false;
-        while (const auto word = words_.next()) {
-            if (words_.line() > 1) {
+        for (std::string_view word = next(); !word.empty(); word = next()) {
+            if (words_.line_number() > 1) {
                 check_number(word);
                 continue;
             }
-            const bool is_name = !is_number(*word) && !is_not_finite(*word);
+            const bool is_name = !is_number(word) && !is_not_finite(word);
             has_number = has_number || !is_name;
-            name = is_name && name.empty() ? std::string(*word) : name;
-            if (has_number && !name.empty()) { words_.refuse_word("a number", name); }
+            name = is_name && name.empty() ? std::string(word) : name;
+            if (has_number && !name.empty()) { words_.refuse("a number", in_quotes(name)); }
         }
     }
 
-    WordFile words_;
+    TextScanner words_;
     std::string_view driver_;
     std::int64_t samples_;
     TextVoids voids_;
@@ -327,18 +264,18 @@ void TextVoids::apply(std::int64_t first, std::span<double> raw) const {
 
 Dataset open_grid_that_begins_with_word(const path& file) {
     if (!begins_with_key(file)) { return nullptr; }
-    WordFile words(file, "");
-    auto word = words.next();
-    while (word && is_key(*word)) {
-        words.next(); // its value
-        word = words.next();
+    TextScanner words = words_of(file, {});
+    while (is_key(words.peek())) {
+        words.word_or_end();
+        words.word_or_end(); // its value
     }
-    if (!word || !is_alphabetic(*word)) { return nullptr; }
-    if (!is_void_word(*word) && !is_not_finite(*word)) { words.refuse_word("a height", *word); }
+    const std::string_view word = words.peek();
+    if (word.empty() || !is_alphabetic(word)) { return nullptr; }
+    if (!is_void_word(word) && !is_not_finite(word)) { words.refuse_next("a height"); }
     // GDAL looks for side files in the folder of the grid, which is in memory here.
     const std::string folder = fmt::format("/vsimem/octant-{}", static_cast<const void*>(&words));
     const path name = path(folder) / file.filename();
-    const FileWithZeros grid(name.string(), file, words.begin_of_word(), word->size());
+    const FileWithZeros grid(name.string(), file, words.offset(), word.size());
     const FileWithZeros system(
         path(name).replace_extension(".prj").string(), path(file).replace_extension(".prj"), 0, 0);
     const FileWithZeros side(name.string() + ".aux.xml", file.string() + ".aux.xml", 0, 0);
@@ -346,6 +283,47 @@ Dataset open_grid_that_begins_with_word(const path& file) {
     const std::string sparse = "/vsisparse/" + name.string();
     Dataset dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
     if (!dataset) { throw_unreadable(file, "a height field", "a header without size, place or cells"); }
+    return dataset;
+}
+
+Dataset open_plain_pgm(const path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::array<char, 3> begin{};
+    in.read(begin.data(), begin.size());
+    if (!in || begin[0] != 'P' || begin[1] != '2' ||
+        std::string_view("# \t\n\v\f\r").find(begin[2]) == std::string::npos) {
+        return nullptr;
+    }
+    constexpr std::size_t largest_bytes = std::size_t{4} << 30;
+    constexpr long largest_side = 1'000'000'000;
+    const std::string text = read_text_file(file, largest_bytes);
+    TextScanner words(file, text, {.comment = '#'});
+    words.word_or_end();
+    const auto number = [&words](const char* what, long min, long max) {
+        const auto value = words.take_integer(min, max);
+        if (!value) {
+            words.refuse_next(words.peek().empty() ? what : fmt::format("{} from {} to {}", what, min, max));
+        }
+        return *value;
+    };
+    const auto columns = static_cast<int>(number("a width", 1, largest_side));
+    const auto rows = static_cast<int>(number("a height", 1, largest_side));
+    check_size(file, columns, rows);
+    const long largest = number("a largest value", 1, 65535);
+    const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    if (count > text.size()) {
+        throw_error_in(file, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
+    }
+    Dataset dataset(GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 1, GDT_UInt16, nullptr));
+    if (!dataset) { throw_error_in(file, "expected a height field that fits in memory, got a larger one"); }
+    std::vector<std::uint16_t> line(static_cast<std::size_t>(columns));
+    for (int row = 0; row < rows; ++row) {
+        for (std::uint16_t& grey : line) { grey = static_cast<std::uint16_t>(number("a grey value", 0, largest)); }
+        if (GDALRasterIO(GDALGetRasterBand(dataset.get(), 1), GF_Write, 0, row, columns, 1, line.data(), columns, 1,
+                GDT_UInt16, 0, 0) != CE_None) {
+            throw_error_in(file, "expected a height field that fits in memory, got a larger one");
+        }
+    }
     return dataset;
 }
 

@@ -27,6 +27,12 @@ struct TextVoids {
 /// Throws Error for a first height that is neither a number nor such a word.
 Dataset open_grid_that_begins_with_word(const std::filesystem::path& file);
 
+/// Opens a plain (text) PGM, which GDAL cannot read, as a dataset in memory of 16-bit grey values. Null for all other
+/// files. Throws Error "file:line: expected ..., got ...", for the size before any value is read (check_size).
+/// Source: Netpbm, pgm(5), "Plain PGM": P2, width, height, largest value, then values from the top left, separated by
+/// white space; '#' starts a comment that runs to the end of its line. Deviations: none.
+Dataset open_plain_pgm(const std::filesystem::path& file);
+
 /// Whether a driver of GDAL's reads text grids, of which it takes the front of a damaged number, and 0 for what is no
 /// number at all.
 bool is_text_grid(const std::string& driver);

@@ -24,7 +24,7 @@
 #include "models/measure/mesh_distance.h"
 
 #include "models/measure/triangle_bvh.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,11 +2,12 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/meshfile/mesh_parts.h"
-#include "models/meshfile/word_scanner.h"
 #include "models/polygons/obj_reader.h"
 #include "models/triangle_mesh.h"
+#include "sim/base/error.h"
 #include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <array>
@@ -35,9 +36,6 @@ struct Ac3dObject {
     AffineTransform moved; ///< applied to positions of the file
 };
 
-/// Returns the options of an object with this name that is a child of `holder`.
-Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options);
-
 /// Whether an object's name says that it represents turning blades, a light cone or a shadow on the ground.
 bool is_stand_in(std::string name) {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -48,6 +46,7 @@ bool is_stand_in(std::string name) {
     return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
 }
 
+/// Returns the options of an object with this name that is a child of `holder`.
 Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
     Ac3dObject object = holder;
     object.is_placeholder = !holder.is_excluded && !options.placeholders && is_stand_in(name);
@@ -62,32 +61,7 @@ Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, co
     return object;
 }
 
-/// The materials of an AC3D file, which surfaces name by number.
-class Ac3dMaterials {
-public:
-    /// Reads what follows `word`, which should be MATERIAL or MAT, from `words`. Throws Error.
-    void take(std::string_view word, WordScanner& words);
-
-    std::size_t count() const { return materials_.size(); }
-
-    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file or without
-    /// (empty). Materials come into the mesh in the order of their first polygon.
-    std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh);
-
-private:
-    struct FileMaterial {
-        Material material;
-        float opacity = 1.0F;
-        std::map<std::string, std::uint32_t> index_by_picture = {}; ///< by pictures
-    };
-
-    void take_line(WordScanner& words);
-    void read_block(WordScanner& words);
-
-    std::vector<FileMaterial> materials_;
-};
-
-float colour_part(std::string_view word, const WordScanner& words) {
+float colour_part(std::string_view word, const TextScanner& words) {
     const auto value = finite_number(word);
     if (!value || *value < 0.0 || *value > 1.0) { words.refuse("a part of a colour of 0 to 1", in_quotes(word)); }
     return static_cast<float>(*value);
@@ -99,7 +73,7 @@ float opacity_of(std::string_view trans) {
 }
 
 /// Takes a name, in quotes or not, off the front of a line that `words` has just read.
-std::string read_ac3d_name(std::string_view& line, const WordScanner& words) {
+std::string read_ac3d_name(std::string_view& line, const TextScanner& words) {
     const bool quoted = line.starts_with('"');
     const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
     if (quoted && end == std::string_view::npos) { words.refuse("a name in quotes", in_quotes(line)); }
@@ -109,55 +83,73 @@ std::string read_ac3d_name(std::string_view& line, const WordScanner& words) {
     return name;
 }
 
-void Ac3dMaterials::take(std::string_view word, WordScanner& words) {
-    if (word == "MATERIAL") {
-        take_line(words);
-    } else if (word == "MAT") {
-        read_block(words);
-    } else {
-        words.refuse("MATERIAL or OBJECT", in_quotes(word));
-    }
-}
-
-/// Reads the rest of a line MATERIAL "name" rgb R G B ...
-void Ac3dMaterials::take_line(WordScanner& words) {
-    std::string_view rest = words.rest_of_line();
-    Material material{.name = read_ac3d_name(rest, words)};
-    const auto parts = split_words(rest);
-    if (parts.size() < 4 || parts[0] != "rgb") { words.refuse("rgb and three numbers", in_quotes(rest)); }
-    for (int part = 0; part < 3; ++part) {
-        material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
-    }
-    const auto trans = std::ranges::find(parts, "trans");
-    const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
-    materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
-}
-
-/// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
-void Ac3dMaterials::read_block(WordScanner& words) {
-    std::string_view rest = words.rest_of_line();
-    Material material{.name = read_ac3d_name(rest, words)};
-    float opacity = 1.0F;
-    for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
-        for (int part = 0; word == "rgb" && part < 3; ++part) {
-            material.colour[part] = colour_part(words.word("a part of a colour"), words);
+/// The materials of an AC3D file, which surfaces name by number.
+class Ac3dMaterials {
+public:
+    /// Reads what follows `word`, which should be MATERIAL or MAT, from `words`. Throws Error.
+    void take(std::string_view word, TextScanner& words) {
+        if (word == "MATERIAL") {
+            take_line(words);
+        } else if (word == "MAT") {
+            read_block(words);
+        } else {
+            words.refuse_last("MATERIAL or OBJECT");
         }
-        const auto rest_words = split_words(words.rest_of_line());
-        if (word == "trans" && !rest_words.empty()) { opacity = opacity_of(rest_words[0]); }
     }
-    materials_.push_back({std::move(material), opacity, {}});
-}
 
-std::uint32_t Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
-    if (number == invalid_index) { return invalid_index; }
-    FileMaterial& material = materials_[number];
-    const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
-    if (is_new) {
-        material.material.picture = picture;
-        at->second = mesh.add_material(material.material, material.opacity);
+    std::size_t count() const { return materials_.size(); }
+
+    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file or without
+    /// (empty). Materials come into the mesh in the order of their first polygon.
+    std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
+        if (number == invalid_index) { return invalid_index; }
+        FileMaterial& material = materials_[number];
+        const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
+        if (is_new) {
+            material.material.picture = picture;
+            at->second = mesh.add_material(material.material, material.opacity);
+        }
+        return at->second;
     }
-    return at->second;
-}
+
+private:
+    struct FileMaterial {
+        Material material;
+        float opacity = 1.0F;
+        std::map<std::string, std::uint32_t> index_by_picture = {}; ///< by pictures
+    };
+
+    /// Reads the rest of a line MATERIAL "name" rgb R G B ...
+    void take_line(TextScanner& words) {
+        std::string_view rest = words.rest_of_line();
+        Material material{.name = read_ac3d_name(rest, words)};
+        const auto parts = split_words(rest);
+        if (parts.size() < 4 || parts[0] != "rgb") { words.refuse("rgb and three numbers", in_quotes(rest)); }
+        for (int part = 0; part < 3; ++part) {
+            material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
+        }
+        const auto trans = std::ranges::find(parts, "trans");
+        const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
+        materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
+    }
+
+    /// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
+    void read_block(TextScanner& words) {
+        std::string_view rest = words.rest_of_line();
+        Material material{.name = read_ac3d_name(rest, words)};
+        float opacity = 1.0F;
+        for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
+            for (int part = 0; word == "rgb" && part < 3; ++part) {
+                material.colour[part] = colour_part(words.word("a part of a colour"), words);
+            }
+            const auto rest_words = split_words(words.rest_of_line());
+            if (word == "trans" && !rest_words.empty()) { opacity = opacity_of(rest_words[0]); }
+        }
+        materials_.push_back({std::move(material), opacity, {}});
+    }
+
+    std::vector<FileMaterial> materials_;
+};
 
 constexpr std::size_t largest_ac3d_bytes = std::size_t{1} << 30U;
 constexpr int max_ac3d_depth = 100;
@@ -171,8 +163,7 @@ constexpr std::array<std::string_view, 7> ignored_keywords{
 class Ac3dReading {
 public:
     Ac3dReading(const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
-        : path_(path), options_(options), words_(path, polygons::without_byte_order_mark(text), 1),
-          mesh_(path, options) {}
+        : path_(path), options_(options), words_(path, text, mesh_text), mesh_(path, options) {}
 
     /// What the file holds, to be finished.
     MeshBuilder read() {
@@ -221,7 +212,7 @@ private:
             } else if (word == "texrep" || word == "texoff") {
                 take_pair(word == "texrep" ? picture.repeat : picture.shift);
             } else if (word == "data") {
-                const long bytes = words_.whole("a number of bytes", 0, max_count);
+                const long bytes = words_.integer("a number of bytes", 0, max_count);
                 words_.rest_of_line();
                 words_.skip_bytes(static_cast<std::size_t>(bytes) + 1, "data");
             } else if (word == "MATERIAL" || word == "MAT") {
@@ -229,10 +220,10 @@ private:
             } else if (std::ranges::find(ignored_keywords, word) != ignored_keywords.end()) {
                 words_.rest_of_line();
             } else {
-                words_.refuse("a line of an object", in_quotes(word));
+                words_.refuse_last("a line of an object");
             }
         }
-        const long kids = words_.whole("a number of kids", 0, max_count);
+        const long kids = words_.integer("a number of kids", 0, max_count);
         for (long kid = 0; kid < kids; ++kid) {
             const std::string_view word = words_.word_or_end();
             if (word.empty() && mesh_.vertex_count() > 0) {
@@ -296,7 +287,7 @@ private:
     }
 
     void take_vertices(const AffineTransform& placement) {
-        const long count = words_.whole("a number of vertices", 0, max_count);
+        const long count = words_.integer("a number of vertices", 0, max_count);
         const auto most = static_cast<long>(words_.bytes_left() / min_vertex_bytes);
         if (count > most) {
             words_.refuse(fmt::format("at most {} vertices in a file of this size", most), std::to_string(count));
@@ -309,10 +300,10 @@ private:
     }
 
     void take_surfaces(std::size_t first_vertex, bool mirrored, const ObjectPicture& picture) {
-        const long count = words_.whole("a number of surfaces", 0, max_count);
+        const long count = words_.integer("a number of surfaces", 0, max_count);
         for (long i = 0; i < count; ++i) {
             const std::string_view word = words_.word("SURF");
-            if (word != "SURF") { words_.refuse("SURF", in_quotes(word)); }
+            if (word != "SURF") { words_.refuse_last("SURF"); }
             take_surface(first_vertex, mirrored, picture);
         }
     }
@@ -324,9 +315,7 @@ private:
         digits.remove_prefix(hex ? 2 : 0);
         unsigned value = 0;
         const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value, hex ? 16 : 10);
-        if (code != std::errc() || end != digits.data() + digits.size()) {
-            words_.refuse("flags of a surface", in_quotes(word));
-        }
+        if (code != std::errc() || end != digits.data() + digits.size()) { words_.refuse_last("flags of a surface"); }
         return value;
     }
 
@@ -336,17 +325,17 @@ private:
         std::string_view word = words_.word("mat or refs");
         if (word == "mat") {
             const auto last = static_cast<long>(materials_.count()) - 1;
-            material = static_cast<std::uint32_t>(words_.whole("a material", 0, last));
+            material = static_cast<std::uint32_t>(words_.integer("a material", 0, last));
             word = words_.word("refs");
         }
-        if (word != "refs") { words_.refuse("refs", in_quotes(word)); }
+        if (word != "refs") { words_.refuse_last("refs"); }
         const bool is_polygon = (kind & 0xfU) == 0;
         const long most = is_polygon ? static_cast<long>(max_polygon_corners) : max_count;
-        const long count = words_.whole("a number of corners", 0, most);
+        const long count = words_.integer("a number of corners", 0, most);
         const long last = static_cast<long>(mesh_.vertex_count() - first_vertex) - 1;
         corners_.clear();
         for (long i = 0; i < count; ++i) {
-            const long vertex = words_.whole("a vertex", 0, last);
+            const long vertex = words_.integer("a vertex", 0, last);
             const std::uint32_t texture = taken_place(picture);
             if (is_polygon) {
                 corners_.push_back(
@@ -389,7 +378,7 @@ private:
 
     std::filesystem::path path_;
     ReadOptions options_;
-    WordScanner words_;
+    TextScanner words_;
     MeshBuilder mesh_;
     Ac3dMaterials materials_;
     std::vector<CornerIndices> corners_;
@@ -400,25 +389,15 @@ private:
     Ac3dObject object_;     ///< at hand
 };
 
-/// What the file holds, to be finished.
-MeshBuilder built(const std::filesystem::path& path, ReadOptions options) {
-    const std::string text = read_text_file(path, largest_ac3d_bytes);
-    MeshBuilder mesh = Ac3dReading(path, text, options).read();
-    if (mesh.is_empty() && !options.placeholders) {
-        options.placeholders = true;
-        return Ac3dReading(path, text, options).read();
-    }
-    return mesh;
-}
-
 } // namespace
 
-TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return built(path, options).finish();
-}
-
-MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    return built(path, options).finish_parts();
+MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
+    MeshBuilder mesh = Ac3dReading(path, text, options).read();
+    if (!mesh.is_empty() || options.placeholders) { return mesh; }
+    ReadOptions all = options;
+    all.placeholders = true;
+    return Ac3dReading(path, text, all).read();
 }
 
 std::string single_picture(const TriangleMesh& mesh) {

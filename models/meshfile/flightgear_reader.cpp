@@ -5,7 +5,6 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/word_scanner.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -80,15 +79,7 @@ XmlElement flightgear_tree(const fs::path& file) {
 
 /// The number in a child of an element of a FlightGear file; `without` where there is none. Throws Error for what is no
 /// number, or beyond max_coordinate.
-double number_in(
-    const std::filesystem::path& file, const XmlElement& parent, std::string_view name, double without = 0.0);
-
-glm::dvec3 vector_in(
-    const std::filesystem::path& file, const XmlElement& parent, const std::array<std::string_view, 3>& names) {
-    return {number_in(file, parent, names[0]), number_in(file, parent, names[1]), number_in(file, parent, names[2])};
-}
-
-double number_in(const std::filesystem::path& file, const XmlElement& parent, std::string_view name, double without) {
+double number_in(const fs::path& file, const XmlElement& parent, std::string_view name, double without = 0.0) {
     const XmlElement* found = parent.find(name);
     if (found == nullptr || found->text.empty()) { return without; }
     const auto value = finite_number(found->text);
@@ -98,8 +89,12 @@ double number_in(const std::filesystem::path& file, const XmlElement& parent, st
     return *value;
 }
 
+glm::dvec3 vector_in(const fs::path& file, const XmlElement& parent, const std::array<std::string_view, 3>& names) {
+    return {number_in(file, parent, names[0]), number_in(file, parent, names[1]), number_in(file, parent, names[2])};
+}
+
 /// What the table of an animation makes of a property's value; the value itself without one.
-double interpolated(const std::filesystem::path& file, const XmlElement& animation, double value) {
+double interpolated(const fs::path& file, const XmlElement& animation, double value) {
     const XmlElement* table = animation.find("interpolation");
     std::vector<std::pair<double, double>> entries;
     for (std::size_t i = 0; table != nullptr && i < table->children.size(); ++i) {
@@ -118,7 +113,7 @@ double interpolated(const std::filesystem::path& file, const XmlElement& animati
 
 /// A point of an animation's axis and its direction, as long as the file has it: without a length where it gives none.
 /// It does not turn.
-RotationAxis axis_in(const std::filesystem::path& file, const XmlElement& animation) {
+RotationAxis axis_in(const fs::path& file, const XmlElement& animation) {
     RotationAxis about;
     about.direction = glm::dvec3(0.0);
     if (const XmlElement* axis = animation.find("axis")) {
@@ -186,24 +181,12 @@ struct FlightGearRotation {
     RotationAxis about;
 };
 
-/// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a rotor's angle. They
-/// turn as at cruise, since a file says by which property only: propellers at 2400 turns a minute, main rotors at 390,
-/// tail rotors at 2000, turbines at 90 per cent. `spin` by a property that does not say what it is of turns what is
-/// called rotor, propeller or blade: about a mostly upright axis as a main rotor, along as a propeller, across as a
-/// tail rotor. Nothing for wheels, instruments and all other animations. Throws Error for faulty numbers.
-std::optional<FlightGearRotation> rotation_in_flight(const std::filesystem::path& file, const XmlElement& animation);
-
 /// Where a `rotate` or `translate` animation puts what it names while all properties are 0: landing gear up, for one.
 /// Axes of the FlightGear model.
 struct FlightGearRestPlacement {
     std::set<std::string> objects; ///< by name; an empty one: all of the model
     AffineTransform placement;
 };
-
-/// Nothing for other animations, for those that leave everything where it is, whose condition does not hold at rest, or
-/// that compute an <expression>. Throws Error for faulty numbers.
-std::optional<FlightGearRestPlacement> placement_at_rest(
-    const std::filesystem::path& file, const XmlElement& animation);
 
 /// What the animations of one FlightGear model do to the objects of its mesh and to its sub-models, by their names;
 /// axes of that model.
@@ -217,15 +200,23 @@ struct FlightGearAnimations {
     std::vector<std::string> notes;             ///< faults in them; often none
 
     /// What turns an object; the empty name stands for all of the model. Null for what stays.
-    const RotationAxis* axis_of(const std::string& object) const;
+    const RotationAxis* axis_of(const std::string& object) const {
+        const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& turn) {
+            return object.empty() ? turn.objects.empty() : turn.objects.contains(object);
+        });
+        return found == turns.end() ? nullptr : &found->about;
+    }
 
     /// Where an object stands at rest; the empty name stands for all of the model. What turns in flight is not moved:
     /// its axis stands where the file has it.
-    AffineTransform place_of(const std::string& object) const;
+    AffineTransform place_of(const std::string& object) const {
+        AffineTransform place;
+        for (const FlightGearRestPlacement& move : moves) {
+            if (move.objects.contains(object) && axis_of(object) == nullptr) { place = place.of(move.placement); }
+        }
+        return place;
+    }
 };
-
-/// `root`: of flightgear_tree(file).
-FlightGearAnimations flightgear_animations(const std::filesystem::path& file, const XmlElement& root);
 
 /// What a property of a kind is worth at cruise.
 struct CruiseValue {
@@ -285,7 +276,12 @@ bool is_of_other_wheels(std::string_view property) {
         [&](std::string_view part) { return property.find(part) != property.npos; });
 }
 
-std::optional<FlightGearRotation> rotation_in_flight(const std::filesystem::path& file, const XmlElement& animation) {
+/// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a rotor's angle. They
+/// turn as at cruise, since a file says by which property only: propellers at 2400 turns a minute, main rotors at 390,
+/// tail rotors at 2000, turbines at 90 per cent. `spin` by a property that does not say what it is of turns what is
+/// called rotor, propeller or blade: about a mostly upright axis as a main rotor, along as a propeller, across as a
+/// tail rotor. Nothing for wheels, instruments and all other animations. Throws Error for faulty numbers.
+std::optional<FlightGearRotation> rotation_in_flight(const fs::path& file, const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const std::string_view property = animation.text_of("property");
     double rate = turns_per_minute(kind, property);
@@ -311,7 +307,7 @@ std::optional<FlightGearRotation> rotation_in_flight(const std::filesystem::path
 
 /// Degrees or metres, for the property's value of 0; without one for the position at the start. `unit`: as its
 /// elements' names end.
-double value_at_rest(const std::filesystem::path& file, const XmlElement& animation, std::string_view unit) {
+double value_at_rest(const fs::path& file, const XmlElement& animation, std::string_view unit) {
     const auto number = [&](std::string_view name, double without) {
         return number_in(file, animation, std::string(name) + std::string(unit), without);
     };
@@ -329,8 +325,9 @@ AffineTransform turned_about(const RotationAxis& axis, double angle_rad) {
     return {turn, axis.point_m - turn * axis.point_m};
 }
 
-std::optional<FlightGearRestPlacement> placement_at_rest(
-    const std::filesystem::path& file, const XmlElement& animation) {
+/// Nothing for other animations, for those that leave everything where it is, whose condition does not hold at rest, or
+/// that compute an <expression>. Throws Error for faulty numbers.
+std::optional<FlightGearRestPlacement> placement_at_rest(const fs::path& file, const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const bool turns = kind == "rotate";
     if ((!turns && kind != "translate") || animation.find("expression") != nullptr || !holds_at_rest(animation)) {
@@ -415,8 +412,8 @@ void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
 
 /// What `read(file, animation)` gives; nothing for one whose numbers are faulty.
 template <typename Read>
-auto unless_faulty(const Read& read, const std::filesystem::path& file, const XmlElement& animation,
-    std::vector<std::string>& notes) -> decltype(read(file, animation)) {
+auto unless_faulty(const Read& read, const fs::path& file, const XmlElement& animation, std::vector<std::string>& notes)
+    -> decltype(read(file, animation)) {
     try {
         return read(file, animation);
     } catch (const Error& fault) {
@@ -428,7 +425,7 @@ auto unless_faulty(const Read& read, const std::filesystem::path& file, const Xm
 /// Whether an animation hides what it names from an eye outside, at rest. Ranges that begin within some metres hide a
 /// pilot from his own eye; those that begin at a level of detail hold coarser levels, which are not needed: the finest
 /// one is refined. One whose numbers are faulty hides nothing.
-bool hides(const std::filesystem::path& file, const XmlElement& animation, std::vector<std::string>& notes) {
+bool hides(const fs::path& file, const XmlElement& animation, std::vector<std::string>& notes) {
     const std::string_view kind = animation.text_of("type");
     if (kind != "range") { return kind == "light" || !holds_at_rest(animation); }
     try {
@@ -440,22 +437,8 @@ bool hides(const std::filesystem::path& file, const XmlElement& animation, std::
     }
 }
 
-const RotationAxis* FlightGearAnimations::axis_of(const std::string& object) const {
-    const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& turn) {
-        return object.empty() ? turn.objects.empty() : turn.objects.contains(object);
-    });
-    return found == turns.end() ? nullptr : &found->about;
-}
-
-AffineTransform FlightGearAnimations::place_of(const std::string& object) const {
-    AffineTransform place;
-    for (const FlightGearRestPlacement& move : moves) {
-        if (move.objects.contains(object) && axis_of(object) == nullptr) { place = place.of(move.placement); }
-    }
-    return place;
-}
-
-FlightGearAnimations flightgear_animations(const std::filesystem::path& file, const XmlElement& root) {
+/// `root`: of flightgear_tree(file).
+FlightGearAnimations flightgear_animations(const fs::path& file, const XmlElement& root) {
     const Groups groups = groups_in(root);
     FlightGearAnimations animated;
     for (const XmlElement& child : root.children) {

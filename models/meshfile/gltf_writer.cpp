@@ -1,7 +1,7 @@
 #include "models/material.h"
-#include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
+#include "sim/base/binary_file.h"
 
 #include <glm/common.hpp>
 
@@ -87,7 +87,7 @@ public:
 
     OrderedJson& json() { return json_; }
 
-    const std::string& bytes() const { return bytes_; }
+    const std::string& bytes() const { return bytes_.bytes(); }
 
 private:
     void add_material(const Material& material) {
@@ -106,8 +106,8 @@ private:
             const std::string& picture = *material.picture_bytes;
             json_["bufferViews"].push_back(
                 {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", picture.size()}});
-            bytes_ += picture;
-            bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+            bytes_.put_bytes(picture);
+            while (bytes_.size() % 4 != 0) { bytes_.put('\0'); }
             json_["images"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
                 {"mimeType", picture.starts_with("\x89PNG") ? "image/png" : "image/jpeg"}});
             json_["textures"].push_back({{"source", json_["images"].size() - 1}});
@@ -123,12 +123,6 @@ private:
         return json_["accessors"].size() - 1;
     }
 
-    void append_vector(const glm::vec3& vector) {
-        append_number(bytes_, vector.x);
-        append_number(bytes_, vector.y);
-        append_number(bytes_, vector.z);
-    }
-
     void add_vertices() {
         const std::size_t count = split_.vertices.size();
         glm::vec3 least(0.0F);
@@ -137,7 +131,7 @@ private:
             const glm::vec3 place_m(mesh_.vertices_m[split_.vertices[v]] - origin_m_);
             least = v == 0 ? place_m : glm::min(least, place_m);
             most = v == 0 ? place_m : glm::max(most, place_m);
-            append_vector(place_m);
+            bytes_.put(place_m);
         }
         const std::size_t places = add_accessor(0, count, float_type, "VEC3");
         json_["accessors"][places]["min"] = {least.x, least.y, least.z};
@@ -146,7 +140,7 @@ private:
         if (!mesh_.normals.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t normal : split_.normals) {
-                append_vector(normal == invalid_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
+                bytes_.put(normal == invalid_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
             }
             attributes_["NORMAL"] = add_accessor(first, count, float_type, "VEC3");
         }
@@ -155,15 +149,14 @@ private:
             for (const std::uint32_t texture : split_.textures) { // glTF counts v downwards
                 const glm::vec2 place =
                     texture == invalid_index ? glm::vec2(0.0F, 1.0F) : mesh_.texture_coordinates[texture];
-                append_number(bytes_, place.x);
-                append_number(bytes_, 1.0F - place.y);
+                bytes_.put(glm::vec2(place.x, 1.0F - place.y));
             }
             attributes_["TEXCOORD_0"] = add_accessor(first, count, float_type, "VEC2");
         }
         if (!mesh_.colours.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t vertex : split_.vertices) {
-                append_vector(glm::vec3(linear_from_srgb(glm::dvec3(mesh_.colours[vertex]))));
+                bytes_.put(glm::vec3(linear_from_srgb(glm::dvec3(mesh_.colours[vertex]))));
             }
             attributes_["COLOR_0"] = add_accessor(first, count, float_type, "VEC3");
         }
@@ -173,7 +166,7 @@ private:
         const std::size_t first = bytes_.size();
         for (std::size_t t = 0; t < split_.triangles.size(); ++t) {
             if (material == invalid_index || mesh_.triangle_materials[t] == material) {
-                for (const std::uint32_t vertex : split_.triangles[t]) { append_number(bytes_, vertex); }
+                bytes_.put(split_.triangles[t]);
             }
         }
         if (bytes_.size() == first) {
@@ -189,7 +182,7 @@ private:
     Split split_;
     glm::dvec3 origin_m_;
     std::map<std::string, std::size_t> textures_; ///< by their pictures
-    std::string bytes_;
+    BinaryWriter bytes_;
     OrderedJson json_;
     OrderedJson attributes_;
     OrderedJson primitives_ = OrderedJson::array();
@@ -217,7 +210,7 @@ bool is_gltf_picture(std::string_view bytes) {
 
 std::string gltf_text(const TriangleMesh& mesh) {
     GltfWriting writing(mesh);
-    writing.json()["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_text(writing.bytes());
+    writing.json()["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(writing.bytes());
     return text_of(writing.json()) + "\n";
 }
 
@@ -226,14 +219,16 @@ std::string glb_bytes(const TriangleMesh& mesh) {
     std::string json = text_of(writing.json());
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::string& data = writing.bytes(); // whole words throughout
-    std::string bytes = "glTF";
-    append_number(bytes, std::uint32_t{2});
-    append_number(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + data.size()));
-    append_number(bytes, static_cast<std::uint32_t>(json.size()));
-    bytes += "JSON" + json;
-    append_number(bytes, static_cast<std::uint32_t>(data.size()));
-    bytes += std::string("BIN\0", 4) + data;
-    return bytes;
+    BinaryWriter out;
+    out.put_bytes("glTF");
+    out.put(std::uint32_t{2});
+    out.put(static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + data.size()));
+    out.put(static_cast<std::uint32_t>(json.size()));
+    out.put_bytes("JSON" + json);
+    out.put(static_cast<std::uint32_t>(data.size()));
+    out.put_bytes({"BIN\0", 4});
+    out.put_bytes(data);
+    return out.take();
 }
 
 } // namespace octant::models::meshfile

@@ -210,27 +210,6 @@ bool is_glass(const BakedPictures::Cover& cover) {
     return cover.is_uniform && cover.opacity >= glass_from && cover.opacity < mostly_there;
 }
 
-/// Takes out the vertices that no triangle uses.
-void drop_unused_vertices(TriangleMesh& mesh) {
-    std::vector<std::uint32_t> places(mesh.vertices_m.size(), invalid_index);
-    std::uint32_t count = 0;
-    for (const Triangle& triangle : mesh.triangles) {
-        for (const std::uint32_t vertex : triangle) { places[vertex] = 0; }
-    }
-    for (std::size_t v = 0; v < places.size(); ++v) {
-        if (places[v] != invalid_index) {
-            mesh.vertices_m[count] = mesh.vertices_m[v];
-            if (!mesh.colours.empty()) { mesh.colours[count] = mesh.colours[v]; }
-            places[v] = count++;
-        }
-    }
-    mesh.vertices_m.resize(count);
-    mesh.colours.resize(mesh.colours.empty() ? 0 : count);
-    for (Triangle& triangle : mesh.triangles) {
-        for (std::uint32_t& vertex : triangle) { vertex = places[vertex]; }
-    }
-}
-
 } // namespace
 
 MeshBuilder::MeshBuilder(const std::filesystem::path& path, const ReadOptions& options)
@@ -353,7 +332,7 @@ TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>&
     part.take_out(gone);
     part.is_part_ = true;
     part.finish_part();
-    drop_unused_vertices(part.mesh_);
+    erase_unused_vertices(part.mesh_);
     for (std::string& note : std::exchange(part.mesh_.notes, {})) {
         if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(std::move(note)); }
     }
@@ -388,14 +367,11 @@ MeshParts MeshBuilder::finish_parts() {
 }
 
 void MeshBuilder::take_out(const std::vector<bool>& gone) {
+    erase_triangles(mesh_, gone);
     const auto take = [&gone](auto& list) {
         std::size_t t = 0;
         std::erase_if(list, [&](const auto&) { return gone[t++]; });
     };
-    take(mesh_.triangles);
-    if (!mesh_.corner_normals.empty()) { take(mesh_.corner_normals); }
-    if (!mesh_.corner_texture_coordinates.empty()) { take(mesh_.corner_texture_coordinates); }
-    if (!mesh_.triangle_materials.empty()) { take(mesh_.triangle_materials); }
     take(two_sided_);
     take(groups_);
     if (!covers_.empty()) { take(covers_); }

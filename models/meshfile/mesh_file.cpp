@@ -100,33 +100,25 @@ void write_gltf_mesh(const std::filesystem::path& path, const TriangleMesh& mesh
     write_file(path, bytes_of(loaded));
 }
 
-/// A reader of files without pictures.
-template <TriangleMesh (*read)(const std::filesystem::path&)>
-TriangleMesh read_plainly(const std::filesystem::path& path, const ReadOptions& /*options*/) {
-    return read(path);
-}
-
 struct Format {
     std::string_view ending;
-    TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
-    MeshParts (*parts)(const std::filesystem::path&, const ReadOptions&); ///< null: all is body
-    void (*write)(const std::filesystem::path&, const TriangleMesh&);     ///< null: it is only read
+    MeshBuilder (*read)(const std::filesystem::path&, const ReadOptions&);      ///< null: read_flightgear_model
+    bool has_parts = false;                                                     ///< else all is body
+    void (*write)(const std::filesystem::path&, const TriangleMesh&) = nullptr; ///< null: it is only read
     /// What a written file leaves out, of "normals", "colours of vertices", "materials" and "texture coordinates".
     std::string_view excluded = {};
     bool places_in_float = false; ///< As written.
     bool has_origin = false;      ///< Written places count from gltf_origin_m.
 };
 
-constexpr std::array formats{Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
-    Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>, "materials"},
-    Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>,
+constexpr std::array formats{Format{".obj", read_obj, true, write_obj_mesh},
+    Format{".ply", read_ply, false, write_one_file<ply_bytes>, "materials"},
+    Format{".stl", read_stl, false, write_one_file<stl_bytes>,
         "normals, colours of vertices, materials, texture coordinates", true},
-    Format{".off", read_plainly<read_off_mesh>, nullptr, nullptr},
-    Format{".gltf", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<gltf_text>, "", true, true},
-    Format{".glb", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<glb_bytes>, "", true, true},
-    Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_ac3d_mesh, "normals, colours of vertices"},
-    Format{".wrl", read_plainly<read_vrml_mesh>, nullptr, write_one_file<vrml_text>, "texture coordinates"},
-    Format{".xml", read_flightgear_model, nullptr, nullptr}};
+    Format{".off", read_off}, Format{".gltf", read_gltf, true, write_gltf_mesh<gltf_text>, "", true, true},
+    Format{".glb", read_gltf, true, write_gltf_mesh<glb_bytes>, "", true, true},
+    Format{".ac", read_ac3d, true, write_ac3d_mesh, "normals, colours of vertices"},
+    Format{".wrl", read_vrml, false, write_one_file<vrml_text>, "texture coordinates"}, Format{".xml", nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
     const std::string ending = extension_of(path);
@@ -149,13 +141,14 @@ const Format& format_of(const std::filesystem::path& path) {
 } // namespace
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return format_of(path).read(path, options);
+    const Format& format = format_of(path);
+    return format.read == nullptr ? read_flightgear_model(path, options) : format.read(path, options).finish();
 }
 
 MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options) {
     const Format& format = format_of(path);
-    if (format.parts != nullptr) { return format.parts(path, options); }
-    return {format.read(path, options), std::vector<TriangleMesh>(options.groups.size()), {}};
+    if (format.has_parts) { return format.read(path, options).finish_parts(); }
+    return {read_mesh(path, options), std::vector<TriangleMesh>(options.groups.size()), {}};
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
@@ -188,10 +181,9 @@ std::vector<std::string> write_warnings(const std::filesystem::path& path, const
     }
     const bool has_textures = !mesh.corner_texture_coordinates.empty();
     if (has_textures && format.ending == ".ac" && single_picture(mesh).empty()) {
-        notes.push_back(
-            fmt::format("{}: texture coordinates are written without a picture, as the materials do not have "
-                        "one in common",
-                path.string()));
+        notes.push_back(fmt::format(
+            "{}: texture coordinates are written without a picture, as the materials do not have one in common",
+            path.string()));
     }
     for (const Material& material : format.has_origin ? mesh.materials : std::vector<Material>()) {
         const auto bytes = picture_bytes_of(material);

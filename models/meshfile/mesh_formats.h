@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/meshfile/mesh_parts.h"
+#include "models/meshfile/mesh_builder.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
@@ -15,20 +15,17 @@ namespace octant::models::meshfile {
 /// Names of materials as text formats can hold them: not empty, one line, no quotes, none twice.
 std::vector<std::string> unique_material_names(std::span<const Material> materials);
 
-/// The readers behind read_mesh, one a format; all throw Error.
-TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options);
-TriangleMesh read_ply_mesh(const std::filesystem::path& path);
-TriangleMesh read_stl_mesh(const std::filesystem::path& path);
-TriangleMesh read_off_mesh(const std::filesystem::path& path);
-TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions& options);
-TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options);
-TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
-TriangleMesh read_vrml_mesh(const std::filesystem::path& path);
+/// The readers behind read_mesh and read_parts, one a format: all of the file, to be finished. Throw Error.
+MeshBuilder read_obj(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_ply(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_stl(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_off(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_gltf(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Those behind read_parts.
-MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& options);
-MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options);
-MeshParts read_gltf_parts(const std::filesystem::path& path, const ReadOptions& options);
+/// A FlightGear model with its rotating and transparent parts in one mesh. Throws Error.
+TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
 
 /// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib line without
 /// materials). Numbers have the digits that it takes to read them back bit for bit.

@@ -93,31 +93,38 @@ void keep_used(std::vector<Value>& values, std::vector<Triangle>& corners) {
 
 } // namespace
 
+void erase_triangles(TriangleMesh& mesh, const std::vector<bool>& gone) {
+    const auto erase = [&gone](auto& list) {
+        std::size_t t = 0;
+        if (!list.empty()) {
+            std::erase_if(list, [&](const auto&) { return gone[t++]; });
+        }
+    };
+    erase(mesh.triangles);
+    erase(mesh.corner_normals);
+    erase(mesh.corner_texture_coordinates);
+    erase(mesh.triangle_materials);
+}
+
+void erase_unused_vertices(TriangleMesh& mesh) {
+    if (!mesh.colours.empty()) {
+        std::vector<Triangle> corners = mesh.triangles;
+        keep_used(mesh.colours, corners);
+    }
+    keep_used(mesh.vertices_m, mesh.triangles);
+}
+
 TriangleMesh part_of_materials(const TriangleMesh& mesh, std::uint32_t first_material, std::uint32_t count) {
     TriangleMesh part = mesh;
     const auto from = mesh.materials.begin() + first_material;
     part.materials.assign(from, from + count);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::uint32_t material = mesh.triangle_materials[t];
-        if (material < first_material || material - first_material >= count) { continue; }
-        part.triangles[kept] = mesh.triangles[t];
-        part.triangle_materials[kept] = material - first_material;
-        if (!mesh.corner_normals.empty()) { part.corner_normals[kept] = mesh.corner_normals[t]; }
-        if (!mesh.corner_texture_coordinates.empty()) {
-            part.corner_texture_coordinates[kept] = mesh.corner_texture_coordinates[t];
-        }
-        ++kept;
+    std::vector<bool> gone;
+    for (std::uint32_t& material : part.triangle_materials) {
+        material -= first_material;
+        gone.push_back(material >= count); // Smaller ones have wrapped round.
     }
-    part.triangles.resize(kept);
-    part.triangle_materials.resize(kept);
-    part.corner_normals.resize(mesh.corner_normals.empty() ? 0 : kept);
-    part.corner_texture_coordinates.resize(mesh.corner_texture_coordinates.empty() ? 0 : kept);
-    if (!part.colours.empty()) {
-        std::vector<Triangle> corners = part.triangles;
-        keep_used(part.colours, corners);
-    }
-    keep_used(part.vertices_m, part.triangles);
+    erase_triangles(part, gone);
+    erase_unused_vertices(part);
     keep_used(part.normals, part.corner_normals);
     keep_used(part.texture_coordinates, part.corner_texture_coordinates);
     return part;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/triangle_mesh.h"
+#include "sim/base/text_scanner.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -8,12 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace octant::models::meshfile {
 
 /// Limits of polygons and coordinates in files. A larger coordinate is a fault of the file in any unit of length.
 inline constexpr std::size_t max_polygon_corners = 10'000;
 inline constexpr double max_coordinate = 1e12;
+inline constexpr TextRules mesh_text{.max_number = max_coordinate}; ///< words between blanks
 
 /// The placement of a scene node: world = turn * own + shift.
 struct AffineTransform {
@@ -37,6 +40,12 @@ struct AffineTransform {
 /// Appends a transformed mesh to another. If one of them has colours, the other gets its material colours. Normals are
 /// kept where both have them. Notes are appended.
 void join_mesh(TriangleMesh& to, TriangleMesh from, const AffineTransform& placement);
+
+/// Removes the triangles whose entry in `gone` is true, with their entries in all lists of triangles.
+void erase_triangles(TriangleMesh& mesh, const std::vector<bool>& gone);
+
+/// Removes vertices that no triangle uses.
+void erase_unused_vertices(TriangleMesh& mesh);
 
 /// Returns the triangles of `count` materials from `first_material` on, with the materials, vertices and attributes
 /// that they use, in the same order.

@@ -1,10 +1,10 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/word_scanner.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,88 +23,77 @@ using Words = std::vector<std::string_view>;
 
 class ObjMeshReading {
 public:
-    ObjMeshReading(const std::filesystem::path& path, const ReadOptions& options) : path_(path), mesh_(path, options) {}
+    ObjMeshReading(const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
+        : path_(path), text_(path, text, {.joins_lines = true}), mesh_(path, options) {}
 
     /// What the file holds, to be finished.
     MeshBuilder read() {
-        const std::string text = read_text_file(path_, largest_obj_bytes);
-        polygons::ObjLineReader lines(text);
-        while (lines.next()) {
-            line_ = lines.number();
-            take(lines.text());
-        }
+        while (text_.next_line()) { take(); }
         note_missing_files();
         return std::move(mesh_);
     }
 
 private:
-    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
-        throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
-    }
-
     /// Lines of other keywords say nothing about triangles.
-    void take(std::string_view line) {
-        const Words words = split_words(line);
-        if (words.empty() || words[0].starts_with('#')) { return; }
-        if (words[0] == "v") {
-            take_vertex(words);
-        } else if (words[0] == "vn") {
-            mesh_.add_normal(vector(words, 1));
-        } else if (words[0] == "vt") {
-            take_texture_coordinates(words);
-        } else if (words[0] == "f") {
-            take_polygon(words);
-        } else if (words[0] == "usemtl") {
-            material_name_ = std::string(polygons::after_first_word(line));
+    void take() {
+        const std::string_view keyword = text_.word_or_end();
+        if (keyword == "v") {
+            take_vertex(text_.words());
+        } else if (keyword == "vn") {
+            mesh_.add_normal(vector(text_.words(), 0));
+        } else if (keyword == "vt") {
+            take_texture_coordinates();
+        } else if (keyword == "f") {
+            take_polygon(text_.words());
+        } else if (keyword == "usemtl") {
+            material_name_ = std::string(text_.rest_of_line());
             material_ = invalid_index;
             picture_ = BakedPictures::none;
-        } else if (words[0] == "mtllib") {
-            take_material_files(std::string(polygons::after_first_word(line)), words);
+        } else if (keyword == "mtllib") {
+            take_material_files(text_.words());
         }
     }
 
     double number(std::string_view word) const {
         const auto value = finite_number(word);
-        if (!value) { refuse("a number", in_quotes(word)); }
+        if (!value) { text_.refuse("a number", in_quotes(word)); }
         if (std::abs(*value) > max_coordinate) {
-            refuse(fmt::format("a number within {:g}", max_coordinate), in_quotes(word));
+            text_.refuse(fmt::format("a number within {:g}", max_coordinate), in_quotes(word));
         }
         return *value;
     }
 
     glm::dvec3 vector(const Words& words, std::size_t first) const {
-        if (words.size() < first + 3) { refuse("three numbers", std::to_string(words.size() - first)); }
+        if (words.size() < first + 3) { text_.refuse("three numbers", std::to_string(words.size() - first)); }
         return {number(words[first]), number(words[first + 1]), number(words[first + 2])};
     }
 
     /// v x y z, v x y z w or v x y z r g b.
     void take_vertex(const Words& words) {
-        const std::uint32_t vertex = mesh_.add_vertex(vector(words, 1));
-        if (words.size() >= 7) {
-            const glm::dvec3 colour = vector(words, 4);
-            for (int part = 0; part < 3; ++part) {
-                if (colour[part] < 0.0 || colour[part] > 1.0) {
-                    refuse(
-                        "a vertex colour of three numbers 0..1", in_quotes(words[static_cast<std::size_t>(part) + 4]));
-                }
+        const std::uint32_t vertex = mesh_.add_vertex(vector(words, 0));
+        if (words.size() < 6) { return; }
+        const glm::dvec3 colour = vector(words, 3);
+        for (int part = 0; part < 3; ++part) {
+            if (colour[part] < 0.0 || colour[part] > 1.0) {
+                text_.refuse(
+                    "a vertex colour of three numbers 0..1", in_quotes(words[static_cast<std::size_t>(part) + 3]));
             }
-            mesh_.set_colour(vertex, glm::vec3(colour));
         }
+        mesh_.set_colour(vertex, glm::vec3(colour));
     }
 
-    /// vt u v, from the lower left corner of a picture.
-    void take_texture_coordinates(const Words& words) {
-        const auto part = [&](std::size_t place) {
-            return place < words.size() ? static_cast<float>(finite_number(words[place]).value_or(0.0)) : 0.0F;
-        };
-        mesh_.add_texture_coordinates({part(1), part(2)});
+    /// vt u v, from the lower left corner of a picture. What is no number counts as 0.
+    void take_texture_coordinates() {
+        const double u = finite_number(text_.word_or_end()).value_or(0.0);
+        const double v = finite_number(text_.word_or_end()).value_or(0.0);
+        mesh_.add_texture_coordinates({static_cast<float>(u), static_cast<float>(v)});
     }
 
     std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) const {
         const auto value = whole_number(word);
         const long most = static_cast<long>(count);
         if (!value || *value == 0 || *value > most || *value < -most) {
-            refuse(fmt::format("a {} 1 to {} (or -{} to -1)", what, most, most), in_quotes(word));
+            text_.refuse(fmt::format("a {} 1 to {} (or -{} to -1)", what, most, most), in_quotes(word));
         }
         return static_cast<std::uint32_t>(*value > 0 ? *value - 1 : most + *value);
     }
@@ -127,12 +116,12 @@ private:
     }
 
     void take_polygon(const Words& words) {
-        const std::size_t count = words.size() - 1;
-        if (count < 3 || count > max_polygon_corners) {
-            refuse(fmt::format("a polygon of 3 to {} corners", max_polygon_corners), std::to_string(count));
+        if (words.size() < 3 || words.size() > max_polygon_corners) {
+            text_.refuse(
+                fmt::format("a polygon of 3 to {} corners", max_polygon_corners), std::to_string(words.size()));
         }
         corners_.clear();
-        for (std::size_t i = 1; i < words.size(); ++i) { corners_.push_back(corner(words[i])); }
+        for (const std::string_view word : words) { corners_.push_back(corner(word)); }
         const std::uint32_t used = material();
         mesh_.add_polygon(corners_, used, picture_);
     }
@@ -165,11 +154,11 @@ private:
         return material_;
     }
 
-    /// `all` is one name with blanks or, where there is no such file, a name a word.
-    void take_material_files(const std::string& all, const Words& words) {
-        if (take_material_file(all)) { return; }
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            if (!take_material_file(std::string(words[i]))) { missing_.emplace(std::string(words[i]), line_); }
+    /// The rest of the line is one name with blanks or, where there is no such file, a name a word.
+    void take_material_files(const Words& words) {
+        if (take_material_file(std::string(text_.rest_of_line()))) { return; }
+        for (const std::string_view word : words) {
+            if (!take_material_file(std::string(word))) { missing_.emplace(std::string(word), text_.line_number()); }
         }
     }
 
@@ -177,15 +166,10 @@ private:
         const std::filesystem::path file = path_.parent_path() / name;
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) { return false; }
-        for (const Material& material : polygons::read_mtl(file)) {
-            colours_.insert_or_assign(material.name, material.colour);
-        }
-        for (const auto& [material, opacity] : polygons::opacities_of_mtl(file)) {
-            opacities_.insert_or_assign(material, opacity);
-        }
-        for (const auto& [material, picture] : polygons::pictures_of_mtl(file)) {
-            picture_names_.insert_or_assign(material, picture);
-        }
+        const polygons::MtlFile read = polygons::read_mtl(file);
+        for (const Material& material : read.materials) { colours_.insert_or_assign(material.name, material.colour); }
+        for (const auto& [material, opacity] : read.opacities) { opacities_.insert_or_assign(material, opacity); }
+        for (const auto& [material, picture] : read.pictures) { picture_names_.insert_or_assign(material, picture); }
         return true;
     }
 
@@ -197,6 +181,7 @@ private:
     }
 
     std::filesystem::path path_;
+    TextScanner text_;
     MeshBuilder mesh_;
     std::optional<std::string> material_name_;
     std::uint32_t material_ = invalid_index; ///< of material_name_, once a polygon has it
@@ -207,17 +192,13 @@ private:
     std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
     std::map<std::string, int> missing_;               ///< with the line that names them first
     std::vector<CornerIndices> corners_;
-    int line_ = 0;
 };
 
 } // namespace
 
-TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return ObjMeshReading(path, options).read().finish();
-}
-
-MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    return ObjMeshReading(path, options).read().finish_parts();
+MeshBuilder read_obj(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string text = read_text_file(path, largest_obj_bytes);
+    return ObjMeshReading(path, text, options).read();
 }
 
 namespace {

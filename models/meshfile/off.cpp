@@ -1,9 +1,9 @@
 // Geomview's Object File Format, as text, in three dimensions.
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/word_scanner.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <array>
@@ -61,14 +61,14 @@ public:
     /// `text` has no comments.
     OffReading(const std::filesystem::path& path, std::string_view text)
         : header_(read_header(path, text)),
-          words_(path, text.substr(header_.body_at),
+          words_(path, text.substr(header_.body_at), mesh_text,
               1 + static_cast<int>(std::ranges::count(text.substr(0, header_.body_at), '\n'))),
           mesh_(path), path_(path) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         const auto most = static_cast<long>(words_.bytes_left());
-        const long vertices = words_.whole("the number of vertices", 0, most);
-        const long faces = words_.whole("the number of faces", 0, most);
+        const long vertices = words_.integer("the number of vertices", 0, most);
+        const long faces = words_.integer("the number of faces", 0, most);
         words_.rest_of_line(); // The number of edges, which nobody needs.
         for (long i = 0; i < vertices; ++i) { take_vertex(); }
         for (long i = 0; i < faces; ++i) { take_face(); }
@@ -80,7 +80,7 @@ public:
             mesh_.add_note(
                 fmt::format("{}: colours of faces that are numbers of a colour map are not read", path_.string()));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -95,11 +95,11 @@ private:
     void take_vertex() {
         const std::uint32_t vertex = mesh_.add_vertex(triple("a coordinate"));
         if (header_.has_normals) { mesh_.add_normal(triple("a normal")); }
-        const int line = words_.line();
+        const int line = words_.line_number();
         std::vector<std::string_view> rest = split_words(words_.rest_of_line());
         if (header_.has_textures) {
             if (rest.size() < 2) { refuse(line, "texture coordinates behind a vertex", rest); }
-            WordScanner numbers(path_, text_of(rest, rest.size() - 2), line);
+            TextScanner numbers(path_, text_of(rest, rest.size() - 2), mesh_text, line);
             const double u = numbers.number("a texture coordinate");
             mesh_.add_texture_coordinates(glm::vec2(glm::dvec2(u, numbers.number("a texture coordinate"))));
             rest.resize(rest.size() - 2);
@@ -108,15 +108,15 @@ private:
     }
 
     void take_face() {
-        const long count = words_.whole("a number of corners", 1, static_cast<long>(max_polygon_corners));
+        const long count = words_.integer("a number of corners", 1, static_cast<long>(max_polygon_corners));
         corners_.clear();
         for (long i = 0; i < count; ++i) {
             const auto vertex = static_cast<std::uint32_t>(
-                words_.whole("the number of a vertex", 0, static_cast<long>(mesh_.vertex_count()) - 1));
+                words_.integer("the number of a vertex", 0, static_cast<long>(mesh_.vertex_count()) - 1));
             corners_.push_back(
                 {vertex, header_.has_normals ? vertex : invalid_index, header_.has_textures ? vertex : invalid_index});
         }
-        const int line = words_.line();
+        const int line = words_.line_number();
         const std::vector<std::string_view> rest = split_words(words_.rest_of_line());
         has_map_colours_ = has_map_colours_ || rest.size() == 1;
         const std::uint32_t material = rest.size() < 2 ? invalid_index : material_of(colour(rest, line));
@@ -161,7 +161,7 @@ private:
     }
 
     OffHeader header_;
-    WordScanner words_;
+    TextScanner words_;
     MeshBuilder mesh_;
     std::filesystem::path path_;
     std::vector<CornerIndices> corners_;
@@ -172,7 +172,7 @@ private:
 
 } // namespace
 
-TriangleMesh read_off_mesh(const std::filesystem::path& path) {
+MeshBuilder read_off(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     std::string text = read_text_file(path, largest_off_bytes);
     for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at)) {
         for (; at < text.size() && text[at] != '\n'; ++at) { text[at] = ' '; }

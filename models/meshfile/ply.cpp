@@ -1,9 +1,9 @@
-#include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/word_scanner.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,16 @@ namespace {
 
 enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
 
-std::size_t bytes_of(PlyType type);
+std::size_t bytes_of(PlyType type) {
+    constexpr std::array<std::size_t, 8> bytes{1, 1, 2, 2, 4, 4, 4, 8};
+    return bytes.at(static_cast<std::size_t>(type));
+}
 
 /// What stands for a colour part of 1: the largest of a whole-number type; 1 for float and double.
-double normalization_divisor(PlyType type);
+double normalization_divisor(PlyType type) {
+    constexpr std::array<double, 8> divisors{127.0, 255.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0, 1.0, 1.0};
+    return divisors.at(static_cast<std::size_t>(type));
+}
 
 struct PlyProperty {
     std::string name;
@@ -80,13 +86,14 @@ std::size_t min_element_bytes(const PlyElement& element, PlyEncoding form) {
 
 class HeaderReading {
 public:
-    HeaderReading(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+    HeaderReading(const std::filesystem::path& path, std::string_view bytes)
+        : path_(path), text_(path, bytes), bytes_(bytes) {}
 
     PlyHeader read() {
-        if (next_line() != "ply") { refuse("'ply'", in_quotes(text_)); }
+        if (next_line() != "ply") { text_.refuse("'ply'", in_quotes(line_)); }
         bool has_form = false;
         while (next_line() != "end_header") {
-            const Words words = split_words(text_);
+            const Words& words = text_.words();
             if (words.empty() || words[0] == "comment" || words[0] == "obj_info") { continue; }
             if (words[0] == "format") {
                 take_form(words);
@@ -96,34 +103,32 @@ public:
             } else if (words[0] == "property") {
                 take_property(words);
             } else {
-                refuse("format, element, property, comment or end_header", in_quotes(text_));
+                refuse_line("format, element, property, comment or end_header");
             }
         }
-        if (!has_form) { refuse("a format line in the header", "none"); }
-        header_.body_at = at_;
-        header_.body_line = line_ + 1;
+        if (!has_form) { text_.refuse("a format line in the header", "none"); }
+        header_.body_at = text_.offset();
+        header_.body_line = text_.line_number() + 1;
         check_counts();
         return std::move(header_);
     }
 
 private:
-    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
-        throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
-    }
+    [[noreturn]] void refuse_line(std::string_view expected) const { text_.refuse(expected, in_quotes(line_)); }
 
     std::string_view next_line() {
-        ++line_;
-        const std::size_t end = bytes_.find('\n', at_);
-        if (end == std::string_view::npos) { refuse("end_header", "the end of the file"); }
-        text_ = bytes_.substr(at_, end - at_);
-        at_ = end + 1;
-        while (!text_.empty() && (text_.back() == '\r' || text_.back() == ' ')) { text_.remove_suffix(1); }
-        return text_;
+        if (!text_.next_line()) {
+            throw_error_at(path_, text_.line_number() + 1, "expected end_header, got the end of the file");
+        }
+        if (text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
+        line_ = text_.line();
+        while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' ')) { line_.remove_suffix(1); }
+        return line_;
     }
 
     void take_form(const Words& words) {
         const std::string_view form = words.size() > 1 ? words[1] : std::string_view();
-        if (words.size() != 3 || words[2] != "1.0") { refuse("'format FORM 1.0'", in_quotes(text_)); }
+        if (words.size() != 3 || words[2] != "1.0") { refuse_line("'format FORM 1.0'"); }
         if (form == "ascii") {
             header_.form = PlyEncoding::ascii;
         } else if (form == "binary_little_endian") {
@@ -131,14 +136,14 @@ private:
         } else if (form == "binary_big_endian") {
             header_.form = PlyEncoding::big_endian;
         } else {
-            refuse("ascii, binary_little_endian or binary_big_endian", in_quotes(form));
+            text_.refuse("ascii, binary_little_endian or binary_big_endian", in_quotes(form));
         }
     }
 
     void take_element(const Words& words) {
         const auto count = words.size() == 3 ? whole_number(words[2]) : std::nullopt;
-        if (!count || *count < 0) { refuse("'element NAME COUNT'", in_quotes(text_)); }
-        element_lines_.push_back(line_);
+        if (!count || *count < 0) { refuse_line("'element NAME COUNT'"); }
+        element_lines_.push_back(text_.line_number());
         header_.elements.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
     }
 
@@ -146,16 +151,16 @@ private:
         for (const TypeName& known : type_names) {
             if (known.name == name) { return known.type; }
         }
-        refuse("a type such as uchar, int or float", in_quotes(name));
+        text_.refuse("a type such as uchar, int or float", in_quotes(name));
     }
 
     void take_property(const Words& words) {
         const bool is_list = words.size() == 5 && words[1] == "list";
-        if (!is_list && words.size() != 3) {
-            refuse("'property TYPE NAME' or 'property list TYPE TYPE NAME'", in_quotes(text_));
+        if (!is_list && words.size() != 3) { refuse_line("'property TYPE NAME' or 'property list TYPE TYPE NAME'"); }
+        if (header_.elements.empty()) { refuse_line("an element before its property"); }
+        if (++properties_ > max_properties) {
+            text_.refuse(fmt::format("at most {} properties", max_properties), "more");
         }
-        if (header_.elements.empty()) { refuse("an element before its property", in_quotes(text_)); }
-        if (++properties_ > max_properties) { refuse(fmt::format("at most {} properties", max_properties), "more"); }
         PlyProperty property;
         property.name = std::string(words.back());
         property.is_list = is_list;
@@ -163,7 +168,7 @@ private:
         if (is_list) {
             property.count_type = type_of(words[2]);
             if (normalization_divisor(property.count_type) == 1.0) {
-                refuse("a whole number as the count of a list", in_quotes(text_));
+                refuse_line("a whole number as the count of a list");
             }
         }
         header_.elements.back().properties.push_back(std::move(property));
@@ -177,62 +182,21 @@ private:
             const PlyElement& element = header_.elements[i];
             const std::size_t least = min_element_bytes(element, header_.form);
             if (least > 0 && element.count > (room + spare) / least) {
-                line_ = element_lines_[i];
-                refuse(fmt::format(
-                           "at most {} of {} in a file of this size", (room + spare) / least, in_quotes(element.name)),
-                    std::to_string(element.count));
+                throw_error_at(path_, element_lines_[i],
+                    fmt::format("expected at most {} of {} in a file of this size, got {}", (room + spare) / least,
+                        in_quotes(element.name), element.count));
             }
         }
     }
 
     std::filesystem::path path_;
+    TextScanner text_;
     std::string_view bytes_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int line_ = 0;
+    std::string_view line_; ///< without blanks at its end
     std::size_t properties_ = 0;
     std::vector<int> element_lines_;
     PlyHeader header_;
 };
-
-std::size_t bytes_of(PlyType type) {
-    switch (type) {
-    case PlyType::i8:
-    case PlyType::u8:
-        return 1;
-    case PlyType::i16:
-    case PlyType::u16:
-        return 2;
-    case PlyType::i32:
-    case PlyType::u32:
-    case PlyType::f32:
-        return 4;
-    case PlyType::f64:
-        break;
-    }
-    return 8;
-}
-
-double normalization_divisor(PlyType type) {
-    switch (type) {
-    case PlyType::i8:
-        return 127.0;
-    case PlyType::u8:
-        return 255.0;
-    case PlyType::i16:
-        return 32767.0;
-    case PlyType::u16:
-        return 65535.0;
-    case PlyType::i32:
-        return 2147483647.0;
-    case PlyType::u32:
-        return 4294967295.0;
-    case PlyType::f32:
-    case PlyType::f64:
-        break;
-    }
-    return 1.0;
-}
 
 /// The header of a PLY file, checked for what its body can hold at most. Throws Error "file:line".
 PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view bytes) {
@@ -245,11 +209,13 @@ constexpr std::size_t largest_ply_bytes = std::size_t{1} << 30U;
 class WordSource {
 public:
     WordSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-        : words_(path, bytes.substr(header.body_at), header.body_line) {}
+        : words_(path, bytes.substr(header.body_at), mesh_text, header.body_line) {}
 
     double number(PlyType /*type*/, const char* what) { return words_.number(what); }
 
-    double count(PlyType /*type*/, const char* what) { return static_cast<double>(words_.whole(what, 0, 0xffffffffL)); }
+    double count(PlyType /*type*/, const char* what) {
+        return static_cast<double>(words_.integer(what, 0, 0xffffffffL));
+    }
 
     /// Other properties may be anything, such as nan for a confidence.
     void skip(PlyType /*type*/) { words_.word("a value of a property"); }
@@ -263,14 +229,14 @@ public:
     }
 
 private:
-    WordScanner words_;
+    TextScanner words_;
 };
 
 /// Gives the numbers of a binary body one after the other.
 class ByteSource {
 public:
     ByteSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-        : bytes_(path, bytes, header.body_at,
+        : bytes_(bytes, path, header.body_at,
               header.form == PlyEncoding::big_endian ? std::endian::big : std::endian::little) {}
 
     double number(PlyType type, const char* what) {
@@ -283,9 +249,9 @@ public:
 
     double count(PlyType type, const char* what) { return number(type, what); }
 
-    void skip(PlyType type) { bytes_.take(bytes_of(type), "a value of a property"); }
+    void skip(PlyType type) { bytes_.take_bytes(bytes_of(type), "a value of a property"); }
 
-    void skip(PlyType type, std::size_t count) { bytes_.take(count * bytes_of(type), "a list of a property"); }
+    void skip(PlyType type, std::size_t count) { bytes_.take_bytes(count * bytes_of(type), "a list of a property"); }
 
     [[noreturn]] void refuse(const std::string& expected, const std::string& got) const {
         bytes_.refuse(expected, got);
@@ -295,26 +261,26 @@ private:
     double raw(PlyType type, const char* what) {
         switch (type) {
         case PlyType::i8:
-            return bytes_.number<std::int8_t>(what);
+            return bytes_.take<std::int8_t>(what);
         case PlyType::u8:
-            return bytes_.number<std::uint8_t>(what);
+            return bytes_.take<std::uint8_t>(what);
         case PlyType::i16:
-            return bytes_.number<std::int16_t>(what);
+            return bytes_.take<std::int16_t>(what);
         case PlyType::u16:
-            return bytes_.number<std::uint16_t>(what);
+            return bytes_.take<std::uint16_t>(what);
         case PlyType::i32:
-            return bytes_.number<std::int32_t>(what);
+            return bytes_.take<std::int32_t>(what);
         case PlyType::u32:
-            return bytes_.number<std::uint32_t>(what);
+            return bytes_.take<std::uint32_t>(what);
         case PlyType::f32:
-            return static_cast<double>(bytes_.number<float>(what));
+            return static_cast<double>(bytes_.take<float>(what));
         case PlyType::f64:
             break;
         }
-        return bytes_.number<double>(what);
+        return bytes_.take<double>(what);
     }
 
-    ByteReader bytes_;
+    BinaryReader bytes_;
 };
 
 /// What a vertex's property means, in the order of a vertex's eleven values.
@@ -334,7 +300,7 @@ public:
     BodyReading(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
         : header_(header), path_(path), source_(path, bytes, header), mesh_(path) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         for (const PlyElement& element : header_.elements) {
             if (element.name == "vertex" && !has_vertices_) {
                 take_vertices(element);
@@ -351,7 +317,7 @@ public:
             mesh_.add_note(
                 fmt::format("{}: properties that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -551,7 +517,7 @@ private:
 
 } // namespace
 
-TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
+MeshBuilder read_ply(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     const std::string bytes = read_file(path, largest_ply_bytes);
     const PlyHeader header = read_ply_header(path, bytes);
     return header.form == PlyEncoding::ascii ? BodyReading<WordSource>(path, bytes, header).read()
@@ -604,25 +570,15 @@ std::vector<glm::vec2> vertex_textures(const TriangleMesh& mesh) {
 }
 
 /// A face's list of corners and, where `textures`, of their texture coordinates as MeshLab has them.
-void append_face(std::string& bytes, const TriangleMesh& mesh, std::size_t t, bool textures) {
-    append_number(bytes, std::uint8_t{3});
-    for (const std::uint32_t vertex : mesh.triangles[t]) { append_number(bytes, vertex); }
+void put_face(BinaryWriter& out, const TriangleMesh& mesh, std::size_t t, bool textures) {
+    out.put(std::uint8_t{3});
+    out.put(mesh.triangles[t]);
     if (!textures) { return; }
     const Triangle& corners = mesh.corner_texture_coordinates[t];
-    append_number(bytes, std::uint8_t{static_cast<std::uint8_t>(corners[0] == invalid_index ? 0 : 6)});
+    out.put(std::uint8_t{static_cast<std::uint8_t>(corners[0] == invalid_index ? 0 : 6)});
     for (const std::uint32_t corner : corners) {
-        if (corner != invalid_index) {
-            append_number(bytes, mesh.texture_coordinates[corner].x);
-            append_number(bytes, mesh.texture_coordinates[corner].y);
-        }
+        if (corner != invalid_index) { out.put(mesh.texture_coordinates[corner]); }
     }
-}
-
-template <typename T>
-void append_vector(std::string& bytes, const glm::dvec3& vector) {
-    append_number(bytes, static_cast<T>(vector.x));
-    append_number(bytes, static_cast<T>(vector.y));
-    append_number(bytes, static_cast<T>(vector.z));
 }
 
 } // namespace
@@ -636,42 +592,40 @@ std::string ply_bytes(const TriangleMesh& mesh) {
     const std::vector<glm::vec3> normals = vertex_normals(mesh);
     const std::vector<glm::vec2> textures = vertex_textures(mesh);
     const bool face_textures = textures.empty() && !mesh.corner_texture_coordinates.empty();
-    std::string bytes =
-        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices_m.size());
+    std::string head = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices_m.size());
     const auto add_properties = [&](std::string_view type, std::string_view names) {
-        for (const char name : names) { bytes += fmt::format("property {} {}\n", type, name); }
+        for (const char name : names) { head += fmt::format("property {} {}\n", type, name); }
     };
     add_properties(is_float ? "float" : "double", "xyz");
-    if (!normals.empty()) { bytes += "property float nx\nproperty float ny\nproperty float nz\n"; }
+    if (!normals.empty()) { head += "property float nx\nproperty float ny\nproperty float nz\n"; }
     if (has_colours) {
         for (const std::string_view part : {"red", "green", "blue"}) {
-            bytes += fmt::format("property {} {}\n", byte_colours ? "uchar" : "float", part);
+            head += fmt::format("property {} {}\n", byte_colours ? "uchar" : "float", part);
         }
     }
     if (!textures.empty()) { add_properties("float", "st"); }
-    bytes += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n{}end_header\n",
+    head += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n{}end_header\n",
         mesh.triangles.size(), face_textures ? "property list uchar float texcoord\n" : "");
+    BinaryWriter out;
+    out.put_bytes(head);
     for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v) {
         if (is_float) {
-            append_vector<float>(bytes, mesh.vertices_m[v]);
+            out.put(glm::vec3(mesh.vertices_m[v]));
         } else {
-            append_vector<double>(bytes, mesh.vertices_m[v]);
+            out.put(mesh.vertices_m[v]);
         }
-        if (!normals.empty()) { append_vector<float>(bytes, glm::dvec3(normals[v])); }
+        if (!normals.empty()) { out.put(normals[v]); }
         for (int part = 0; has_colours && part < 3; ++part) {
             if (byte_colours) {
-                append_number(bytes, byte_of(mesh.colours[v][part]));
+                out.put(byte_of(mesh.colours[v][part]));
             } else {
-                append_number(bytes, mesh.colours[v][part]);
+                out.put(mesh.colours[v][part]);
             }
         }
-        if (!textures.empty()) {
-            append_number(bytes, textures[v].x);
-            append_number(bytes, textures[v].y);
-        }
+        if (!textures.empty()) { out.put(textures[v]); }
     }
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) { append_face(bytes, mesh, t, face_textures); }
-    return bytes;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) { put_face(out, mesh, t, face_textures); }
+    return out.take();
 }
 
 } // namespace octant::models::meshfile

@@ -1,9 +1,9 @@
-#include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/word_scanner.h"
 #include "models/repair/repair.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <glm/geometric.hpp>
 
@@ -26,7 +26,7 @@ class Corners {
 public:
     void add(const glm::dvec3& place_m) { places_m_.push_back(place_m); }
 
-    TriangleMesh welded(MeshBuilder& mesh) const {
+    MeshBuilder welded(MeshBuilder& mesh) const {
         const std::vector<std::uint32_t> firsts =
             repair::first_duplicates(places_m_, {}, std::vector<bool>(places_m_.size(), true));
         std::vector<std::uint32_t> vertices(places_m_.size(), invalid_index);
@@ -37,7 +37,7 @@ public:
             mesh.add_polygon(std::array<CornerIndices, 3>{CornerIndices{vertices[corner]},
                 CornerIndices{vertices[corner + 1]}, CornerIndices{vertices[corner + 2]}});
         }
-        return mesh.finish();
+        return std::move(mesh);
     }
 
 private:
@@ -51,9 +51,10 @@ bool is_word(std::string_view word, std::string_view lower) {
 
 class AsciiReading {
 public:
-    AsciiReading(const std::filesystem::path& path, std::string_view text) : words_(path, text, 1), mesh_(path) {}
+    AsciiReading(const std::filesystem::path& path, std::string_view text)
+        : words_(path, text, mesh_text), mesh_(path) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         take("solid");
         words_.rest_of_line();
         while (true) {
@@ -93,35 +94,35 @@ private:
         take("endfacet");
     }
 
-    WordScanner words_;
+    TextScanner words_;
     MeshBuilder mesh_;
     Corners corners_;
 };
 
-TriangleMesh read_binary(const std::filesystem::path& path, std::string_view bytes) {
-    ByteReader reader(path, bytes);
+MeshBuilder read_binary(const std::filesystem::path& path, std::string_view bytes) {
+    BinaryReader reader(bytes, path);
     MeshBuilder mesh(path);
     Corners corners;
-    reader.take(count_at, "a header");
-    const std::size_t count = reader.number<std::uint32_t>("a number of triangles");
+    reader.take_bytes(count_at, "a header");
+    const std::size_t count = reader.take<std::uint32_t>("a number of triangles");
     const std::size_t room = reader.bytes_left() / triangle_bytes;
     if (count > room) {
         reader.refuse_at(
             count_at, fmt::format("at most {} triangles in a file of this size", room), std::to_string(count));
     }
     for (std::size_t t = 0; t < count; ++t) {
-        reader.take(12, "a normal");
+        reader.take_bytes(12, "a normal");
         for (int corner = 0; corner < 3; ++corner) {
             glm::dvec3 place_m;
             for (int part = 0; part < 3; ++part) {
-                place_m[part] = static_cast<double>(reader.number<float>("a coordinate"));
+                place_m[part] = static_cast<double>(reader.take<float>("a coordinate"));
                 if (!(std::abs(place_m[part]) <= max_coordinate)) { // also NaN
                     reader.refuse_at(reader.at() - 4, "a coordinate", fmt::format("{}", place_m[part]));
                 }
             }
             corners.add(place_m);
         }
-        reader.take(2, "attributes");
+        reader.take_bytes(2, "attributes");
     }
     if (reader.bytes_left() > 0) {
         mesh.add_note(
@@ -131,9 +132,9 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view byt
 }
 
 /// Many binary files begin with "solid" too: the size decides.
-bool is_binary(const std::filesystem::path& path, std::string_view bytes) {
+bool is_binary(std::string_view bytes) {
     if (bytes.size() >= header_bytes) {
-        const std::size_t count = ByteReader(path, bytes, count_at).number<std::uint32_t>("a number of triangles");
+        const std::size_t count = value_at<std::uint32_t>(&bytes[count_at]);
         if (bytes.size() == header_bytes + count * triangle_bytes) { return true; }
     }
     const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
@@ -142,31 +143,21 @@ bool is_binary(const std::filesystem::path& path, std::string_view bytes) {
 
 } // namespace
 
-TriangleMesh read_stl_mesh(const std::filesystem::path& path) {
+MeshBuilder read_stl(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     const std::string bytes = read_file(path, largest_stl_bytes);
-    return is_binary(path, bytes) ? read_binary(path, bytes) : AsciiReading(path, bytes).read();
+    return is_binary(bytes) ? read_binary(path, bytes) : AsciiReading(path, bytes).read();
 }
-
-namespace {
-
-void append_vector(std::string& bytes, const glm::vec3& vector) {
-    append_number(bytes, vector.x);
-    append_number(bytes, vector.y);
-    append_number(bytes, vector.z);
-}
-
-} // namespace
 
 std::string stl_bytes(const TriangleMesh& mesh) {
-    std::string bytes = "binary STL";
-    bytes.resize(80, ' ');
-    append_number(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+    BinaryWriter out;
+    out.put_bytes(fmt::format("{:80}", "binary STL"));
+    out.put(static_cast<std::uint32_t>(mesh.triangles.size()));
     for (const Triangle& triangle : mesh.triangles) {
-        append_vector(bytes, glm::vec3(normal_of(mesh, triangle)));
-        for (const std::uint32_t vertex : triangle) { append_vector(bytes, glm::vec3(mesh.vertices_m[vertex])); }
-        append_number(bytes, std::uint16_t{0});
+        out.put(glm::vec3(normal_of(mesh, triangle)));
+        for (const std::uint32_t vertex : triangle) { out.put(glm::vec3(mesh.vertices_m[vertex])); }
+        out.put(std::uint16_t{0});
     }
-    return bytes;
+    return out.take();
 }
 
 } // namespace octant::models::meshfile

@@ -1,10 +1,10 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/word_scanner.h"
 #include "sim/base/error.h"
 #include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -28,107 +28,11 @@ namespace octant::models::meshfile {
 
 namespace {
 
-/// The words, brackets, braces and strings of a VRML text, without blanks, commas and comments.
-class VrmlTokenizer {
-public:
-    /// Keeps references to both; the text begins in line `line` of the file.
-    VrmlTokenizer(const std::filesystem::path& path, std::string_view text, int line)
-        : path_(&path), text_(text), line_(line) {}
+constexpr TextRules vrml_rules{
+    .separators = ",", .marks = "{}[]", .comment = '#', .has_strings = true, .max_number = max_coordinate};
 
-    /// The next word, a string with its quotes; empty at the end.
-    std::string_view peek();
-
-    /// The same, and goes on behind it. Throws Error at the end.
-    std::string_view take(std::string_view what);
-
-    /// The next word as a finite number within max_coordinate. Throws Error.
-    double number(std::string_view what);
-
-    /// The next word as a whole number. Throws Error.
-    long whole(std::string_view what);
-
-    /// Whether the word is a bracket or a brace.
-    static bool is_punctuation(std::string_view word);
-
-    /// The line of the word that peek gave last.
-    int line() const { return line_; }
-
-    /// Byte of the text at which the next word, or what is before it, begins.
-    std::size_t at() const { return at_; }
-
-    std::string_view text() const { return text_; }
-
-    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const;
-
-private:
-    void skip_blanks();
-
-    const std::filesystem::path* path_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int line_ = 1;
-};
-
-constexpr std::string_view vrml_blanks = " \t\r\n,";
-constexpr std::string_view marks = "{}[]";
-constexpr std::string_view word_ends = " \t\r\n,{}[]#\"";
-
-void VrmlTokenizer::skip_blanks() {
-    while (at_ < text_.size()) {
-        const char c = text_[at_];
-        if (c == '#') {
-            at_ = std::min(text_.find('\n', at_), text_.size());
-        } else if (vrml_blanks.find(c) != std::string_view::npos) {
-            line_ += static_cast<int>(c == '\n');
-            ++at_;
-        } else {
-            return;
-        }
-    }
-}
-
-std::string_view VrmlTokenizer::peek() {
-    skip_blanks();
-    if (at_ == text_.size()) { return {}; }
-    if (is_punctuation(text_.substr(at_, 1))) { return text_.substr(at_, 1); }
-    if (text_[at_] != '"') {
-        const std::size_t end = text_.find_first_of(word_ends, at_ + 1);
-        return text_.substr(at_, end == std::string_view::npos ? end : end - at_);
-    }
-    std::size_t end = at_ + 1;
-    while (end < text_.size() && text_[end] != '"') { end += text_[end] == '\\' ? 2U : 1U; }
-    if (end >= text_.size()) { refuse("a quote at the end of a string", "the end of the file"); }
-    return text_.substr(at_, end + 1 - at_);
-}
-
-std::string_view VrmlTokenizer::take(std::string_view what) {
-    const std::string_view word = peek();
-    if (word.empty()) { refuse(what, "the end of the file"); }
-    line_ += static_cast<int>(std::ranges::count(word, '\n'));
-    at_ += word.size();
-    return word;
-}
-
-double VrmlTokenizer::number(std::string_view what) {
-    const std::string_view word = take(what);
-    const auto value = finite_number(word);
-    if (!value || std::abs(*value) > max_coordinate) { refuse(what, in_quotes(word)); }
-    return *value;
-}
-
-long VrmlTokenizer::whole(std::string_view what) {
-    const std::string_view word = take(what);
-    const auto value = whole_number(word);
-    if (!value) { refuse(what, in_quotes(word)); }
-    return *value;
-}
-
-bool VrmlTokenizer::is_punctuation(std::string_view word) {
-    return !word.empty() && marks.find(word.front()) != std::string_view::npos;
-}
-
-void VrmlTokenizer::refuse(std::string_view expected, std::string_view got) const {
-    throw_error_at(*path_, line_, fmt::format("expected {}, got {}", expected, got));
+bool is_mark(std::string_view word) {
+    return !word.empty() && vrml_rules.marks.find(word.front()) != std::string_view::npos;
 }
 
 /// A field of a VRML node: nodes, or the text of its other values as it stands in the file.
@@ -145,7 +49,10 @@ struct VrmlNode {
     std::map<std::string_view, VrmlField> fields; ///< the last one of each name
 
     /// The field of a name; null where the node has none.
-    const VrmlField* field(std::string_view field_name) const;
+    const VrmlField* field(std::string_view field_name) const {
+        const auto found = fields.find(field_name);
+        return found == fields.end() ? nullptr : &found->second;
+    }
 };
 
 struct VrmlFile {
@@ -158,12 +65,11 @@ constexpr int max_vrml_use_depth = 100;
 
 class Nodes {
 public:
-    Nodes(const std::filesystem::path& path, std::string_view text) : words_(path, text, 1) {}
+    Nodes(const std::filesystem::path& path, std::string_view text) : text_(text), words_(path, text, vrml_rules) {}
 
     VrmlFile read() {
-        const std::string_view text = words_.text();
-        if (!text.starts_with("#VRML V2.0")) {
-            words_.refuse("'#VRML V2.0'", in_quotes(text.substr(0, text.find('\n'))));
+        if (!text_.starts_with("#VRML V2.0")) {
+            words_.refuse("'#VRML V2.0'", in_quotes(text_.substr(0, text_.find('\n'))));
         }
         while (!words_.peek().empty()) {
             if (!passed_over()) { file_.roots.push_back(take_node(0)); }
@@ -179,7 +85,7 @@ private:
     }
 
     std::string_view take_name(std::string_view what) {
-        const std::string_view word = words_.take(what);
+        const std::string_view word = words_.word(what);
         if (!is_name(word)) { words_.refuse(what, in_quotes(word)); }
         return word;
     }
@@ -188,19 +94,16 @@ private:
     bool node_follows() {
         const std::string_view word = words_.peek();
         if (word == "DEF" || word == "USE") { return true; }
-        if (!is_name(word)) { return false; }
-        VrmlTokenizer ahead = words_;
-        ahead.take("a node");
-        return ahead.peek() == "{";
+        return is_name(word) && words_.peek_second() == "{";
     }
 
     /// Passes over what stands between a mark and its partner.
     void skip_balanced(char open, char close) {
-        if (words_.take("a bracket") != std::string_view(&open, 1)) {
+        if (words_.word("a bracket") != std::string_view(&open, 1)) {
             words_.refuse(fmt::format("'{}'", open), in_quotes(words_.peek()));
         }
         for (std::size_t depth = 1; depth > 0;) {
-            const std::string_view word = words_.take(fmt::format("'{}'", close));
+            const std::string_view word = words_.word(fmt::format("'{}'", close));
             depth += static_cast<std::size_t>(word.front() == open);
             depth -= static_cast<std::size_t>(word.front() == close);
         }
@@ -210,12 +113,12 @@ private:
     bool passed_over() {
         const std::string_view word = words_.peek();
         if (word == "ROUTE") {
-            for (int i = 0; i < 4; ++i) { words_.take("a route"); }
+            for (int i = 0; i < 4; ++i) { words_.word("a route"); }
             return true;
         }
         if (word != "PROTO" && word != "EXTERNPROTO") { return false; }
         file_.has_prototypes = true;
-        words_.take("PROTO");
+        words_.word("PROTO");
         take_name("a name of a prototype");
         skip_balanced('[', ']');
         if (word == "PROTO") {
@@ -223,7 +126,7 @@ private:
         } else if (words_.peek() == "[") {
             skip_balanced('[', ']');
         } else {
-            words_.take("an address");
+            words_.word("an address");
         }
         return true;
     }
@@ -245,8 +148,8 @@ private:
             word = take_name("a node");
         }
         node.type = word;
-        node.line = words_.line();
-        if (words_.take("'{'") != "{") {
+        node.line = words_.line_number();
+        if (words_.word("'{'") != "{") {
             words_.refuse(fmt::format("'{{' after {}", printable(std::string(word))), "something else");
         }
         while (words_.peek() != "}") {
@@ -255,7 +158,7 @@ private:
                 node.fields.insert_or_assign(field, take_field(depth));
             }
         }
-        words_.take("'}'");
+        words_.word("'}'");
         const auto made = static_cast<std::uint32_t>(file_.nodes.size());
         if (!node.name.empty()) { named_.insert_or_assign(node.name, made); }
         file_.nodes.push_back(std::move(node));
@@ -265,10 +168,10 @@ private:
     VrmlField take_field(int depth) {
         VrmlField field;
         const bool is_list = words_.peek() == "[";
-        if (is_list) { words_.take("'['"); }
+        if (is_list) { words_.word("'['"); }
         words_.peek();
-        field.line = words_.line();
-        const std::size_t first = words_.at();
+        field.line = words_.line_number();
+        const std::size_t first = words_.offset();
         std::size_t last = first;
         while (true) {
             if (node_follows()) {
@@ -279,63 +182,24 @@ private:
             const std::string_view word = words_.peek();
             if (word.empty()) { words_.refuse(is_list ? "']'" : "'}'", "the end of the file"); }
             if (is_list ? word == "]" : word == "}" || is_name(word)) { break; }
-            if (VrmlTokenizer::is_punctuation(word)) { words_.refuse("a value of a field", in_quotes(word)); }
-            words_.take("a value");
-            last = words_.at();
+            if (is_mark(word)) { words_.refuse("a value of a field", in_quotes(word)); }
+            words_.word("a value");
+            last = words_.offset();
         }
-        if (field.nodes.empty()) { field.text = words_.text().substr(first, last - first); }
-        if (is_list) { words_.take("']'"); }
+        if (field.nodes.empty()) { field.text = text_.substr(first, last - first); }
+        if (is_list) { words_.word("']'"); }
         return field;
     }
 
-    VrmlTokenizer words_;
+    std::string_view text_;
+    TextScanner words_;
     VrmlFile file_;
     std::map<std::string_view, std::uint32_t> named_;
 };
 
-const VrmlField* VrmlNode::field(std::string_view field_name) const {
-    const auto found = fields.find(field_name);
-    return found == fields.end() ? nullptr : &found->second;
-}
-
 /// The nodes of a VRML 2.0 (97) file, views into `text`. USE gives the node of the DEF before it, so that no node lies
 /// in itself. Throws Error "file:line: ...".
 VrmlFile read_vrml_nodes(const std::filesystem::path& path, std::string_view text) { return Nodes(path, text).read(); }
-
-/// Values of the fields of VRML nodes; a field that a node has not gives what VRML says or what the caller does. Faults
-/// throw Error "file:line: ...".
-class VrmlFields {
-public:
-    /// Keeps references to both.
-    VrmlFields(const std::filesystem::path& path, const VrmlFile& file) : path_(path), file_(file) {}
-
-    glm::dvec3 vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const;
-
-    /// The whole numbers of a field; none where the node has no such field.
-    std::vector<long> indices(const VrmlNode& node, std::string_view name) const;
-
-    /// Triples of the list `name` of the node in a field of another node; none without either.
-    std::vector<glm::dvec3> triples(const VrmlNode& node, std::string_view field_name, std::string_view name) const;
-
-    /// The value of a field; true where the node has no such field.
-    bool flag(const VrmlNode& node, std::string_view name) const;
-
-    /// The node, or the first one, in a field; null without.
-    const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const;
-
-    /// How a Transform places the nodes that it holds.
-    AffineTransform placement(const VrmlNode& transform) const;
-
-    /// Place of a node in VrmlFile::nodes.
-    std::uint32_t place_of(const VrmlNode& node) const;
-
-private:
-    std::vector<double> numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const;
-    glm::dmat3 turn(const VrmlNode& node, std::string_view name) const;
-
-    const std::filesystem::path& path_;
-    const VrmlFile& file_;
-};
 
 constexpr double max_rad = 1e6;
 
@@ -352,84 +216,99 @@ glm::dmat3 turned_about(const glm::dvec3& axis, double angle_rad) {
     return {image({1.0, 0.0, 0.0}), image({0.0, 1.0, 0.0}), image({0.0, 0.0, 1.0})};
 }
 
-std::vector<double> VrmlFields::numbers(
-    const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const {
-    const VrmlField* field = node.field(name);
-    if (field == nullptr) { return otherwise; }
-    VrmlTokenizer words(path_, field->text, field->line);
-    for (double& value : otherwise) { value = words.number(name); }
-    return otherwise;
-}
+/// Values of the fields of VRML nodes; a field that a node has not gives what VRML says or what the caller does. Faults
+/// throw Error "file:line: ...".
+class VrmlFields {
+public:
+    /// Keeps references to both.
+    VrmlFields(const std::filesystem::path& path, const VrmlFile& file) : path_(path), file_(file) {}
 
-glm::dvec3 VrmlFields::vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
-    const auto v = numbers(node, name, {otherwise.x, otherwise.y, otherwise.z});
-    return {v[0], v[1], v[2]};
-}
-
-glm::dmat3 VrmlFields::turn(const VrmlNode& node, std::string_view name) const {
-    const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
-    if (std::abs(v[3]) > max_rad) {
-        throw_error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
+    glm::dvec3 vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
+        const auto v = numbers(node, name, {otherwise.x, otherwise.y, otherwise.z});
+        return {v[0], v[1], v[2]};
     }
-    return turned_about({v[0], v[1], v[2]}, v[3]);
-}
 
-/// translation * center * rotation * scaleOrientation * scale * -scaleOrientation * -center.
-AffineTransform VrmlFields::placement(const VrmlNode& node) const {
-    const glm::dvec3 centre_m = vector(node, "center", glm::dvec3(0.0));
-    const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
-    const glm::dmat3 slant = turn(node, "scaleOrientation");
-    glm::dmat3 scaled(1.0);
-    for (int part = 0; part < 3; ++part) { scaled[part][part] = scale[part]; }
-    AffineTransform made;
-    made.turn = turn(node, "rotation");
-    if (scale != glm::dvec3(1.0)) { made.turn = made.turn * slant * scaled * glm::transpose(slant); }
-    made.shift_m = vector(node, "translation", glm::dvec3(0.0)) + centre_m - made.turn * centre_m;
-    return made;
-}
-
-const VrmlNode* VrmlFields::only_node(const VrmlNode& node, std::string_view name) const {
-    const VrmlField* field = node.field(name);
-    return field == nullptr || field->nodes.empty() ? nullptr : &file_.nodes[field->nodes.front()];
-}
-
-std::uint32_t VrmlFields::place_of(const VrmlNode& node) const {
-    return static_cast<std::uint32_t>(&node - file_.nodes.data());
-}
-
-bool VrmlFields::flag(const VrmlNode& node, std::string_view name) const {
-    const VrmlField* field = node.field(name);
-    if (field == nullptr || field->text == "TRUE") { return true; }
-    if (field->text != "FALSE") {
-        throw_error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
+    /// The whole numbers of a field; none where the node has no such field.
+    std::vector<long> indices(const VrmlNode& node, std::string_view name) const {
+        std::vector<long> found;
+        if (const VrmlField* field = node.field(name)) {
+            TextScanner words(path_, field->text, vrml_rules, field->line);
+            while (!words.peek().empty()) { found.push_back(words.integer("a whole number")); }
+        }
+        return found;
     }
-    return false;
-}
 
-std::vector<long> VrmlFields::indices(const VrmlNode& node, std::string_view name) const {
-    std::vector<long> found;
-    if (const VrmlField* field = node.field(name)) {
-        VrmlTokenizer words(path_, field->text, field->line);
-        while (!words.peek().empty()) { found.push_back(words.whole("a whole number")); }
+    /// Triples of the list `name` of the node in a field of another node; none without either.
+    std::vector<glm::dvec3> triples(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
+        std::vector<glm::dvec3> found;
+        const VrmlNode* node = only_node(set, field_name);
+        const VrmlField* field = node == nullptr ? nullptr : node->field(name);
+        if (field == nullptr) { return found; }
+        TextScanner words(path_, field->text, vrml_rules, field->line);
+        while (!words.peek().empty()) {
+            const double x = words.number("a number");
+            const double y = words.number("a number");
+            const double z = words.number("a number");
+            found.emplace_back(x, y, z);
+        }
+        return found;
     }
-    return found;
-}
 
-std::vector<glm::dvec3> VrmlFields::triples(
-    const VrmlNode& set, std::string_view field_name, std::string_view name) const {
-    std::vector<glm::dvec3> found;
-    const VrmlNode* node = only_node(set, field_name);
-    const VrmlField* field = node == nullptr ? nullptr : node->field(name);
-    if (field == nullptr) { return found; }
-    VrmlTokenizer words(path_, field->text, field->line);
-    while (!words.peek().empty()) {
-        const double x = words.number("a number");
-        const double y = words.number("a number");
-        const double z = words.number("a number");
-        found.emplace_back(x, y, z);
+    /// The value of a field; true where the node has no such field.
+    bool flag(const VrmlNode& node, std::string_view name) const {
+        const VrmlField* field = node.field(name);
+        if (field == nullptr || field->text == "TRUE") { return true; }
+        if (field->text != "FALSE") {
+            throw_error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
+        }
+        return false;
     }
-    return found;
-}
+
+    /// The node, or the first one, in a field; null without.
+    const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const {
+        const VrmlField* field = node.field(name);
+        return field == nullptr || field->nodes.empty() ? nullptr : &file_.nodes[field->nodes.front()];
+    }
+
+    /// How a Transform places the nodes that it holds.
+    AffineTransform placement(const VrmlNode& node) const {
+        const glm::dvec3 centre_m = vector(node, "center", glm::dvec3(0.0));
+        const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
+        const glm::dmat3 slant = turn(node, "scaleOrientation");
+        glm::dmat3 scaled(1.0);
+        for (int part = 0; part < 3; ++part) { scaled[part][part] = scale[part]; }
+        AffineTransform made;
+        made.turn = turn(node, "rotation");
+        if (scale != glm::dvec3(1.0)) { made.turn = made.turn * slant * scaled * glm::transpose(slant); }
+        made.shift_m = vector(node, "translation", glm::dvec3(0.0)) + centre_m - made.turn * centre_m;
+        return made;
+    }
+
+    /// Place of a node in VrmlFile::nodes.
+    std::uint32_t place_of(const VrmlNode& node) const {
+        return static_cast<std::uint32_t>(&node - file_.nodes.data());
+    }
+
+private:
+    std::vector<double> numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const {
+        const VrmlField* field = node.field(name);
+        if (field == nullptr) { return otherwise; }
+        TextScanner words(path_, field->text, vrml_rules, field->line);
+        for (double& value : otherwise) { value = words.number(name); }
+        return otherwise;
+    }
+
+    glm::dmat3 turn(const VrmlNode& node, std::string_view name) const {
+        const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
+        if (std::abs(v[3]) > max_rad) {
+            throw_error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
+        }
+        return turned_about({v[0], v[1], v[2]}, v[3]);
+    }
+
+    const std::filesystem::path& path_;
+    const VrmlFile& file_;
+};
 
 constexpr std::size_t largest_vrml_bytes = std::size_t{1} << 28U;
 constexpr int max_vrml_depth = 200;
@@ -461,13 +340,13 @@ public:
         : path_(path), file_(read_vrml_nodes(path_, text)), fields_(path_, file_), mesh_(path),
           used_materials_(file_.nodes.size(), invalid_index) {}
 
-    TriangleMesh read() {
+    MeshBuilder read() {
         for (const std::uint32_t root : file_.roots) { visit(root, {}, 0, 0); }
         if (file_.has_prototypes) { mesh_.add_note(fmt::format("{}: prototypes are not read", path_.string())); }
         if (has_textures_) {
             mesh_.add_note(fmt::format("{}: texture coordinates and pictures are not read", path_.string()));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -505,7 +384,8 @@ private:
         const VrmlField* which = node.field("whichChoice");
         const VrmlField* choices = node.field("choice");
         if (which == nullptr || choices == nullptr) { return; }
-        const long chosen = VrmlTokenizer(path_, which->text, which->line).whole("a choice");
+        TextScanner words(path_, which->text, vrml_rules, which->line);
+        const long chosen = words.integer("a choice");
         if (chosen >= 0 && std::cmp_less(chosen, choices->nodes.size())) {
             visit(choices->nodes[static_cast<std::size_t>(chosen)], placement, visits_, depth + 1);
         }
@@ -685,7 +565,7 @@ private:
 
 } // namespace
 
-TriangleMesh read_vrml_mesh(const std::filesystem::path& path) {
+MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& /*options*/) {
     const std::string text = read_text_file(path, largest_vrml_bytes);
     return VrmlReading(path, text).read();
 }

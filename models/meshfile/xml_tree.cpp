@@ -1,6 +1,5 @@
 #include "models/meshfile/xml_tree.h"
 
-#include "models/meshfile/word_scanner.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 

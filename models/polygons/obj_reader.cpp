@@ -4,6 +4,7 @@
 #include "models/polygons/polygon_outlines.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <glm/geometric.hpp>
 
@@ -28,172 +29,85 @@ namespace octant::models::polygons {
 
 namespace {
 
-bool is_comment(std::string_view line) {
-    const std::size_t first = line.find_first_not_of(" \t");
-    return first != std::string_view::npos && line[first] == '#';
-}
-
-/// Takes the backslash off the end; false when there is none.
-bool goes_on(std::string_view& line) {
-    if (!line.ends_with('\\')) { return false; }
-    line.remove_suffix(1);
-    return true;
-}
-
-} // namespace
-
-std::string_view without_byte_order_mark(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) { text.remove_prefix(3); }
-    return text;
-}
-
-ObjLineReader::ObjLineReader(std::string_view text) : rest_(without_byte_order_mark(text)) {}
-
-/// Takes the next line off the rest, which must not be empty.
-std::string_view ObjLineReader::next_line() {
-    ++lines_;
-    const std::size_t end = rest_.find('\n');
-    std::string_view line = rest_.substr(0, end);
-    if (line.ends_with('\r')) { line.remove_suffix(1); }
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-    return line;
-}
-
-bool ObjLineReader::next() {
-    if (rest_.empty()) { return false; }
-    text_ = next_line();
-    number_ = lines_;
-    if (is_comment(text_) || !goes_on(text_)) { return true; }
-    joined_ = text_;
-    bool more = true;
-    while (more && !rest_.empty()) {
-        std::string_view part = next_line();
-        more = goes_on(part);
-        joined_ += ' ';
-        joined_ += part;
-    }
-    text_ = joined_;
-    return true;
-}
-
-std::string_view after_first_word(std::string_view line) {
-    constexpr std::string_view blanks = " \t\r";
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    line.remove_prefix(std::min(line.find_first_of(blanks), line.size()));
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    return line.substr(0, line.find_last_not_of(blanks) + 1);
-}
-
-double obj_number(std::string_view word, const std::filesystem::path& path, int line) {
-    const auto value = finite_number(word);
-    if (!value) {
-        throw_error_at(path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
-    }
-    if (std::abs(*value) > max_obj_coordinate_m) {
-        throw_error_at(path, line,
-            fmt::format("expected a number within {:g}, got '{}'", max_obj_coordinate_m, printable(std::string(word))));
-    }
-    return *value;
-}
-
-namespace {
-
 constexpr std::size_t largest_mtl_bytes = std::size_t{16} << 20U;
 
 class MtlReading {
 public:
-    explicit MtlReading(const std::filesystem::path& path) : path_(path) {}
+    MtlReading(const std::filesystem::path& path, std::string_view text) : text_(path, text) {}
 
-    std::vector<Material> read() {
-        const std::string text = read_text_file(path_, largest_mtl_bytes);
-        for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
-            ++line_;
-            const auto words = split_words(line);
-            if (!words.empty() && words[0] == "newmtl") {
-                add_material(std::string(after_first_word(line)));
-            } else if (!words.empty() && words[0] == "Kd") {
-                set_colour(words, line);
+    MtlFile read() {
+        while (text_.next_line()) {
+            const std::string_view keyword = text_.word_or_end();
+            if (keyword == "newmtl") {
+                add_material(std::string(text_.rest_of_line()));
+            } else if (keyword == "Kd") {
+                set_colour();
+            } else if (keyword == "map_Kd" && !text_.words().empty()) {
+                const bool has_options = text_.peek().starts_with('-'); // else the name may have blanks
+                made_.pictures.emplace_back(
+                    material_, std::string(has_options ? text_.words().back() : text_.rest_of_line()));
+            } else if ((keyword == "d" || keyword == "Tr") && text_.words().size() == 1) {
+                const auto value = text_.take_number();
+                if (!value || *value < 0.0 || *value > 1.0) { continue; }
+                if (keyword == "d") {
+                    opacities_.insert_or_assign(material_, static_cast<float>(*value));
+                } else if (*value < 1.0) {
+                    made_.opacities.insert_or_assign(material_, 1.0F - static_cast<float>(*value));
+                }
             }
         }
-        return std::move(materials_);
+        for (const auto& [name, opacity] : opacities_) { made_.opacities.insert_or_assign(name, opacity); }
+        std::erase_if(made_.opacities, [](const auto& one) { return one.second >= 1.0F; });
+        return std::move(made_);
     }
 
 private:
     void add_material(const std::string& name) {
-        if (name.empty()) { throw_error_at(path_, line_, "expected a material name after newmtl, got none"); }
-        if (!names_.insert(name).second) {
-            throw_error_at(path_, line_, fmt::format("expected a new material name, got '{}' again", printable(name)));
-        }
-        materials_.push_back({.name = name});
+        if (name.empty()) { text_.refuse("a material name after newmtl", "none"); }
+        if (!names_.insert(name).second) { text_.refuse("a new material name", in_quotes(name) + " again"); }
+        made_.materials.push_back({.name = name});
+        material_ = name;
     }
 
-    void set_colour(const std::vector<std::string_view>& words, std::string_view line) {
-        if (materials_.empty()) { throw_error_at(path_, line_, "expected newmtl before Kd, got Kd"); }
-        glm::vec3 colour(0.0F);
-        bool good = words.size() == 4;
-        for (int part = 0; good && part < 3; ++part) {
-            const auto value = finite_number(words[static_cast<std::size_t>(part) + 1]);
-            good = value && *value >= 0.0 && *value <= 1.0;
-            colour[part] = good ? static_cast<float>(*value) : 0.0F;
+    void set_colour() {
+        if (made_.materials.empty()) { text_.refuse("newmtl before Kd", "Kd"); }
+        bool is_good = text_.words().size() == 3;
+        for (int part = 0; is_good && part < 3; ++part) {
+            const double value = text_.take_number().value_or(-1.0);
+            is_good = value >= 0.0 && value <= 1.0;
+            made_.materials.back().colour[part] = static_cast<float>(value);
         }
-        if (!good) {
-            throw_error_at(path_, line_,
-                fmt::format("expected Kd and three numbers 0..1, got '{}'", printable(std::string(line))));
-        }
-        materials_.back().colour = colour;
+        if (!is_good) { text_.refuse("Kd and three numbers 0..1", in_quotes(text_.line())); }
     }
 
-    std::filesystem::path path_;
-    std::vector<Material> materials_;
+    TextScanner text_;
+    MtlFile made_;
     std::set<std::string> names_;
-    int line_ = 0;
+    std::string material_;                   ///< current
+    std::map<std::string, float> opacities_; ///< by `d`, which takes precedence over `Tr`
 };
 
 } // namespace
 
-std::vector<Material> read_mtl(const std::filesystem::path& path) { return MtlReading(path).read(); }
-
-std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path) {
+MtlFile read_mtl(const std::filesystem::path& path) {
     const std::string text = read_text_file(path, largest_mtl_bytes);
-    std::map<std::string, std::string> pictures;
-    std::string material;
-    for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
-        const auto words = split_words(line);
-        if (!words.empty() && words[0] == "newmtl") {
-            material = std::string(after_first_word(line));
-        } else if (words.size() >= 2 && words[0] == "map_Kd") {
-            const bool has_options = words[1].starts_with('-'); // else the name may have blanks
-            pictures.insert_or_assign(material, std::string(has_options ? words.back() : after_first_word(line)));
-        }
-    }
-    return pictures;
-}
-
-std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path) {
-    const std::string text = read_text_file(path, largest_mtl_bytes);
-    std::map<std::string, float> by_d;
-    std::map<std::string, float> all; // by Tr at first
-    std::string material;
-    for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
-        const auto words = split_words(line);
-        if (!words.empty() && words[0] == "newmtl") { material = std::string(after_first_word(line)); }
-        const auto value = words.size() == 2 ? finite_number(words[1]) : std::nullopt;
-        if (!value || *value < 0.0 || *value > 1.0) { continue; }
-        if (words[0] == "d") {
-            by_d.insert_or_assign(material, static_cast<float>(*value));
-        } else if (words[0] == "Tr" && *value < 1.0) {
-            all.insert_or_assign(material, 1.0F - static_cast<float>(*value));
-        }
-    }
-    for (const auto& [name, opacity] : by_d) { all.insert_or_assign(name, opacity); }
-    std::erase_if(all, [](const auto& one) { return one.second >= 1.0F; });
-    return all;
+    return MtlReading(path, text).read();
 }
 
 namespace {
 
 /// The number of polygons of a file that PolygonModel::notes names; one more note counts the others.
 constexpr std::size_t max_notes_of_cuts = 10;
+
+/// A finite number within max_obj_coordinate_m. Throws Error.
+double obj_number(std::string_view word, const TextScanner& text) {
+    const auto value = finite_number(word);
+    if (!value) { text.refuse("a number", in_quotes(word)); }
+    if (std::abs(*value) > max_obj_coordinate_m) {
+        text.refuse(fmt::format("a number within {:g}", max_obj_coordinate_m), in_quotes(word));
+    }
+    return *value;
+}
 
 /// A comment of an OBJ file that makes a part rotate: # pivot NAME X Y Z axis AX AY AZ [rpm N]
 struct PivotLine {
@@ -202,20 +116,18 @@ struct PivotLine {
     int line = 0;
 };
 
-/// Reads a comment; nothing if it does not begin with "# pivot" or lacks the word axis. Throws Error "file:line: ...".
-std::optional<PivotLine> pivot_line(
-    std::string_view comment, const FileAxes& axes, const std::filesystem::path& path, int line) {
-    const auto words = split_words(comment);
+/// Reads the current line, a comment; nothing if it does not begin with "# pivot" or lacks the word axis. Throws Error
+/// "file:line: ...".
+std::optional<PivotLine> pivot_line(TextScanner& text, const FileAxes& axes) {
+    const std::vector<std::string_view> words = text.words();
     const bool pivot =
         words.size() > 2 && words[0] == "#" && words[1] == "pivot" && std::ranges::find(words, "axis") != words.end();
     if (!pivot) { return std::nullopt; }
-    const auto refuse = [&](std::string_view expected) {
-        throw_error_at(path, line, fmt::format("expected {}, got '{}'", expected, printable(std::string(comment))));
-    };
+    const auto refuse = [&](std::string_view expected) { text.refuse(expected, in_quotes(text.line())); };
     const bool has_rate = words.size() == 12 && words[10] == "rpm";
     if ((words.size() != 10 && !has_rate) || words[6] != "axis") { refuse("# pivot NAME X Y Z axis AX AY AZ [rpm N]"); }
-    const auto number = [&](std::size_t word) { return obj_number(words[word], path, line); };
-    PivotLine read{.part = std::string(words[2]), .pivot = {}, .line = line};
+    const auto number = [&](std::size_t word) { return obj_number(words[word], text); };
+    PivotLine read{.part = std::string(words[2]), .pivot = {}, .line = text.line_number()};
     read.pivot.point_m = axes.body_from_file({number(3), number(4), number(5)});
     const glm::dvec3 axis = axes.body_from_file({number(7), number(8), number(9)});
     const double length = glm::length(axis);
@@ -355,10 +267,6 @@ constexpr std::array<std::string_view, 33> ignored_keywords{"s", "l", "p", "vt",
 /// What version 3.0 of the specification lists as superseded: patches and curves.
 constexpr std::array<std::string_view, 5> old_keywords{"bsp", "bzp", "cdc", "cdp", "res"};
 
-using Words = std::vector<std::string_view>;
-
-std::string in_quotes(std::string_view text) { return fmt::format("'{}'", printable(std::string(text))); }
-
 /// Names in the order of their first use, each with the line of that use.
 class Names {
 public:
@@ -388,17 +296,13 @@ private:
 
 class ObjReading {
 public:
-    ObjReading(const std::filesystem::path& path, const FileAxes& axes) : path_(path), axes_(axes) {
+    ObjReading(const std::filesystem::path& path, std::string_view text, const FileAxes& axes)
+        : path_(path), text_(path, text, {.joins_lines = true}), axes_(axes) {
         model_.name = path.stem().string();
     }
 
     PolygonModel read() {
-        const std::string text = read_text_file(path_, largest_file_bytes);
-        ObjLineReader lines(text);
-        while (lines.next()) {
-            line_ = lines.number();
-            take(lines.text());
-        }
+        while (text_.next_line()) { take(); }
         if (model_.polygons.empty()) { throw_error_in(path_, "expected at least one polygon (f), got none"); }
         triangulate_faulty_polygons(model_, path_, polygon_lines_);
         model_.parts = parts_.names();
@@ -408,50 +312,46 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& what) const { throw_error_at(path_, line_, what); }
-
-    void take(std::string_view line) {
-        const Words words = split_words(line);
-        if (words.empty()) { return; }
-        const std::string_view keyword = words[0];
-        if (keyword.front() == '#') {
-            if (auto pivot = pivot_line(line, axes_, path_, line_)) { pivots_.push_back(std::move(*pivot)); }
-        } else if (keyword == "v") {
-            take_vertex(words);
+    void take() {
+        if (text_.peek().starts_with('#')) {
+            if (auto pivot = pivot_line(text_, axes_)) { pivots_.push_back(std::move(*pivot)); }
+            return;
+        }
+        const std::string_view keyword = text_.word_or_end();
+        if (keyword == "v") {
+            take_vertex();
         } else if (keyword == "f") {
-            take_polygon(words);
+            take_polygon();
         } else if (keyword == "g" || keyword == "o") {
-            const std::string_view name = after_first_word(line);
+            const std::string_view name = text_.rest_of_line();
             part_ = name.empty() ? "default" : std::string(name);
         } else if (keyword == "usemtl") {
-            material_ = name_after(line, "material");
-            material_line_ = line_;
+            material_ = name("material");
+            material_line_ = text_.line_number();
         } else if (keyword == "mtllib") {
-            take_material_files(name_after(line, "file"), words);
+            take_material_files();
         } else if (std::ranges::find(old_keywords, keyword) != old_keywords.end()) {
             take_old_statement(keyword);
-        } else if (std::ranges::find(ignored_keywords, keyword) == ignored_keywords.end()) {
-            refuse(fmt::format("expected an OBJ line (v, f, g, o, usemtl, mtllib), got {}", in_quotes(keyword)));
+        } else if (!keyword.empty() && std::ranges::find(ignored_keywords, keyword) == ignored_keywords.end()) {
+            text_.refuse_last("an OBJ line (v, f, g, o, usemtl, mtllib)");
         }
     }
 
-    std::string name_after(std::string_view line, std::string_view what) const {
-        const std::string_view name = after_first_word(line);
-        if (name.empty()) { refuse(fmt::format("expected a {} name, got none", what)); }
+    std::string name(std::string_view what) {
+        const std::string_view name = text_.rest_of_line();
+        if (name.empty()) { text_.refuse(fmt::format("a {} name", what), "none"); }
         return std::string(name);
     }
 
-    glm::dvec3 numbers(const Words& words, std::size_t first) const {
-        const auto number = [&](std::size_t word) { return obj_number(words[word], path_, line_); };
-        return {number(first), number(first + 1), number(first + 2)};
-    }
-
-    void take_vertex(const Words& words) {
-        if (words.size() < 4) { refuse(fmt::format("expected three coordinates, got {}", words.size() - 1)); }
+    void take_vertex() {
+        const std::vector<std::string_view>& words = text_.words();
+        if (words.size() < 3) { text_.refuse("three coordinates", std::to_string(words.size())); }
         if (model_.vertices_m.size() == max_obj_vertices) {
-            refuse(fmt::format("expected at most {} vertices, got more", max_obj_vertices));
+            text_.refuse(fmt::format("at most {} vertices", max_obj_vertices), "more");
         }
-        model_.vertices_m.push_back(axes_.body_from_file(numbers(words, 1)));
+        const auto number = [&](std::size_t word) { return obj_number(words[word], text_); };
+        const glm::dvec3 vertex_m(number(0), number(1), number(2));
+        model_.vertices_m.push_back(axes_.body_from_file(vertex_m));
     }
 
     /// Vertex of a corner written as 7, 7/1, 7//3 or 7/1/3.
@@ -462,46 +362,47 @@ private:
         for (std::size_t i = 1; i < fields.size(); ++i) {
             good = good && (fields[i].empty() || whole_number(fields[i]));
         }
-        if (!good) {
-            refuse(fmt::format("expected a corner such as 7, 7/1, 7//3 or 7/1/3, got {}", in_quotes(corner)));
-        }
+        if (!good) { text_.refuse("a corner such as 7, 7/1, 7//3 or 7/1/3", in_quotes(corner)); }
         const long count = static_cast<long>(model_.vertices_m.size());
         if (*index == 0 || *index > count || *index < -count) {
-            refuse(count == 0 ? fmt::format("expected vertices before a polygon, got {}", *index)
-                              : fmt::format("expected a vertex 1 to {} (or -{} to -1), got {}", count, count, *index));
+            text_.refuse(count == 0 ? std::string("vertices before a polygon")
+                                    : fmt::format("a vertex 1 to {} (or -{} to -1)", count, count),
+                std::to_string(*index));
         }
         return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
     }
 
-    void take_polygon(const Words& words) {
-        const std::size_t count = words.size() - 1;
-        if (count < 3) { refuse(fmt::format("expected at least three corners, got {}", count)); }
-        if (count > max_obj_corners_of_polygon) {
-            refuse(fmt::format("expected at most {} corners, got {}", max_obj_corners_of_polygon, count));
+    void take_polygon() {
+        const std::vector<std::string_view>& words = text_.words();
+        if (words.size() < 3) { text_.refuse("at least three corners", std::to_string(words.size())); }
+        if (words.size() > max_obj_corners_of_polygon) {
+            text_.refuse(fmt::format("at most {} corners", max_obj_corners_of_polygon), std::to_string(words.size()));
         }
         if (model_.polygons.size() == max_obj_polygons) {
-            refuse(fmt::format("expected at most {} polygons, got more", max_obj_polygons));
+            text_.refuse(fmt::format("at most {} polygons", max_obj_polygons), "more");
         }
         Polygon polygon;
         polygon.first_corner = static_cast<std::uint32_t>(model_.corner_vertices.size());
-        polygon.corner_count = static_cast<std::uint32_t>(count);
-        polygon.part = parts_.index_of(part_, line_);
+        polygon.corner_count = static_cast<std::uint32_t>(words.size());
+        polygon.part = parts_.index_of(part_, text_.line_number());
         polygon.material = materials_.index_of(material_, material_line_);
-        for (std::size_t i = 1; i < words.size(); ++i) { model_.corner_vertices.push_back(vertex_of(words[i])); }
+        for (const std::string_view corner : words) { model_.corner_vertices.push_back(vertex_of(corner)); }
         model_.polygons.push_back(polygon);
-        polygon_lines_.push_back(line_);
+        polygon_lines_.push_back(text_.line_number());
     }
 
-    /// `all` is the line after its keyword: one name with blanks if there is such a file or none of the words is one,
-    /// else a name a word.
-    void take_material_files(const std::string& all, const Words& words) {
+    /// The rest of the line is one name with blanks if there is such a file or none of its words names one, else a name
+    /// a word.
+    void take_material_files() {
+        const std::vector<std::string_view>& words = text_.words();
+        const std::string all = name("file");
         if (take_material_file(all)) { return; }
         std::vector<std::string> missing;
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            const std::string name(words[i]);
+        for (const std::string_view word : words) {
+            const std::string name(word);
             if (!take_material_file(name)) { missing.push_back(name); }
         }
-        if (missing.size() + 1 == words.size()) { missing = {all}; }
+        if (missing.size() == words.size()) { missing = {all}; }
         for (const std::string& name : missing) { note_missing(name); }
     }
 
@@ -510,10 +411,12 @@ private:
         const std::filesystem::path file = path_.parent_path() / name;
         std::error_code ignored;
         if (std::filesystem::is_directory(file, ignored)) {
-            refuse(fmt::format("expected a material file, got the folder {}", in_quotes(name)));
+            text_.refuse("a material file", "the folder " + in_quotes(name));
         }
         if (!std::filesystem::exists(file, ignored)) { return false; }
-        for (const Material& material : read_mtl(file)) { colours_.insert_or_assign(material.name, material.colour); }
+        for (const Material& material : read_mtl(file).materials) {
+            colours_.insert_or_assign(material.name, material.colour);
+        }
         has_material_file_ = true;
         return true;
     }
@@ -521,14 +424,14 @@ private:
     void note_missing(const std::string& name) {
         if (missing_files_.insert(name).second) {
             model_.notes.push_back(fmt::format("{}:{}: material file {} is missing, its materials are drawn grey",
-                path_.string(), line_, printable(name)));
+                path_.string(), text_.line_number(), printable(name)));
         }
     }
 
     void take_old_statement(std::string_view keyword) {
         if (old_statements_.insert(std::string(keyword)).second) {
-            model_.notes.push_back(
-                fmt::format("{}:{}: {} is an old OBJ statement, ignored", path_.string(), line_, keyword));
+            model_.notes.push_back(fmt::format(
+                "{}:{}: {} is an old OBJ statement, ignored", path_.string(), text_.line_number(), keyword));
         }
     }
 
@@ -565,6 +468,7 @@ private:
     }
 
     std::filesystem::path path_;
+    TextScanner text_;
     FileAxes axes_;
     PolygonModel model_;
     Names parts_;
@@ -578,11 +482,13 @@ private:
     std::set<std::string> old_statements_; ///< superseded keywords that the notes name already
     std::vector<int> polygon_lines_;
     std::vector<PivotLine> pivots_;
-    int line_ = 0;
 };
 
 } // namespace
 
-PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes) { return ObjReading(path, axes).read(); }
+PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes) {
+    const std::string text = read_text_file(path, largest_file_bytes);
+    return ObjReading(path, text, axes).read();
+}
 
 } // namespace octant::models::polygons

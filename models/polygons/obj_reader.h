@@ -6,9 +6,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace octant::models::polygons {
@@ -19,55 +18,18 @@ inline constexpr std::size_t max_obj_polygons = 1'000'000;
 inline constexpr std::size_t max_obj_corners_of_polygon = 1'000;
 inline constexpr double max_obj_coordinate_m = 1e7;
 
-/// Returns the text without the UTF-8 byte order mark (EF BB BF) that it may begin with.
-std::string_view without_byte_order_mark(std::string_view text);
-
-/// Splits an OBJ text into lines. A backslash at the end of a line joins it to the next line with a blank, except in a
-/// comment, which may end with a path. Skips a byte order mark.
-class ObjLineReader {
-public:
-    /// Keeps views into `text`.
-    explicit ObjLineReader(std::string_view text);
-
-    /// Advances to the next line; false if there is none.
-    bool next();
-
-    /// The current line; valid until the next call of next().
-    std::string_view text() const { return text_; }
-
-    /// The number of the line in the file, from 1; of joined lines the first.
-    int number() const { return number_; }
-
-private:
-    std::string_view next_line();
-
-    std::string_view rest_; ///< the text after the current line
-    std::string joined_;
-    std::string_view text_;
-    int number_ = 0;
-    int lines_ = 0; ///< read so far
+/// What an MTL file says about its materials.
+struct MtlFile {
+    std::vector<Material> materials; ///< `newmtl NAME` and its `Kd R G B` as display values, in file order
+    std::vector<std::pair<std::string, std::string>> pictures; ///< material and `map_Kd ... FILE`, in file order
+    std::map<std::string, float> opacities;                    ///< by material, below 1: `d`, else 1 - `Tr`
 };
 
-/// Returns a view of the text after the first word of a line, without blanks at either end. Names in OBJ and MTL files
-/// may contain blanks.
-std::string_view after_first_word(std::string_view line);
-
-/// Reads a finite number within max_obj_coordinate_m. Throws Error "file:line: ...".
-double obj_number(std::string_view word, const std::filesystem::path& path, int line);
-
-/// Reads the materials of an MTL file in file order: `newmtl NAME` and its `Kd R G B`, used as display values. A
-/// material without Kd has the default colour. All other lines are ignored. Throws Error "file:line: expected ..., got
-/// ..." for a Kd that is not three numbers 0..1 or that comes before any newmtl, for a name that is missing or comes
-/// twice, and for a file that is not text.
-std::vector<Material> read_mtl(const std::filesystem::path& path);
-
-/// Reads the picture of each material of an MTL file by material name: the last word of `map_Kd ... FILE`.
-/// Throws Error for a file that is not text.
-std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path);
-
-/// Reads the opacities below 1 of an MTL file's materials by material name: `d`, else 1 - `Tr`. Ignores values outside
-/// 0..1 and a Tr of 1, whose meaning differs between programs. Throws Error for a file that is not text.
-std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path);
+/// Reads an MTL file. A material without Kd has the default colour. Ignores other lines, opacities outside 0..1 and a
+/// Tr of 1, whose meaning differs between programs. Throws Error "file:line: expected ..., got ..." for a Kd that is
+/// not three numbers 0..1 or that comes before any newmtl, for a name that is missing or comes twice, and for a file
+/// that is not text.
+MtlFile read_mtl(const std::filesystem::path& path);
 
 /// Reads a Wavefront OBJ file of polygons, coordinates in metres in the file's `axes`. Concave and bent polygons are
 /// cut into convex planar ones, recorded in PolygonModel::parents and PolygonModel::notes.
@@ -79,7 +41,8 @@ std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path)
 ///     # pivot NAME X Y Z axis AX AY AZ [rpm N]
 /// for a part NAME that rotates about an axis through a point, N turns per minute in flight (default 0). The other
 /// keywords of the OBJ specification (s, l, p, vt, vn, vp, curves and surfaces, attributes, calls) and other comments
-/// are ignored, superseded ones (bsp, bzp, cdc, cdp, res) with a note. See ObjLineReader for joined lines.
+/// are ignored, superseded ones (bsp, bzp, cdc, cdp, res) with a note. A backslash at
+/// the end of a line joins the next line, except in a comment, which may end with a path.
 ///
 /// All vertices are kept in file order; parts and materials are in the order of their first polygon. Without mtllib,
 /// all materials have the default colour. If a material file is missing, unknown materials have the default colour,

@@ -88,8 +88,8 @@ bool meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const g
            (b_side == 0 && within(c, d, b));
 }
 
-} // namespace
-
+/// Projects the corners of a polygon along its mean normal (Newell's method), metres from the first corner. The result
+/// runs counter-clockwise. The polygon must have an area.
 std::vector<glm::dvec2> projected_outline(std::span<const glm::dvec3> corners_m) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 1; i + 1 < corners_m.size(); ++i) {
@@ -107,12 +107,18 @@ std::vector<glm::dvec2> projected_outline(std::span<const glm::dvec3> corners_m)
     return outline;
 }
 
+} // namespace
+
 double turn_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     const glm::dvec2 first = b - a;
     const glm::dvec2 second = c - a;
     return first.x * second.y - first.y * second.x;
 }
 
+namespace {
+
+/// Finds the first two sides of an outline that meet other than at a common corner, by the indices of their first
+/// corners. Neighbours that fold back onto each other count too. Time grows with the square of the number of corners.
 std::optional<std::pair<std::size_t, std::size_t>> intersecting_sides(std::span<const glm::dvec2> outline) {
     const std::size_t count = outline.size();
     const auto corner = [&](std::size_t place) { return outline[place % count]; };
@@ -127,8 +133,6 @@ std::optional<std::pair<std::size_t, std::size_t>> intersecting_sides(std::span<
     }
     return std::nullopt;
 }
-
-namespace {
 
 using Triangle = std::array<std::size_t, 3>;
 

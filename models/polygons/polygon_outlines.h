@@ -47,16 +47,8 @@ bool is_inside(std::span<const glm::dvec3> corners, const glm::dvec3& normal, co
 /// The distance of a point from the nearest side of an outline, ends included.
 double distance_to_sides(std::span<const glm::dvec3> corners, const glm::dvec3& point);
 
-/// Projects the corners of a polygon along its mean normal (Newell's method), metres from the first corner. The result
-/// runs counter-clockwise. The polygon must have an area.
-std::vector<glm::dvec2> projected_outline(std::span<const glm::dvec3> corners_m);
-
 /// Positive when the path a -> b -> c turns left: twice the area of the triangle.
 double turn_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
-
-/// Finds the first two sides of an outline that meet other than at a common corner, by the indices of their first
-/// corners. Neighbours that fold back onto each other count too. Time grows with the square of the number of corners.
-std::optional<std::pair<std::size_t, std::size_t>> intersecting_sides(std::span<const glm::dvec2> outline);
 
 /// Cuts a polygon of at least three corners into triangles, given by indices into `corners_m` in the polygon's
 /// orientation. A strictly convex polygon becomes a fan around its first corner. Other polygons are cut by ear clipping

@@ -7,7 +7,7 @@
 
 #include "models/procedural/drainage.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <algorithm>
 #include <array>

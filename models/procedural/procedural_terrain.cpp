@@ -9,7 +9,7 @@
 #include "models/procedural/drainage.h"
 #include "models/procedural/terrain_grid.h"
 #include "models/procedural/terrain_noise.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #include "models/procedural/terrain_grid.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <algorithm>
 #include <array>

@@ -48,7 +48,9 @@ std::vector<bool> in_open_piece(std::span<const Triangle> triangles, std::size_t
     std::vector<bool> is_open(vertices, false);
     const std::vector<TriangleEdge> sides = sorted_triangle_edges(triangles);
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
-        if (edge.size() == 1 && edge[0].min_vertex != edge[0].max_vertex) { is_open[pieces.group_of(edge[0].min_vertex)] = true; }
+        if (edge.size() == 1 && edge[0].min_vertex != edge[0].max_vertex) {
+            is_open[pieces.group_of(edge[0].min_vertex)] = true;
+        }
     });
     for (std::uint32_t v = 0; v < vertices; ++v) { is_open[v] = is_open[pieces.group_of(v)]; }
     return is_open;
@@ -165,6 +167,10 @@ std::vector<std::uint32_t> first_duplicates(
     return firsts;
 }
 
+namespace {
+
+/// Sets the colour of each welded vertex to the mean over all vertices welded to it. `welded` is the result of
+/// first_duplicates. Does nothing without colours.
 void average_colours(std::vector<glm::vec3>& colours, std::span<const std::uint32_t> welded) {
     std::vector<glm::vec3> sums(colours.size(), glm::vec3(0.0F));
     std::vector<std::uint32_t> counts(colours.size(), 0);
@@ -178,6 +184,8 @@ void average_colours(std::vector<glm::vec3>& colours, std::span<const std::uint3
         if (counts[v] > 1) { colours[v] = sums[v] / static_cast<float>(counts[v]); }
     }
 }
+
+} // namespace
 
 std::vector<std::string> describe_counts(const RepairCounts& counts) {
     std::vector<std::string> lines;

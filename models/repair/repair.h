@@ -60,8 +60,4 @@ std::size_t add_back_faces(TriangleMesh& mesh, const std::vector<bool>& two_side
 std::vector<std::uint32_t> first_duplicates(
     std::span<const glm::dvec3> vertices_m, std::span<const glm::vec3> colours, const std::vector<bool>& used);
 
-/// Sets the colour of each welded vertex to the mean over all vertices welded to it. `welded` is the result of
-/// first_duplicates. Does nothing without colours.
-void average_colours(std::vector<glm::vec3>& colours, std::span<const std::uint32_t> welded);
-
 } // namespace octant::models::repair

@@ -86,6 +86,9 @@ void add_colours(Quadric& quadric, ColourQuadric& colours, const std::array<glm:
     colours.weight += weight;
 }
 
+namespace {
+
+/// The quadric of positions with the best colour at each position.
 Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours) {
     Quadric left = quadric;
     if (colours.weight > 0.0) {
@@ -97,6 +100,8 @@ Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours) {
     }
     return left;
 }
+
+} // namespace
 
 glm::dvec3 solved(const Quadric& m, const glm::dvec3& right_side, const glm::dvec3& fallback) {
     // Cholesky decomposition into L D L^T.
@@ -116,6 +121,9 @@ glm::dvec3 solved(const Quadric& m, const glm::dvec3& right_side, const glm::dve
     return {right_side.x / m.xx - l10 * y - l20 * z, y, z};
 }
 
+namespace {
+
+/// The position of the least sum, attracted slightly to `middle`, which makes it unique on planes and along lines.
 glm::dvec3 min_place(const Quadric& quadric, const glm::dvec3& middle) {
     Quadric drawn = quadric;
     const double weight = pull * quadric.trace();
@@ -130,6 +138,8 @@ glm::dvec3 min_place(const Quadric& quadric, const glm::dvec3& middle) {
     }
     return place;
 }
+
+} // namespace
 
 VertexQuadrics::VertexQuadrics(const WorkingSurface& surface, const EdgeWeights& weights)
     : quadrics_(surface.places.size()), colours_(surface.coloured() ? surface.places.size() : 0) {

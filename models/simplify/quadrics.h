@@ -44,12 +44,6 @@ struct ColourQuadric {
 void add_colours(Quadric& quadric, ColourQuadric& colours, const std::array<glm::dvec3, 3>& corners,
     const std::array<glm::dvec3, 3>& corner_colours, double weight);
 
-/// The quadric of positions with the best colour at each position.
-Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours);
-
-/// The position of the least sum, attracted slightly to `middle`, which makes it unique on planes and along lines.
-glm::dvec3 min_place(const Quadric& quadric, const glm::dvec3& middle);
-
 /// The product of the 3 x 3 matrix and a vector.
 glm::dvec3 product(const Quadric& matrix, const glm::dvec3& vector);
 

@@ -22,4 +22,6 @@ std::string printable(const std::string& text) {
     return text.size() > longest ? out + "..." : out;
 }
 
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", printable(std::string(text))); }
+
 } // namespace octant

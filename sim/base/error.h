@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace octant {
 
@@ -22,5 +23,8 @@ public:
 /// A text from outside made fit for a one-line message: control characters become '?', and what is longer than 60
 /// characters is cut.
 std::string printable(const std::string& text);
+
+/// printable() text in single quotes.
+std::string in_quotes(std::string_view text);
 
 } // namespace octant

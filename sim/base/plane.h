@@ -5,6 +5,12 @@
 
 namespace octant {
 
+/// Twice the area of a triangle seen along z, positive when it is counter-clockwise; of vectors of two or three parts.
+template <typename Vector>
+auto signed_area2(const Vector& a, const Vector& b, const Vector& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
 /// An oriented plane: the points with dot(normal, p) + offset_m = 0. Its front is where that is positive; with a unit
 /// normal it is the distance in metres.
 struct Plane {

@@ -12,12 +12,49 @@
 
 namespace octant {
 
-namespace {
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned first = byte(0);
+    std::size_t length = 0;
+    if (first < 0x80) { return 1; }
+    if (first >= 0xC2 && first < 0xE0) {
+        length = 2;
+    } else if (first >= 0xE0 && first < 0xF0) {
+        length = 3;
+    } else if (first >= 0xF0 && first < 0xF5) {
+        length = 4;
+    }
+    if (length == 0 || text.size() < length) { return 0; }
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xC0U) != 0x80U) { return 0; }
+    }
+    // Overlong forms, surrogates and what lies beyond U+10FFFF are no characters.
+    const unsigned second = byte(1);
+    const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+    return bad ? 0 : length;
+}
 
-constexpr std::size_t longest_line_bytes = 65535;
+std::string one_line(std::string_view text) {
+    std::string line;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto first = static_cast<unsigned char>(text.front());
+        // U+0080 to U+009F are control characters too, some of which begin sequences.
+        const bool second_block = length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
+        if (first == '\n' || first == '\r' || first == '\t') {
+            line += ' ';
+        } else if (length == 0 || first < 0x20 || first == 0x7F || second_block) {
+            line += '?';
+        } else {
+            line += text.substr(0, length);
+        }
+        text.remove_prefix(length == 0 ? 1 : length);
+    }
+    return line;
+}
 
-/// Throws Error for what is no regular file that can be read.
-std::ifstream opened(const std::filesystem::path& path) {
+std::ifstream open_file(const std::filesystem::path& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (!std::filesystem::exists(status)) {
@@ -32,10 +69,8 @@ std::ifstream opened(const std::filesystem::path& path) {
     return in;
 }
 
-} // namespace
-
 std::string read_file(const std::filesystem::path& path, std::size_t largest_bytes) {
-    std::ifstream in = opened(path);
+    std::ifstream in = open_file(path);
     std::error_code code;
     const auto size = std::filesystem::file_size(path, code);
     const auto refuse_size = [&] {
@@ -58,25 +93,6 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t larges
     std::string text = read_file(path, largest_bytes);
     if (text.find('\0') != std::string::npos) { throw_error_in(path, "expected text, got binary data"); }
     return text;
-}
-
-LineReader::LineReader(const std::filesystem::path& path)
-    : path_(path), in_(opened(path)), line_(longest_line_bytes + 1, '\0') {}
-
-std::optional<std::string_view> LineReader::next() {
-    in_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
-    if (in_.bad()) { throw_error_in(path_, "cannot be read to its end"); }
-    const auto taken = static_cast<std::size_t>(in_.gcount());
-    is_truncated_ = in_.eof() && taken > 0;
-    if (in_.eof() && taken == 0) { return std::nullopt; }
-    ++number_;
-    if (in_.fail()) {
-        throw_error_at(path_, number_, fmt::format("expected at most {} bytes, got more", longest_line_bytes));
-    }
-    std::string_view line(line_.data(), is_truncated_ ? taken : taken - 1);
-    if (line.find('\0') != std::string_view::npos) { throw_error_in(path_, "expected text, got binary data"); }
-    if (!line.empty() && line.back() == '\r') { line.remove_suffix(1); }
-    return line;
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {

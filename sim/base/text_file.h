@@ -10,6 +10,13 @@
 
 namespace octant {
 
+/// Bytes of the UTF-8 character that `text` (not empty) starts with, 0 when it starts with none.
+std::size_t utf8_length(std::string_view text);
+
+/// A text from anywhere (file names among it) as one line that a terminal only shows: line ends and tabs become blanks;
+/// other control characters, and bytes that are no UTF-8, become '?'.
+std::string one_line(std::string_view text);
+
 /// The whole file as bytes. Throws Error when it is missing, no regular file, unreadable or larger than
 /// `largest_bytes`; the message names the file and says which.
 std::string read_file(const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
@@ -17,29 +24,8 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
 /// read_file for text: also refuses a file with a zero byte ("expected text, got binary data").
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
 
-/// The lines of a text file one after the other, in the memory of one of them.
-class LineReader {
-public:
-    /// Throws Error for what is no regular file that can be read.
-    explicit LineReader(const std::filesystem::path& path);
-
-    /// The next line without its line end (LF or CRLF), valid until the next call; nothing at the end. Throws Error for
-    /// a zero byte and for a line of more than 65,535 bytes.
-    std::optional<std::string_view> next();
-
-    /// Number of the line that next() gave, from 1.
-    int number() const { return number_; }
-
-    /// True when that line is the file's last and has no line end.
-    bool is_truncated() const { return is_truncated_; }
-
-private:
-    std::filesystem::path path_;
-    std::ifstream in_;
-    std::string line_;
-    int number_ = 0;
-    bool is_truncated_ = false;
-};
+/// Opens a file for reading. Throws Error if it is no regular file or cannot be read.
+std::ifstream open_file(const std::filesystem::path& path);
 
 /// The lines of a text without their line ends (LF or CRLF). Views into `text`.
 std::vector<std::string_view> split_lines(std::string_view text);

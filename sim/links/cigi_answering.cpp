@@ -1,7 +1,7 @@
 // What an image generator answers: the questions of a host over the ground, and its message for a picture.
 
 #include "sim/links/cigi_image_generator.h"
-#include "sim/links/earth.h"
+#include "sim/links/fix.h"
 
 #include <cmath>
 

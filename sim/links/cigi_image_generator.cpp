@@ -1,6 +1,6 @@
 #include "sim/links/cigi_image_generator.h"
 
-#include "sim/links/earth.h"
+#include "sim/links/fix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,8 +71,8 @@ bool keep(std::map<std::uint16_t, Value>& kept, std::uint16_t id, Value value, s
 DecodeResult CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, double arrival_s) {
     moved.clear();
     std::vector<CigiPacket> packets;
-    const DecodeResult verdict = decode_cigi(message, packets);
-    if (verdict.fault != PacketError::None) { return verdict; }
+    const DecodeResult result = decode_cigi(message, packets);
+    if (result.fault != PacketError::None) { return result; }
     has_host_ = true;
     std::vector<std::uint16_t> touched;
     for (const CigiPacket& packet : packets) { take(packet, arrival_s, touched); }
@@ -84,7 +84,7 @@ DecodeResult CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, do
         const Fix fix = fix_of(number, entity->second);
         if (error_of_fix(fix) == PacketError::None) { moved.push_back(fix); }
     }
-    return verdict;
+    return result;
 }
 
 void CigiImageGenerator::take(const CigiPacket& packet, double arrival_s, std::vector<std::uint16_t>& touched) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "sim/links/cigi_host.h"
 #include "sim/links/cigi_packets.h"
-#include "sim/links/cigi_responses.h"
 
 #include <glm/gtc/quaternion.hpp>
 

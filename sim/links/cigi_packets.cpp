@@ -1,9 +1,7 @@
 // Layouts: CIGI 3.3 interface control document (SISO, 2008); each was checked against Wireshark's dissector.
-
 #include "sim/links/cigi_packets.h"
 
 #include "sim/base/units.h"
-#include "sim/links/cigi_packet_header.h"
 
 #include <algorithm>
 #include <array>
@@ -250,15 +248,15 @@ DecodeResult check_head(Bytes message, ByteOrder& order) {
 DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
     packets.clear();
     ByteOrder order = ByteOrder::Big;
-    DecodeResult verdict = check_head(message, order);
-    if (verdict.fault != PacketError::None) { return verdict; }
+    DecodeResult result = check_head(message, order);
+    if (result.fault != PacketError::None) { return result; }
     for (Bytes rest = message; !rest.empty();) {
         const auto opcode = std::to_integer<std::uint8_t>(rest.front());
         const std::size_t size = rest.size() < header_bytes ? 0 : std::to_integer<std::size_t>(rest[1]);
         if (size < header_bytes || size > rest.size()) {
             packets.clear();
-            verdict.fault = PacketError::WrongSize;
-            return verdict;
+            result.fault = PacketError::WrongSize;
+            return result;
         }
         const auto known = std::ranges::find(known_packets, opcode, &Known::opcode);
         if (known == known_packets.end() || known->size != size) {
@@ -268,20 +266,20 @@ DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
         }
         rest = rest.subspan(size);
     }
-    return verdict;
+    return result;
 }
 
-std::string cigi_text(const DecodeResult& verdict) {
-    switch (verdict.fault) {
+std::string cigi_text(const DecodeResult& result) {
+    switch (result.fault) {
     case PacketError::None:
         return "CIGI 3 host: fine";
     case PacketError::WrongVersion:
-        return fmt::format("expected CIGI 3, got major version {}", verdict.got);
+        return fmt::format("expected CIGI 3, got major version {}", result.got);
     case PacketError::WrongSize:
-        return fmt::format("CIGI: expected whole packets, got a message of {} bytes", verdict.size);
+        return fmt::format("CIGI: expected whole packets, got a message of {} bytes", result.size);
     default:
         return fmt::format("expected a CIGI 3 message that begins with IG Control, got opcode {} in {} bytes",
-            verdict.got, verdict.size);
+            result.got, result.size);
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/units.h"
-#include "sim/links/earth.h"
+#include "sim/links/fix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,8 +73,8 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
 
 DecodeResult decode_dis(Bytes datagram, DisEntity& entity) {
     const WireReader reader(datagram, ByteOrder::Big);
-    DecodeResult verdict = check_head(reader);
-    if (verdict.fault != PacketError::None) { return verdict; }
+    DecodeResult result = check_head(reader);
+    if (result.fault != PacketError::None) { return result; }
     entity = {};
     entity.site = reader.at<std::uint16_t>(id_at);
     entity.application = reader.at<std::uint16_t>(id_at + 2);
@@ -87,8 +87,8 @@ DecodeResult decode_dis(Bytes datagram, DisEntity& entity) {
     const double x = reader.at<double>(position_at);
     if (!std::isfinite(x) || !std::isfinite(reader.at<double>(position_at + 8)) ||
         !std::isfinite(reader.at<double>(position_at + 16))) {
-        verdict.fault = PacketError::NotFinite;
-        return verdict;
+        result.fault = PacketError::NotFinite;
+        return result;
     }
     read_motion(reader, entity);
     entity.fix.ticks = reader.at<std::uint32_t>(timestamp_at);
@@ -97,8 +97,8 @@ DecodeResult decode_dis(Bytes datagram, DisEntity& entity) {
     entity.fix.extrapolation_limit_s = heartbeat_timeout_s;
     entity.fix.vehicle = static_cast<std::uint64_t>(entity.site) << 32U |
                          static_cast<std::uint64_t>(entity.application) << 16U | entity.entity;
-    verdict.fault = error_of_fix(entity.fix);
-    return verdict;
+    result.fault = error_of_fix(entity.fix);
+    return result;
 }
 
 std::string marking_of(const DisEntity& entity) {
@@ -108,17 +108,17 @@ std::string marking_of(const DisEntity& entity) {
     return printable(text);
 }
 
-std::string dis_text(const DecodeResult& verdict) {
-    switch (verdict.fault) {
+std::string dis_text(const DecodeResult& result) {
+    switch (result.fault) {
     case PacketError::None:
-        return fmt::format("DIS version {} entity state of {} bytes: fine", verdict.got, verdict.size);
+        return fmt::format("DIS version {} entity state of {} bytes: fine", result.got, result.size);
     case PacketError::Unused:
-        return fmt::format("DIS PDU of type {}: passed over", verdict.got);
+        return fmt::format("DIS PDU of type {}: passed over", result.got);
     case PacketError::WrongVersion:
-        return fmt::format("expected a DIS PDU of version 1 to 7, got {}", verdict.got);
+        return fmt::format("expected a DIS PDU of version 1 to 7, got {}", result.got);
     case PacketError::WrongSize:
         return fmt::format("expected a DIS entity state of {} bytes and 16 for each articulation, got {}",
-            dis_entity_bytes, verdict.size);
+            dis_entity_bytes, result.size);
     case PacketError::NotFinite:
         return "DIS entity state: expected numbers, got one that is none";
     default:

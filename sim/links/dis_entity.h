@@ -30,15 +30,15 @@ struct DisEntity {
     Fix fix; ///< its acceleration too
 };
 
-/// Reads one PDU. `entity` is set where the verdict has no fault; other PDUs of DIS are Unused with their type as
-/// Verdict::got. Velocity and rates are those by which the sender wants it to go on: zero where its dead reckoning
+/// Reads one PDU. `entity` is set where the result has no fault; other PDUs of DIS are Unused with their type as
+/// DecodeResult::got. Velocity and rates are those by which the sender wants it to go on: zero where its dead reckoning
 /// leaves them out.
 DecodeResult decode_dis(Bytes datagram, DisEntity& entity);
 
 /// The marking as text, without the zeros and spaces at its end; what a terminal would obey is replaced.
 std::string marking_of(const DisEntity& entity);
 
-std::string dis_text(const DecodeResult& verdict);
+std::string dis_text(const DecodeResult& result);
 
 /// The PDU of an entity; `fix` needs latitude and longitude. `time_s` is seconds past the hour.
 std::array<std::byte, dis_entity_bytes> encode_dis(const DisEntity& entity, double time_s);

@@ -57,8 +57,8 @@ DecodeResult check_head(const WireReader& reader) {
 
 DecodeResult decode_fdm(Bytes datagram, Fix& fix) {
     const WireReader reader(datagram, ByteOrder::Big);
-    DecodeResult verdict = check_head(reader);
-    if (verdict.fault != PacketError::None) { return verdict; }
+    DecodeResult result = check_head(reader);
+    if (result.fault != PacketError::None) { return result; }
     fix = {};
     fix.latitude_deg = deg_from_rad(reader.at<double>(latitude_at));
     fix.longitude_deg = deg_from_rad(reader.at<double>(longitude_at));
@@ -71,13 +71,13 @@ DecodeResult decode_fdm(Bytes datagram, Fix& fix) {
     const glm::dvec3 velocity_ftps = reader.floats(velocity_at);
     fix.velocity_ned_mps =
         glm::dvec3(m_from_ft(velocity_ftps.x), m_from_ft(velocity_ftps.y), m_from_ft(velocity_ftps.z));
-    fix.ticks = reader.at<std::uint32_t>(verdict.got == 24 ? time_at : time_at + longer_in_25);
-    verdict.fault = error_of_fix(fix);
-    return verdict;
+    fix.ticks = reader.at<std::uint32_t>(result.got == 24 ? time_at : time_at + longer_in_25);
+    result.fault = error_of_fix(fix);
+    return result;
 }
 
-std::string fdm_text(const DecodeResult& verdict) {
-    const auto [fault, got, size] = verdict;
+std::string fdm_text(const DecodeResult& result) {
+    const auto [fault, got, size] = result;
     switch (fault) {
     case PacketError::None:
         return fmt::format("FDM version {} of {} bytes: fine", got, size);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/links/datagram.h"
+#include "sim/links/udp_port.h"
 
 #include <chrono>
 #include <cstddef>

@@ -2,11 +2,10 @@
 
 #include "sim/base/axes.h"
 #include "sim/flight_steps.h"
-#include "sim/hidden_height.h"
 #include "sim/links/dis_entity.h"
+#include "sim/links/fix.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/packet_kind.h"
-#include "sim/links/parabola_fit.h"
 #include "sim/trajectory.h"
 
 #include <glm/common.hpp>
@@ -378,31 +377,31 @@ typename Streams::mapped_type* stream_of(
     return &known->second;
 }
 
-std::string verdict_text(Protocol protocol, const DecodeResult& verdict) {
-    if (verdict.fault == PacketError::OtherKind) { return std::string(text_of(PacketKind{verdict.got})); }
+std::string result_text(Protocol protocol, const DecodeResult& result) {
+    if (result.fault == PacketError::OtherKind) { return std::string(text_of(PacketKind{result.got})); }
     switch (protocol) {
     case Protocol::Lines:
-        return NamedColumns::text_of(verdict);
+        return NamedColumns::text_of(result);
     case Protocol::XPlane:
-        return xplane_text(verdict);
+        return xplane_text(result);
     case Protocol::MavLink:
-        return mavlink_text(verdict);
+        return mavlink_text(result);
     case Protocol::Dis:
-        return dis_text(verdict);
+        return dis_text(result);
     case Protocol::Cigi:
-        return cigi_text(verdict);
+        return cigi_text(result);
     default:
-        return fdm_text(verdict);
+        return fdm_text(result);
     }
 }
 
-/// The verdict on a packet that its port's decoder does not use: what it is in truth, where its form tells that. To a
+/// The result on a packet that its port's decoder does not use: what it is in truth, where its form tells that. To a
 /// decoder of DIS, a message of CIGI 3 is a PDU of another type.
-DecodeResult identified(const Datagram& datagram, const DecodeResult& verdict) {
-    const auto kind = verdict.fault != PacketError::None && datagram.protocol != Protocol::Lines
+DecodeResult identified(const Datagram& datagram, const DecodeResult& result) {
+    const auto kind = result.fault != PacketError::None && datagram.protocol != Protocol::Lines
                           ? packet_kind(datagram.bytes)
                           : std::nullopt;
-    if (!kind || protocol_of(*kind) == datagram.protocol) { return verdict; }
+    if (!kind || protocol_of(*kind) == datagram.protocol) { return result; }
     return {PacketError::OtherKind, static_cast<std::uint32_t>(*kind), 0};
 }
 
@@ -482,44 +481,44 @@ LiveTraffic::PacketOutcome LiveTraffic::move(const Datagram& datagram, const Fix
 
 /// Counts and remembers what is to be said of a packet. Never Moved.
 LiveTraffic::PacketOutcome LiveTraffic::count(const Datagram& datagram, const DecodeResult& decoded) {
-    const DecodeResult verdict = identified(datagram, decoded);
-    const bool wrong = verdict.fault != PacketError::None && verdict.fault != PacketError::Unused;
-    if (verdict.fault == PacketError::Unused) {
+    const DecodeResult result = identified(datagram, decoded);
+    const bool wrong = result.fault != PacketError::None && result.fault != PacketError::Unused;
+    if (result.fault == PacketError::Unused) {
         ++counts_.unused;
     } else {
-        (wrong ? last_rejected_ : last_accepted_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
+        (wrong ? last_rejected_ : last_accepted_) = {datagram.protocol, datagram.source, result, datagram.arrival_s};
     }
     counts_.wrong += wrong ? 1 : 0;
-    tally(datagram, verdict);
+    tally(datagram, result);
     return wrong ? PacketOutcome::Wrong : PacketOutcome::Right;
 }
 
 /// Counts a packet by its kind. A new kind is told where there is room for it.
-void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& verdict) {
+void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& result) {
     constexpr std::size_t max_first = 200; // kinds of a fault that are the first of their sender
     constexpr std::size_t max_in_all = 100;
     constexpr std::ptrdiff_t max_of_sender = 16;
-    const bool got_is_size = verdict.fault == PacketError::WrongSize || verdict.fault == PacketError::NotOurs;
-    const PacketErrorKey form{verdict.fault, datagram.source, datagram.protocol, got_is_size ? 0U : verdict.got};
+    const bool got_is_size = result.fault == PacketError::WrongSize || result.fault == PacketError::NotOurs;
+    const PacketErrorKey form{result.fault, datagram.source, datagram.protocol, got_is_size ? 0U : result.got};
     const auto known = packet_tallies_.find(form);
     if (known != packet_tallies_.end()) {
         ++known->second.packets;
-        known->second.is_uniform = known->second.is_uniform && known->second.first == verdict;
+        known->second.is_uniform = known->second.is_uniform && known->second.first == result;
         return;
     }
     constexpr Protocol first_protocol{};
-    const auto begin = packet_tallies_.lower_bound({verdict.fault, datagram.source, first_protocol, 0});
+    const auto begin = packet_tallies_.lower_bound({result.fault, datagram.source, first_protocol, 0});
     const auto end = std::find_if(begin, packet_tallies_.end(),
-        [&](const auto& heard) { return heard.first.fault != verdict.fault || heard.first.source != datagram.source; });
+        [&](const auto& heard) { return heard.first.fault != result.fault || heard.first.source != datagram.source; });
     const auto of_sender = std::distance(begin, end);
-    std::size_t& forms = error_keys_[verdict.fault];
+    std::size_t& forms = error_keys_[result.fault];
     if (forms >= (of_sender == 0 ? max_first : max_in_all) || of_sender >= max_of_sender) {
         ++counts_.untold;
         return;
     }
     ++forms;
-    packet_tallies_.emplace(form, PacketTally{verdict, 1});
-    messages_.push_back(fmt::format("{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
+    packet_tallies_.emplace(form, PacketTally{result, 1});
+    messages_.push_back(fmt::format("{}: {}", text_of(datagram.source), result_text(datagram.protocol, result)));
 }
 
 /// Takes the number that a packet bears in a stream of its sender.
@@ -549,9 +548,9 @@ std::optional<long> LiveTraffic::lost_of(const VehicleKey& key) const {
 
 LiveTraffic::PacketOutcome LiveTraffic::take_fdm(const Datagram& datagram) {
     Fix fix;
-    const DecodeResult verdict = decode_fdm(datagram.bytes, fix);
-    const PacketOutcome counted = count(datagram, verdict);
-    return verdict.fault == PacketError::None ? move(datagram, fix) : counted;
+    const DecodeResult result = decode_fdm(datagram.bytes, fix);
+    const PacketOutcome counted = count(datagram, result);
+    return result.fault == PacketError::None ? move(datagram, fix) : counted;
 }
 
 LiveTraffic::PacketOutcome LiveTraffic::take_line(const Datagram& datagram) {
@@ -562,18 +561,18 @@ LiveTraffic::PacketOutcome LiveTraffic::take_line(const Datagram& datagram) {
         return PacketOutcome::Wrong;
     }
     Fix fix;
-    const DecodeResult verdict = stream->value.take(datagram.bytes, fix);
-    DecodeResult said = verdict;
+    const DecodeResult result = stream->value.take(datagram.bytes, fix);
+    DecodeResult said = result;
     said.size = 0; // Lines differ in length and are told once.
     const PacketOutcome counted = count(datagram, said);
-    return verdict.fault == PacketError::None ? move(datagram, fix) : counted;
+    return result.fault == PacketError::None ? move(datagram, fix) : counted;
 }
 
 LiveTraffic::PacketOutcome LiveTraffic::take_mavlink(const Datagram& datagram) {
     PacketOutcome taken = PacketOutcome::Wrong;
     for (Bytes rest = datagram.bytes; !rest.empty();) {
         const MavLinkParse parse = parse_mavlink(rest);
-        DecodeResult said = parse.verdict;
+        DecodeResult said = parse.result;
         said.size = said.fault == PacketError::NotOurs ? said.size : 0;
         taken = std::max(taken, count(datagram, said));
         if (identified(datagram, said).fault == PacketError::OtherKind) { break; }
@@ -602,9 +601,9 @@ LiveTraffic::PacketOutcome LiveTraffic::take_dis(const Datagram& datagram) {
                 name_of_body(ellipsoid_)));
     }
     DisEntity entity;
-    const DecodeResult verdict = decode_dis(datagram.bytes, entity);
-    const PacketOutcome counted = count(datagram, verdict);
-    return verdict.fault == PacketError::None ? move(datagram, entity.fix, marking_of(entity)) : counted;
+    const DecodeResult result = decode_dis(datagram.bytes, entity);
+    const PacketOutcome counted = count(datagram, result);
+    return result.fault == PacketError::None ? move(datagram, entity.fix, marking_of(entity)) : counted;
 }
 
 LiveTraffic::PacketOutcome LiveTraffic::take_xplane(const Datagram& datagram) {
@@ -623,12 +622,12 @@ LiveTraffic::PacketOutcome LiveTraffic::take_xplane(const Datagram& datagram) {
 
 LiveTraffic::PacketOutcome LiveTraffic::take_cigi(const Datagram& datagram) {
     std::vector<Fix> moved;
-    DecodeResult verdict = cigi_.take(datagram.bytes, moved, datagram.arrival_s);
-    if (verdict.fault == PacketError::None) {
-        verdict.size = 0; // Messages differ in length and are told once.
+    DecodeResult result = cigi_.take(datagram.bytes, moved, datagram.arrival_s);
+    if (result.fault == PacketError::None) {
+        result.size = 0; // Messages differ in length and are told once.
     }
-    const PacketOutcome counted = count(datagram, verdict);
-    if (verdict.fault != PacketError::None) { return counted; }
+    const PacketOutcome counted = count(datagram, result);
+    if (result.fault != PacketError::None) { return counted; }
     number(datagram, 0, cigi_.host_frame(), 32);
     for (const Fix& fix : moved) { move(datagram, fix); }
     for (const std::uint16_t entity : cigi_.take_removed()) {
@@ -681,9 +680,7 @@ std::size_t LiveTraffic::show(double now_s, double delay_s, std::span<AircraftSt
 }
 
 void LiveTraffic::remove_hidden(std::span<AircraftState> states) const {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        if (vehicles_[i].is_hidden()) { states[i].position_m.z = absent_height_m; }
-    }
+    for (std::size_t i = 0; i < states.size(); ++i) { states[i].is_present = !vehicles_[i].is_hidden(); }
 }
 
 bool LiveTraffic::is_stale() const {
@@ -697,7 +694,7 @@ std::vector<std::string> LiveTraffic::lines() const {
     std::vector<std::string> lines;
     if (last_accepted_.at_s >= 0.0) {
         lines.push_back(fmt::format(
-            "{}: {}", text_of(last_accepted_.source), verdict_text(last_accepted_.protocol, last_accepted_.verdict)));
+            "{}: {}", text_of(last_accepted_.source), result_text(last_accepted_.protocol, last_accepted_.result)));
     }
     constexpr std::size_t max_lines = 4;
     for (std::size_t i = 0; i < std::min(vehicles_.size(), max_lines); ++i) {
@@ -713,7 +710,7 @@ std::vector<std::string> LiveTraffic::lines() const {
     }
     if (last_rejected_.at_s >= 0.0 && shown_s_ - last_rejected_.at_s < wrong_said_s) {
         lines.push_back(fmt::format("{}: {}; {} wrong packets so far", text_of(last_rejected_.source),
-            verdict_text(last_rejected_.protocol, last_rejected_.verdict), counts_.wrong));
+            result_text(last_rejected_.protocol, last_rejected_.result), counts_.wrong));
     }
     if (vehicles_.size() == max_vehicles) {
         lines.push_back(
@@ -740,7 +737,7 @@ std::vector<PacketReport> LiveTraffic::packet_reports() const {
     std::vector<PacketReport> all;
     for (const auto& [form, heard] : packet_tallies_) {
         all.push_back(
-            {form.source, verdict_text(form.protocol, heard.first) + (heard.is_uniform ? "" : " (the first of them)"),
+            {form.source, result_text(form.protocol, heard.first) + (heard.is_uniform ? "" : " (the first of them)"),
                 heard.packets, form.fault != PacketError::None && form.fault != PacketError::Unused});
     }
     return all;

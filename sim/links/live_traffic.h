@@ -1,13 +1,13 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "sim/base/geo_position.h"
+#include "sim/base/earth_frame.h"
 #include "sim/links/cigi_image_generator.h"
-#include "sim/links/datagram.h"
 #include "sim/links/fix.h"
 #include "sim/links/mavlink.h"
 #include "sim/links/named_columns.h"
 #include "sim/links/sender_clock.h"
+#include "sim/links/udp_port.h"
 #include "sim/links/xplane.h"
 
 #include <glm/vec3.hpp>
@@ -259,7 +259,7 @@ private:
     struct LastReport {
         Protocol protocol = Protocol::Fdm;
         PacketSource source;
-        DecodeResult verdict;
+        DecodeResult result;
         double at_s = -1.0;
     };
 
@@ -273,8 +273,8 @@ private:
     PacketOutcome move(const Datagram& datagram, const Fix& fix, const std::string& marking = {});
     void report(const VehicleKey& key, const Fix& fix, const std::string& marking);
     LiveVehicle* vehicle_of(const VehicleKey& key, double arrival_s);
-    PacketOutcome count(const Datagram& datagram, const DecodeResult& verdict);
-    void tally(const Datagram& datagram, const DecodeResult& verdict);
+    PacketOutcome count(const Datagram& datagram, const DecodeResult& result);
+    void tally(const Datagram& datagram, const DecodeResult& result);
     void number(const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits);
     std::optional<long> lost_of(const VehicleKey& key) const;
 

@@ -5,7 +5,7 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "sim/links/earth.h"
+#include "sim/links/fix.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -100,7 +100,7 @@ MavLinkParse parse_mavlink(Bytes bytes) {
     const std::uint32_t number =
         is_2 ? reader.at<std::uint16_t>(7) | static_cast<std::uint32_t>(reader.at<std::uint8_t>(9)) << 16U
              : reader.at<std::uint8_t>(5);
-    MavLinkParse parse{.verdict = {PacketError::Unused, number, size},
+    MavLinkParse parse{.result = {PacketError::Unused, number, size},
         .length = length,
         .frame = {},
         .system = reader.at<std::uint8_t>(is_2 ? 5 : 3),
@@ -113,7 +113,7 @@ MavLinkParse parse_mavlink(Bytes bytes) {
     if (payload > message->length || sum != sum_of(summed_bytes, message->extra)) {
         return {{PacketError::WrongVersion, number, size}, length, {}};
     }
-    parse.verdict.fault = PacketError::None;
+    parse.result.fault = PacketError::None;
     const Bytes held = bytes.subspan(header, payload);
     parse.frame = MavLinkFrame{message->kind, parse.system, {held.begin(), held.end()}};
     parse.frame->payload.resize(message->length);
@@ -197,18 +197,18 @@ std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame, const E
     return plausible(fix);
 }
 
-std::string mavlink_text(const DecodeResult& verdict) {
-    switch (verdict.fault) {
+std::string mavlink_text(const DecodeResult& result) {
+    switch (result.fault) {
     case PacketError::None:
-        return fmt::format("MAVLink message {}: fine", verdict.got);
+        return fmt::format("MAVLink message {}: fine", result.got);
     case PacketError::Unused:
-        return fmt::format("MAVLink message {}: passed over", verdict.got);
+        return fmt::format("MAVLink message {}: passed over", result.got);
     case PacketError::WrongVersion:
-        return fmt::format("MAVLink message {}: its check sum is wrong", verdict.got);
+        return fmt::format("MAVLink message {}: its check sum is wrong", result.got);
     case PacketError::WrongSize:
         return "expected a whole MAVLink frame, got a piece of one";
     default:
-        return fmt::format("expected MAVLink 1 or 2, got {} bytes of something else", verdict.size);
+        return fmt::format("expected MAVLink 1 or 2, got {} bytes of something else", result.size);
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_position.h"
+#include "sim/base/earth_frame.h"
 #include "sim/links/fix.h"
 #include "sim/links/wire_bytes.h"
 
@@ -31,13 +31,13 @@ struct MavLinkFrame {
 };
 
 /// Reads the frame at the beginning of `bytes` and says how long it is; where none begins there, the length is that of
-/// what is to be skipped, at least 1. Frames of other kinds are Unused with their number as Verdict::got; their check
-/// sums cannot be told.
+/// what is to be skipped, at least 1. Frames of other kinds are Unused with their number as DecodeResult::got; their
+/// check sums cannot be told.
 struct MavLinkParse {
-    DecodeResult verdict;
+    DecodeResult result;
     std::size_t length = 0;
     std::optional<MavLinkFrame> frame;
-    /// Of frames whose verdict is None or Unused.
+    /// Of frames whose result is None or Unused.
     std::uint8_t system = 0;
     std::uint8_t component = 0;
     std::uint8_t sequence = 0; ///< counts the frames of a component on one link
@@ -62,6 +62,6 @@ private:
     std::optional<double> attitude_s_;
 };
 
-std::string mavlink_text(const DecodeResult& verdict);
+std::string mavlink_text(const DecodeResult& result);
 
 } // namespace octant::sim::links

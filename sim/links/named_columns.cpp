@@ -88,21 +88,21 @@ DecodeResult NamedColumns::take(Bytes line, Fix& fix) {
     return {error_of_fix(fix), 0, size};
 }
 
-std::string NamedColumns::text_of(const DecodeResult& verdict) {
-    switch (verdict.fault) {
+std::string NamedColumns::text_of(const DecodeResult& result) {
+    switch (result.fault) {
     case PacketError::None:
         return "lines of named columns: fine";
     case PacketError::Unused:
-        return fmt::format("{} named columns", verdict.got);
+        return fmt::format("{} named columns", result.got);
     case PacketError::NotOurs:
         return "expected a line of names with alt_m and lat_deg,lon_deg or north_m,east_m, got "
                "another line";
     case PacketError::WrongSize:
         return fmt::format("expected a line of at most {} bytes, got more", longest_line);
     case PacketError::WrongVersion:
-        return fmt::format("expected as many fields as there are names, got {} fields", verdict.got);
+        return fmt::format("expected as many fields as there are names, got {} fields", result.got);
     case PacketError::NotFinite:
-        return fmt::format("expected a number in field {}, got none", verdict.got);
+        return fmt::format("expected a number in field {}, got none", result.got);
     default:
         return "expected an aircraft near the earth, got none";
     }

@@ -21,11 +21,11 @@ public:
     static constexpr std::size_t longest_line = 2048;
 
     /// Takes a line. A line that holds no number in its first field is one of names; the first line must be one. `fix`
-    /// is set where the verdict is without fault; lines of names are Unused.
+    /// is set where the result is without fault; lines of names are Unused.
     DecodeResult take(Bytes line, Fix& fix);
 
     /// What a person should be told of a line.
-    static std::string text_of(const DecodeResult& verdict);
+    static std::string text_of(const DecodeResult& result);
 
 private:
     static constexpr std::size_t quantities = 15;

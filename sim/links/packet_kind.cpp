@@ -3,7 +3,7 @@
 
 #include "sim/links/packet_kind.h"
 
-#include "sim/links/cigi_packet_header.h"
+#include "sim/links/cigi_packets.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/mavlink.h"
@@ -92,8 +92,8 @@ bool is_xplane(Bytes datagram) {
 /// The first frame is right, or of a message that is not known here and as long as it says.
 bool is_mavlink(Bytes datagram) {
     const MavLinkParse parse = parse_mavlink(datagram);
-    return parse.verdict.fault == PacketError::None ||
-           (parse.verdict.fault == PacketError::Unused && parse.length == datagram.size());
+    return parse.result.fault == PacketError::None ||
+           (parse.result.fault == PacketError::Unused && parse.length == datagram.size());
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/links/parabola_fit.h"
+#include "sim/links/fix.h"
 
 #include <array>
 #include <cstddef>

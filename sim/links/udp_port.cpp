@@ -3,9 +3,11 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <ctime>
 #include <fmt/format.h>
@@ -16,6 +18,30 @@
 #include <utility>
 
 namespace octant::sim::links {
+
+std::string_view name_of(Protocol protocol) {
+    switch (protocol) {
+    case Protocol::Fdm:
+        return "FlightGear FDM";
+    case Protocol::Lines:
+        return "lines";
+    case Protocol::MavLink:
+        return "MAVLink";
+    case Protocol::Dis:
+        return "DIS";
+    case Protocol::Cigi:
+        return "CIGI";
+    case Protocol::XPlane:
+        return "X-Plane";
+    }
+    return "unknown";
+}
+
+std::string text_of(const PacketSource& source) {
+    if (source == PacketSource{}) { return "standard input"; }
+    const auto part = [&source](unsigned shift) { return source.address >> shift & 0xffU; };
+    return fmt::format("{}.{}.{}.{}:{}", part(24), part(16), part(8), part(0), source.port);
+}
 
 namespace {
 
@@ -167,6 +193,19 @@ bool UdpPort::send(const PacketSource& to, std::span<const std::byte> bytes) {
     std::memcpy(&generic, &peer, sizeof(generic));
     const ssize_t sent = ::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT, &generic, sizeof(peer));
     return sent == static_cast<ssize_t>(bytes.size());
+}
+
+bool SourceLimit::admits(const PacketSource& source, double arrival_s) {
+    const std::uint64_t key = static_cast<std::uint64_t>(source.address) << 16U | source.port;
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U; // the golden ratio's bits: spreads keys
+    constexpr unsigned to_index = 54;                  // the ten highest bits
+    Bucket& bucket = buckets_[static_cast<std::size_t>(key * odd >> to_index)];
+    const double passed_s = std::max(arrival_s - bucket.filled_s, 0.0);
+    bucket.tokens = std::min(bucket.tokens + passed_s * packets_per_s, burst);
+    bucket.filled_s = std::max(bucket.filled_s, arrival_s);
+    if (bucket.tokens < 1.0) { return false; }
+    bucket.tokens -= 1.0;
+    return true;
 }
 
 } // namespace octant::sim::links

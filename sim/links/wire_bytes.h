@@ -1,9 +1,12 @@
 #pragma once
 
+#include "sim/base/binary_file.h"
+
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <array>
 #include <bit>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,18 +31,8 @@ public:
     Number at(std::size_t offset) const {
         static_assert(std::is_arithmetic_v<Number>);
         if (offset > bytes_.size() || bytes_.size() - offset < sizeof(Number)) { return {}; }
-        std::uint64_t whole = 0;
-        for (std::size_t i = 0; i < sizeof(Number); ++i) {
-            const std::size_t byte = order_ == ByteOrder::Big ? i : sizeof(Number) - 1 - i;
-            whole = whole << 8U | std::to_integer<std::uint64_t>(bytes_[offset + byte]);
-        }
-        if constexpr (std::same_as<Number, double>) {
-            return std::bit_cast<double>(whole);
-        } else if constexpr (std::same_as<Number, float>) {
-            return std::bit_cast<float>(static_cast<std::uint32_t>(whole));
-        } else {
-            return static_cast<Number>(whole);
-        }
+        return value_at<Number>(reinterpret_cast<const char*>(bytes_.data()) + offset,
+            order_ == ByteOrder::Big ? std::endian::big : std::endian::little);
     }
 
     /// Three numbers of 4 bytes one behind the other.
@@ -73,18 +66,9 @@ public:
     void set(std::size_t offset, Number number) {
         static_assert(std::is_arithmetic_v<Number>);
         if (offset > bytes_.size() || bytes_.size() - offset < sizeof(Number)) { return; }
-        std::uint64_t whole = 0;
-        if constexpr (std::same_as<Number, double>) {
-            whole = std::bit_cast<std::uint64_t>(number);
-        } else if constexpr (std::same_as<Number, float>) {
-            whole = std::bit_cast<std::uint32_t>(number);
-        } else {
-            whole = static_cast<std::uint64_t>(number);
-        }
-        for (std::size_t i = 0; i < sizeof(Number); ++i) {
-            const std::size_t byte = order_ == ByteOrder::Big ? sizeof(Number) - 1 - i : i;
-            bytes_[offset + byte] = static_cast<std::byte>(whole >> (8U * i) & 0xffU);
-        }
+        auto own = std::bit_cast<std::array<std::byte, sizeof(Number)>>(number);
+        if (order_ == ByteOrder::Big) { std::ranges::reverse(own); }
+        std::ranges::copy(own, bytes_.begin() + static_cast<std::ptrdiff_t>(offset));
     }
 
     std::size_t size() const { return bytes_.size(); }

@@ -62,7 +62,7 @@ enum Answer : std::size_t {
     Clock,
 };
 
-/// Verdict::got of answers that we asked for, where others hold the place.
+/// DecodeResult::got of answers that we asked for, where others hold the place.
 constexpr std::uint32_t part_of_answers = 2;
 
 constexpr std::array<std::string_view, 17> answer_names{"sim/flightmodel/position/latitude",
@@ -176,25 +176,25 @@ DecodeResult XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
             is_asked_for = take_answer(row.at<std::int32_t>(0), row.at<float>(4)) || is_asked_for;
         }
     }
-    DecodeResult verdict{PacketError::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
+    DecodeResult result{PacketError::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
     if (!received_.place || (!is_data && !is_complete(received_.place))) {
-        verdict.fault = PacketError::Unused; // Answers to RREF may bring the rest of a place later.
-        verdict.got = is_asked_for ? part_of_answers : verdict.got;
-        return verdict;
+        result.fault = PacketError::Unused; // Answers to RREF may bring the rest of a place later.
+        result.got = is_asked_for ? part_of_answers : result.got;
+        return result;
     }
     for (std::optional<glm::dvec3>* each_vector :
         {&received_.local_m, &received_.local_mps, &received_.body_rates_degps}) {
         if (!is_complete(*each_vector)) { each_vector->reset(); }
     }
     Fix complete_fix = complete();
-    verdict.fault = error_of_fix(complete_fix);
-    if (verdict.fault == PacketError::None) {
+    result.fault = error_of_fix(complete_fix);
+    if (result.fault == PacketError::None) {
         Fix smoothed = complete_fix;
         smooth(smoothed);
         fix = error_of_fix(smoothed) == PacketError::None ? smoothed : complete_fix;
     }
     received_ = {};
-    return verdict;
+    return result;
 }
 
 Fix XPlanePose::complete() {
@@ -297,29 +297,29 @@ std::vector<std::byte> encode_xplane(const Fix& fix, const Geodetic& origin, dou
     return packet.take();
 }
 
-std::string xplane_text(const DecodeResult& verdict) {
-    const std::string_view kind = verdict.got == 0 ? "DATA" : "RREF";
-    switch (verdict.fault) {
+std::string xplane_text(const DecodeResult& result) {
+    const std::string_view kind = result.got == 0 ? "DATA" : "RREF";
+    switch (result.fault) {
     case PacketError::None:
         return fmt::format("X-Plane {}: fine", kind);
     case PacketError::Unused:
-        return verdict.got == 0 ? "X-Plane DATA without group 20 (latitude and longitude): waits for that one; "
-                                  "groups "
-                                  "3, 17, 18, 20 and 21 are read"
-               : verdict.got == part_of_answers
+        return result.got == 0 ? "X-Plane DATA without group 20 (latitude and longitude): waits for that one; "
+                                 "groups "
+                                 "3, 17, 18, 20 and 21 are read"
+               : result.got == part_of_answers
                    ? "X-Plane RREF: a part of the answers; waits for latitude, longitude and "
                      "elevation"
                    : "X-Plane RREF lacks latitude, longitude and elevation under our request "
                      "numbers; start listen with --xplane HOST";
     case PacketError::WrongSize:
         return fmt::format("X-Plane {}: expected 5 bytes and {} for each {}, got {}", kind,
-            verdict.got == 0 ? group_bytes : answer_bytes, verdict.got == 0 ? "group" : "answer", verdict.size);
+            result.got == 0 ? group_bytes : answer_bytes, result.got == 0 ? "group" : "answer", result.size);
     case PacketError::NotFinite:
         return fmt::format("X-Plane {}: expected numbers, got one that is none", kind);
     case PacketError::OutOfRange:
         return fmt::format("X-Plane {}: expected an aircraft near the earth, got none", kind);
     default:
-        return fmt::format("expected X-Plane DATA or RREF, got {} bytes of something else", verdict.size);
+        return fmt::format("expected X-Plane DATA or RREF, got {} bytes of something else", result.size);
     }
 }
 

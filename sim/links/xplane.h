@@ -1,6 +1,5 @@
 #pragma once
 
-#include "sim/links/earth.h"
 #include "sim/links/fix.h"
 #include "sim/links/wire_bytes.h"
 
@@ -23,7 +22,7 @@ inline constexpr std::uint16_t xplane_request_port = 49000;
 /// answer tells the local metres too, the motion between packets is theirs.
 class XPlanePose {
 public:
-    /// Reads a packet. `fix` is set where it completes one and the verdict has no fault. A packet without a place is
+    /// Reads a packet. `fix` is set where it completes one and the result has no fault. A packet without a place is
     /// Unused.
     DecodeResult take(Bytes datagram, std::optional<Fix>& fix);
 
@@ -61,6 +60,6 @@ std::vector<std::vector<std::byte>> xplane_requests(int per_second);
 std::vector<std::byte> encode_xplane(const Fix& fix, const Geodetic& origin, double time_s);
 
 /// What a person should be told of a packet.
-std::string xplane_text(const DecodeResult& verdict);
+std::string xplane_text(const DecodeResult& result);
 
 } // namespace octant::sim::links

@@ -67,7 +67,7 @@
   const box = Array.from(document.querySelectorAll(".plot[data-height]")).find(b => !b.classList.contains("small"));
   if (box) drive(box);
   const runs = document.querySelector("table.sortable");
-  if (runs) sort(runs, Array.from(runs.querySelectorAll("thead th")).findIndex(head => head.textContent.startsWith("longest")));
+  if (runs) sort(runs, Array.from(runs.querySelectorAll("thead th")).findIndex(head => head.textContent.startsWith("Longest")));
   const pre = document.createElement("pre");
   pre.id = "verdict";
   pre.textContent = `PLOTS ${plots.length} FAULTS ${faults.length}\n${faults.join("\n")}\nEND`;

@@ -16,22 +16,22 @@ namespace {
 
 const std::string head = "FileType=text/acmi/tacview\nFileVersion=2.2\n";
 
-AcmiRecording tape_of(const std::string& lines) { return parse_acmi(head + lines, "a.acmi"); }
+AcmiRecording recording_of(const std::string& lines) { return parse_acmi(head + lines, "a.acmi"); }
 
 constexpr double degree_north_m = 111132.954 - 559.822 + 1.175; // of the meridian at the equator
 
 } // namespace
 
 TEST_CASE("what a line leaves out of a place stays, and references are added") {
-    const AcmiRecording tape = tape_of("0,ReferenceLongitude=8\n0,ReferenceLatitude=0\n#10\n"
-                                       "a1,T=0.5|0.001|150|10|0|90,Name=F-15C,Type=Air+FixedWing\n"
-                                       "#11\na1,T=|0.002||||\n#12\na1,T=|0.003|160|||80\n");
-    REQUIRE(tape.aircraft.size() == 1);
-    const RecordedAircraft& aircraft = tape.aircraft.front();
+    const AcmiRecording recording = recording_of("0,ReferenceLongitude=8\n0,ReferenceLatitude=0\n#10\n"
+                                                 "a1,T=0.5|0.001|150|10|0|90,Name=F-15C,Type=Air+FixedWing\n"
+                                                 "#11\na1,T=|0.002||||\n#12\na1,T=|0.003|160|||80\n");
+    REQUIRE(recording.aircraft.size() == 1);
+    const RecordedAircraft& aircraft = recording.aircraft.front();
     CHECK(aircraft.name == "F-15C");
     CHECK(aircraft.type == "Air+FixedWing");
-    CHECK(tape.origin.longitude_deg == 8.5);
-    CHECK(tape.origin.latitude_deg == 0.001);
+    CHECK(recording.origin.longitude_deg == 8.5);
+    CHECK(recording.origin.latitude_deg == 0.001);
     const auto samples = aircraft.trajectory.samples();
     REQUIRE(samples.size() == 3);
     CHECK(samples[0].time_s == 0.0);
@@ -46,27 +46,27 @@ TEST_CASE("what a line leaves out of a place stays, and references are added") {
     CHECK(samples[1].velocity_mps.y == Approx(0.001 * degree_north_m).epsilon(1e-4));
 }
 
-TEST_CASE("a tape's aircraft share one clock and one origin, the one seen longest first") {
-    const AcmiRecording tape = tape_of("#0\n1,T=0|0|100,Type=Air+Rotorcraft\n2,T=0.01|0|300\n#1\n"
-                                       "1,T=0.0001|0|100\n2,T=0.011|0|300\n#1.5\n-1\n#2\n2,T=0.012|0|300\n"
-                                       "1,T=1|1|5,Type=Air+FixedWing,Name=another\n#3\n1,T=1.001|1|5\n");
-    REQUIRE(tape.aircraft.size() == 3);
-    CHECK(tape.aircraft[0].type.empty());
-    CHECK(tape.aircraft[0].trajectory.end_s() == 2.0);
-    CHECK(tape.aircraft[1].type == "Air+Rotorcraft");
-    CHECK(tape.aircraft[1].trajectory.end_s() == 1.0);
-    CHECK(tape.aircraft[2].name == "another");
-    CHECK(tape.aircraft[2].trajectory.start_s() == 2.0);
-    CHECK(tape.origin.longitude_deg == 0.01);
-    CHECK(tape.aircraft[1].trajectory.samples()[0].position_m.x < -1000.0);
+TEST_CASE("a recording's aircraft share one clock and one origin, the one seen longest first") {
+    const AcmiRecording recording = recording_of("#0\n1,T=0|0|100,Type=Air+Rotorcraft\n2,T=0.01|0|300\n#1\n"
+                                                 "1,T=0.0001|0|100\n2,T=0.011|0|300\n#1.5\n-1\n#2\n2,T=0.012|0|300\n"
+                                                 "1,T=1|1|5,Type=Air+FixedWing,Name=another\n#3\n1,T=1.001|1|5\n");
+    REQUIRE(recording.aircraft.size() == 3);
+    CHECK(recording.aircraft[0].type.empty());
+    CHECK(recording.aircraft[0].trajectory.end_s() == 2.0);
+    CHECK(recording.aircraft[1].type == "Air+Rotorcraft");
+    CHECK(recording.aircraft[1].trajectory.end_s() == 1.0);
+    CHECK(recording.aircraft[2].name == "another");
+    CHECK(recording.aircraft[2].trajectory.start_s() == 2.0);
+    CHECK(recording.origin.longitude_deg == 0.01);
+    CHECK(recording.aircraft[1].trajectory.samples()[0].position_m.x < -1000.0);
 }
 
 TEST_CASE("lines out of order, escapes, lines that go on and comments are read as the format says") {
-    const AcmiRecording tape = tape_of("// a comment\n0,Title=one\\, two\\\nthree,Author=x\n#2\n"
-                                       "1,T=0.002|0|10,Name=a\\,b\n#1\n1,T=0.001|0|10\n#2\n1,T=0.003|0|10\n");
-    REQUIRE(tape.aircraft.size() == 1);
-    CHECK(tape.aircraft[0].name == "a,b");
-    const auto samples = tape.aircraft[0].trajectory.samples();
+    const AcmiRecording recording = recording_of("// a comment\n0,Title=one\\, two\\\nthree,Author=x\n#2\n"
+                                                 "1,T=0.002|0|10,Name=a\\,b\n#1\n1,T=0.001|0|10\n#2\n1,T=0.003|0|10\n");
+    REQUIRE(recording.aircraft.size() == 1);
+    CHECK(recording.aircraft[0].name == "a,b");
+    const auto samples = recording.aircraft[0].trajectory.samples();
     REQUIRE(samples.size() == 2);
     CHECK(samples[0].time_s == 0.0);
     CHECK(samples[1].time_s == 1.0);
@@ -74,29 +74,30 @@ TEST_CASE("lines out of order, escapes, lines that go on and comments are read a
 }
 
 TEST_CASE("what is no aircraft, seen once or impossible is left out and told") {
-    const AcmiRecording tape =
-        tape_of("#0\n1,T=0|0|10\n2,T=0|0|0,Type=Ground+Tank\n3,T=0|0|10,Type=Air+FixedWing\n"
-                "4,T=50|0|10,Type=Air+FixedWing\n#1\n1,T=0.001|0|10\n2,T=0.001|0|0\n4,T=50.001|0|10\n"
-                "#2\n1,T=1|0|10\n#3\n1,T=0.002|0|10\n1,T=0.002|95|10\n");
-    REQUIRE(tape.aircraft.size() == 1);
-    CHECK(tape.aircraft[0].trajectory.samples().size() == 3);
-    REQUIRE(tape.notes.size() == 4);
-    CHECK_THAT(tape.notes[0], Contains("1 objects that are no aircraft"));
-    CHECK_THAT(tape.notes[1], Contains("1 aircraft that are seen at one time alone"));
-    CHECK_THAT(tape.notes[2], Contains("1 aircraft more than 1,000 km away"));
-    CHECK_THAT(tape.notes[3], Contains("4 samples"));
+    const AcmiRecording recording =
+        recording_of("#0\n1,T=0|0|10\n2,T=0|0|0,Type=Ground+Tank\n3,T=0|0|10,Type=Air+FixedWing\n"
+                     "4,T=50|0|10,Type=Air+FixedWing\n#1\n1,T=0.001|0|10\n2,T=0.001|0|0\n4,T=50.001|0|10\n"
+                     "#2\n1,T=1|0|10\n#3\n1,T=0.002|0|10\n1,T=0.002|95|10\n");
+    REQUIRE(recording.aircraft.size() == 1);
+    CHECK(recording.aircraft[0].trajectory.samples().size() == 3);
+    REQUIRE(recording.notes.size() == 4);
+    CHECK_THAT(recording.notes[0], Contains("1 objects that are no aircraft"));
+    CHECK_THAT(recording.notes[1], Contains("1 aircraft that are seen at one time alone"));
+    CHECK_THAT(recording.notes[2], Contains("1 aircraft more than 1,000 km away"));
+    CHECK_THAT(recording.notes[3], Contains("4 samples"));
 }
 
-TEST_CASE("a tape of more objects than any battle has is refused at the first too many") {
+TEST_CASE("a recording of more objects than any battle has is refused at the first too many") {
     constexpr int most = 1000000;
     std::string lines;
     for (int i = 1; i <= most + 1; ++i) {
         lines += std::to_string(i) + ",\n"; // decimal digits are numbers in hexadecimal, too
     }
-    CHECK_THROWS_WITH(tape_of(lines), Contains("a.acmi:1000003: expected at most 1000000 objects, got '1000001,'"));
+    CHECK_THROWS_WITH(
+        recording_of(lines), Contains("a.acmi:1000003: expected at most 1000000 objects, got '1000001,'"));
 }
 
-TEST_CASE("what is no tape is refused in one line that names its place") {
+TEST_CASE("what is no recording is refused in one line that names its place") {
     struct Case {
         std::string text;
         std::string expected;

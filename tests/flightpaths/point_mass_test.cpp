@@ -1,7 +1,7 @@
 #include "flightpaths/point_mass.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "sim/fixed_step.h"
+#include "sim/flight_steps.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/axes.h"
-#include "sim/base/transverse_mercator.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/units.h"
 
 #include <catch2/catch.hpp>

@@ -48,7 +48,9 @@ inside apt-get update -qq >"$scratch/apt.log" 2>&1 || skip "no package lists: $(
 cp "$package" "$root/root/octant.deb"
 inside apt-get install -y -qq --no-install-recommends /root/octant.deb >>"$scratch/apt.log" 2>&1 ||
   fail "the package is not installed: $(tail -n 5 "$scratch/apt.log")"
-inside octant --version || fail "octant --version"
+for program in octant octant-study octant-verify; do inside $program --version || fail "$program --version"; done
+inside octant draw-order concave --certificate /root/proof.txt --quiet && inside octant verify /root/proof.txt || fail "octant verify"
+inside octant study refinement --frames 20 --out /root/tables --quiet || fail "octant study"
 
 # A flight there, and one that was flown and packed here.
 inside octant fly straight --seconds 2 --record /root/flight --quiet || fail "octant fly straight"

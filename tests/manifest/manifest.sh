@@ -69,7 +69,7 @@ flight f15-detailed-tower pop-up --aircraft f15-detailed --terrain canyon --view
 flight everything turn --aircraft f15 --aircraft 500md=straight --effects --clouds 0.4 --airfield --path-ribbon --inset cockpit $small --frames 20
 flight paper-terrain jinking --mesh printed --detail damped --control-a 1000 --triangles 4000 $small --frames 20
 flight paper-order straight --order-method paper --shading-rule paper --smooth-share 0.5 $small --frames 20
-flight divided straight --order-method bsp $small --frames 20
+flight divided straight --order-seconds 0.001 $small --frames 20
 flight depth-buffer straight --hidden-surface depth-buffer --samples 4 $small --frames 20
 for map in gcanyon_1025 pugetsound_1025 vancouver_2049 srtm3_N49W123 gcanyon_1025_smooth; do
   [ ! -e "$data/terrain/$map.tif" ] || flight "map-$map" pop-up --terrain "$data/terrain/$map.tif" $small --frames 20

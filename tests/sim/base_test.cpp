@@ -1,15 +1,19 @@
 #include "sim/base/axes.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "sim/base/units.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <fstream>
 
 using namespace octant;
@@ -131,4 +135,144 @@ TEST_CASE("what could not be written is refused before the work, and nothing is 
     CHECK_FALSE(std::filesystem::exists(file));
     CHECK_THROWS_AS(check_can_write(folder), Error);
     CHECK_THROWS_AS(check_can_write(folder / "none" / "file"), Error);
+}
+
+TEST_CASE("base64 of every remainder is as RFC 4648 has it, comes back, and what is none is refused") {
+    CHECK(base64_of("") == "");
+    CHECK(base64_of("f") == "Zg==");
+    CHECK(base64_of("fo") == "Zm8=");
+    CHECK(base64_of("foo") == "Zm9v");
+    CHECK(base64_of("foobar") == "Zm9vYmFy");
+    CHECK(base64_of("\xFF\xFE") == "//4=");
+    for (const std::string text : {"", "a", "ab", "abc", "abcd"}) { CHECK(from_base64(base64_of(text)) == text); }
+    CHECK(base64_of("Man") == "TWFu");
+    CHECK(base64_of("Ma") == "TWE=");
+    CHECK(from_base64("TWE") == "Ma");
+    CHECK_FALSE(from_base64("T").has_value());
+    CHECK_FALSE(from_base64("TW*u").has_value());
+}
+
+TEST_CASE("values written one behind the other are read back, and what is cut or too long is refused with its place") {
+    BinaryWriter out;
+    out.put(std::uint16_t{0x1234});
+    out.put_list(std::vector<float>{1.5F, -2.0F});
+    out.put_text("end");
+    CHECK(out.bytes().substr(0, 3) == std::string("\x34\x12\x02", 3));
+    CHECK(BinaryReader(out.bytes(), {}, 0, std::endian::big).take<std::uint16_t>() == 0x3412);
+    BinaryReader in(out.bytes(), "a.bin");
+    CHECK(in.take<std::uint16_t>() == 0x1234);
+    CHECK(in.take_list<float>() == std::vector<float>{1.5F, -2.0F});
+    CHECK_THROWS_WITH(in.expect_end(), "a.bin: at byte 18: expected the end of the file, got 11 more bytes");
+    CHECK(in.take_text() == "end");
+    in.expect_end();
+    CHECK_THROWS_WITH(
+        in.take<int>("a side"), "a.bin: at byte 29: expected a side (4 bytes), got 0 to the end of the file");
+    BinaryReader cut(std::string_view(out.bytes()).substr(0, 17));
+    cut.take<std::uint16_t>();
+    CHECK_THROWS_WITH(cut.take_list<float>("heights"), "at byte 2: expected heights of at most 1 times 4 bytes, got 2");
+}
+
+TEST_CASE("an archive is read back, and another kind, version, size or byte is refused") {
+    const ArchiveKind kind{.content = "a thing", .signature = "octthing", .version = 7, .max_bytes = 100};
+    const std::filesystem::path file = scratch("thing");
+    const auto text = [](BinaryReader& in) { return std::string(in.take_text()); };
+    BinaryWriter body;
+    body.put_text("body");
+    write_archive(file, kind, body.bytes());
+    CHECK(read_archive(file, kind, text) == "body");
+    const std::string bytes = read_file(file);
+    const auto fault_with = [&](const std::string& changed) {
+        write_file(file, changed);
+        try {
+            read_archive(file, kind, text);
+        } catch (const Error& fault) { return std::string(fault.what()).substr(file.string().size()); }
+        return std::string();
+    };
+    const auto fault_of = [&](std::size_t byte, char value) {
+        std::string changed = bytes;
+        changed[byte] = value;
+        return fault_with(changed);
+    };
+    for (std::size_t byte = 0; byte < bytes.size(); ++byte) {
+        CHECK(fault_of(byte, static_cast<char>(bytes[byte] ^ 4)).starts_with(": at byte "));
+        CHECK(fault_with(bytes.substr(0, byte)).starts_with(": at byte "));
+    }
+    CHECK(fault_with(bytes + "x") == ": at byte 16: expected 13 bytes behind the head, got 12");
+    CHECK(fault_of(0, 'O') == ": at byte 0: expected a thing, got another file");
+    CHECK(fault_of(8, 8) == ": at byte 8: expected version 7, got 8");
+    CHECK(fault_of(12, 1) == ": at byte 12: expected 0, got 1");
+    CHECK(fault_of(16, 13) == ": at byte 16: expected 12 bytes behind the head, got 13");
+    CHECK_THAT(fault_of(43, 'Y'), Catch::StartsWith(": at byte 24: expected the checksum "));
+    CHECK_THROWS_WITH(write_archive(file, kind, std::string(101, 'x')), Catch::Contains("expected at most 100 bytes"));
+}
+
+TEST_CASE("a text is read word by word, and errors name file, line, what was expected and what was found") {
+    TextScanner text("words", "\xef\xbb\xbf  a,1.5 # one, two\r\n{ \"b } \\\" c\"\r -7 2e3 x",
+        {.separators = ",", .marks = "{}", .comment = '#', .has_strings = true, .max_number = 1000.0});
+    CHECK(text.peek_second() == "1.5");
+    CHECK(text.word("a name") == "a");
+    CHECK(text.number("a length") == 1.5);
+    CHECK(text.peek() == "{");
+    CHECK(text.offset() == 23);
+    CHECK(text.line_number() == 2);
+    CHECK(text.skip("{"));
+    CHECK_FALSE(text.skip("}"));
+    CHECK(text.word_or_end() == "\"b } \\\" c\"");
+    CHECK_THROWS_WITH(text.integer("a count", 0, 9), "words:3: expected a count of 0 to 9, got '-7'");
+    CHECK(text.integer("a count") == -7);
+    CHECK_THROWS_WITH(text.number("a length"), "words:3: expected a length, got '2e3'");
+    CHECK_THROWS_WITH(text.refuse_last("a length"), "words:3: expected a length, got '-7'");
+    CHECK(text.rest_of_line() == "2e3 x");
+    CHECK_THROWS_WITH(text.word("a name"), "words:3: expected a name, got the end of the file");
+    TextScanner open("words", "\"a", {.has_strings = true});
+    CHECK_THROWS_WITH(open.peek(), "words:1: expected a quote at the end of a string, got the end of the file");
+}
+
+TEST_CASE("a text is read line by line; a backslash joins lines, but not behind a comment") {
+    TextScanner text("lines", "\n f 1 \\\r\n2\n # a \\\nname  of it ", {.joins_lines = true});
+    REQUIRE((text.next_line() && text.next_line()));
+    CHECK(text.skip("f"));
+    CHECK(text.words() == std::vector<std::string_view>{"1", "2"});
+    CHECK(text.line_number() == 2);
+    REQUIRE(text.next_line());
+    CHECK(text.line() == " # a \\");
+    CHECK_FALSE(text.is_truncated());
+    REQUIRE(text.next_line());
+    CHECK(text.line_number() == 5);
+    CHECK(text.is_truncated());
+    text.word_or_end();
+    CHECK(text.rest_of_line() == "of it");
+    CHECK_THROWS_WITH(text.number("a length"), "lines:5: expected a length, got none");
+    CHECK_FALSE(text.next_line());
+}
+
+TEST_CASE("a text that comes in pieces has the same words and lines as a text in memory") {
+    std::string whole;
+    for (int i = 0; i < 5000; ++i) {
+        whole += std::string(static_cast<std::size_t>(i % 61), ' ') + fmt::format("{}\r\n", i);
+    }
+    const auto path = scratch("pieces");
+    write_file(path, whole);
+    TextScanner lines = TextScanner::of_file(path);
+    TextScanner words(path, [&, at = std::size_t{0}](char* to, std::size_t size) mutable {
+        const std::size_t taken = whole.copy(to, std::min<std::size_t>(size, 7), at);
+        at += taken;
+        return taken;
+    });
+    for (int i = 0; i < 5000; ++i) {
+        REQUIRE(lines.next_line());
+        REQUIRE(lines.integer("a number") == i);
+        REQUIRE(words.integer("a number") == i);
+        REQUIRE(words.line_number() == i + 1);
+    }
+    CHECK_FALSE(lines.next_line());
+    CHECK(words.word_or_end().empty());
+    write_file(path, "a\n" + std::string(65536, 'b'));
+    TextScanner longer = TextScanner::of_file(path);
+    CHECK(longer.next_line());
+    CHECK_THROWS_WITH(longer.next_line(), path.string() + ":2: expected at most 65535 bytes, got more");
+    write_file(path, std::string_view("a\n\0b", 4));
+    TextScanner binary = TextScanner::of_file(path);
+    CHECK(binary.next_line());
+    CHECK_THROWS_WITH(binary.next_line(), path.string() + ": expected text, got binary data");
 }

@@ -1,8 +1,6 @@
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "sim/base/utf8.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>

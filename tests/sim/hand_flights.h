@@ -3,8 +3,8 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "sim/fixed_step.h"
 #include "sim/flight_models.h"
+#include "sim/flight_steps.h"
 #include "sim/piloted_flight.h"
 
 #include <glm/geometric.hpp>
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <random>
@@ -67,7 +68,7 @@ inline bool is_finite(const sim::AircraftState& state) {
 }
 
 inline bool same_bits(const sim::AircraftState& a, const sim::AircraftState& b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
+    return std::memcmp(&a, &b, offsetof(sim::AircraftState, is_present)) == 0;
 }
 
 /// A pilot who moves each control to a new place about once a second, often to a stop.

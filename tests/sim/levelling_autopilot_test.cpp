@@ -1,5 +1,5 @@
 #include "sim/flight_models.h"
-#include "sim/levelling_autopilot.h"
+#include "sim/piloted_flight.h"
 #include "tests/sim/hand_flights.h"
 
 #include <catch2/catch.hpp>

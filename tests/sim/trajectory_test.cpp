@@ -1,5 +1,5 @@
 #include "sim/base/axes.h"
-#include "sim/fixed_step.h"
+#include "sim/flight_steps.h"
 #include "sim/trajectory.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "ui/base/json_value.h"
 
-#include "sim/base/utf8.h"
+#include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #include "ui/base/progress.h"
 
-#include "sim/base/utf8.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 
 #include <cstdio>
@@ -32,6 +32,11 @@ void Progress::show(int done, const std::string& note) {
         rate_text(per_s), steps_, left_s, note.empty() ? "" : ", ", note);
     std::fputs(terminal_ ? fmt::format("\r\x1b[K{}", line).c_str() : fmt::format("{}\n", line).c_str(), stderr);
     std::fflush(stderr);
+}
+
+void Progress::tick(const std::string& note) {
+    const std::scoped_lock lock(ticking_);
+    show(++ticks_, note);
 }
 
 void Progress::finish() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
 
 namespace octant::ui::base {
@@ -25,6 +26,9 @@ public:
     /// `done` of the total are finished; `note` is shown behind the numbers.
     void show(int done, const std::string& note = "");
 
+    /// One more is finished. May be called from any thread.
+    void tick(const std::string& note = "");
+
     /// Ends the line that show() has written over again and again.
     void finish();
 
@@ -36,6 +40,8 @@ private:
     bool quiet_;
     bool terminal_;
     bool drawn_ = false;
+    int ticks_ = 0;
+    std::mutex ticking_;
     Clock::time_point start_;
     Clock::time_point last_shown_;
 };

@@ -2,14 +2,14 @@
 #include "models/polygons/obj_writer.h"
 #include "models/polygons/polygon_model.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/command_line.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_model.h"
 #include "visuals/certificate/order_certificate.h"
@@ -19,6 +19,7 @@
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_text.h"
+#include "visuals/orderstudy/divided_octants.h"
 #include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
@@ -31,10 +32,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace {
 
@@ -65,7 +69,9 @@ constexpr int default_rays = 200000; ///< of a check
 struct DrawOrderOptions {
     std::string model;
     std::string axes = "right,up,back";
+    std::string method = "exact"; ///< one of method_names
     visuals::draworder::OrderOptions order;
+    double min_distance_radii = 2.0;  ///< of cells
     std::optional<std::string> cache; ///< folder of kept orders
     bool table = false;
     std::string export_file;
@@ -79,7 +85,26 @@ struct DrawOrderOptions {
     bool quiet = false;
 };
 
-using visuals::draworder::OrderMethod;
+/// cells and bsp are those of the studies (visuals/orderstudy).
+const std::vector<std::string_view> method_names{"paper", "exact", "cells", "bsp", "tree"};
+constexpr std::size_t old_name_of_exact = 4;
+
+Option method_option(std::string& method) {
+    return {.name = "--method",
+        .form = "KIND",
+        .meaning = "exact (for every eye) or paper (8 octants as printed); of the studies also cells (octants "
+                   "subdivided; exact beyond a minimum distance) and bsp (polygons split, no search)",
+        .read =
+            [&method](const Words& words) {
+                const settings::FieldInfo info{.name = "--method", .form = "KIND", .meaning = ""};
+                const std::size_t choice = settings::read_choice(info, words.front(), method_names);
+                if (choice == old_name_of_exact) {
+                    settings::print_old_name_note(info, words.front(), "the old name of exact");
+                }
+                method = choice == old_name_of_exact ? "exact" : method_names[choice];
+            },
+        .shown_default = method};
+}
 
 /// Throws Error where one file would be written over another, or over the model.
 void check_not_overwriting(const DrawOrderOptions& options) {
@@ -103,7 +128,7 @@ void check_not_overwriting(const DrawOrderOptions& options) {
 void check_exclusive(const DrawOrderOptions& options) {
     if (options.model.empty() == options.verify.empty()) {
         throw Error(options.model.empty()
-                        ? "expected a model, or --verify with a certificate, got neither"
+                        ? "expected a model, got none"
                         : "--verify: expected no model beside a certificate, which holds its own, got '" +
                               printable(options.model) + "'");
     }
@@ -112,8 +137,8 @@ void check_exclusive(const DrawOrderOptions& options) {
         throw Error("--certificate: expected orders that this command finds, got those of --check '" +
                     printable(options.check_file) + "'");
     }
-    if (options.order.method == OrderMethod::Paper) {
-        throw Error("--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
+    if (options.method == "paper") {
+        throw Error("--certificate: expected --method exact, bsp or cells, which are right for all eyes or "
                     "all from a distance on, got --method paper");
     }
 }
@@ -123,19 +148,15 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
         {text_option("model", "NAME|FILE",
              fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")), options.model),
             text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
-            value_option({"method", "KIND",
-                             "paper (8 octants as printed), cells (octants subdivided; exact beyond a minimum "
-                             "distance), tree (tree of view cells; exact everywhere) or bsp (polygons split)"},
-                options.order.method),
-            value_option({"order-seconds", "SECONDS",
-                             "cells, tree: approximate time limit of the search; then polygons are split as with bsp",
+            method_option(options.method),
+            value_option({"order-seconds", "SECONDS", "approximate time limit of the search; then polygons are split",
                              0.001, 3600},
                 options.order.seconds),
             text_option("--order-cache", "DIR", "folder where painting orders are cached", options.cache),
             value_option(
                 {"min-distance", "RADII",
                     "cells: orders are exact for eyes with |x|+|y|+|z| of at least this many model radii", 1, 1000},
-                options.order.min_distance_radii)});
+                options.min_distance_radii)});
 }
 
 void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
@@ -147,8 +168,7 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
             text_option("--certificate", "FILE",
                 "output file of a certificate that proves the order of every pair of polygons; not for --method paper",
                 options.certificate),
-            text_option(
-                "--verify", "FILE", "check a certificate with exact arithmetic and do nothing else", options.verify),
+            hidden(text_option("--verify", "FILE", "old name of octant verify FILE", options.verify)),
             {.name = "--check",
                 .form = "[FILE]",
                 .meaning =
@@ -184,7 +204,7 @@ void check_draw_order_options(const DrawOrderOptions& options) {
 }
 
 /// An order that holds for every eye, or for those that its choices leave
-/// (visuals/draworder/with_min_distance.h), with the model that it speaks of.
+/// (orderstudy::with_min_distance), with the model that it speaks of.
 struct CertifiedOrder {
     const models::polygons::PolygonModel& model;
     const visuals::draworder::DrawOrder& order;
@@ -246,23 +266,12 @@ bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& 
     return all_proofs_hold(proofs::certificate_of(text, "certificate"), percents, results);
 }
 
-/// Reads a certificate, checks it without rounding and adds to the figures; whether it proves all.
-/// Throws Error for a file that is no certificate.
-bool verify_certificate(const std::string& file, bool quiet, base::JsonValue& results) {
-    PercentProgress percents("verifying", quiet);
-    const auto certificate = proofs::read_certificate(file);
-    results["certificate"] = file;
-    results["polygons"] = certificate.polygons.size();
-    results["nodes"] = certificate.nodes.size();
-    results["lists"] = certificate.lists.size();
-    return all_proofs_hold(certificate, percents, results);
-}
-
 } // namespace
 
 namespace draworder = visuals::draworder;
 namespace ordercache = visuals::ordercache;
 namespace orderfile = visuals::orderfile;
+namespace orderstudy = visuals::orderstudy;
 
 namespace {
 
@@ -309,18 +318,27 @@ void add_size(JsonValue& results, const orderfile::CellOrders& orders) {
     }
 }
 
-/// Finds the orders of a model, or reads them from the cache.
-ordercache::CachedOrder find_or_read_orders(models::polygons::PolygonModel model,
-    const std::optional<std::string>& cache, const draworder::OrderOptions& options) {
-    if (cache) { return ordercache::cached_order(*cache, std::move(model), options); }
-    return {.ordered = draworder::ordered(std::move(model), options), .file = {}, .notes = {}};
+/// Finds the orders of a model, or reads them from the cache, which holds those of paper and exact only.
+ordercache::CachedOrder find_or_read_orders(
+    models::polygons::PolygonModel model, const DrawOrderOptions& options, draworder::OrderOptions order) {
+    if (options.method == "cells") {
+        return {.ordered = orderstudy::ordered_by_cells(std::move(model), order, options.min_distance_radii),
+            .file = {},
+            .notes = {}};
+    }
+    if (options.method == "bsp") {
+        return {.ordered = orderstudy::ordered_by_splitting(std::move(model), order), .file = {}, .notes = {}};
+    }
+    order.method = options.method == "paper" ? draworder::OrderMethod::Paper : draworder::OrderMethod::Exact;
+    if (options.cache) { return ordercache::cached_order(*options.cache, std::move(model), order); }
+    return {.ordered = draworder::ordered(std::move(model), order), .file = {}, .notes = {}};
 }
 
 /// The order as it can be proved: of octants that hold from a distance on, nothing is claimed for
 /// nearer eyes.
 draworder::DrawOrder order_to_prove(const draworder::OrderedModel& ordered) {
     return ordered.found_by == draworder::OrderSource::Cells
-               ? draworder::with_min_distance(ordered.order, ordered.centre_m, ordered.min_distance_m)
+               ? orderstudy::with_min_distance(ordered.order, ordered.centre_m, ordered.min_distance_m)
                : ordered.order;
 }
 
@@ -342,12 +360,12 @@ PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results)
         add_size(results, work.orders);
         return work;
     }
-    results["method"] = settings::text_of(options.order.method);
+    results["method"] = options.method;
     const std::size_t polygons = input.model.polygons.size();
     draworder::OrderOptions order = options.order;
     PercentProgress percents("searching for cells", options.quiet, "% of the budget");
     order.progress = [&](double share) { percents.show(share); };
-    ordercache::CachedOrder cached = find_or_read_orders(std::move(input.model), options.cache, order);
+    ordercache::CachedOrder cached = find_or_read_orders(std::move(input.model), options, order);
     draworder::OrderedModel& ordered = cached.ordered;
     const double build_ms = percents.finish();
     for (const std::string& note : cached.notes) { base::print_note(options.quiet, "note: " + note); }
@@ -438,18 +456,11 @@ void print_results(const PreparedOrder& work, const DrawOrderOptions& options, b
     if (!options.table || checked) { base::print_value(results, false); }
 }
 
-void verify(const DrawOrderOptions& options) {
-    JsonValue results;
-    const bool good = verify_certificate(options.verify, options.quiet, results);
-    base::print_value(results, options.json);
-    if (!good) { throw CheckFailed(); }
-}
-
 void draw_order(const DrawOrderOptions& options) {
     check_draw_order_options(options);
     if (!options.verify.empty()) {
-        verify(options);
-        return;
+        base::print_note(options.quiet, "note: draw-order --verify is now octant verify");
+        replace_by_program({"octant-verify", options.verify, options.json ? "--json" : "--quiet"});
     }
     if (options.cache) { ordercache::make_cache_folder(*options.cache); }
     JsonValue results;
@@ -482,7 +493,7 @@ Command draw_order_command() {
                   "the\naxes of that file.\nExamples:\n  octant draw-order concave --method paper --table\n  octant "
                   "draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n  octant draw-order "
                   "f15-split.obj --check f15-orders.txt\n  octant draw-order torus --order-cache orders\n  octant "
-                  "draw-order f15 --certificate f15-proof.txt\n  octant draw-order --verify f15-proof.txt",
+                  "draw-order f15 --certificate f15-proof.txt\n  octant verify f15-proof.txt",
         .run = [options] { draw_order(*options); }};
     add_draw_order_options(command.options, *options);
     return command;

@@ -1,12 +1,12 @@
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/packet_replay.h"
-#include "ui/commands/setting_option.h"
 #include "ui/flight/flight_recorder.h"
+#include "ui/flight/packet_replay.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"
@@ -30,6 +30,8 @@
 #include <thread>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace scene = visuals::scene;
 
@@ -155,9 +157,9 @@ void fly(FlyOptions options) {
     const base::StopSignals stop_signals;
     flight::FlightRecorder recorder(options.record, options.settings, session);
     std::string stopped;
-    PacketReplay packets;
+    flight::PacketReplay packets;
     if (live) {
-        packets = replay_packets(*options.replay, session, recorder, options.quiet);
+        packets = flight::replay_packets(*options.replay, session, recorder, options.quiet);
         stopped = packets.stopped;
     } else {
         stopped = fly_frames(options, session, sender, recorder);

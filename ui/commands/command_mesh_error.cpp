@@ -1,12 +1,12 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 
 #include <cstdio>
@@ -16,6 +16,8 @@
 #include <variant>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace measure = models::measure;
 

@@ -28,6 +28,8 @@
 
 namespace octant::ui::commands {
 
+using namespace command_line;
+
 namespace {
 
 constexpr int samples_a_side = 2; ///< Of a pixel.

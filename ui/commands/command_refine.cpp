@@ -3,13 +3,14 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
+#include "visuals/refine/classic_split_rules.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/refine_criterion.h"
 
@@ -24,6 +25,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace refine = visuals::refine;
 
@@ -189,7 +192,8 @@ void refine_mesh(RefineOptions options) {
         base::print_note(options.input.quiet, "progressive mesh: " + options.save);
     }
     results["rule"] = options.rule;
-    refine::SelectiveRefiner refiner(mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
+    refine::SelectiveRefiner refiner(mesh,
+        {.required_split = refine::required_split_of(rule_of(options.rule), *mesh), .repair = !options.no_repair});
     refine_all(refiner, options, view, results);
     write_results(refiner, options, input.has_material_colours);
     base::print_value(results, options.json);

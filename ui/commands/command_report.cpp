@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/comparison.h"
 #include "ui/report/html_report.h"
@@ -20,6 +20,8 @@
 
 namespace octant::ui::commands {
 
+using namespace command_line;
+
 namespace {
 
 struct ReportOptions {
@@ -31,22 +33,13 @@ struct ReportOptions {
 };
 
 base::JsonValue results_of_run(const report::LoadedRecording& recording) {
-    base::JsonValue summary;
-    for (const report::Statistic& statistic : report::all_statistics()) {
-        const double value = statistic.value(recording.statistics);
-        if (statistic.decimals == 0) {
-            summary[statistic.key] = static_cast<int>(value);
-        } else {
-            summary[statistic.key] = value;
-        }
-    }
     const auto known = [](const std::string& text) { return text.empty() ? base::JsonValue() : base::JsonValue(text); };
     return {{"folder", recording.display_name}, {"title", recording.run.title},
         {"host", recording.run.machine_info.host}, {"frames", recording.flight.frames()},
         {"ended_early", recording.ended_early}, {"stopped", known(recording.run.stopped)},
         {"disagreement", known(recording.disagreement)}, {"noise", recording.run.noise},
         {"state_hash", known(recording.run.state_hash)}, {"picture_hash", known(recording.run.picture_hash)},
-        {"summary", summary}};
+        {"summary", report::json_of(report::all_statistics(), recording.statistics)}};
 }
 
 void make_report(const ReportOptions& options) {

@@ -1,11 +1,10 @@
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/json_value.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/commands/simplify_run.h"
 #include "ui/world/mesh_loader.h"
 
@@ -20,6 +19,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace meshfile = models::meshfile;
 

@@ -1,10 +1,10 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
@@ -27,6 +27,8 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+using namespace command_line;
 
 namespace {
 
@@ -174,16 +176,18 @@ void print_list(const sweep::Sweep& sweep, bool json) {
 }
 
 /// What the report says before its flights: those that are not done, and runs that differ though they must not.
-std::vector<report::HtmlTable> problem_table(
+std::vector<report::ResultTable> problem_table(
     const std::vector<sweep::RunResult>& results, const std::vector<std::string>& hash_mismatches) {
-    std::vector<report::HtmlTable> tables;
+    std::vector<report::ResultTable> tables;
     if (const auto missing = unfinished_runs(results); !missing.empty()) {
-        tables.push_back({"Flights that are not done", {"flight", "why"}, {}, "The same command flies them."});
-        for (const std::size_t i : missing) { tables.back().rows.push_back({results[i].name, results[i].fault}); }
+        tables.push_back({.title = "Flights that are not done", .note = "The same command flies them."});
+        for (const std::size_t i : missing) {
+            tables.back().add({{"flight", results[i].name}, {"why", results[i].fault}});
+        }
     }
     if (!hash_mismatches.empty()) {
-        tables.push_back({"Runs that differ in nothing did not show the same", {"what"}, {}, ""});
-        for (const std::string& line : hash_mismatches) { tables.back().rows.push_back({line}); }
+        tables.push_back({.title = "Runs that differ in nothing did not show the same"});
+        for (const std::string& line : hash_mismatches) { tables.back().add({{"what", line}}); }
     }
     return tables;
 }
@@ -205,9 +209,7 @@ void print_end(const sweep::Sweep& sweep, const std::vector<sweep::RunResult>& r
     if (json) {
         base::JsonValue runs = base::JsonValue::list({});
         for (const sweep::RunResult& result : results) {
-            runs.push_back({{"name", result.name}, {"done", result.done},
-                {"fault", result.done ? std::string() : result.fault}, {"host", result.host},
-                {"state_hash", result.state_hash}, {"picture_hash", result.picture_hash}, {"noise", result.noise}});
+            runs.push_back(report::json_of(sweep::result_columns(), result));
         }
         base::print_value({{"name", sweep.name}, {"flown", machine_sharing}, {"done", results.size() - missing},
                               {"of", results.size()}, {"differences", hash_mismatches}, {"runs", runs}},

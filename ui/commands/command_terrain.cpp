@@ -1,5 +1,3 @@
-#include "ui/commands/command_terrain.h"
-
 #include "models/heights/height_field_export.h"
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
@@ -12,10 +10,10 @@
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/setting_option.h"
-#include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
+#include "ui/report/table.h"
 #include "ui/settings/path_fields.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/terrain/error_tables.h"
@@ -44,6 +42,10 @@
 
 namespace octant::ui::commands {
 
+using namespace command_line;
+
+namespace {
+
 void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
     table.insert(
         table.end(), {required(text_option("terrain", "NAME|FILE",
@@ -52,33 +54,9 @@ void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions&
     add_file_options(table, options.files);
 }
 
-namespace {
-
-void add_file_rows(std::vector<Option>& table, double& spacing_m, std::optional<double>& height_scale,
-    std::optional<std::string>& system, models::heights::VoidValues& voids, std::optional<std::string>& band) {
-    table.insert(table.end(),
-        {value_option(
-             {"terrain-spacing", "METRES", "sample spacing in metres, for files that do not state it", 0.01, 1e5},
-             spacing_m),
-            value_option(
-                {"height-scale", "METRES", "metres per height unit, for files that name no unit [1]", 1e-6, 1e4},
-                height_scale),
-            value_option({"terrain-system", "SYSTEM",
-                             "coordinate system, for files that name none: EPSG:4326, a PROJ string, a .prj file or "
-                             "metres [WGS 84 if the coordinates look like degrees, else metres]"},
-                system),
-            value_option(settings::void_info, voids), value_option(settings::band_info, band)});
-}
-
-} // namespace
-
-void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
-    add_file_rows(table, files.spacing_m, files.height_scale, files.system, files.voids, files.band);
-}
-
-void add_file_options(std::vector<Option>& table, settings::PathSettings& path) {
-    add_file_rows(table, path.terrain_spacing_m, path.terrain_height_scale, path.terrain_system, path.terrain_voids,
-        path.terrain_band);
+Option curved_option(bool& curved) {
+    return flag("--curved",
+        "include earth curvature: lower the ground by d^2 / 2R, as flights do (screen-error meshes only)", curved);
 }
 
 void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
@@ -118,13 +96,6 @@ void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& 
             value_option({"resolution-c", "C", "midpoint and printed: resolution parameter C", 1.0, 1e5},
                 options.resolution_c)});
 }
-
-Option curved_option(bool& curved) {
-    return flag("--curved",
-        "include earth curvature: lower the ground by d^2 / 2R, as flights do (screen-error meshes only)", curved);
-}
-
-namespace {
 
 std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes) {
     std::vector<std::string> texts;
@@ -378,7 +349,7 @@ void show_error(ErrorOptions options) {
             run.cameras.push_back(ui::terrain::camera_at(point, samples, options.view.fov_deg));
         }
     }
-    std::vector<report::HtmlTable> tables = {ui::terrain::error_table(ground, run)};
+    std::vector<report::ResultTable> tables = {ui::terrain::error_table(ground, run)};
     if (options.compare) { tables.push_back(ui::terrain::comparison_table(ground, run)); }
     std::fputs((options.json ? report::json_of(tables) : report::markdown_of(tables)).c_str(), stdout);
 }
@@ -453,7 +424,7 @@ std::vector<ui::terrain::QueryPointResult> query_source(const QueryOptions& opti
     }
     std::vector<ui::terrain::QueryPointResult> answers;
     for (const ui::terrain::QueryPoint& point : points) {
-        answers.push_back({point, source.height_at(point.x_m, point.y_m)});
+        answers.push_back(ui::terrain::answer_of(point, source.height_at(point.x_m, point.y_m)));
     }
     return answers;
 }

@@ -1,20 +1,19 @@
 #include "ui/commands/commands.h"
 
 #include "ui/base/version.h"
+#include "ui/command_line/manual.h"
 #include "ui/world/mesh_loader.h"
 
-#include <cstddef>
 #include <fmt/format.h>
-#include <iterator>
-#include <memory>
-#include <utility>
-#include <vector>
 
 namespace octant::ui::commands {
 
-Program octant_program(std::vector<Command> window_commands) {
-    Program program{.about = "Octant: flies polygon aircraft along scripted paths over level-of-detail "
-                             "terrain, and times it.",
+using command_line::Command;
+using command_line::Program;
+
+Program octant_program() {
+    Program program{.name = "octant",
+        .about = "Flies polygon aircraft along scripted paths over level-of-detail terrain, and times it.",
         .version = fmt::format("octant {} ({})\nmeshes of .ac .glb .gltf .obj .ply .stl .wrl\n{}",
             base::program_version(), base::program_commit(), world::library_formats()),
         .footer = "Examples:\n"
@@ -26,15 +25,22 @@ Program octant_program(std::vector<Command> window_commands) {
                   "  octant refine bunny.ply --base 100 --save bunny.pm\n"
                   "  octant simplify bunny.ply small.obj --faces 1000\n"
                   "A flag takes =true and =false, too: --scenery=false is --no-scenery.\n"
+                  "Another NAME starts the program octant-NAME, as git does.\n"
                   "Every option with its unit and default, and examples: octant COMMAND --help.\n"
                   "All of them: octant --help-all.",
-        .commands = {fly_command(), report_command(), pack_command(), terrain_command(), draw_order_command(),
-            mesh_error_command(), model_command(), refine_command(), simplify_command(), sweep_command(),
-            study_command(), bench_command()}};
-    constexpr std::ptrdiff_t after_fly = 1;
-    program.commands.insert(program.commands.begin() + after_fly, std::make_move_iterator(window_commands.begin()),
-        std::make_move_iterator(window_commands.end()));
-    program.commands.push_back(manual_command(std::make_shared<const Program>(program)));
+        .commands = {fly_command(), view_command(), listen_command(), report_command(), pack_command(), sweep_command(),
+            terrain_command(), model_command(), draw_order_command(), simplify_command(), refine_command(),
+            mesh_error_command(),
+            Command{.name = "study",
+                .summary = "Repeats the experiment of a paper and prints its results next to ours (octant-study)",
+                .program = {"octant-study"}},
+            Command{.name = "bench",
+                .summary = "Benchmarks standard scenes against a minimal baseline scene (octant-study bench)",
+                .program = {"octant-study", "bench"}},
+            Command{.name = "verify",
+                .summary = "Checks a certificate of a painting order with exact arithmetic (octant-verify)",
+                .program = {"octant-verify"}}}};
+    program.commands.push_back(command_line::manual_command(program));
     return program;
 }
 

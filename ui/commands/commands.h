@@ -1,28 +1,24 @@
 #pragma once
 
-#include "ui/commands/command.h"
-
-#include <memory>
-#include <vector>
+#include "ui/command_line/command.h"
 
 namespace octant::ui::commands {
 
-Command fly_command();
-/// Prints what a program says of itself.
-Command manual_command(std::shared_ptr<const Program> program);
-Command pack_command();
-Command report_command();
-Command terrain_command();
-Command draw_order_command();
-Command mesh_error_command();
-Command model_command();
-Command refine_command();
-Command simplify_command();
-Command sweep_command();
-Command study_command();
-Command bench_command();
+// One function for each command, in command_NAME.cpp.
+command_line::Command draw_order_command();
+command_line::Command fly_command();
+command_line::Command listen_command();
+command_line::Command mesh_error_command();
+command_line::Command model_command();
+command_line::Command pack_command();
+command_line::Command refine_command();
+command_line::Command report_command();
+command_line::Command simplify_command();
+command_line::Command sweep_command();
+command_line::Command terrain_command();
+command_line::Command view_command();
 
-/// All commands. Those that open windows are made by ui/window.
-Program octant_program(std::vector<Command> window_commands);
+/// The program octant: its commands in the order of help.
+command_line::Program octant_program();
 
 } // namespace octant::ui::commands

@@ -11,17 +11,9 @@ namespace octant::ui::commands {
 void print_summary(const flight::FlightResult& end, const std::optional<flight::ReplayComparison>& verdict, bool json,
     const base::JsonValue::JsonMembers& extra_results) {
     if (json) {
-        base::JsonValue object;
-        for (const report::Statistic& statistic : report::all_statistics()) {
-            const double value = statistic.value(end.statistics);
-            if (statistic.decimals == 0) {
-                object[statistic.key] = static_cast<int>(value);
-            } else {
-                object[statistic.key] = value;
-            }
-        }
-        object["state_hash"] = fmt::format("{:016x}", end.state_hash);
-        object["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
+        base::JsonValue object = report::json_of(report::all_statistics(), end.statistics);
+        object["state_hash"] = report::hash_text(end.state_hash);
+        object["picture_hash"] = report::hash_text(end.picture_hash);
         if (verdict) {
             object["replay"] = {{"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
         }

@@ -24,8 +24,8 @@ struct ChartLevel {
 };
 
 /// A page with a plot and a table of the errors of a mesh's levels of detail by their faces: one HTML text without
-/// scripts or outside references, without the plot where all levels are exact. `mesh` is the name of its file, `levels`
-/// begin with the mesh itself. Throws Error where gnuplot is missing.
+/// outside references, without the plot where all levels are exact. `mesh` is the name of its file, `levels` begin with
+/// the mesh itself.
 std::string chart_page(const std::string& mesh, const std::vector<ChartLevel>& levels, double diagonal_m);
 
 /// Adds what the 2005 paper states about its runs to the figures of `octant simplify`: how the paper was read,

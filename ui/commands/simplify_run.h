@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/simplify/paper_simplify.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/json_value.h"
 
 #include <optional>

@@ -2,7 +2,6 @@
 
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
@@ -16,7 +15,7 @@
 #include "ui/report/run_file.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "sim/links/datagram.h"
 #include "sim/links/line_input.h"
-#include "sim/links/source_limit.h"
 #include "sim/links/udp_port.h"
 #include "ui/flight/live_flight.h"
 #include "ui/flight/packet_file.h"

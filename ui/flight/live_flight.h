@@ -1,8 +1,6 @@
 #pragma once
 
 #include "sim/base/earth_frame.h"
-#include "sim/base/geo_position.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/links/cigi_image_generator.h"
 #include "sim/links/cigi_packets.h"
 #include "sim/links/fix.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/base/output_file.h"
-#include "sim/links/datagram.h"
+#include "sim/links/udp_port.h"
 #include "ui/flight/live_flight.h"
 
 #include <cstdint>

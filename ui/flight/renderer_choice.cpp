@@ -1,6 +1,6 @@
 #include "ui/flight/renderer_choice.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/gl/make_renderer.h"
 
 #include <utility>
@@ -32,7 +32,7 @@ std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings
 std::unique_ptr<raster::Renderer> make_raster_renderer(
     const settings::RunSettings& settings, std::shared_ptr<visuals::scene::WindowPicture> window) {
     const int threads = settings.drawing.raster_threads.value_or(core_count());
-    return std::make_unique<raster::Renderer>(std::make_shared<raster::Workers>(threads), settings.view.size_px,
+    return std::make_unique<raster::Renderer>(std::make_shared<ThreadPool>(threads), settings.view.size_px,
         settings.view.samples.value_or(16), std::move(window));
 }
 

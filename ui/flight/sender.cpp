@@ -3,9 +3,9 @@
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 #include "sim/links/cigi_host.h"
 #include "sim/links/dis_entity.h"
@@ -73,8 +73,10 @@ links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
 std::optional<links::Fix> flown_fix(const Session& session, std::size_t aircraft) {
     const Simulation& simulation = session.simulation();
     if (simulation.is_live() && !simulation.source().is_flown(aircraft)) { return std::nullopt; }
-    const links::Fix fix = fix_of(session, session.states()[aircraft]);
-    return links::error_of_fix(fix) == links::PacketError::None ? std::optional(fix) : std::nullopt;
+    const sim::AircraftState& state = session.states()[aircraft];
+    const links::Fix fix = fix_of(session, state);
+    const bool is_shown = state.is_present && links::error_of_fix(fix) == links::PacketError::None;
+    return is_shown ? std::optional(fix) : std::nullopt;
 }
 
 constexpr std::size_t max_entities = 48;  // of one packet that receivers take

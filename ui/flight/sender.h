@@ -1,8 +1,6 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "sim/links/datagram.h"
-#include "sim/links/earth.h"
 #include "sim/links/fix.h"
 #include "sim/links/tacview_server.h"
 #include "sim/links/udp_port.h"

@@ -3,6 +3,7 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/ground_height.h"
 #include "sim/base/hash.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/frame_renderer.h"
 #include "ui/flight/quality_controller.h"
@@ -18,7 +19,6 @@
 #include "visuals/scene/renderer.h"
 
 #include <cstdint>
-#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -176,10 +176,11 @@ private:
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
-    /// The air of another time of day, and the ground in its colours, which is made beside pictures. Comes last, as
-    /// that work looks at the scene.
-    visuals::scene::AirSettings recoloured_air_;
-    std::future<world::SceneGround> recoloured_ground_;
+    /// The air of another time of day, present while the task makes the ground in its colours. The task comes last
+    /// because it reads the scene.
+    std::optional<visuals::scene::AirSettings> recoloured_air_;
+    world::SceneGround recoloured_ground_; ///< written by the task
+    BackgroundTask recolouring_;
 };
 
 /// From where one frame of a run is seen.

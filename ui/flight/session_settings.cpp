@@ -7,7 +7,7 @@
 #include "ui/world/scene_ground.h"
 
 #include <algorithm>
-#include <chrono>
+#include <optional>
 #include <utility>
 
 namespace octant::ui::flight {
@@ -17,9 +17,9 @@ namespace scene = visuals::scene;
 void Session::apply(const settings::RunSettings& wanted) {
     const settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground.place);
     const settings::SettingsChange change = settings::change_between(settings_, settings);
-    if (change > settings::SettingsChange::Look && recoloured_ground_.valid()) {
-        recoloured_ground_.wait();
-        recoloured_ground_ = {};
+    if (change > settings::SettingsChange::Look && recoloured_air_) {
+        recoloured_air_.reset();
+        recolouring_.wait();
     }
     switch (change) {
     case settings::SettingsChange::None:
@@ -115,12 +115,13 @@ void Session::apply_sun_change(const settings::RunSettings& settings, world::Sce
 }
 
 bool Session::follow_time_of_day(const std::optional<std::string>& time) {
-    if (recoloured_ground_.valid()) {
-        if (recoloured_ground_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) { return false; }
+    if (recoloured_air_) {
+        if (recolouring_.is_running()) { return false; }
         settings::RunSettings settings = settings_;
-        settings.air = recoloured_air_;
+        settings.air = *std::exchange(recoloured_air_, std::nullopt);
         settings.air.visibility_m = settings_.air.visibility_m;
-        apply_sun_change(settings, recoloured_ground_.get());
+        recolouring_.wait();
+        apply_sun_change(settings, std::move(recoloured_ground_));
         return true;
     }
     if (time == settings_.air.time) { return false; }
@@ -128,10 +129,9 @@ bool Session::follow_time_of_day(const std::optional<std::string>& time) {
     wanted.air.time = time;
     wanted = world::with_sun_updated(std::move(wanted), settings_, world_.ground.place);
     recoloured_air_ = wanted.air;
-    recoloured_ground_ = std::async(std::launch::async, [this, settings = std::move(wanted)] {
-        world::SceneGround ground = ground_for(settings);
-        if (settings.air.sky) { ground.ground->backdrop(); }
-        return ground;
+    recolouring_.begin([this, settings = std::move(wanted)] {
+        recoloured_ground_ = ground_for(settings);
+        if (settings.air.sky) { recoloured_ground_.ground->backdrop(); }
     });
     return false;
 }

@@ -1,8 +1,8 @@
 #include "ui/flight/simulation.h"
 
 #include "sim/base/axes.h"
-#include "sim/fixed_step.h"
 #include "sim/flight_models.h"
+#include "sim/flight_steps.h"
 #include "visuals/planning/aircraft_model.h"
 
 #include <glm/common.hpp>

@@ -4,7 +4,6 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/hash.h"
-#include "sim/levelling_autopilot.h"
 #include "sim/piloted_flight.h"
 #include "ui/world/world.h"
 #include "visuals/planning/placed_aircraft.h"

@@ -1,5 +1,5 @@
-# What is installed beside the program and its data, and the Debian package (cpack in the build
-# folder). The manual page and the completions are printed by the program itself.
+# Desktop file, pages, examples and the Debian package (cpack in the build folder). The programs print their manual pages
+# and completions themselves.
 include(GNUInstallDirs)
 set(package ${CMAKE_CURRENT_LIST_DIR})
 install(FILES ${package}/octant.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
@@ -7,7 +7,7 @@ install(FILES ${package}/octant.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/h
 install(FILES ${package}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/octant)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/octant)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/octant FILES_MATCHING PATTERN "*.json")
-install(CODE "set(octant_program \"$<TARGET_FILE:octant>\")
+install(CODE "set(octant_programs \"$<TARGET_FILE_DIR:octant>\")
   set(octant_changes \"${PROJECT_SOURCE_DIR}/CHANGES.md\")
   set(octant_debian_changes \"${package}/changelog\")")
 install(SCRIPT ${package}/install_manual.cmake)
@@ -37,7 +37,7 @@ if(dpkg_query)
   string(REGEX MATCH "^[^:, \n]+" gdal_package "${gdal_owner}")
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "${gdal_package}")
 endif()
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, gnuplot-nox")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "slurm-client, parallel")
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

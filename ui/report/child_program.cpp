@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -74,7 +75,8 @@ int spawn(pid_t& process, const std::vector<std::string>& words, const std::arra
 
 } // namespace
 
-std::optional<ChildProgram> ChildProgram::start(const std::vector<std::string>& words) {
+std::optional<ChildProgram> ChildProgram::start(
+    const std::vector<std::string>& words, const std::filesystem::path& log) {
     assert(!words.empty());
     ChildProgram child;
     // A socket rather than a pipe: send() can be told not to raise SIGPIPE.
@@ -83,8 +85,13 @@ std::optional<ChildProgram> ChildProgram::start(const std::vector<std::string>& 
         throw Error(fmt::format("{} cannot be started: {}", words[0], std::strerror(errno)));
     }
     child.input_ = ends[0];
-    child.output_ = ::memfd_create("output", MFD_CLOEXEC);
-    child.error_pipe_ = ::memfd_create("complaints", MFD_CLOEXEC);
+    child.output_ = log.empty() ? ::memfd_create("output", MFD_CLOEXEC)
+                                : ::open(log.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (child.output_ < 0 && !log.empty()) {
+        throw_error_in(log, fmt::format("cannot be written: {}", std::strerror(errno)));
+    }
+    child.error_pipe_ =
+        log.empty() ? ::memfd_create("complaints", MFD_CLOEXEC) : ::fcntl(child.output_, F_DUPFD_CLOEXEC, 0);
     const int code = child.output_ < 0 || child.error_pipe_ < 0
                          ? errno
                          : spawn(child.process_, words, {ends[1], child.output_, child.error_pipe_});
@@ -105,6 +112,15 @@ ChildProgram::~ChildProgram() {
 ChildProgram::ChildProgram(ChildProgram&& other) noexcept
     : process_(std::exchange(other.process_, -1)), status_(other.status_), input_(std::exchange(other.input_, -1)),
       output_(std::exchange(other.output_, -1)), error_pipe_(std::exchange(other.error_pipe_, -1)) {}
+
+ChildProgram& ChildProgram::operator=(ChildProgram&& other) noexcept {
+    std::swap(process_, other.process_);
+    std::swap(status_, other.status_);
+    std::swap(input_, other.input_);
+    std::swap(output_, other.output_);
+    std::swap(error_pipe_, other.error_pipe_);
+    return *this;
+}
 
 bool ChildProgram::send(std::string_view bytes) {
     while (!bytes.empty()) {

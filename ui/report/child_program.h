@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,14 +20,16 @@ struct ProgramResult {
 /// own: Ctrl-C reaches only us, and when we are killed it sees the end of its input and finishes in peace.
 class ChildProgram {
 public:
-    /// Starts `words[0]`, looked up on PATH, with the rest as arguments. Nothing when there is no such program that we
-    /// may run. Throws Error when the system cannot start it.
-    static std::optional<ChildProgram> start(const std::vector<std::string>& words);
+    /// Starts `words[0]`, looked up on PATH, with the rest as arguments. With a `log`, its output and its errors go
+    /// into that file. Nothing when there is no such program that we may run. Throws Error when the system cannot start
+    /// it.
+    static std::optional<ChildProgram> start(
+        const std::vector<std::string>& words, const std::filesystem::path& log = {});
 
     /// Ends the input and waits.
     ~ChildProgram();
     ChildProgram(ChildProgram&& other) noexcept;
-    ChildProgram& operator=(ChildProgram&&) = delete;
+    ChildProgram& operator=(ChildProgram&& other) noexcept;
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;
 

@@ -20,11 +20,6 @@ constexpr std::array<std::string_view, 17> flight_settings{"path", "aircraft", "
     "place", "heading", "height-mode", "view", "size", "rate", "frame-per-sample", "start", "frames", "seconds", "fov",
     "warm-up"};
 
-std::string value_in(const NamedValues& rows, std::string_view name) {
-    const auto found = std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
-    return found == rows.end() ? std::string() : found->second;
-}
-
 double bootstrap_median(std::span<const double> values, RandomGenerator& dice) {
     std::vector<double> drawn;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -53,7 +48,7 @@ double median_of(std::vector<double> values) {
 std::vector<std::string> settings_that_differ(const LoadedRecording& first, const LoadedRecording& second) {
     std::vector<std::string> names;
     for (const std::string_view name : flight_settings) {
-        if (value_in(first.run.settings, name) != value_in(second.run.settings, name)) { names.emplace_back(name); }
+        if (value_of(first.run.settings, name) != value_of(second.run.settings, name)) { names.emplace_back(name); }
     }
     if (first.run.machine_info.cpu != second.run.machine_info.cpu ||
         first.run.machine_info.cores != second.run.machine_info.cores) {

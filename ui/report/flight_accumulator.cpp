@@ -9,76 +9,33 @@
 
 namespace octant::ui::report {
 
-namespace {
-
-using Column = StageColumns::Column;
-
-Column column_of(const FrameRecord& record) {
-    return {record.sim_time_s, record.frame_ms, record.sim_ms, record.plan_ms, record.draw_ms, record.read_ms};
-}
-
-/// The longer of two neighbours, from where the first one begins.
-Column joined(const Column& first, const Column& second) {
-    Column column = second.frame_ms > first.frame_ms ? second : first;
-    column.x_s = first.x_s;
+StageColumn joined(const StageColumn& earlier, const StageColumn& later) {
+    StageColumn column = later.frame_ms > earlier.frame_ms ? later : earlier;
+    column.x_s = earlier.x_s;
     return column;
 }
 
-} // namespace
-
-void StageColumns::add(const FrameRecord& record) {
-    end_s_ = record.sim_time_s;
-    if (!columns_.empty() && in_last_bucket_ < frames_per_column_) {
-        columns_.back() = joined(columns_.back(), column_of(record));
-        ++in_last_bucket_;
-        return;
-    }
-    if (columns_.size() == max_columns) {
-        for (std::size_t i = 0; 2 * i < max_columns; ++i) {
-            columns_[i] = joined(columns_[2 * i], columns_[2 * i + 1]);
-        }
-        columns_.resize(max_columns / 2);
-        frames_per_column_ *= 2;
-    }
-    columns_.push_back(column_of(record));
-    in_last_bucket_ = 1;
+CurvePiece joined(const CurvePiece& earlier, const CurvePiece& later) {
+    if (!std::isfinite(earlier.lowest.y)) { return later; }
+    if (!std::isfinite(later.lowest.y)) { return earlier; }
+    return {later.lowest.y < earlier.lowest.y ? later.lowest : earlier.lowest,
+        later.highest.y > earlier.highest.y ? later.highest : earlier.highest};
 }
 
-Curve::Bucket Curve::joined(const Bucket& a, const Bucket& b) {
-    if (!std::isfinite(a.lowest.y)) { return b; }
-    if (!std::isfinite(b.lowest.y)) { return a; }
-    return {b.lowest.y < a.lowest.y ? b.lowest : a.lowest, b.highest.y > a.highest.y ? b.highest : a.highest};
-}
-
-void Curve::add(double x, double y) {
-    const Bucket piece{{x, y}, {x, y}};
-    if (!buckets_.empty() && in_last_bucket_ < points_per_bucket_) {
-        buckets_.back() = joined(buckets_.back(), piece);
-        ++in_last_bucket_;
-        return;
-    }
-    if (buckets_.size() == max_pieces) {
-        for (std::size_t i = 0; 2 * i < max_pieces; ++i) { buckets_[i] = joined(buckets_[2 * i], buckets_[2 * i + 1]); }
-        buckets_.resize(max_pieces / 2);
-        points_per_bucket_ *= 2;
-    }
-    buckets_.push_back(piece);
-    in_last_bucket_ = 1;
-}
-
-PlotSeries Curve::series(std::size_t buckets) const {
-    static_assert(max_pieces % 2 == 0);
-    assert(buckets >= 1);
+PlotSeries Curve::series(std::size_t max_pieces) const {
+    assert(max_pieces >= 1);
     PlotSeries series;
-    const auto add_point = [&](const Point& point) {
+    const auto add_point = [&](const glm::dvec2& point) {
         series.x.push_back(point.x);
         series.y.push_back(point.y);
     };
-    const std::size_t count = std::min(buckets_.size(), buckets);
+    const std::vector<CurvePiece>& pieces = pieces_.pieces();
+    const std::size_t count = std::min(pieces.size(), max_pieces);
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t end = (i + 1) * buckets_.size() / count;
-        Bucket piece = buckets_[i * buckets_.size() / count];
-        for (std::size_t j = i * buckets_.size() / count + 1; j < end; ++j) { piece = joined(piece, buckets_[j]); }
+        CurvePiece piece = pieces[i * pieces.size() / count];
+        for (std::size_t j = i * pieces.size() / count + 1; j < (i + 1) * pieces.size() / count; ++j) {
+            piece = joined(piece, pieces[j]);
+        }
         const bool rises = piece.lowest.x <= piece.highest.x;
         add_point(rises ? piece.lowest : piece.highest);
         if (piece.lowest.x != piece.highest.x) { add_point(rises ? piece.highest : piece.lowest); }
@@ -157,7 +114,7 @@ void FlightAccumulator::add(const FrameRecord& record) {
     triangle_change.add(at_s, record.triangle_change);
     triangle_target.add(at_s, record.triangle_target);
     stress.add(at_s, record.stress);
-    stages.add(record);
+    stages.add({at_s, record.frame_ms, record.sim_ms, record.plan_ms, record.draw_ms, record.read_ms});
     slow.add(record);
     clock.add(record);
     const int target = record.triangle_target;

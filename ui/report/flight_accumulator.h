@@ -5,72 +5,81 @@
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 
+#include <glm/vec2.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace octant::ui::report {
 
-/// The stages of a flight's frames in the memory of a plot: where there are more frames than columns, neighbours share
-/// one, which shows the longest of them.
-class StageColumns {
+/// What a plot draws of a flight, in constant memory: where more pieces are added than `max_pieces` (even), neighbours
+/// share one, which is joined(earlier, later).
+template <class Piece, std::size_t max_pieces>
+class ThinnedPieces {
 public:
-    static constexpr std::size_t max_columns = 400; ///< each wide enough to be seen
+    void add(const Piece& piece) {
+        if (!pieces_.empty() && in_last_ < per_piece_) {
+            pieces_.back() = joined(pieces_.back(), piece);
+            ++in_last_;
+            return;
+        }
+        if (pieces_.size() == max_pieces) {
+            for (std::size_t i = 0; 2 * i < max_pieces; ++i) {
+                pieces_[i] = joined(pieces_[2 * i], pieces_[2 * i + 1]);
+            }
+            pieces_.resize(max_pieces / 2);
+            per_piece_ *= 2;
+        }
+        pieces_.push_back(piece);
+        in_last_ = 1;
+    }
 
-    struct Column {
-        double x_s = 0.0; ///< simulated time of its first frame
-        double frame_ms = 0.0;
-        double sim_ms = 0.0;
-        double plan_ms = 0.0;
-        double draw_ms = 0.0;
-        double read_ms = 0.0;
-    };
+    const std::vector<Piece>& pieces() const { return pieces_; }
 
-    void add(const FrameRecord& record);
-
-    const std::vector<Column>& columns() const { return columns_; }
-
-    /// Simulated time of the last frame.
-    double end_s() const { return end_s_; }
-
-    bool is_thinned() const { return frames_per_column_ > 1; }
+    bool is_thinned() const { return per_piece_ > 1; }
 
 private:
-    std::vector<Column> columns_;
-    std::size_t frames_per_column_ = 1;
-    std::size_t in_last_bucket_ = 0;
-    double end_s_ = 0.0;
+    std::vector<Piece> pieces_;
+    std::size_t per_piece_ = 1;
+    std::size_t in_last_ = 0;
 };
 
-/// A curve over a flight in the memory of a plot: where there are more points than it keeps pieces, neighbours share
-/// one, which keeps its least and its greatest value.
+/// The stages of a frame, or of the longest of some frames in a row.
+struct StageColumn {
+    double x_s = 0.0; ///< simulated time of the first of these frames
+    double frame_ms = 0.0;
+    double sim_ms = 0.0;
+    double plan_ms = 0.0;
+    double draw_ms = 0.0;
+    double read_ms = 0.0;
+};
+
+StageColumn joined(const StageColumn& earlier, const StageColumn& later);
+
+/// As many columns as can be told apart in a plot.
+using StageColumns = ThinnedPieces<StageColumn, 400>;
+
+/// Some points of a curve in a row: the lowest and the highest of them.
+struct CurvePiece {
+    glm::dvec2 lowest{0.0};
+    glm::dvec2 highest{0.0};
+};
+
+CurvePiece joined(const CurvePiece& earlier, const CurvePiece& later);
+
+/// A curve over a flight. Where there are more points than pixels in a page's plot, its lowest and highest points are
+/// left.
 class Curve {
 public:
-    /// More pieces than a page's plot has pixels.
-    static constexpr std::size_t max_pieces = 900;
-
     /// `x` not below that of the last point. A value that is not finite is a gap.
-    void add(double x, double y);
+    void add(double x, double y) { pieces_.add({{x, y}, {x, y}}); }
 
-    /// Its points in order, two a piece at the most, in at most so many pieces (>= 1).
-    PlotSeries series(std::size_t buckets = max_pieces) const;
+    /// Its points in order, in at most `max_pieces` (>= 1) pieces of two points each.
+    PlotSeries series(std::size_t max_pieces = 900) const;
 
 private:
-    struct Point {
-        double x = 0.0;
-        double y = 0.0;
-    };
-
-    struct Bucket {
-        Point lowest;
-        Point highest;
-    };
-
-    static Bucket joined(const Bucket& a, const Bucket& b);
-
-    std::vector<Bucket> buckets_;
-    std::size_t points_per_bucket_ = 1;
-    std::size_t in_last_bucket_ = 0;
+    ThinnedPieces<CurvePiece, 900> pieces_;
 };
 
 /// How a flight kept up with the clock, without its warm-up frames: latency and missed deadlines.

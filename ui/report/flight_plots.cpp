@@ -68,9 +68,7 @@ Plot histogram_plot(const FrameTimeHistogram& times) {
     return plot;
 }
 
-Plot stage_plot(const StageColumns& stages_of_flight, double ceiling_ms) {
-    using StageColumn = StageColumns::Column;
-
+Plot stage_plot(const FlightAccumulator& flight, double ceiling_ms) {
     struct Stage {
         const char* name;
         const char* colour;
@@ -79,11 +77,9 @@ Plot stage_plot(const StageColumns& stages_of_flight, double ceiling_ms) {
 
     constexpr std::array stages{Stage{"sim", violet, &StageColumn::sim_ms}, Stage{"plan", green, &StageColumn::plan_ms},
         Stage{"draw", blue, &StageColumn::draw_ms}, Stage{"read", amber, &StageColumn::read_ms}};
-    const std::vector<StageColumn>& columns = stages_of_flight.columns();
+    const std::vector<StageColumn>& columns = flight.stages.pieces();
     Plot plot{"Stages, stacked", time_label, "ms", {}, {}, 0.0, ceiling_ms};
-    if (stages_of_flight.is_thinned()) {
-        plot.x_label = "simulated time, s (columns show the longest of their frames)";
-    }
+    if (flight.stages.is_thinned()) { plot.x_label = "simulated time, s (columns show the longest of their frames)"; }
     std::vector<double> base(2 * columns.size(), 0.0);
     for (const Stage& stage : stages) {
         PlotSeries area = named({}, stage.name, stage.colour);
@@ -93,7 +89,7 @@ Plot stage_plot(const StageColumns& stages_of_flight, double ceiling_ms) {
             base[2 * i] += columns[i].*stage.duration_ms;
             base[2 * i + 1] = base[2 * i];
             const bool last = i + 1 == columns.size();
-            area.x.insert(area.x.end(), {columns[i].x_s, last ? stages_of_flight.end_s() : columns[i + 1].x_s});
+            area.x.insert(area.x.end(), {columns[i].x_s, last ? flight.end_s() : columns[i + 1].x_s});
         }
         area.y = base;
         plot.series.push_back(std::move(area));
@@ -138,7 +134,7 @@ double plot_ceiling_ms(const Statistics& statistics) {
 
 std::vector<Plot> flight_plots(const FlightAccumulator& flight, double ceiling_ms) {
     std::vector<Plot> plots = {frame_time_plot(flight, ceiling_ms), histogram_plot(flight.times()),
-        stage_plot(flight.stages, ceiling_ms), triangle_plot(flight.triangles), change_plot(flight.triangle_change)};
+        stage_plot(flight, ceiling_ms), triangle_plot(flight.triangles), change_plot(flight.triangle_change)};
     if (flight.triangle_targets().varies()) {
         plots.push_back(target_plot(flight.triangle_target));
         plots.push_back(stress_plot(flight.stress));

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/report/table.h"
 
 #include <algorithm>
 #include <array>
@@ -21,40 +22,52 @@ namespace fs = std::filesystem;
 
 namespace {
 
-enum class Kind { Whole, Number, MayBeEmpty, Hash };
-
-struct CsvColumn {
-    std::string_view name;
-    Kind kind;
-    int decimals;
-    double (*get)(const FrameRecord&);
-    void (*set)(FrameRecord&, double);
-    /// Of Kind::Hash, in place of get and set.
-    std::optional<std::uint64_t> FrameRecord::*hash = nullptr;
-    /// Whether a file without this column is no recording.
-    bool required = false;
+/// A column of frames.csv, which can be read back.
+struct FrameColumn : Column<FrameRecord> {
+    void (*set)(FrameRecord&, double) = nullptr;
+    std::optional<std::uint64_t> FrameRecord::*hash = nullptr; ///< of Hash, in place of `set`
+    bool is_required = false;                                  ///< a file without this column is no recording
 };
 
 template <auto Member>
-constexpr CsvColumn column(std::string_view name, Kind kind = Kind::Whole, int decimals = 0) {
-    return {name, kind, decimals, [](const FrameRecord& record) { return static_cast<double>(record.*Member); },
-        [](FrameRecord& record, double value) {
-            record.*Member = static_cast<std::remove_reference_t<decltype(record.*Member)>>(value);
-        }};
+constexpr FrameColumn frame_column(std::string_view key, int decimals, std::string_view definition) {
+    return {column<Member>(key, key, decimals, definition), [](FrameRecord& record, double value) {
+                record.*Member = static_cast<std::remove_reference_t<decltype(record.*Member)>>(value);
+            }};
 }
 
+/// A coordinate of a place.
 template <auto Member, int axis>
-constexpr CsvColumn axis_column(std::string_view name) {
-    return {name, Kind::MayBeEmpty, 3, [](const FrameRecord& record) { return (record.*Member)[axis]; },
-        [](FrameRecord& record, double value) { (record.*Member)[axis] = value; }};
+constexpr FrameColumn axis_column(std::string_view key, std::string_view definition) {
+    FrameColumn made;
+    made.key = key;
+    made.decimals = 3;
+    made.definition = definition;
+    made.is_signed = true;
+    made.value = [](const FrameRecord& record) { return (record.*Member)[axis]; };
+    made.set = [](FrameRecord& record, double value) { (record.*Member)[axis] = value; };
+    made.is_optional = true;
+    return made;
 }
 
-constexpr CsvColumn hash_column(std::string_view name, std::optional<std::uint64_t> FrameRecord::*hash) {
-    return {name, Kind::Hash, 0, nullptr, nullptr, hash};
+template <auto Member>
+constexpr FrameColumn frame_hash_column(std::string_view key, std::string_view definition) {
+    return {hash_column<Member>(key, key, definition), nullptr, Member};
 }
 
-constexpr CsvColumn required(CsvColumn column) {
-    column.required = true;
+constexpr FrameColumn required(FrameColumn column) {
+    column.is_required = true;
+    return column;
+}
+
+/// The same, for a value that some rows do not have: it is not finite there.
+constexpr FrameColumn optional(FrameColumn column) {
+    column.is_optional = true;
+    return column;
+}
+
+constexpr FrameColumn is_signed(FrameColumn column) {
+    column.is_signed = true;
     return column;
 }
 
@@ -62,79 +75,82 @@ using R = FrameRecord;
 constexpr auto seconds = 6;
 constexpr auto milliseconds = 4;
 constexpr std::array frame_columns{
-    required(column<&R::frame>("frame")),
-    required(column<&R::sim_time_s>("sim_time_s", Kind::Number, seconds)),
-    required(column<&R::wall_s>("wall_s", Kind::Number, seconds)),
-    required(column<&R::frame_ms>("frame_ms", Kind::Number, milliseconds)),
-    required(column<&R::sim_ms>("sim_ms", Kind::Number, milliseconds)),
-    required(column<&R::plan_ms>("plan_ms", Kind::Number, milliseconds)),
-    required(column<&R::draw_ms>("draw_ms", Kind::Number, milliseconds)),
-    required(column<&R::read_ms>("read_ms", Kind::Number, milliseconds)),
-    required(column<&R::terrain_triangles>("terrain_triangles")),
-    required(column<&R::terrain_fans>("terrain_fans")),
-    required(column<&R::aircraft_polygons>("aircraft_polygons")),
-    required(column<&R::draw_cell>("draw_cell")),
-    required(column<&R::resolution_c>("resolution_c", Kind::MayBeEmpty, 6)),
-    required(column<&R::triangle_change>("triangle_change")),
-    required(column<&R::stress>("stress", Kind::MayBeEmpty, 4)),
-    required(column<&R::overrun>("overrun")),
-    column<&R::warm_up>("warm_up"),
-    column<&R::record_ms>("record_ms", Kind::Number, milliseconds),
-    column<&R::draw_calls>("draw_calls"),
-    column<&R::shadow_triangles>("shadow_triangles"),
-    column<&R::transparent_triangles>("veil_triangles"),
-    column<&R::cuts>("cuts"),
-    column<&R::unordered>("unordered"),
-    axis_column<&R::eye_m, 0>("eye_x_m"),
-    axis_column<&R::eye_m, 1>("eye_y_m"),
-    axis_column<&R::eye_m, 2>("eye_z_m"),
-    axis_column<&R::aircraft_m, 0>("aircraft_x_m"),
-    axis_column<&R::aircraft_m, 1>("aircraft_y_m"),
-    axis_column<&R::aircraft_m, 2>("aircraft_z_m"),
-    column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::MayBeEmpty, 3),
-    column<&R::triangle_target>("triangle_target"),
-    column<&R::detail_triangles>("fine_triangles"),
-    column<&R::scenery_triangles>("scenery_triangles"),
-    column<&R::error_px>("error_px", Kind::MayBeEmpty, 4),
-    column<&R::latency_ms>("latency_ms", Kind::MayBeEmpty, milliseconds),
-    column<&R::missed>("missed"),
-    column<&R::smooth_polygons>("smooth_polygons"),
-    column<&R::smooth_target>("smooth_target"),
-    column<&R::aircraft_level>("aircraft_level"),
-    column<&R::refine_splits>("refine_splits"),
-    column<&R::refine_collapses>("refine_collapses"),
-    column<&R::refine_ms>("refine_ms", Kind::Number, milliseconds),
-    column<&R::mesh_wait_ms>("mesh_wait_ms", Kind::Number, milliseconds),
-    column<&R::draw_wait_ms>("draw_wait_ms", Kind::Number, milliseconds),
-    column<&R::packets>("packets"),
-    column<&R::packets_lost>("packets_lost", Kind::MayBeEmpty),
-    column<&R::packets_late>("packets_late"),
-    column<&R::packets_wrong>("packets_wrong"),
-    column<&R::stale>("stale"),
-    column<&R::jitter_ms>("jitter_ms", Kind::Number, milliseconds),
-    column<&R::host_frame>("host_frame"),
-    column<&R::skew_frames>("skew_frames"),
-    hash_column("state_hash", &R::state_hash),
-    hash_column("picture_hash", &R::picture_hash),
+    required(frame_column<&R::frame>("frame", 0, "Number of the frame, from 0.")),
+    required(frame_column<&R::sim_time_s>("sim_time_s", seconds, "Simulated time.")),
+    required(frame_column<&R::wall_s>("wall_s", seconds, "When the frame began, since the first frame began.")),
+    required(frame_column<&R::frame_ms>("frame_ms", milliseconds,
+        "From the frame's first simulation step to its pixels read back; writing files is outside it.")),
+    required(frame_column<&R::sim_ms>("sim_ms", milliseconds, "Stage of frame_ms: simulation.")),
+    required(frame_column<&R::plan_ms>("plan_ms", milliseconds, "Stage of frame_ms: plan of the picture.")),
+    required(frame_column<&R::draw_ms>("draw_ms", milliseconds, "Stage of frame_ms: drawing.")),
+    required(frame_column<&R::read_ms>("read_ms", milliseconds, "Stage of frame_ms: reading pixels.")),
+    required(frame_column<&R::terrain_triangles>("terrain_triangles", 0, "Triangles of ground.")),
+    required(frame_column<&R::terrain_fans>("terrain_fans", 0, "Fans of the paper's quadtree.")),
+    required(frame_column<&R::aircraft_polygons>(
+        "aircraft_polygons", 0, "Polygons in the lists drawn, before those that face away are left out.")),
+    required(frame_column<&R::draw_cell>("draw_cell", 0, "Cell of the first aircraft's painting order.")),
+    required(optional(frame_column<&R::resolution_c>("resolution_c", 6, "C of the paper's quadtree."))),
+    required(is_signed(
+        frame_column<&R::triangle_change>("triangle_change", 0, "terrain_triangles less those of the frame before."))),
+    required(optional(frame_column<&R::stress>(
+        "stress", 4, "frame_ms over the frame's share of simulated time; filtered where the ground adapts."))),
+    required(frame_column<&R::overrun>("overrun", 0, "1 when frame_ms is above 16.67.")),
+    frame_column<&R::warm_up>("warm_up", 0, "1 where statistics leave the frame out."),
+    frame_column<&R::record_ms>("record_ms", milliseconds, "Writing pictures and video, after the frame."),
+    frame_column<&R::draw_calls>(
+        "draw_calls", 0, "Calls of the graphics library; of the raster renderer its painting steps."),
+    frame_column<&R::shadow_triangles>("shadow_triangles", 0, "Pieces of shadows."),
+    frame_column<&R::transparent_triangles>("veil_triangles", 0, "Clouds and all else that is transparent."),
+    frame_column<&R::cuts>(
+        "cuts", 0, "Ground triangles and polygons painted again in front of an aircraft, cut to its outline."),
+    frame_column<&R::unordered>("unordered", 0,
+        "Aircraft painted by depth among themselves, because they meet others or the ground in too many places."),
+    axis_column<&R::eye_m, 0>("eye_x_m", "Eye point, east."),
+    axis_column<&R::eye_m, 1>("eye_y_m", "Eye point, north."),
+    axis_column<&R::eye_m, 2>("eye_z_m", "Eye point, up."),
+    axis_column<&R::aircraft_m, 0>("aircraft_x_m", "First aircraft, east."),
+    axis_column<&R::aircraft_m, 1>("aircraft_y_m", "First aircraft, north."),
+    axis_column<&R::aircraft_m, 2>("aircraft_z_m", "First aircraft, up."),
+    optional(
+        is_signed(frame_column<&R::aircraft_agl_m>("aircraft_agl_m", 3, "First aircraft above the ground below it."))),
+    frame_column<&R::triangle_target>("triangle_target", 0, "How many terrain_triangles the frame was to have."),
+    frame_column<&R::detail_triangles>("fine_triangles", 0, "Of terrain_triangles: detail near the eye."),
+    frame_column<&R::scenery_triangles>(
+        "scenery_triangles", 0, "Of terrain_triangles: trees, houses, roads and the runway."),
+    optional(frame_column<&R::error_px>("error_px", 4,
+        "How many pixels any sample of the ground in the picture may lie from its triangles, without detail near the "
+        "eye; 0 where C decides.")),
+    optional(frame_column<&R::latency_ms>("latency_ms", milliseconds,
+        "Time from the input shown, or from when the frame was due, to the finished picture; empty unless the flight "
+        "follows the clock.")),
+    frame_column<&R::missed>(
+        "missed", 0, "By the clock only: 1 when the picture came later than the next one was due."),
+    frame_column<&R::smooth_polygons>(
+        "smooth_polygons", 0, "Polygons that are lit smoothly, painted or not, with all triangles of refined meshes."),
+    is_signed(frame_column<&R::smooth_target>(
+        "smooth_target", 0, "How many smooth_polygons the frame was to have; -1: a share decides.")),
+    frame_column<&R::aircraft_level>("aircraft_level", 0, "Level of detail of the first aircraft; 0 = finest."),
+    frame_column<&R::refine_splits>("refine_splits", 0, "Vertex splits of refined meshes."),
+    frame_column<&R::refine_collapses>("refine_collapses", 0, "Edge collapses of refined meshes."),
+    frame_column<&R::refine_ms>("refine_ms", milliseconds, "Of plan_ms: placing aircraft and refining their meshes."),
+    frame_column<&R::mesh_wait_ms>(
+        "mesh_wait_ms", milliseconds, "Of plan_ms: waiting for ground that is meshed ahead."),
+    frame_column<&R::draw_wait_ms>("draw_wait_ms", milliseconds, "Of draw_ms: the thread that draws had no processor."),
+    frame_column<&R::packets>(
+        "packets", 0, "Motion from outside: packets since the frame before that moved something."),
+    optional(frame_column<&R::packets_lost>(
+        "packets_lost", 0, "The same: lost, by the numbers of MAVLink and CIGI; empty where senders number none.")),
+    frame_column<&R::packets_late>("packets_late", 0, "The same: dropped because they came too late."),
+    frame_column<&R::packets_wrong>("packets_wrong", 0, "The same: of no known form."),
+    frame_column<&R::stale>("stale", 0, "1 if an aircraft stopped because packets are missing."),
+    frame_column<&R::jitter_ms>("jitter_ms", milliseconds, "How much later than the quickest packets come, mean."),
+    is_signed(
+        frame_column<&R::host_frame>("host_frame", 0, "Frame of the CIGI host that the picture shows; -1 = none.")),
+    is_signed(frame_column<&R::skew_frames>(
+        "skew_frames", 0, "Of a CIGI host: how many of its frames the last channel is behind; -1 = none.")),
+    frame_hash_column<&R::state_hash>("state_hash", "Over the states of all aircraft at every step up to the picture."),
+    frame_hash_column<&R::picture_hash>("picture_hash", "Over the picture's pixels; empty in a window."),
 };
-
-std::string header_line() {
-    std::string line;
-    for (const CsvColumn& each : frame_columns) {
-        line += line.empty() ? "" : ",";
-        line += each.name;
-    }
-    return line;
-}
-
-std::string field_text(const CsvColumn& column, const FrameRecord& record) {
-    if (column.kind == Kind::Hash) {
-        const auto& hash = record.*column.hash;
-        return hash ? fmt::format("{:016x}", *hash) : std::string();
-    }
-    const double value = column.get(record);
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, column.decimals) : std::string();
-}
 
 /// 16 hexadecimal digits.
 std::optional<std::uint64_t> hash_from(std::string_view text) {
@@ -147,31 +163,29 @@ std::optional<std::uint64_t> hash_from(std::string_view text) {
     return whole ? std::optional(hash) : std::nullopt;
 }
 
-/// The column's value from its text, or nothing when the text does not fit the column.
-std::optional<double> field_value(const CsvColumn& column, std::string_view text) {
-    if (column.kind == Kind::Whole) {
+/// Sets the column's value from its text; false when the text does not fit the column.
+bool set_field(const FrameColumn& column, std::string_view text, FrameRecord& record) {
+    if (text.empty() && column.is_optional) {
+        if (column.hash == nullptr) { column.set(record, std::numeric_limits<double>::quiet_NaN()); }
+        return true;
+    }
+    if (column.hash != nullptr) {
+        record.*column.hash = hash_from(text);
+        return (record.*column.hash).has_value();
+    }
+    std::optional<double> value = finite_number(text);
+    if (column.kind != ColumnKind::Number) {
         const auto whole = whole_number(text);
         const bool fits =
             whole && *whole >= std::numeric_limits<int>::min() && *whole <= std::numeric_limits<int>::max();
-        return fits ? std::optional(static_cast<double>(*whole)) : std::nullopt;
+        value = fits ? std::optional(static_cast<double>(*whole)) : std::nullopt;
     }
-    if (text.empty() && column.kind == Kind::MayBeEmpty) { return std::numeric_limits<double>::quiet_NaN(); }
-    return finite_number(text);
-}
-
-/// Sets the column's value from its text; false when the text does not fit the column.
-bool set_field(const CsvColumn& column, std::string_view text, FrameRecord& record) {
-    if (column.kind == Kind::Hash) {
-        record.*column.hash = hash_from(text);
-        return text.empty() || record.*column.hash;
-    }
-    const auto value = field_value(column, text);
     if (value) { column.set(record, *value); }
     return value.has_value();
 }
 
-std::string_view is_required_by(Kind kind) {
-    return kind == Kind::Whole ? "whole number" : kind == Kind::Hash ? "hash" : "number";
+std::string_view text_of(ColumnKind kind) {
+    return kind == ColumnKind::Number ? "number" : kind == ColumnKind::Hash ? "hash" : "whole number";
 }
 
 /// For each field of the header its column's number, one past the last for what is not ours.
@@ -179,8 +193,7 @@ std::vector<std::size_t> read_header(
     const std::filesystem::path& path, std::string_view line, std::span<const std::string_view> required_columns) {
     std::vector<std::size_t> order;
     for (const std::string_view name : split_fields(line, ',')) {
-        const auto found = std::find_if(
-            frame_columns.begin(), frame_columns.end(), [&](const CsvColumn& each) { return each.name == name; });
+        const auto found = std::ranges::find(frame_columns, name, &FrameColumn::key);
         const auto column = static_cast<std::size_t>(found - frame_columns.begin());
         if (found != frame_columns.end() && std::find(order.begin(), order.end(), column) != order.end()) {
             throw_error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
@@ -188,9 +201,10 @@ std::vector<std::size_t> read_header(
         order.push_back(column);
     }
     for (std::size_t i = 0; i < frame_columns.size(); ++i) {
-        const std::string_view name = frame_columns[i].name;
-        const bool is_needed = frame_columns[i].required || std::find(required_columns.begin(), required_columns.end(),
-                                                                name) != required_columns.end();
+        const std::string_view name = frame_columns[i].key;
+        const bool is_needed =
+            frame_columns[i].is_required ||
+            std::find(required_columns.begin(), required_columns.end(), name) != required_columns.end();
         if (is_needed && std::find(order.begin(), order.end(), i) == order.end()) {
             throw_error_at(path, 1, fmt::format("expected a column {}, got '{}'", name, printable(std::string(line))));
         }
@@ -207,10 +221,10 @@ FrameRecord read_line(
     FrameRecord record;
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (order[i] == frame_columns.size()) { continue; }
-        const CsvColumn& column = frame_columns[order[i]];
+        const FrameColumn& column = frame_columns[order[i]];
         if (!set_field(column, fields[i], record)) {
             throw_error_at(path, line_number,
-                fmt::format("expected a {} in column {}, got '{}'", is_required_by(column.kind), column.name,
+                fmt::format("expected a {} in column {}, got '{}'", text_of(column.kind), column.key,
                     printable(std::string(fields[i]))));
         }
     }
@@ -219,25 +233,20 @@ FrameRecord read_line(
 
 } // namespace
 
-std::string frame_csv_header() { return header_line() + "\n"; }
+std::string frame_csv_header() { return csv_header(frame_columns); }
 
-std::string frame_csv_line(const FrameRecord& record) {
-    std::string line;
-    for (const CsvColumn& each : frame_columns) {
-        line += line.empty() ? "" : ",";
-        line += field_text(each, record);
-    }
-    return line + "\n";
-}
+std::string frame_csv_line(const FrameRecord& record) { return csv_line(frame_columns, record); }
+
+base::JsonValue frame_schema() { return schema_of(frame_columns); }
 
 FrameRecord rounded_as_csv(const FrameRecord& record) {
     FrameRecord rounded;
-    for (const CsvColumn& each : frame_columns) {
-        if (each.kind == Kind::Hash) {
+    for (const FrameColumn& each : frame_columns) {
+        if (each.hash != nullptr) {
             rounded.*each.hash = record.*each.hash;
             continue;
         }
-        const std::string text = field_text(each, record);
+        const std::string text = text_of(each, record);
         each.set(rounded, finite_number(text).value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     rounded.counters = record.counters;
@@ -245,24 +254,23 @@ FrameRecord rounded_as_csv(const FrameRecord& record) {
 }
 
 FrameReader::FrameReader(fs::path path, std::span<const std::string_view> required_columns)
-    : path_(std::move(path)), lines_(path_) {
-    const auto header = lines_.next();
-    is_truncated_ = header && lines_.is_truncated();
-    ended_ = !header || (is_truncated_ && header_line().starts_with(*header));
-    if (!ended_) { columns_ = read_header(path_, *header, required_columns); }
+    : path_(std::move(path)), lines_(TextScanner::of_file(path_)) {
+    const bool has_header = lines_.next_line();
+    is_truncated_ = has_header && lines_.is_truncated();
+    ended_ = !has_header || (is_truncated_ && frame_csv_header().starts_with(lines_.line()));
+    if (!ended_) { columns_ = read_header(path_, lines_.line(), required_columns); }
 }
 
 std::optional<FrameRecord> FrameReader::next() {
-    const auto line = ended_ ? std::nullopt : lines_.next();
-    is_truncated_ = line ? lines_.is_truncated() : is_truncated_;
-    if (!line || is_truncated_) {
+    const bool has_line = !ended_ && lines_.next_line();
+    is_truncated_ = has_line ? lines_.is_truncated() : is_truncated_;
+    if (!has_line || is_truncated_) {
         ended_ = true;
         return std::nullopt;
     }
-    FrameRecord record = read_line(path_, lines_.number(), *line, columns_);
+    FrameRecord record = read_line(path_, lines_.line_number(), lines_.line(), columns_);
     if (last_frame_ && record.frame <= *last_frame_) {
-        throw_error_at(
-            path_, lines_.number(), fmt::format("expected a frame after {}, got {}", *last_frame_, record.frame));
+        lines_.refuse(fmt::format("a frame after {}", *last_frame_), std::to_string(record.frame));
     }
     last_frame_ = record.frame;
     return record;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
+#include "ui/base/json_value.h"
 #include "ui/report/frame_record.h"
 
 #include <cstddef>
@@ -19,6 +21,9 @@ std::string frame_csv_header();
 /// One line of frames.csv with its line end: fixed decimals a column, C locale. What is not finite is an empty field;
 /// resolution_c, stress, error_px, eye and aircraft places may be that.
 std::string frame_csv_line(const FrameRecord& record);
+
+/// The JSON schema of a row of frames.csv: every column by its name.
+base::JsonValue frame_schema();
 
 /// The record with its numbers rounded as its line gives them, so that figures computed now and figures computed from
 /// the file are the same bit for bit.
@@ -40,7 +45,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    LineReader lines_;
+    TextScanner lines_;
     std::vector<std::size_t> columns_; ///< the number of the column that each field belongs to
     std::optional<int> last_frame_;
     bool is_truncated_ = false;

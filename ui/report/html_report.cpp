@@ -1,25 +1,19 @@
 #include "ui/report/html_report.h"
 
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 #include "ui/report/comparison.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_text.h"
-#include "ui/report/loaded_recording.h"
-#include "ui/report/run_file.h"
+#include "ui/report/plots.h"
 #include "ui/report/slow_pictures.h"
-#include "ui/report/statistics.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
-#include <iterator>
 #include <map>
-#include <span>
-#include <string>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,352 +22,204 @@ namespace octant::ui::report {
 
 namespace {
 
-// A plot's numbers stand as JSON in its element: {x, y: labels, x0, x1, y0, y1: ends of the axes or null, log, levels:
-// [[name, y]], marks: [[name, x]], bar: width, series: [{n: name, c: colour, s: "line"|"area"|"bars", x: [], y: [], l:
-// []}]}. Text is 12 px whatever the width.
-constexpr std::string_view drawing = R"js(
-"use strict";
-const NS = "http://www.w3.org/2000/svg";
-function node(name, attributes, parent, text) {
-  const made = document.createElementNS(NS, name);
-  for (const key in attributes) made.setAttribute(key, attributes[key]);
-  if (text !== undefined) made.textContent = text;
-  if (parent) parent.appendChild(made);
-  return made;
-}
-function steps(from, to, most) {
-  const raw = (to - from) / Math.max(1, most);
-  const power = Math.pow(10, Math.floor(Math.log10(raw)));
-  const step = [1, 2, 5, 10].map(f => f * power).find(f => f >= raw * 0.999);
-  const found = [];
-  for (let v = Math.ceil(from / step - 1e-9) * step; v <= to + step * 1e-9; v += step) found.push(v);
-  if (found.length < 2 && most < 16) return steps(from, to, most * 2); // one number tells no scale
-  return found.map(v => Number(v.toPrecision(10)));
-}
-function shown(v) {
-  const size = Math.abs(v);
-  if (size >= 10000) return (v / 1000).toLocaleString("en", {maximumFractionDigits: 1}) + "k";
-  return v.toLocaleString("en", {maximumFractionDigits: size >= 100 ? 0 : size >= 1 ? 2 : 4});
-}
-function ends(plot, key, low) {
-  let least = Infinity, most = -Infinity;
-  for (const s of plot.series)
-    for (const list of [s[key], low ? s.l : undefined]) {
-      if (!list) continue;
-      for (const v of list) if (v !== null) { least = Math.min(least, v); most = Math.max(most, v); }
-    }
-  if (least > most) return [0, 1];
-  return least === most ? [least - 0.5, most + 0.5] : [least, most];
-}
-function draw(box) {
-  const plot = box.plot, small = box.classList.contains("small");
-  const width = Math.max(160, box.clientWidth), height = Number(box.dataset.height);
-  const left = small ? 42 : 58, right = 12, top = plot.marks.length ? 30 : 10, bottom = small ? 22 : 40;
-  box.querySelectorAll("svg").forEach(old => old.remove());
-  const svg = node("svg", {width, height, viewBox: `0 0 ${width} ${height}`, role: "img"}, box);
-  const [xa, xb] = ends(plot, "x", false), [ya, yb] = ends(plot, "y", true);
-  const half = plot.series.some(s => s.s === "bars") ? plot.bar / 2 : 0;
-  const x0 = box.zoom ? box.zoom[0] : plot.x0 ?? xa - half, x1 = box.zoom ? box.zoom[1] : plot.x1 ?? xb + half;
-  let y0 = plot.y0 ?? ya - 0.05 * (yb - ya), y1 = plot.y1 ?? yb + 0.05 * (yb - ya);
-  if (plot.log) { y0 = Math.max(y0, 0.5); y1 = Math.max(y1, 10 * y0); }
-  const scale = plot.log ? Math.log10 : v => v;
-  const px = x => left + (x - x0) / (x1 - x0) * (width - left - right);
-  const py = y => {
-    const part = (scale(plot.log ? Math.max(y, y0) : y) - scale(y0)) / (scale(y1) - scale(y0));
-    return height - bottom - part * (height - top - bottom);
-  };
-  const id = "c" + (draw.count = (draw.count || 0) + 1);
-  node("rect", {x: left, y: top, width: width - left - right, height: height - top - bottom},
-    node("clipPath", {id}, node("defs", {}, svg)));
-  const yTicks = plot.log ? [] : steps(y0, y1, Math.max(2, (height - top - bottom) / 42));
-  if (plot.log) for (let v = Math.pow(10, Math.ceil(Math.log10(y0))); v <= y1 * 1.0001; v *= 10) yTicks.push(v);
-  for (const v of yTicks) {
-    node("line", {x1: left, x2: width - right, y1: py(v), y2: py(v), class: "gridline"}, svg);
-    node("text", {x: left - 6, y: py(v) + 4, "text-anchor": "end"}, svg, shown(v));
-  }
-  for (const v of steps(x0, x1, Math.max(2, (width - left - right) / 80))) {
-    node("line", {x1: px(v), x2: px(v), y1: height - bottom, y2: height - bottom + 4, class: "axis"}, svg);
-    node("text", {x: px(v), y: height - bottom + 17, "text-anchor": "middle"}, svg, shown(v));
-  }
-  node("line", {x1: left, x2: width - right, y1: height - bottom, y2: height - bottom, class: "axis"}, svg);
-  if (!small) {
-    node("text", {x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle"}, svg, plot.x);
-    node("text", {x: 13, y: (top + height - bottom) / 2, "text-anchor": "middle",
-      transform: `rotate(-90 13 ${(top + height - bottom) / 2})`}, svg,
-      plot.y + (plot.log ? " (logarithmic)" : ""));
-  }
-  const inside = node("g", {"clip-path": `url(#${id})`}, svg);
-  for (const s of plot.series) {
-    if (s.s === "bars") {
-      for (let i = 0; i < s.x.length; ++i) {
-        const to = py(s.y[i]);
-        node("rect", {x: px(s.x[i] - half), width: Math.max(1, px(s.x[i] + half) - px(s.x[i] - half)),
-          y: to, height: Math.max(0, height - bottom - to), fill: s.c}, inside);
-      }
-      continue;
-    }
-    let path = "", pen = "M";
-    for (let i = 0; i < s.x.length; ++i) {
-      if (s.y[i] === null) { pen = "M"; continue; }
-      path += pen + px(s.x[i]).toFixed(1) + " " + py(s.y[i]).toFixed(1);
-      pen = "L";
-    }
-    if (s.s === "area" && s.x.length) {
-      for (let i = s.x.length - 1; i >= 0; --i) path += "L" + px(s.x[i]).toFixed(1) + " " + py(s.l[i]).toFixed(1);
-      node("path", {d: path + "Z", fill: s.c, "fill-opacity": 0.75}, inside);
-    } else {
-      node("path", {d: path, fill: "none", stroke: s.c, "stroke-width": 1.4, "stroke-linejoin": "round"}, inside);
-    }
-  }
-  for (const [name, y] of plot.levels) {
-    if (y < y0 || y > y1) continue;
-    node("line", {x1: left, x2: width - right, y1: py(y), y2: py(y), class: "level"}, svg);
-    if (!small) node("text", {x: width - right - 2, y: py(y) - 4, "text-anchor": "end", class: "soft"}, svg, name);
-  }
-  let free = -Infinity;
-  for (const [name, x] of plot.marks) {
-    if (x < x0 || x > x1) continue;
-    node("line", {x1: px(x), x2: px(x), y1: top - 6, y2: height - bottom, class: "mark"}, svg);
-    const wide = 7 * name.length;
-    if (px(x) >= free && px(x) + wide < width) {
-      node("text", {x: px(x) + 3, y: top - 10, class: "soft"}, svg, name);
-      free = px(x) + wide + 8;
-    }
-  }
-  listen(box, svg, {px, py, x0, x1, left, right, top, bottom, width, height});
-}
-function nearest(list, x) {
-  let low = 0, high = list.length - 1;
-  while (high - low > 1) { const half = (low + high) >> 1; if (list[half] < x) low = half; else high = half; }
-  return Math.abs(list[low] - x) <= Math.abs(list[high] - x) ? low : high;
-}
-function listen(box, svg, at) {
-  const cross = node("line", {class: "cross", y1: at.top, y2: at.height - at.bottom, visibility: "hidden"}, svg);
-  const band = node("rect", {class: "band", y: at.top, height: at.height - at.top - at.bottom, visibility: "hidden"}, svg);
-  const tip = document.getElementById("tip");
-  const place = e => e.clientX - svg.getBoundingClientRect().left;
-  const value = p => at.x0 + (p - at.left) / (at.width - at.left - at.right) * (at.x1 - at.x0);
-  let begun = null;
-  svg.addEventListener("pointerdown", e => { begun = place(e); svg.setPointerCapture(e.pointerId); });
-  svg.addEventListener("dblclick", () => { box.zoom = null; draw(box); });
-  svg.addEventListener("pointerleave", () => { tip.hidden = true; cross.setAttribute("visibility", "hidden"); });
-  svg.addEventListener("pointerup", e => {
-    const ended = place(e);
-    if (begun !== null && Math.abs(ended - begun) > 8) {
-      box.zoom = [value(Math.min(begun, ended)), value(Math.max(begun, ended))];
-      tip.hidden = true;
-      draw(box);
-    }
-    begun = null;
-  });
-  svg.addEventListener("pointermove", e => {
-    const p = place(e), x = value(p);
-    if (begun !== null) {
-      band.setAttribute("x", Math.min(begun, p));
-      band.setAttribute("width", Math.abs(p - begun));
-      band.setAttribute("visibility", "visible");
-    }
-    if (x < at.x0 || x > at.x1) { tip.hidden = true; return; }
-    const pointer = e.clientY - svg.getBoundingClientRect().top;
-    let lines = [];
-    for (const s of box.plot.series) {
-      if (!s.x.length) continue;
-      const i = nearest(s.x, x);
-      if (s.y[i] === null) continue;
-      lines.push({gap: Math.abs(at.py(s.y[i]) - pointer), x: s.x[i],
-        text: (s.n ? s.n + ": " : "") + shown(s.s === "area" ? s.y[i] - s.l[i] : s.y[i])});
-    }
-    if (!lines.length) return;
-    const first = lines.reduce((a, b) => a.gap < b.gap ? a : b);
-    if (lines.length > 6) lines = [first];
-    cross.setAttribute("x1", at.px(first.x));
-    cross.setAttribute("x2", at.px(first.x));
-    cross.setAttribute("visibility", "visible");
-    tip.textContent = [box.plot.x + " " + shown(first.x)].concat(lines.map(l => l.text)).join("\n");
-    tip.hidden = false;
-    tip.style.left = Math.min(e.pageX + 14, document.documentElement.clientWidth - tip.offsetWidth - 8) + "px";
-    tip.style.top = e.pageY + 14 + "px";
-  });
-}
-function sortable(table) {
-  table.querySelectorAll("thead th").forEach((head, column) => {
-    head.tabIndex = 0;
-    const sort = () => {
-      const up = head.getAttribute("aria-sort") !== "ascending";
-      table.querySelectorAll("thead th").forEach(other => other.removeAttribute("aria-sort"));
-      head.setAttribute("aria-sort", up ? "ascending" : "descending");
-      const body = table.tBodies[0];
-      const key = row => row.cells[column].dataset.key ?? row.cells[column].textContent.trim();
-      const rows = Array.from(body.rows);
-      rows.sort((a, b) => {
-        const one = key(a), two = key(b), n = Number(one), m = Number(two);
-        const order = one !== "" && two !== "" && !isNaN(n) && !isNaN(m) ? n - m : one.localeCompare(two, "en", {numeric: true});
-        return up ? order : -order;
-      });
-      rows.forEach(row => body.appendChild(row));
-    };
-    head.addEventListener("click", sort);
-    head.addEventListener("keydown", e => { if (e.key === "Enter") sort(); });
-  });
-}
-const boxes = Array.from(document.querySelectorAll(".plot[data-height]"));
-for (const box of boxes) box.plot = JSON.parse(box.querySelector("script").textContent);
-const drawAll = () => boxes.forEach(draw);
-drawAll();
-document.querySelectorAll("table.sortable").forEach(sortable);
-let waiting = 0;
-addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(drawAll, 100); });
-)js";
+namespace fs = std::filesystem;
 
-/// What draws a page's plots, with values under the pointer and zoom by dragging, and sorts its tables. Refers to
-/// nothing outside the page.
-std::string_view page_script() { return drawing; }
+using Indices = std::vector<std::size_t>; ///< of recordings
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("null"); }
-
-std::string number(const std::optional<double>& value) { return value ? number(*value) : std::string("null"); }
-
-std::string list(std::span<const double> values) {
-    std::string text = "[";
-    for (const double value : values) {
-        text += text.size() > 1 ? "," : "";
-        text += std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("null");
-    }
-    return text + "]";
-}
-
-/// A JSON text that ends no script element.
-std::string json_string(std::string_view text) {
-    std::string json = "\"";
-    for (const char letter : text) {
-        const auto byte = static_cast<unsigned char>(letter);
-        if (letter == '"' || letter == '\\' || letter == '<' || letter == '&' || byte < 0x20) {
-            json += fmt::format("\\u{:04x}", byte);
-        } else {
-            json += letter;
-        }
-    }
-    return json + "\"";
-}
-
-/// Pairs of a name and a number.
-template <class Items, class Number>
-std::string pairs(const Items& items, Number number_of) {
-    std::string text = "[";
-    for (const auto& item : items) {
-        text += fmt::format("{}[{},{}]", text.size() > 1 ? "," : "", json_string(item.name), number(number_of(item)));
-    }
-    return text + "]";
-}
-
-std::string series_json(const PlotSeries& series) {
-    using Style = PlotSeries::Style;
-    const char* const style = series.style == Style::Area ? "area" : series.style == Style::Bars ? "bars" : "line";
-    std::string json = fmt::format(R"({{"n":{},"c":{},"s":"{}","x":{},"y":{})", json_string(series.name),
-        json_string(series.colour), style, list(series.x), list(series.y));
-    if (series.style == Style::Area) { json += ",\"l\":" + list(series.y_low); }
-    return json + "}";
-}
-
-std::string plot_json(const Plot& plot) {
-    std::string json = fmt::format(R"({{"x":{},"y":{},"x0":{},"x1":{},"y0":{},"y1":{},"log":{},"bar":{},)",
-        json_string(plot.x_label), json_string(plot.y_label), number(plot.x_min), number(plot.x_max),
-        number(plot.y_min), number(plot.y_max), plot.y_logarithmic, number(plot.bar_width));
-    json += "\"levels\":" + pairs(plot.levels, [](const PlotReferenceLine& level) { return level.y; });
-    json += ",\"marks\":" + pairs(plot.marks, [](const PlotMark& mark) { return mark.x; });
-    json += ",\"series\":[";
-    for (const PlotSeries& series : plot.series) {
-        json += &series == &plot.series.front() ? "" : ",";
-        json += series_json(series);
-    }
-    return json + "]}";
-}
-
-std::string key_html(const Plot& plot) {
-    std::string html;
-    for (const PlotSeries& series : plot.series) {
-        if (!series.name.empty() && !series.x.empty()) {
-            html += fmt::format(
-                "<span><i style=\"background:{}\"></i>{}</span>", escaped(series.colour), escaped(series.name));
-        }
-    }
-    return html.empty() ? html : "<div class=\"key\">" + html + "</div>";
-}
-
-} // namespace
-
-std::string page_plot(const Plot& plot, PlotWidth place) {
-    const bool small = place == PlotWidth::Small;
-    const int height_px = place == PlotWidth::FullWidth ? 320 : (small ? 130 : 260);
-    return fmt::format("<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
-                       "<script type=\"application/json\">{}</script></div>\n",
-        place == PlotWidth::FullWidth ? " wide" : (small ? " small" : ""), height_px, escaped(plot.title),
-        small ? std::string() : key_html(plot), plot_json(plot));
-}
-
-namespace {
-
-/// Of curves in one plot, as HTML has them.
+/// Colours of curves in one plot.
 constexpr std::array run_colours{
     "#3b82f6", "#f59e0b", "#10b981", "#ef4444", "#8b5cf6", "#14b8a6", "#ec4899", "#84cc16", "#6366f1", "#a16207"};
 
-/// Names of settings in which some of these recordings differ, in their order. `among`: at least one number of a
-/// recording.
-std::vector<std::string> differing_settings(Recordings recordings, const std::vector<std::size_t>& among);
+/// Keys of the figures that stand at the top of the page.
+constexpr std::array shown_statistics{"frames", "p50_ms", "p99_ms", "max_ms", "low_1pct_fps", "overruns_16ms"};
 
-/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
-std::string label_of(Recordings recordings, const LoadedRecording& recording) {
-    const auto same = [&](const auto& each) { return each.name == recording.name; };
-    const bool unique = std::ranges::count_if(recordings, same) == 1;
-    return unique ? recording.name : recording.display_name;
-}
-
-/// The value of a name; empty where there is none.
-std::string value_of(const NamedValues& rows, std::string_view name) {
-    const auto found = std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
-    return found == rows.end() ? std::string() : found->second;
-}
-
-std::vector<std::string> differing_settings(Recordings recordings, const std::vector<std::size_t>& among) {
-    std::vector<std::string> names;
-    const NamedValues& first = recordings[among.front()].run.settings;
-    for (const auto& row : first) {
-        const auto& name = row.first;
-        const auto& value = row.second;
-        const bool differs = std::ranges::any_of(
-            among, [&](std::size_t i) { return value_of(recordings[i].run.settings, name) != value; });
-        if (differs) { names.push_back(name); }
-    }
-    return names;
-}
-
-/// A file's name without its folder, as table cells have room for; any other text as it is.
-std::string short_value(const std::string& value) {
-    if (value == unset_value) { return "not set"; }
-    const bool is_path = value.find('/') != std::string::npos;
-    return is_path ? std::filesystem::path(value).filename().string() : value;
-}
-
-/// A cell of a table, as HTML.
-std::string number_cell(double value, int decimals) {
-    return fmt::format("<td class=\"number\">{:.{}f}</td>", value, decimals);
-}
-
-/// The figure of that key, which there must be.
+/// The figure of that key, which must exist.
 const Statistic& statistic_named(std::string_view key) {
     return *std::ranges::find(all_statistics(), key, &Statistic::key);
 }
 
-/// Where the axis of frame times ends, of all these recordings, milliseconds.
-double shared_ceiling_ms(Recordings recordings, const std::vector<std::size_t>& runs) {
+std::string heading(std::string_view text) { return fmt::format("<h2>{}</h2>\n", escaped(text)); }
+
+std::string card(const std::string& inside) { return "<div class=\"card\">\n" + inside + "</div>\n"; }
+
+std::string note(std::string_view text) { return fmt::format("<p class=\"note\">{}</p>\n", escaped(text)); }
+
+/// A cell of a class of the style sheet.
+Cell styled(Cell cell, std::string css_class) {
+    cell.css_class = std::move(css_class);
+    return cell;
+}
+
+std::string title_of(const LoadedRecording& recording) {
+    return recording.run.title.empty() ? recording.name : recording.run.title;
+}
+
+/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
+std::string label_of(Recordings recordings, const LoadedRecording& recording) {
+    return std::ranges::count(recordings, recording.name, &LoadedRecording::name) == 1 ? recording.name
+                                                                                       : recording.display_name;
+}
+
+/// A file's name without its folder, which is too long for a table; any other text as it is.
+std::string short_value(const std::string& value) {
+    if (value == unset_value) { return "not set"; }
+    return value.find('/') == std::string::npos ? value : fs::path(value).filename().string();
+}
+
+Indices all_of(Recordings recordings) {
+    Indices all(recordings.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
+/// Names of settings in which some of these recordings differ, in their order. `among`: at least one.
+std::vector<std::string> differing_settings(Recordings recordings, const Indices& among) {
+    std::vector<std::string> names;
+    for (const auto& row : recordings[among.front()].run.settings) {
+        const bool differs = std::ranges::any_of(
+            among, [&](std::size_t i) { return value_of(recordings[i].run.settings, row.first) != row.second; });
+        if (differs) { names.push_back(row.first); }
+    }
+    return names;
+}
+
+/// End of the axis of frame times of all these recordings, milliseconds.
+double shared_ceiling_ms(Recordings recordings, const Indices& runs) {
     double ceiling_ms = 0.0;
     for (const std::size_t i : runs) { ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics)); }
     return ceiling_ms;
 }
 
-using Indices = std::vector<std::size_t>;
+// The top of the page: what came of each flight.
 
-/// "order-method tree, samples 4", by the settings in which variants differ.
+/// What is wrong with a recording: in a word for a table, in sentences for its own page.
+struct Fault {
+    std::string word;
+    std::string explanation;
+};
+
+std::vector<Fault> faults_of(const LoadedRecording& recording) {
+    std::vector<Fault> faults;
+    if (recording.ended_early) {
+        faults.push_back({"ended early", "The flight was cut short: the figures are those of the frames recorded until "
+                                         "then, and there are no hashes. "});
+    }
+    if (!recording.run.stopped.empty()) { faults.push_back({"stopped", "Ended by " + recording.run.stopped + ". "}); }
+    if (!recording.disagreement.empty()) {
+        faults.push_back({"rows and summary disagree",
+            "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
+                recording.disagreement + ". "});
+    }
+    if (!recording.run.noise.empty()) {
+        faults.push_back({"noisy", ""});
+        for (const std::string& reason : recording.run.noise) { faults.back().explanation += reason + " "; }
+    }
+    if (recording.statistics.frames == 0) { faults.push_back({"no frames", ""}); }
+    return faults;
+}
+
+std::string tile(std::string_view name, const std::string& value, std::string_view unit) {
+    return fmt::format(
+        "<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>\n", escaped(name), escaped(value), escaped(unit));
+}
+
+/// Title, machine, faults and the most important figures of one flight.
+std::string overview(const LoadedRecording& recording) {
+    const MachineInfo& machine = recording.run.machine_info;
+    std::string html = fmt::format("<p class=\"lead\">{}<br>{}, {} cores</p>\n",
+        escaped(title_of(recording) + ", " + machine.start_time_utc), escaped(machine.cpu), machine.cores);
+    const auto badge = [&](std::string_view text, bool bad) {
+        html += fmt::format("<span class=\"badge{}\">{}</span>\n", bad ? " bad" : "", text);
+    };
+    const std::vector<Fault> faults = faults_of(recording);
+    std::string explanations;
+    if (!recording.ended_early) { badge("ended", false); }
+    if (recording.run.noise.empty()) { badge("quiet machine", false); }
+    for (const Fault& fault : faults) {
+        badge(fault.word, true);
+        explanations += fault.explanation;
+    }
+    html += (explanations.empty() ? "" : note(explanations)) + "<dl class=\"tiles\">\n";
+    const Statistics& statistics = recording.statistics;
+    for (const char* key : shown_statistics) {
+        const Statistic& statistic = statistic_named(key);
+        const std::size_t unit = statistic.name.find(", ");
+        html += tile(statistic.name.substr(0, unit), statistic_text(statistic, statistics),
+            unit == std::string_view::npos ? "frames" : statistic.name.substr(unit + 2));
+    }
+    const double fps = statistics.mean_ms > 0.0 ? 1000.0 / statistics.mean_ms : 0.0;
+    html += tile("Rate", fmt::format("{:.1f}", fps), "frames/s");
+    if (const TargetRange targets = recording.flight.triangle_targets(); targets.varies()) {
+        html += tile("Triangle target", fmt::format("{:.0f}", targets.mean),
+            fmt::format("mean of {} to {}", targets.min_triangles, targets.max_triangles));
+    }
+    return card(html + "</dl>\n");
+}
+
+/// The way from the page to a recording's own page; empty where there is none that stays.
+std::string link_to(const LoadedRecording& recording, const fs::path& page_folder) {
+    std::error_code ignored;
+    const fs::path page = recording.folder / "report.html";
+    const bool is_unpacked = recording.display_name != recording.folder.string(); // removed at the program's end
+    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) { return {}; }
+    return url_text(fs::absolute(page)
+                        .lexically_normal()
+                        .lexically_relative(fs::absolute(page_folder).lexically_normal())
+                        .generic_string());
+}
+
+/// How sweeps flew them, where sweeps did: " 24 flown by a sweep one at a time."
+std::string batch_context_text(Recordings recordings) {
+    std::map<std::string, int> counts;
+    for (const LoadedRecording& recording : recordings) {
+        const std::string batch_context = value_of(recording.run.facts, batch_context_fact);
+        counts[batch_context] += batch_context.empty() ? 0 : 1;
+    }
+    std::string text;
+    for (const auto& [batch_context, count] : counts) {
+        text += count == 0 ? "" : fmt::format(" {} flown by a sweep {}.", count, batch_context);
+    }
+    return text;
+}
+
+/// Several flights, a row each: settings in which they differ, figures, hashes and faults.
+std::string runs_table(Recordings recordings, const fs::path& page_folder) {
+    constexpr std::size_t max_settings = 6;
+    constexpr int max_decimals = 2;
+    std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
+    const std::size_t left_out = names.size() - std::min(names.size(), max_settings);
+    names.resize(names.size() - left_out);
+    ResultTable table;
+    for (const LoadedRecording& recording : recordings) {
+        std::vector<Cell> row = {{"flight", label_of(recordings, recording)}};
+        row.back().link = link_to(recording, page_folder);
+        for (const std::string& name : names) {
+            row.emplace_back(name, short_value(value_of(recording.run.settings, name)));
+        }
+        for (const char* key : shown_statistics) {
+            const Statistic& statistic = statistic_named(key);
+            row.push_back({std::string(statistic.name), "{:.{}f}", statistic.value(recording.statistics),
+                std::min(statistic.decimals, max_decimals)});
+        }
+        row.push_back(styled({"states", recording.run.state_hash.substr(0, 8)}, "code"));
+        row.push_back(styled({"pictures", recording.run.picture_hash.substr(0, 8)}, "code"));
+        std::string condition;
+        for (const Fault& fault : faults_of(recording)) { condition += (condition.empty() ? "" : ", ") + fault.word; }
+        row.push_back(condition.empty() ? Cell("condition", "good") : styled({"condition", condition}, "worse"));
+        table.add(std::move(row));
+    }
+    table.note = "A click on a column's head sorts by it. States and pictures are the first eight digits of their "
+                 "hashes." +
+                 batch_context_text(recordings);
+    if (left_out > 0) {
+        table.note += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
+    }
+    return card(html_of(table, "sortable runs"));
+}
+
+// Flights of the same path on the same kind of machine, compared.
+
+/// "order-method exact, samples 4", by the settings in which variants differ.
 std::string variant_label(const LoadedRecording& recording, const std::vector<std::string>& names) {
     std::string label;
     for (const std::string& name : names) {
@@ -383,76 +229,65 @@ std::string variant_label(const LoadedRecording& recording, const std::vector<st
     return label.empty() ? "all the same" : label;
 }
 
-std::vector<double> values_of(Recordings recordings, const Indices& runs, double (*value)(const Statistics&)) {
+std::vector<double> values_of(Recordings recordings, const Indices& runs, const Statistic& statistic) {
     std::vector<double> values;
     for (const std::size_t i : runs) {
-        if (recordings[i].statistics.frames > 0) { values.push_back(value(recordings[i].statistics)); }
+        if (recordings[i].statistics.frames > 0) { values.push_back(statistic.value(recordings[i].statistics)); }
     }
     return values;
 }
 
-/// Whether other programs had a part in the runs' frame times, or other flights on shared cores.
+/// Whether other programs, or flights on the same cores, took part in the runs' frame times.
 bool is_noisy(Recordings recordings, const Indices& runs) {
     return std::ranges::any_of(runs, [&](std::size_t i) { return !recordings[i].run.noise.empty(); });
 }
 
-/// How a variant is set against the first one: where both were quiet, a sure change is better or worse; where one was
-/// noisy, it may be the machine's.
-enum class Reference { Itself, Quiet, Noisy };
-
-/// Median of a variant's runs, and how it compares with the first variant's.
-std::string compared_cells(const std::vector<double>& before, const std::vector<double>& now, Reference reference) {
-    if (now.empty() || before.empty()) { return "<td class=\"number\">none</td><td></td>"; }
-    std::string html = number_cell(median_of(now), 3);
-    if (reference == Reference::Itself) { return html + "<td class=\"soft\">compared with this one</td>"; }
+/// The change of a figure from the first variant: green or red where it is significant and both were quiet.
+Cell change_cell(std::string column, std::span<const double> before, std::span<const double> now, bool is_quiet) {
+    if (before.empty() || now.empty()) { return {std::move(column), ""}; }
     const RelativeChange change = relative_change(before, now);
-    const bool is_decided = change.is_significant() && reference == Reference::Quiet;
-    const char* const mark = !is_decided ? "" : (change.share < 0.0 ? "better" : "worse");
     std::string text = fmt::format("{:+.1f} %", 100.0 * change.share);
     if (change.has_interval) {
         text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.low, 100.0 * change.high);
     }
-    return html + fmt::format("<td class=\"{}\">{}</td>", mark, text);
+    const bool is_decided = change.is_significant() && is_quiet;
+    return styled({std::move(column), text}, !is_decided ? "" : (change.share < 0.0 ? "better" : "worse"));
 }
 
+/// A row for each variant of a flight: medians of its runs, and the change from the first variant.
 std::string comparison_table(Recordings recordings, const std::vector<Indices>& variants) {
     Indices all;
     for (const Indices& variant : variants) { all.insert(all.end(), variant.begin(), variant.end()); }
     const std::vector<std::string> names = differing_settings(recordings, all);
-    std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th>variant</th><th class=\"number\">runs</th>"
-                       "<th class=\"number\">P50, ms</th><th>change</th><th class=\"number\">P99, ms</th>"
-                       "<th>change</th></tr></thead>\n<tbody>\n";
+    const Indices& first = variants.front();
+    ResultTable table;
     bool noisy = false;
     for (const Indices& variant : variants) {
-        const bool is_first = &variant == &variants.front();
-        const bool is_loud = is_noisy(recordings, variants.front()) || is_noisy(recordings, variant);
-        const Reference reference = is_first ? Reference::Itself : (is_loud ? Reference::Noisy : Reference::Quiet);
-        noisy = noisy || reference == Reference::Noisy;
-        html += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td>",
-            escaped(variant_label(recordings[variant.front()], names)), variant.size());
+        const bool is_first = &variant == &first;
+        const bool is_loud = is_noisy(recordings, first) || is_noisy(recordings, variant);
+        noisy = noisy || (is_loud && !is_first);
+        std::vector<Cell> row = {
+            {"variant", variant_label(recordings[variant.front()], names)}, {"runs", variant.size()}};
         for (const char* key : {"p50_ms", "p99_ms"}) {
-            const auto value = statistic_named(key).value;
-            html += compared_cells(
-                values_of(recordings, variants.front(), value), values_of(recordings, variant, value), reference);
+            const Statistic& statistic = statistic_named(key);
+            const std::vector<double> before = values_of(recordings, first, statistic);
+            const std::vector<double> now = values_of(recordings, variant, statistic);
+            row.emplace_back(std::string(statistic.name), now.empty() ? "none" : fmt::format("{:.3f}", median_of(now)));
+            row.push_back(is_first ? styled({"change", "compared with this one"}, "soft")
+                                   : change_cell("change", before, now, !is_loud));
         }
-        html += "</tr>\n";
+        table.add(std::move(row));
     }
-    html += "</tbody></table></div>\n<p class=\"note\">Medians over the runs of a variant. In "
-            "brackets the 95 % interval of the change by the bootstrap over runs, where both "
-            "variants have three runs or more; green or red only where it leaves zero out.";
+    table.note = "Medians over the runs of a variant. In brackets the 95 % interval of the change by the bootstrap "
+                 "over runs, where both variants have three runs or more; green or red only where zero lies outside.";
     if (noisy) {
-        html += " Beside noisy runs nothing is called better or worse: other programs, or flights "
-                "on the same cores, had a part in their times.";
+        table.note += " No change from or to noisy runs is called better or worse: other programs, or flights on the "
+                      "same cores, took part in their times.";
     }
-    return html + "</p>\n";
+    return html_of(table);
 }
 
-std::string title_of_group(const LoadedRecording& recording) {
-    return recording.run.title.empty() ? recording.name : recording.run.title;
-}
-
-/// The frame times of a flight's runs over its simulated time, in one plot: as many of each variant as there is room
-/// for.
+/// The frame times of a flight's runs over simulated time in one plot, at most 12 curves.
 std::string overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
     constexpr std::size_t max_curves = 12;
     Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
@@ -472,123 +307,53 @@ std::string overlaid_plot(Recordings recordings, const std::vector<Indices>& var
     plot.levels = {{"16.67 ms", overrun_16_ms}};
     plot.marks = recordings[variants.front().front()].run.legs;
     const std::string html = page_plot(plot, PlotWidth::FullWidth);
-    if (plot.series.size() == runs) { return html; }
-    return html + fmt::format("<p class=\"note\">{} of {} runs.</p>\n", plot.series.size(), runs);
+    return plot.series.size() == runs ? html : html + note(fmt::format("{} of {} runs.", plot.series.size(), runs));
 }
 
-/// Recordings of the same flight on the same kind of machine beside each other, as HTML: a table of their variants
-/// where settings differ, and their frame times in one plot. Says so where no two belong together.
-std::string compared_flights_html(Recordings recordings) {
+/// Recordings of the same flight on the same kind of machine: a table of their variants where settings differ, and
+/// their frame times in one plot. Says so where no two belong together.
+std::string compared_flights(Recordings recordings) {
     constexpr std::size_t max_groups = 24;
-    std::string html;
-    std::size_t shown = 0;
-    std::size_t compared = 0;
-    for (const Indices& group : comparable_groups(recordings)) {
-        if (group.size() < 2) { continue; }
-        ++compared;
-        if (shown == max_groups) { continue; }
-        ++shown;
+    std::vector<Indices> groups = comparable_groups(recordings);
+    std::erase_if(groups, [](const Indices& group) { return group.size() < 2; });
+    if (groups.empty()) {
+        return note("No two of these recordings are of the same flight on the same kind of machine, so none are "
+                    "compared.");
+    }
+    std::string html = heading("The same flight, compared");
+    for (const Indices& group : std::span(groups).first(std::min(groups.size(), max_groups))) {
         const std::vector<Indices> variants = variants_of(recordings, group);
-        html += "<div class=\"card\">\n<h3>" + escaped(title_of_group(recordings[group.front()])) + "</h3>\n";
-        if (variants.size() > 1) { html += comparison_table(recordings, variants); }
-        html += overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)) + "</div>\n";
+        html += card("<h3>" + escaped(title_of(recordings[group.front()])) + "</h3>\n" +
+                     (variants.size() > 1 ? comparison_table(recordings, variants) : "") +
+                     overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)));
     }
-    if (html.empty()) {
-        return "<p class=\"note\">No two of these recordings are of the same flight on the same "
-               "kind of machine, so none are compared.</p>\n";
+    if (groups.size() > max_groups) {
+        html +=
+            note(fmt::format("The first {} of {} flights that were flown more than once.", max_groups, groups.size()));
     }
-    if (shown < compared) {
-        html += fmt::format(
-            "<p class=\"note\">The first {} of {} flights that were flown more than once.</p>\n", shown, compared);
-    }
-    return "<h2>The same flight, compared</h2>\n" + html;
+    return html;
 }
 
-namespace fs = std::filesystem;
+// Plots and pictures.
 
-std::vector<std::size_t> all_of(Recordings recordings) {
-    std::vector<std::size_t> all(recordings.size());
-    for (std::size_t i = 0; i < all.size(); ++i) { all[i] = i; }
-    return all;
-}
-
-std::string link_of(Recordings recordings, const LoadedRecording& recording, const fs::path& page_folder) {
-    const std::string label = escaped(label_of(recordings, recording));
-    std::error_code ignored;
-    const fs::path page = recording.folder / "report.html";
-    const bool is_unpacked = recording.display_name != recording.folder.string(); // and goes with us
-    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) { return label; }
-    const fs::path way =
-        fs::absolute(page).lexically_normal().lexically_relative(fs::absolute(page_folder).lexically_normal());
-    return fmt::format("<a href=\"{}\">{}</a>", url_text(way.generic_string()), label);
-}
-
-std::string noise_text_of(const LoadedRecording& recording) {
-    std::string text;
-    const auto add = [&](bool holds, const char* word) {
-        text += holds ? (text.empty() ? "" : ", ") + std::string(word) : "";
-    };
-    add(recording.ended_early, "ended early");
-    add(!recording.run.stopped.empty(), "stopped");
-    add(!recording.disagreement.empty(), "rows and summary disagree");
-    add(!recording.run.noise.empty(), "noisy");
-    add(recording.statistics.frames == 0, "no frames");
-    return text;
-}
-
-/// Keys of figures and what they are called where there is little room.
-constexpr std::array<std::pair<const char*, const char*>, 6> shown_statistics{
-    {{"frames", "frames"}, {"p50_ms", "P50, ms"}, {"p99_ms", "P99, ms"}, {"max_ms", "longest, ms"},
-        {"low_1pct_fps", "1 % low, 1/s"}, {"overruns_16ms", "above 16.67 ms"}}};
-
-/// How sweeps flew them, where sweeps did: " 24 flown by a sweep one at a time."
-std::string batch_context_text(Recordings recordings) {
-    std::map<std::string, int> counts;
-    for (const LoadedRecording& recording : recordings) {
-        const std::string batch_context = value_of(recording.run.facts, batch_context_fact);
-        counts[batch_context] += batch_context.empty() ? 0 : 1;
+/// All plots of one flight, over simulated time with the legs of its path.
+std::string plots_of_one(const LoadedRecording& recording) {
+    const double ceiling_ms = plot_ceiling_ms(recording.statistics);
+    std::string html = heading("Plots") + "<div class=\"plots\">\n";
+    PlotWidth width = PlotWidth::FullWidth;
+    for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
+        if (plot.x_label.starts_with("simulated time")) { plot.marks = recording.run.legs; }
+        html += card(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth)));
     }
-    std::string text;
-    for (const auto& [batch_context, count] : counts) {
-        text += count == 0 ? "" : fmt::format(" {} flown by a sweep {}.", count, escaped(batch_context));
+    std::string text = "Values under the pointer; drag to zoom, double click for all of it.";
+    if (recording.statistics.max_ms > ceiling_ms) {
+        text += " Where a frame took longer than the plot is high, its curve leaves it at the top.";
     }
-    return text;
+    return html + "</div>\n" + note(text);
 }
 
-std::string runs_table(Recordings recordings, const fs::path& page_folder) {
-    constexpr std::size_t max_settings = 6;
-    std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
-    const std::size_t left_out = names.size() - std::min(names.size(), max_settings);
-    names.resize(names.size() - left_out);
-    std::string html = "<div class=\"scroll\"><table class=\"sortable runs\">\n<thead><tr>"
-                       "<th>flight</th>";
-    for (const std::string& name : names) { html += "<th>" + escaped(name) + "</th>"; }
-    for (const auto& [key, name] : shown_statistics) { html += fmt::format("<th class=\"number\">{}</th>", name); }
-    html += "<th>states</th><th>pictures</th><th>condition</th></tr></thead>\n<tbody>\n";
-    for (const LoadedRecording& recording : recordings) {
-        html += "<tr><td>" + link_of(recordings, recording, page_folder) + "</td>";
-        for (const std::string& name : names) {
-            html += "<td>" + escaped(short_value(value_of(recording.run.settings, name))) + "</td>";
-        }
-        for (const auto& [key, name] : shown_statistics) {
-            const Statistic& statistic = statistic_named(key);
-            html += number_cell(statistic.value(recording.statistics), std::min(statistic.decimals, 2));
-        }
-        const std::string condition = noise_text_of(recording);
-        html += fmt::format("<td><code>{}</code></td><td><code>{}</code></td><td class=\"{}\">{}</td></tr>\n",
-            escaped(recording.run.state_hash.substr(0, 8)), escaped(recording.run.picture_hash.substr(0, 8)),
-            condition.empty() ? "" : "worse", condition.empty() ? "good" : condition);
-    }
-    html += "</tbody></table></div>\n<p class=\"note\">A click on a column's head sorts by it. "
-            "States and pictures are the first eight digits of their hashes." +
-            batch_context_text(recordings);
-    if (left_out > 0) {
-        html += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
-    }
-    return "<div class=\"card\">\n" + html + "</p></div>\n";
-}
-
-std::string plot_per_recording(Recordings recordings) {
+/// A small plot of each flight, on common axes.
+std::string plots_of_several(Recordings recordings) {
     const double ceiling_ms = shared_ceiling_ms(recordings, all_of(recordings));
     const std::size_t pieces = recordings.size() > 40 ? 60 : 150;
     double begin_s = 0.0;
@@ -597,190 +362,59 @@ std::string plot_per_recording(Recordings recordings) {
         begin_s = std::min(begin_s, recording.flight.begin_s());
         end_s = std::max(end_s, recording.flight.end_s());
     }
-    std::string html = "<div class=\"small-plots\">\n";
+    std::string html;
     for (const LoadedRecording& recording : recordings) {
         Plot plot{label_of(recordings, recording), "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
         plot.x_min = begin_s;
         plot.x_max = end_s;
-        PlotSeries curve = recording.flight.frame_ms.series(pieces);
-        curve.colour = run_colours.front();
-        plot.series.push_back(std::move(curve));
+        plot.series.push_back(recording.flight.frame_ms.series(pieces));
+        plot.series.back().colour = run_colours.front();
         plot.levels = {{"16.67 ms", overrun_16_ms}};
         html += page_plot(plot, PlotWidth::Small);
     }
-    return "<h2>Frame time of each flight, ms over seconds, on common axes</h2>\n<div "
-           "class=\"card\">" +
-           html + "</div></div>\n";
+    return heading("Frame time of each flight, ms over seconds, on common axes") +
+           card("<div class=\"small-plots\">\n" + html + "</div>\n");
 }
 
+/// Pictures of one flight, evenly spaced; of several flights one from the middle of each.
 std::string pictures(Recordings recordings) {
-    constexpr std::size_t max_flights = 24;
-    constexpr int widest_px = 320;
-    std::vector<const LoadedRecording*> flights;
+    const bool is_one = recordings.size() == 1;
+    const std::size_t max_shown = is_one ? 12 : 24;
+    const int widest_px = is_one ? 640 : 320;
+    std::vector<std::pair<fs::path, std::string>> all; ///< and captions
     for (const LoadedRecording& recording : recordings) {
-        if (!recording.pictures.empty()) { flights.push_back(&recording); }
-    }
-    if (flights.empty()) { return {}; }
-    std::string html = "<div class=\"sheet\">\n";
-    for (const std::size_t index : evenly_spaced(flights.size(), max_flights)) {
-        const LoadedRecording& flight = *flights[index];
-        const fs::path& middle = flight.pictures[flight.pictures.size() / 2];
-        html += picture_html(middle, widest_px, label_of(recordings, flight) + ", " + middle.filename().string());
-    }
-    html += "</div>\n";
-    if (flights.size() > max_flights) {
-        html += fmt::format("<p class=\"note\">{} of {} flights.</p>\n", max_flights, flights.size());
-    }
-    return "<h2>A picture from the middle of each flight</h2>\n<div class=\"card\">" + html + "</div>\n";
-}
-
-/// Settings, program and machine where all recordings have the same.
-std::string common_rows(Recordings recordings) {
-    const auto table = [&](const char* title, auto rows_of) {
-        std::string html =
-            fmt::format("<div class=\"card\">\n<h3>{}</h3>\n<div class=\"scroll\"><table>\n<tbody>\n", title);
-        for (const auto& row : rows_of(recordings.front())) {
-            const auto& name = row.first;
-            const auto& value = row.second;
-            const bool same = std::ranges::all_of(
-                recordings, [&](const LoadedRecording& each) { return value_of(rows_of(each), name) == value; });
-            if (same && value != unset_value && !value.empty()) {
-                html += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(name), escaped(value));
-            }
+        const std::vector<fs::path>& own = recording.pictures;
+        for (std::size_t i = is_one ? 0 : own.size() / 2; i < own.size(); i += is_one ? 1 : own.size()) {
+            const std::string name = own[i].filename().string();
+            all.emplace_back(own[i], is_one ? name : label_of(recordings, recording) + ", " + name);
         }
-        return html + "</tbody></table></div></div>\n";
-    };
-    return "<h2>What all have in common</h2>\n" + table("Settings", [](const LoadedRecording& each) {
-        return each.run.settings;
-    }) + table("Program and machine", [](const LoadedRecording& each) { return each.run.machine; });
-}
-
-/// What a page says of several recordings together: a table with one row each, comparisons among those of the same
-/// flight, their curves in common plots, a small plot each with common axes, pictures, and the settings that all share.
-/// A recording whose own page lies in its folder is linked from `page_folder`.
-std::string several_recordings_html(Recordings recordings, const fs::path& page_folder) {
-    return runs_table(recordings, page_folder) + compared_flights_html(recordings) + plot_per_recording(recordings) +
-           pictures(recordings) + common_rows(recordings);
-}
-
-std::string title_of(const LoadedRecording& recording) {
-    return recording.run.title.empty() ? recording.name : recording.run.title;
-}
-
-std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
-
-std::string card(const std::string& inside) { return "<div class=\"card\">\n" + inside + "</div>\n"; }
-
-std::string tile(const char* name, const std::string& value, const std::string& unit) {
-    return fmt::format(
-        "<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>\n", escaped(name), escaped(value), escaped(unit));
-}
-
-std::string badges(const LoadedRecording& recording) {
-    const auto badge = [](const char* text, bool bad) {
-        return fmt::format("<span class=\"badge{}\">{}</span>\n", bad ? " bad" : "", text);
-    };
-    std::string html = badge(recording.ended_early ? "ended early" : "ended", recording.ended_early);
-    if (!recording.disagreement.empty()) { html += badge("rows and summary disagree", true); }
-    if (!recording.run.stopped.empty()) { html += badge("stopped", true); }
-    const bool noisy = !recording.run.noise.empty();
-    html += badge(noisy ? "noisy" : "quiet machine", noisy);
-    if (recording.statistics.frames == 0) { html += badge("no frames", true); }
-    std::string notes;
-    for (const std::string& reason : recording.run.noise) { notes += reason + " "; }
-    if (recording.ended_early) {
-        notes += "The flight was cut short: the figures are those of the frames recorded until "
-                 "then, and there are no hashes.";
     }
-    if (!recording.disagreement.empty()) {
-        notes += "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
-                 recording.disagreement + ". ";
+    if (all.empty()) { return {}; }
+    std::string html;
+    for (const std::size_t index : evenly_spaced(all.size(), max_shown)) {
+        html += picture_html(all[index].first, widest_px, all[index].second);
     }
-    if (!recording.run.stopped.empty()) { notes += "Ended by " + recording.run.stopped + ". "; }
-    return notes.empty() ? html : html + "<p class=\"note\">" + escaped(notes) + "</p>\n";
+    html = "<div class=\"sheet\">\n" + html + "</div>\n";
+    if (all.size() > max_shown) {
+        html +=
+            note(fmt::format("{} of {} {}, evenly spaced.", max_shown, all.size(), is_one ? "pictures" : "flights"));
+    }
+    return heading(is_one ? "Pictures" : "A picture from the middle of each flight") + card(html);
 }
 
-std::string overview(const LoadedRecording& recording) {
-    const Statistics& figures_ms = recording.statistics;
-    const double fps = figures_ms.mean_ms > 0.0 ? 1000.0 / figures_ms.mean_ms : 0.0;
-    const MachineInfo& machine = recording.run.machine_info;
-    std::string html = fmt::format("<p class=\"lead\">{}<br>{}, {} cores</p>\n",
-        escaped(title_of(recording) + ", " + machine.start_time_utc), escaped(machine.cpu), machine.cores);
-    html += badges(recording);
-    html += "<dl class=\"tiles\">\n";
-    html += tile("Frames", fmt::format("{}", figures_ms.frames), "counted");
-    html += tile("Mean", fmt::format("{:.2f}", figures_ms.mean_ms), "ms");
-    html += tile("Rate", fmt::format("{:.1f}", fps), "frames/s");
-    html += tile("P50", fmt::format("{:.2f}", figures_ms.p50_ms), "ms");
-    html += tile("P99", fmt::format("{:.2f}", figures_ms.p99_ms), "ms");
-    html += tile("Longest", fmt::format("{:.2f}", figures_ms.max_ms), "ms");
-    html += tile("1 % low", fmt::format("{:.1f}", figures_ms.low_1pct_fps), "frames/s");
-    html += tile("Above 16.67 ms", fmt::format("{}", figures_ms.overruns_16ms), "frames");
-    if (const TargetRange targets = recording.flight.triangle_targets(); targets.varies()) {
-        html += tile("Triangle target", fmt::format("{:.0f}", targets.mean),
-            fmt::format("mean of {} to {}", targets.min_triangles, targets.max_triangles));
-    }
-    return html + "</dl>\n";
-}
+// Figures, slow frames and results of one flight.
 
 std::string statistics_table(const LoadedRecording& recording) {
-    std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th>Figure</th>"
-                       "<th class=\"number\">Value</th><th>Definition</th></tr></thead>\n<tbody>\n";
+    ResultTable table;
     for (const Statistic& statistic : all_statistics()) {
-        html += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td "
-                            "class=\"definition\">{}</td></tr>\n",
-            escaped(statistic.name), statistic_text(statistic, recording.statistics), escaped(statistic.definition));
+        table.add({{"Figure", statistic.name}, {"Value", statistic_text(statistic, recording.statistics)},
+            styled({"Definition", statistic.definition}, "definition")});
     }
-    return card(html + "</tbody></table></div>\n<p class=\"note\">frame_ms runs from the start of the frame's "
-                       "simulation step to its pixels complete and read; writing pictures and video is outside "
-                       "it. n is the number of frames counted. Stress (frames.csv) is the share of a frame's "
-                       "time, the simulated time from it to the next, that frame_ms is; where the ground adapts "
-                       "it is that share through a first-order filter.</p>\n");
-}
-
-std::string rows_table(const char* first, const NamedValues& rows) {
-    std::string html =
-        fmt::format("<div class=\"scroll\"><table>\n<thead><tr><th>{}</th><th></th></tr></thead>\n<tbody>\n", first);
-    for (const auto& [name, value] : rows) {
-        html += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(name), escaped(value));
-    }
-    return card(html + "</tbody></table></div>\n");
-}
-
-/// Those that are set; what is not set follows from the others.
-NamedValues set_settings_rows(const NamedValues& settings) {
-    NamedValues rows;
-    std::ranges::copy_if(settings, std::back_inserter(rows),
-        [](const auto& row) { return row.second != unset_value && !row.second.empty(); });
-    return rows;
-}
-
-NamedValues result_rows(const LoadedRecording& recording) {
-    NamedValues rows{{"state hash", recording.run.state_hash}, {"picture hash", recording.run.picture_hash},
-        {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
-    rows.insert(rows.end(), recording.run.facts.begin(), recording.run.facts.end());
-    const NamedValues clock = recording.flight.clock.rows();
-    rows.insert(rows.end(), clock.begin(), clock.end());
-    const NamedValues link = recording.flight.link.rows();
-    rows.insert(rows.end(), link.begin(), link.end());
-    return rows;
-}
-
-std::string plots_html(const LoadedRecording& recording) {
-    const double ceiling_ms = plot_ceiling_ms(recording.statistics);
-    std::string html = "<div class=\"plots\">\n";
-    bool first = true;
-    for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
-        if (plot.x_label.starts_with("simulated time")) { plot.marks = recording.run.legs; }
-        html += card(page_plot(plot, first ? PlotWidth::FullWidth : PlotWidth::HalfWidth));
-        first = false;
-    }
-    html += "</div>\n<p class=\"note\">Values under the pointer; drag to zoom, double click for "
-            "all of it.";
-    if (recording.statistics.max_ms > ceiling_ms) {
-        html += " Where a frame took longer than the plot is high, its curve leaves it at the top.";
-    }
-    return html + "</p>\n";
+    table.note = "frame_ms runs from the start of the frame's simulation step to its pixels complete and read; writing "
+                 "pictures and video is outside it. n is the number of frames counted. Stress (frames.csv) is the "
+                 "share of a frame's time, the simulated time from it to the next, that frame_ms is; where the ground "
+                 "adapts it is that share through a first-order filter.";
+    return heading("Frame times") + card(html_of(table));
 }
 
 std::string overrun_summary(const LoadedRecording& recording) {
@@ -790,96 +424,108 @@ std::string overrun_summary(const LoadedRecording& recording) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] > 0) { text += fmt::format(" In {} of them {} took most.", counts[i], stage_names[i]); }
     }
-    return text;
+    return "<p>" + text + "</p>\n";
 }
 
-/// The slowest frames with their reasons.
-HtmlTable slowest_table(std::span<const SlowFrame> slowest, bool has_counters) {
-    HtmlTable table;
-    table.header = {"frame", "at, s", "ms", "took most", "ms", "grew most over its median", "triangles", "change"};
-    if (has_counters) {
-        table.header.insert(table.header.end(), {"page faults", "switches", "stolen, ms"});
-        table.note = "Switches: how often another program was given the processor. Stolen: by the "
-                     "host for other machines, in the kernel's steps of 10 ms, of all processors.";
-    }
-    for (const SlowFrame& frame : slowest) {
-        std::vector<std::string> row = {fmt::format("{}", frame.record.frame),
-            fmt::format("{:.2f}", frame.record.sim_time_s), fmt::format("{:.2f}", frame.record.frame_ms),
-            std::string(stage_names[frame.longest_stage]), fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
-            fmt::format("{} by {:.2f} ms", stage_names[frame.slowed_stage], frame.slowdown_ms),
-            fmt::format("{}", frame.record.terrain_triangles), fmt::format("{:+}", frame.record.triangle_change)};
-        if (has_counters) {
-            const FrameCounters& counters = frame.record.counters;
-            row.insert(row.end(), {fmt::format("{}", counters.page_faults), fmt::format("{}", counters.switches),
-                                      fmt::format("{:.0f}", counters.stolen_ms)});
+ResultTable slowest_table(const LoadedRecording& recording) {
+    ResultTable table;
+    for (const SlowFrame& frame : recording.slowest) {
+        const FrameRecord& record = frame.record;
+        std::vector<Cell> row = {{"frame", record.frame}, {"at, s", "{:.2f}", record.sim_time_s},
+            {"ms", "{:.2f}", record.frame_ms}, {"took most", stage_names[frame.longest_stage]},
+            {"ms", "{:.2f}", frame.stage_ms[frame.longest_stage]},
+            {"grew most over its median", "{} by {:.2f} ms", stage_names[frame.slowed_stage], frame.slowdown_ms},
+            {"triangles", record.terrain_triangles}, {"change", "{:+}", record.triangle_change}};
+        if (recording.has_counters) {
+            row.emplace_back("page faults", record.counters.page_faults);
+            row.emplace_back("switches", record.counters.switches);
+            row.push_back({"stolen, ms", "{:.0f}", record.counters.stolen_ms});
         }
-        table.rows.push_back(std::move(row));
+        table.add(std::move(row));
+    }
+    if (recording.has_counters) {
+        table.note = "Switches: how often another program was given the processor. Stolen: by the host for other "
+                     "machines, in the kernel's steps of 10 ms, of all processors.";
     }
     return table;
 }
 
-/// The kept picture nearest to a frame.
-const std::filesystem::path& nearest_picture(std::span<const std::filesystem::path> pictures, int frame) {
-    return *std::ranges::min_element(pictures, {}, [&](const std::filesystem::path& picture) {
-        return std::abs(picture_frame(picture.filename().string()).value_or(0) - frame);
-    });
-}
-
-/// The picture of a slow frame: its own, else the kept one nearest to it; empty where there is none.
+/// The picture of a slow frame: its own, else the recorded one nearest to it; empty where there is none.
 std::string slow_picture_html(const LoadedRecording& recording, const FrameRecord& frame) {
     constexpr int widest_px = 320;
     const std::string caption = fmt::format("frame {}, {:.2f} ms", frame.frame, frame.frame_ms);
-    const auto own = recording.folder / slow_picture_name(frame.frame);
+    const fs::path own = recording.folder / slow_picture_name(frame.frame);
     if (is_file(own)) { return picture_html(own, widest_px, caption); }
     if (recording.pictures.empty()) { return {}; }
-    const std::filesystem::path& picture = nearest_picture(recording.pictures, frame.frame);
-    const std::string name = picture.filename().string();
-    return picture_html(picture, widest_px, caption + ": nearest picture, " + name);
+    const fs::path& nearest = *std::ranges::min_element(recording.pictures, {}, [&](const fs::path& picture) {
+        return std::abs(picture_frame(picture.filename().string()).value_or(0) - frame.frame);
+    });
+    return picture_html(nearest, widest_px, caption + ": nearest picture, " + nearest.filename().string());
 }
 
-std::string slowest_html(const LoadedRecording& recording) {
-    const std::vector<SlowFrame>& slowest = recording.slowest;
+std::string slowest_frames(const LoadedRecording& recording) {
     std::string sheet;
-    for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, slowest.size()); ++i) {
-        sheet += slow_picture_html(recording, slowest[i].record);
+    for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, recording.slowest.size()); ++i) {
+        sheet += slow_picture_html(recording, recording.slowest[i].record);
     }
-    return card("<p>" + overrun_summary(recording) + "</p>\n" +
-                html_of(slowest_table(slowest, recording.has_counters)) +
+    return heading("The slowest frames and why") +
+           card(overrun_summary(recording) + html_of(slowest_table(recording)) +
                 (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
 }
 
-std::string one_html(const LoadedRecording& recording) {
-    std::string html = card(overview(recording));
-    html += heading("Plots") + plots_html(recording);
-    const std::string sheet = contact_sheet_html(recording.pictures);
-    html += sheet.empty() ? sheet : heading("Pictures") + card(sheet);
-    html += heading("Frame times") + statistics_table(recording);
-    html += heading("The slowest frames and why") + slowest_html(recording);
-    html += heading("Results") + rows_table("Result", result_rows(recording));
-    html += heading("Settings") + rows_table("Setting", set_settings_rows(recording.run.settings));
-    return html + heading("Program and machine") + rows_table("Entry", recording.run.machine);
+/// A table of names and values; empty without rows.
+std::string values_table(std::string_view title, const NamedValues& rows) {
+    if (rows.empty()) { return {}; }
+    ResultTable table;
+    for (const auto& [name, value] : rows) { table.add({{"", name}, styled({"", value}, "code")}); }
+    return heading(title) + card(html_of(table));
+}
+
+NamedValues result_rows(const LoadedRecording& recording) {
+    NamedValues rows{{"state hash", recording.run.state_hash}, {"picture hash", recording.run.picture_hash},
+        {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
+    for (const NamedValues& more : {recording.run.facts, recording.flight.clock.rows(), recording.flight.link.rows()}) {
+        rows.insert(rows.end(), more.begin(), more.end());
+    }
+    return rows;
+}
+
+/// Settings, or entries of program and machine, that are set and the same in all recordings.
+NamedValues common_rows(Recordings recordings, NamedValues RunFile::*rows) {
+    NamedValues common;
+    for (const auto& row : recordings.front().run.*rows) {
+        const bool is_same = std::ranges::all_of(
+            recordings, [&](const LoadedRecording& each) { return value_of(each.run.*rows, row.first) == row.second; });
+        if (is_same && row.second != unset_value && !row.second.empty()) { common.push_back(row); }
+    }
+    return common;
 }
 
 std::string page_title(Recordings recordings) {
-    if (recordings.size() == 1) { return title_of(recordings.front()); }
-    return fmt::format("{} flights compared", recordings.size());
+    return recordings.size() == 1 ? title_of(recordings.front())
+                                  : fmt::format("{} flights compared", recordings.size());
 }
 
 } // namespace
 
 std::string html_report(
-    Recordings recordings, std::span<const HtmlTable> first_tables, const std::filesystem::path& page_folder) {
-    std::string html = page_head(page_title(recordings), recordings.size() > 1 ? "several" : "one");
-    html +=
-        "<header><p class=\"lead\">Octant flight report</p><h1>" + escaped(page_title(recordings)) + "</h1></header>\n";
-    for (const HtmlTable& table : first_tables) { html += card(html_of(table)); }
-    if (recordings.size() == 1) {
-        html += one_html(recordings.front());
-    } else if (!recordings.empty()) {
-        html += several_recordings_html(recordings, page_folder);
+    Recordings recordings, std::span<const ResultTable> first_tables, const std::filesystem::path& page_folder) {
+    const bool is_one = recordings.size() == 1;
+    std::string html = page_head(page_title(recordings), "Octant flight report", recordings.size() > 1);
+    for (const ResultTable& table : first_tables) { html += card(html_of(table)); }
+    if (recordings.empty()) { return html + page_end(); }
+    const LoadedRecording& first = recordings.front();
+    html += is_one ? overview(first) + plots_of_one(first)
+                   : runs_table(recordings, page_folder) + compared_flights(recordings) + plots_of_several(recordings);
+    html += pictures(recordings);
+    if (is_one) {
+        html += statistics_table(first) + slowest_frames(first) + values_table("Results", result_rows(first));
     }
-    return html + "</main>\n<div id=\"tip\" hidden></div>\n<script>" + std::string(page_script()) +
-           "</script>\n</body>\n</html>\n";
+    html += values_table(
+        is_one ? "Settings" : "Settings that all have in common", common_rows(recordings, &RunFile::settings));
+    html += values_table(is_one ? "Program and machine" : "Program and machine that all have in common",
+        common_rows(recordings, &RunFile::machine));
+    return html + page_end();
 }
 
 } // namespace octant::ui::report

@@ -2,14 +2,12 @@
 
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "sim/base/utf8.h"
+#include "ui/report/plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-#include <vector>
 
 namespace octant::ui::report {
 
@@ -18,39 +16,14 @@ namespace {
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 void append_escaped(std::string& out, char c) {
-    switch (c) {
-    case '&':
-        out += "&amp;";
-        return;
-    case '<':
-        out += "&lt;";
-        return;
-    case '>':
-        out += "&gt;";
-        return;
-    case '"':
-        out += "&quot;";
-        return;
-    case '\'':
-        out += "&#39;";
-        return;
-    default:
-        break;
-    }
+    constexpr std::string_view special = "&<>\"'";
+    constexpr std::array names{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\t') { out += c; }
-}
-
-bool is_number(const std::string& text) { return finite_number(text).has_value(); }
-
-std::string row_html(const std::vector<std::string>& cells, std::size_t columns) {
-    std::string html = "<tr>";
-    for (std::size_t i = 0; i < columns; ++i) {
-        const std::string cell = i < cells.size() ? cells[i] : "";
-        html += is_number(cell) ? "<td class=\"number\">" : "<td>";
-        html += escaped(cell) + "</td>";
+    if (const std::size_t at = special.find(c); at != std::string_view::npos) {
+        out += names[at];
+    } else if ((byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\t') {
+        out += c;
     }
-    return html + "</tr>\n";
 }
 
 } // namespace
@@ -80,122 +53,6 @@ std::string url_text(std::string_view path) {
     return text;
 }
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto byte = at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0U;
-            three = three << 8U | byte;
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            const bool filler = at + i > bytes.size();
-            out += filler ? '=' : digits[three >> (18U - 6U * i) & 63U];
-        }
-    }
-    return out;
-}
-
-std::string html_of(const HtmlTable& table) {
-    std::size_t columns = table.header.size();
-    for (const auto& row : table.rows) { columns = std::max(columns, row.size()); }
-    std::string html;
-    if (!table.title.empty()) { html += "<h3>" + escaped(table.title) + "</h3>\n"; }
-    html += "<div class=\"scroll\"><table>\n";
-    if (!table.header.empty()) {
-        html += "<thead><tr>";
-        for (std::size_t i = 0; i < columns; ++i) {
-            const bool number = !table.rows.empty() && i < table.rows[0].size() && is_number(table.rows[0][i]);
-            html += number ? "<th class=\"number\">" : "<th>";
-            html += escaped(i < table.header.size() ? table.header[i] : "") + "</th>";
-        }
-        html += "</tr></thead>\n";
-    }
-    html += "<tbody>\n";
-    for (const auto& row : table.rows) { html += row_html(row, columns); }
-    html += "</tbody></table></div>\n";
-    if (!table.note.empty()) { html += "<p class=\"note\">" + escaped(table.note) + "</p>\n"; }
-    return html;
-}
-
-std::string csv_of(const HtmlTable& table) {
-    std::string text;
-    const auto add = [&](const std::vector<std::string>& cells) {
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            const bool quoted = cells[i].find(',') != std::string::npos;
-            text += fmt::format("{}{}{}{}", i == 0 ? "" : ",", quoted ? "\"" : "", cells[i], quoted ? "\"" : "");
-        }
-        text += "\n";
-    };
-    add(table.header);
-    std::for_each(table.rows.begin(), table.rows.end(), add);
-    return text;
-}
-
-std::string markdown_of(const HtmlTable& table) {
-    std::string text = fmt::format("# {}\n\n", table.title);
-    const auto add = [&](const std::vector<std::string>& cells) {
-        text += "|";
-        for (const std::string& cell : cells) { text += fmt::format(" {} |", cell); }
-        text += "\n";
-    };
-    add(table.header);
-    add(std::vector<std::string>(table.header.size(), "---"));
-    std::for_each(table.rows.begin(), table.rows.end(), add);
-    return text + "\n" + table.note + "\n";
-}
-
-std::string markdown_of(std::span<const HtmlTable> tables) {
-    std::string text;
-    for (const HtmlTable& table : tables) { text += (text.empty() ? "" : "\n") + markdown_of(table); }
-    return text;
-}
-
-std::vector<std::string> formatted_cells(fmt::string_view format, fmt::format_args values) {
-    constexpr char separator = '\x1F'; // no value has it
-    std::string separated(format.data(), format.size());
-    std::ranges::replace(separated, '\t', separator);
-    const std::string text = fmt::vformat(separated, values);
-    std::vector<std::string> cells;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, begin), text.size());
-        cells.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return cells;
-}
-
-StudyTables::StudyTables(base::StudyOutput output) : output_(std::move(output)) { make_folder(output_.out); }
-
-void StudyTables::add(const std::string& file, HtmlTable table) {
-    write_file(output_.out / (file + ".csv"), csv_of(table));
-    tables_.push_back(std::move(table));
-}
-
-void StudyTables::finish(const std::string& page, const std::string& markdown, const std::string& figures) const {
-    write_file(output_.out / (page + ".md"), markdown + figures);
-    std::fputs((output_.json ? json_of(tables_) : markdown).c_str(), stdout);
-}
-
-std::string json_of(std::span<const HtmlTable> tables) {
-    auto list = nlohmann::ordered_json::array();
-    for (const HtmlTable& table : tables) {
-        auto rows = nlohmann::ordered_json::array();
-        for (const auto& cells : table.rows) {
-            auto row = nlohmann::ordered_json::object();
-            for (std::size_t i = 0; i < cells.size() && i < table.header.size(); ++i) {
-                const auto number = finite_number(cells[i]);
-                row[table.header[i]] = number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(cells[i]);
-            }
-            rows.push_back(row);
-        }
-        list.push_back({{"title", table.title}, {"rows", rows}, {"note", table.note}});
-    }
-    return list.dump(2) + "\n";
-}
-
 namespace {
 
 constexpr std::string_view style_sheet = R"css(
@@ -216,7 +73,7 @@ body {
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif;
 }
 main { max-width: 1180px; margin: 0 auto; }
-main.several { max-width: 1800px; }
+main.wide { max-width: 1800px; }
 h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 .25rem; }
 h2 { font-size: 1.15rem; margin: 2.2rem 0 .7rem; }
 h3 { font-size: 1rem; margin: 0 0 .5rem; overflow-wrap: anywhere; }
@@ -282,7 +139,7 @@ td.soft { color: var(--soft); }
 .better { color: var(--good); }
 .worse { color: var(--bad); }
 td.definition { color: var(--soft); }
-code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
+.code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 .sheet { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(240px, 1fr)); }
 figure { margin: 0; }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
@@ -303,14 +160,17 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
 
 } // namespace
 
-std::string_view page_style() { return style_sheet; }
-
-std::string page_head(std::string_view title, std::string_view layout) {
+std::string page_head(std::string_view title, std::string_view lead, bool is_wide) {
     return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                       "<title>{} - Octant</title>\n<style>{}</style>\n</head>\n<body>\n"
-                       "<main class=\"{}\">\n",
-        escaped(title), page_style(), layout);
+                       "<title>{0} - Octant</title>\n<style>{1}</style>\n</head>\n<body>\n<main{2}>\n"
+                       "<header><p class=\"lead\">{3}</p><h1>{0}</h1></header>\n",
+        escaped(title), style_sheet, is_wide ? " class=\"wide\"" : "", escaped(lead));
+}
+
+std::string page_end() {
+    return fmt::format(
+        "</main>\n<div id=\"tip\" hidden></div>\n<script>{}</script>\n</body>\n</html>\n", page_script());
 }
 
 } // namespace octant::ui::report

@@ -84,14 +84,13 @@ std::string counters_line(const FrameRecord& record) {
 CounterReader::CounterReader(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) { return; }
-    lines_.emplace(file);
-    const auto header = lines_->next();
-    if (!header || counters_header() != std::string(*header) + "\n") { lines_.reset(); }
+    lines_ = TextScanner::of_file(file);
+    if (!lines_->next_line() || counters_header() != std::string(lines_->line()) + "\n") { lines_.reset(); }
 }
 
 std::optional<std::pair<long, FrameCounters>> CounterReader::next() {
-    while (const auto line = lines_ ? lines_->next() : std::nullopt) {
-        const auto counters = lines_->is_truncated() ? std::nullopt : counters_from(*line);
+    while (lines_ && lines_->next_line()) {
+        const auto counters = lines_->is_truncated() ? std::nullopt : counters_from(lines_->line());
         if (counters) { return counters; }
     }
     return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/statistics.h"
@@ -63,7 +63,7 @@ public:
     std::optional<std::pair<long, FrameCounters>> next();
 
 private:
-    std::optional<LineReader> lines_;
+    std::optional<TextScanner> lines_;
 };
 
 /// Fills in the counters of these frames from a counters.csv; false where there is none or it is none of ours, as in

@@ -56,13 +56,12 @@ std::string read_rows(const fs::path& file, FlightAccumulator& flight) {
 std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
     std::string text;
     for (const Statistic& statistic : all_statistics()) {
-        const auto told =
-            std::ranges::find_if(run.summary, [&](const auto& row) { return row.first == statistic.key; });
-        const auto value = told == run.summary.end() ? std::nullopt : finite_number(told->second);
+        const std::string told = value_of(run.summary, statistic.key);
+        const auto value = finite_number(told);
         const double by_rows = statistic.value(statistics);
         if (value && std::abs(*value - by_rows) > 1e-6 * std::max(1.0, std::abs(by_rows))) {
             text += fmt::format("{}{}: {} in run.json, {:.{}f} by the rows", text.empty() ? "" : "; ", statistic.key,
-                told->second, by_rows, statistic.decimals);
+                told, by_rows, statistic.decimals);
         }
     }
     return text;

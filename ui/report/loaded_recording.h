@@ -26,9 +26,8 @@ struct LoadedRecording {
     std::vector<SlowFrame> slowest;
     bool has_counters = false;
     bool ended_early = false; ///< killed: no summary in run.json
-    /// What the summary in run.json says otherwise than the rows do, and the first row that does not follow the one
-    /// before: "frames: 230 in run.json, 120 by the rows; line 7 of frames.csv: expected frame 5, got 6"; empty where
-    /// all agree or where there is no summary.
+    /// How run.json's summary differs from frames.csv, and the first gap in the rows: "frames: 230 in run.json, 120 by
+    /// the rows; line 7 of frames.csv: expected frame 5, got 6". Empty where they agree or there is no summary.
     std::string disagreement;
     std::vector<std::filesystem::path> pictures; ///< in frame order
 };

@@ -1,7 +1,7 @@
 #include "ui/report/machine_info.h"
 
-#include "sim/base/parallel_for.h"
 #include "sim/base/text_file.h"
+#include "sim/base/thread_pool.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -10,32 +10,18 @@
 #include "ui/report/png_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::report {
 
 namespace {
-
-/// A MangoHud log (its plain CSV, without the "v1" lines) of the frames after the warm-up, so that MangoHud's tools and
-/// ours count the same frames: its head, then a line a frame, nothing for one of the warm-up. `elapsed` (ns) is the end
-/// of the frame; what MangoHud measures and we do not is 0.
-std::string mangohud_head(const MachineInfo& machine, const std::string& renderer);
-std::string mangohud_line(const FrameRecord& record);
-
-/// A trace for Perfetto and chrome://tracing, a list of events that both also read where its end is
-/// missing (Trace Event Format, "JSON Array Format"), times in microseconds: each frame an "X" event with its stages
-/// sim, plan, draw, read inside it, one after the other; counters for triangles and resolution; an instant event at
-/// each overrun.
-std::string trace_head();
-std::string trace_events(const FrameRecord& record);
-std::string trace_end();
 
 /// A field of a CSV file whose readers know no quotes.
 std::string plain_field(std::string text) {
@@ -45,17 +31,8 @@ std::string plain_field(std::string text) {
     return text;
 }
 
-struct Stage {
-    const char* name;
-    double FrameRecord::*duration_ms;
-};
-
-constexpr std::array stages{
-    Stage{"sim", &FrameRecord::sim_ms},
-    Stage{"plan", &FrameRecord::plan_ms},
-    Stage{"draw", &FrameRecord::draw_ms},
-    Stage{"read", &FrameRecord::read_ms},
-};
+// A trace for Perfetto and chrome://tracing: a list of events that both also read without its end (Trace Event Format,
+// "JSON Array Format"), times in microseconds.
 
 using Out = std::back_insert_iterator<std::string>;
 
@@ -71,28 +48,39 @@ void append_counter(Out out, const char* name, double at_us, double value) {
     }
 }
 
-void append_frame(Out out, const FrameRecord& record) {
+constexpr std::string_view trace_head = "[\n"
+                                        "{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
+                                        "\"args\":{\"name\":\"octant\"}},\n"
+                                        "{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
+                                        "\"args\":{\"name\":\"frames\"}}";
+constexpr std::string_view trace_end = "\n]\n";
+
+/// A frame as an "X" event with its stages inside it, one after the other; counters for triangles and resolution; an
+/// instant event at an overrun.
+std::string trace_events(const FrameRecord& record) {
+    std::string text;
+    const Out out(text);
     const double start_us = 1e6 * record.wall_s;
     append_duration(out, "frame", start_us, 1e3 * record.frame_ms);
     fmt::format_to(out, ",\"args\":{{\"frame\":{},\"sim_time_s\":{},\"warm_up\":{},\"draw_cell\":{}}}}}", record.frame,
         record.sim_time_s, record.warm_up, record.draw_cell);
     double stage_us = start_us;
-    for (const Stage& stage : stages) {
-        const double duration_us = 1e3 * (record.*stage.duration_ms);
-        append_duration(out, stage.name, stage_us, duration_us);
+    for (const auto& [name, stage_ms] : {std::pair("sim", record.sim_ms), std::pair("plan", record.plan_ms),
+             std::pair("draw", record.draw_ms), std::pair("read", record.read_ms)}) {
+        append_duration(out, name, stage_us, 1e3 * stage_ms);
         fmt::format_to(out, "}}");
-        stage_us += duration_us;
+        stage_us += 1e3 * stage_ms;
     }
     append_counter(out, "terrain triangles", start_us, record.terrain_triangles);
     append_counter(out, "resolution C", start_us, record.resolution_c);
     if (record.overrun != 0) {
-        fmt::format_to(out,
-            ",\n{{\"name\":\"overrun\",\"ph\":\"i\",\"s\":\"t\",\"ts\":{:.3f},\"pid\":1,\"tid\":1}"
-            "}",
+        fmt::format_to(out, ",\n{{\"name\":\"overrun\",\"ph\":\"i\",\"s\":\"t\",\"ts\":{:.3f},\"pid\":1,\"tid\":1}}",
             start_us + 1e3 * record.frame_ms);
     }
+    return text;
 }
 
+/// The head of a MangoHud log, in its plain CSV without the "v1" lines.
 std::string mangohud_head(const MachineInfo& machine, const std::string& renderer) {
     return fmt::format("os,cpu,gpu,ram,kernel,driver,cpuscheduler\n{},{},{},{},{},,\n"
                        "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,"
@@ -101,28 +89,14 @@ std::string mangohud_head(const MachineInfo& machine, const std::string& rendere
         plain_field(machine.kernel));
 }
 
+/// A frame's line; nothing for one of the warm-up, so that MangoHud's tools and ours count the same frames. `elapsed`
+/// (ns) is the end of the frame; what MangoHud measures and we do not is 0.
 std::string mangohud_line(const FrameRecord& record) {
     if (record.warm_up) { return {}; }
     const double fps = record.frame_ms > 0.0 ? 1000.0 / record.frame_ms : 0.0;
     return fmt::format("{:.3f},{:.4f},0,0,0,0,0,0,0,0,0,0,0,0,0,{:.0f}\n", fps, record.frame_ms,
         1e9 * record.wall_s + 1e6 * record.frame_ms);
 }
-
-std::string trace_head() {
-    return "[\n"
-           "{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
-           "\"args\":{\"name\":\"octant\"}},\n"
-           "{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
-           "\"args\":{\"name\":\"frames\"}}";
-}
-
-std::string trace_events(const FrameRecord& record) {
-    std::string text;
-    append_frame(std::back_inserter(text), record);
-    return text;
-}
-
-std::string trace_end() { return "\n]\n"; }
 
 namespace fs = std::filesystem;
 
@@ -189,7 +163,7 @@ RecordingWriter::RecordingWriter(fs::path folder, RunInfo info, int flush_every_
     assert(flush_every_frames >= 1);
     frames_file_.append(frame_csv_header());
     mangohud_file_.append(mangohud_head(info_.machine, info_.device));
-    trace_file_.append(trace_head());
+    trace_file_.append(trace_head);
     counters_file_.append(counters_header());
     flush();
 }
@@ -239,11 +213,11 @@ void RecordingWriter::set_settings(std::string settings_json) {
     write_file(folder_ / "run.json", run_json(info_));
 }
 
-Statistics RecordingWriter::finish(const RunSummary& end) {
+Statistics RecordingWriter::finish(const RunSummary& summary) {
     frames_file_.flush();
     const Statistics statistics = times_.statistics();
-    write_file(folder_ / "run.json", run_json(info_, end, statistics));
-    trace_file_.append(trace_end());
+    write_file(folder_ / "run.json", run_json(info_, summary, statistics));
+    trace_file_.append(trace_end);
     flush();
     return statistics;
 }

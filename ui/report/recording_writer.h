@@ -40,7 +40,7 @@ public:
 
     /// Writes the summary into run.json, then ends the other files; gives the summary's figures. Once only. Throws
     /// Error.
-    Statistics finish(const RunSummary& end);
+    Statistics finish(const RunSummary& summary);
 
     const std::filesystem::path& folder() const { return folder_; }
 

@@ -153,6 +153,11 @@ std::vector<std::string> noise_from(const Json& json, const MachineInfo& machine
 
 } // namespace
 
+std::string value_of(const NamedValues& rows, std::string_view name) {
+    const auto found = std::ranges::find(rows, name, &NamedValues::value_type::first);
+    return found == rows.end() ? std::string() : found->second;
+}
+
 std::string run_json(const RunInfo& info) { return json_text(start_json(info)); }
 
 std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,10 @@ namespace octant::ui::report {
 /// Names and values in the order to show.
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
 
-/// What Rows have of a setting that is not set.
+/// The value of a name; empty where there is none.
+std::string value_of(const NamedValues& rows, std::string_view name);
+
+/// What rows have of a setting that is not set.
 inline constexpr const char* unset_value = "null";
 
 /// Name of the fact that a recording of a window has: its pictures followed the clock.

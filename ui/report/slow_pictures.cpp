@@ -1,5 +1,6 @@
 #include "ui/report/slow_pictures.h"
 
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/html_text.h"
@@ -11,9 +12,6 @@
 namespace octant::ui::report {
 
 namespace {
-
-constexpr std::size_t max_pictures = 12;
-constexpr int widest_picture_px = 640;
 
 /// Mean of one channel over a square of side `side` with its top left corner at (x, y).
 std::byte square_mean(const PixelView& picture, int x, int y, int side, int channel) {
@@ -64,26 +62,10 @@ std::string picture_html(const std::filesystem::path& picture, int widest, const
         const Picture small = downscaled(read_png(picture).view(), widest);
         return fmt::format("<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
                            "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
-            escaped(caption), small.width_px, small.height_px, base64(png_bytes(small.view(), PngEffort::Small)));
+            escaped(caption), small.width_px, small.height_px, base64_of(png_bytes(small.view(), PngEffort::Small)));
     } catch (const Error& error) {
         return fmt::format("<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n", escaped(error.what()));
     }
-}
-
-std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) {
-    if (pictures.empty()) { return {}; }
-    const auto chosen = evenly_spaced(pictures.size(), max_pictures);
-    std::string html = "<div class=\"sheet\">\n";
-    for (const std::size_t index : chosen) {
-        html += picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
-    }
-    html += "</div>\n";
-    if (chosen.size() < pictures.size()) {
-        html += fmt::format("<p class=\"note\">{} of {} pictures, evenly spaced; the others lie beside run.json "
-                            "in the recording's folder.</p>\n",
-            chosen.size(), pictures.size());
-    }
-    return html;
 }
 
 std::string slow_picture_name(int frame) { return fmt::format("slow-{:05}.png", frame); }

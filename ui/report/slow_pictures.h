@@ -22,10 +22,6 @@ Picture downscaled(const PixelView& picture, int widest_px);
 /// A picture as a figure of a page, embedded, at most `widest_px` wide. One that cannot be read is named in its place.
 std::string picture_html(const std::filesystem::path& picture, int widest_px, const std::string& caption);
 
-/// The pictures of a flight as a grid of figures for a page, embedded, at most 12 of them and each at most 640 pixels
-/// wide; the rest is mentioned. A picture that cannot be read is named in its place. Empty when there are none.
-std::string contact_sheet_html(std::span<const std::filesystem::path> pictures);
-
 /// The name of a slow frame's picture in a recording: slow-00042.png.
 std::string slow_picture_name(int frame);
 

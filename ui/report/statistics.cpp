@@ -12,37 +12,32 @@ namespace octant::ui::report {
 
 namespace {
 
-template <auto Member>
-constexpr double value_of(const Statistics& statistics) {
-    return static_cast<double>(statistics.*Member);
-}
-
 using S = Statistics;
 constexpr std::array statistic_table{
-    Statistic{"frames", "Frames", "Frames counted: all but the warm-up frames.", 0, false, value_of<&S::frames>},
-    Statistic{"mean_ms", "Mean, ms", "Arithmetic mean of the frame times.", 3, true, value_of<&S::mean_ms>},
-    Statistic{
-        "sd_ms", "Standard deviation, ms", "Sample standard deviation (divisor n - 1).", 3, true, value_of<&S::sd_ms>},
-    Statistic{"p50_ms", "P50, ms",
-        "Median by nearest rank: the frame time of rank ceil(0.50 n) of the n sorted upwards.", 3, true,
-        value_of<&S::p50_ms>},
-    Statistic{"p90_ms", "P90, ms", "Nearest rank: rank ceil(0.90 n).", 3, true, value_of<&S::p90_ms>},
-    Statistic{"p95_ms", "P95, ms", "Nearest rank: rank ceil(0.95 n).", 3, true, value_of<&S::p95_ms>},
-    Statistic{"p99_ms", "P99, ms", "Nearest rank: rank ceil(0.99 n).", 3, true, value_of<&S::p99_ms>},
-    Statistic{"p999_ms", "P99.9, ms", "Nearest rank: rank ceil(0.999 n).", 3, true, value_of<&S::p999_ms>},
-    Statistic{"max_ms", "Longest, ms", "The longest frame time.", 3, true, value_of<&S::max_ms>},
-    Statistic{"low_1pct_fps", "1 % low, frames/s", "1000 / mean of the ceil(0.01 n) longest frame times.", 2, false,
-        value_of<&S::low_1pct_fps>},
-    Statistic{"low_01pct_fps", "0.1 % low, frames/s", "1000 / mean of the ceil(0.001 n) longest frame times.", 2, false,
-        value_of<&S::low_01pct_fps>},
-    Statistic{"overruns_16ms", "Overruns of 16.67 ms", "Frames longer than 16.67 ms (60 pictures a second).", 0, true,
-        value_of<&S::overruns_16ms>},
-    Statistic{"overruns_33ms", "Overruns of 33.3 ms", "Frames longer than 33.3 ms (30 pictures a second).", 0, true,
-        value_of<&S::overruns_33ms>},
-    Statistic{"overruns_41ms", "Overruns of 41.7 ms", "Frames longer than 41.7 ms (24 pictures a second).", 0, true,
-        value_of<&S::overruns_41ms>},
-    Statistic{"jitter_ms", "Jitter, ms", "Mean of |change of frame time| from one frame to the next.", 3, true,
-        value_of<&S::jitter_ms>},
+    Statistic{column<&S::frames>("frames", "Frames", 0, "Frames counted: all but the warm-up frames."), false},
+    Statistic{column<&S::mean_ms>("mean_ms", "Mean, ms", 3, "Arithmetic mean of the frame times.")},
+    Statistic{column<&S::sd_ms>("sd_ms", "Standard deviation, ms", 3, "Sample standard deviation (divisor n - 1).")},
+    Statistic{column<&S::p50_ms>("p50_ms", "P50, ms", 3,
+        "Median by nearest rank: the frame time of rank ceil(0.50 n) of the n sorted upwards.")},
+    Statistic{column<&S::p90_ms>("p90_ms", "P90, ms", 3, "Nearest rank: rank ceil(0.90 n).")},
+    Statistic{column<&S::p95_ms>("p95_ms", "P95, ms", 3, "Nearest rank: rank ceil(0.95 n).")},
+    Statistic{column<&S::p99_ms>("p99_ms", "P99, ms", 3, "Nearest rank: rank ceil(0.99 n).")},
+    Statistic{column<&S::p999_ms>("p999_ms", "P99.9, ms", 3, "Nearest rank: rank ceil(0.999 n).")},
+    Statistic{column<&S::max_ms>("max_ms", "Longest, ms", 3, "The longest frame time.")},
+    Statistic{column<&S::low_1pct_fps>(
+                  "low_1pct_fps", "1 % low, frames/s", 2, "1000 / mean of the ceil(0.01 n) longest frame times."),
+        false},
+    Statistic{column<&S::low_01pct_fps>(
+                  "low_01pct_fps", "0.1 % low, frames/s", 2, "1000 / mean of the ceil(0.001 n) longest frame times."),
+        false},
+    Statistic{column<&S::overruns_16ms>(
+        "overruns_16ms", "Overruns of 16.67 ms", 0, "Frames longer than 16.67 ms (60 pictures a second).")},
+    Statistic{column<&S::overruns_33ms>(
+        "overruns_33ms", "Overruns of 33.3 ms", 0, "Frames longer than 33.3 ms (30 pictures a second).")},
+    Statistic{column<&S::overruns_41ms>(
+        "overruns_41ms", "Overruns of 41.7 ms", 0, "Frames longer than 41.7 ms (24 pictures a second).")},
+    Statistic{column<&S::jitter_ms>(
+        "jitter_ms", "Jitter, ms", 3, "Mean of |change of frame time| from one frame to the next.")},
 };
 
 } // namespace
@@ -51,7 +46,7 @@ std::span<const Statistic> all_statistics() { return statistic_table; }
 
 std::string statistic_text(const Statistic& statistic, const Statistics& statistics) {
     if (statistics.frames == 0 && statistic.decimals > 0) { return "-"; }
-    return fmt::format("{:.{}f}", statistic.value(statistics), statistic.decimals);
+    return text_of(statistic, statistics);
 }
 
 double nearest_rank(std::span<const double> sorted, int permille) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/report/frame_record.h"
+#include "ui/report/table.h"
 
 #include <array>
 #include <cstddef>
@@ -40,14 +41,9 @@ inline constexpr double overrun_16_ms = 16.67;
 inline constexpr double overrun_33_ms = 33.3;
 inline constexpr double overrun_41_ms = 41.7;
 
-/// One figure of Statistics for files and tables.
-struct Statistic {
-    std::string_view key;  ///< in run.json under "summary"
-    std::string_view name; ///< for people, with its unit
-    std::string_view definition;
-    int decimals; ///< 0 for counts
-    bool less_is_better;
-    double (*value)(const Statistics&);
+/// One figure of Statistics.
+struct Statistic : Column<Statistics> {
+    bool less_is_better = true;
 };
 
 /// All figures in the order of run.json.

@@ -1,7 +1,7 @@
 #include "ui/report/video_pipe.h"
 
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 
 #include <algorithm>
 #include <array>

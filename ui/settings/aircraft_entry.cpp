@@ -1,7 +1,7 @@
 #include "ui/settings/aircraft_entry.h"
 
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 
 #include <fmt/format.h>

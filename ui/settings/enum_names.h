@@ -23,6 +23,21 @@ EnumName(Enum, std::string_view) -> EnumName<Enum>;
 template <class Enum>
 inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
 
+/// A name that older versions wrote for a value; read until version 1.1, with a note that says its `meaning`.
+template <class Enum>
+struct OldEnumName {
+    std::string_view name;
+    Enum value;
+    std::string_view meaning;
+};
+
+template <class Enum>
+OldEnumName(std::string_view, Enum, std::string_view) -> OldEnumName<Enum>;
+
+/// Old names of an enumeration's values: an array of OldEnumName, specialised for the few that have some.
+template <class Enum>
+inline constexpr std::array<OldEnumName<Enum>, 0> old_enum_names{};
+
 /// Whether the enumeration declares an enumerator of this value. C++20 cannot ask that, but GCC and Clang say it where
 /// they print a template's argument: as "Enum::Name", else as "(Enum)7".
 template <auto value>

@@ -66,7 +66,7 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::name>(
         {"path", "NAME|FILE",
             joined_text<"path: ", base::built_in_paths,
-                ", a .toml, a recorded or logged .csv, .igc or .gpx, or a Tacview tape (.acmi)">},
+                ", a .toml, a recorded or logged .csv, .igc or .gpx, or a Tacview recording (.acmi)">},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight, .known = base::built_in_paths}),
     setting<&RunSettings::path, &PathSettings::aircraft>(
         {"aircraft", "NAME|FILE[=PATH[@Ns]]",

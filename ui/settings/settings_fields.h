@@ -186,13 +186,11 @@ inline constexpr std::tuple surface_rows{
             "order"},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_method>(
-        {"order-method", "METHOD",
-            "painting order of octant: tree (exact for every eye), cells (octants divided further) "
-            "or paper (8 octants as printed); bsp divides polygons instead, exact for every eye"},
+        {"order-method", "METHOD", "painting order of octant: exact (for every eye) or paper (8 octants as printed)"},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_seconds>(
-        {"order-seconds", "SECONDS",
-            "cells, tree: about so long a model is searched; then its polygons are divided as by bsp", 0.001, 3600.0},
+        {"order-seconds", "SECONDS", "exact: about so long a model is searched; then its polygons are split", 0.001,
+            3600.0},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_cache>(
         {"order-cache", "DIR",

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/progress.h"
 
 #include <algorithm>
 #include <array>
@@ -177,6 +178,10 @@ void check_listed(const FieldInfo& info, int value) {
         throw Error(fmt::format(
             "{}: expected {} or {}, got {}", info.name, fmt::join(all.first(all.size() - 1), ", "), all.back(), value));
     }
+}
+
+void print_old_name_note(const FieldInfo& info, std::string_view text, std::string_view meaning) {
+    base::print_note(false, fmt::format("note: {}: '{}' is {}", info.name, text, meaning));
 }
 
 std::size_t read_choice(const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names) {

@@ -2,7 +2,7 @@
 
 #include "ui/settings/enum_names.h"
 #include "ui/settings/settings.h"
-#include "visuals/draworder/ordered_model.h"
+#include "visuals/draworder/order_method.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -97,14 +97,19 @@ inline constexpr std::array enum_names<visuals::scene::HiddenSurface>{
 template <>
 inline constexpr std::array enum_names<visuals::draworder::OrderMethod>{
     EnumName{visuals::draworder::OrderMethod::Paper, "paper"},
-    EnumName{visuals::draworder::OrderMethod::Cells, "cells"}, EnumName{visuals::draworder::OrderMethod::Tree, "tree"},
-    EnumName{visuals::draworder::OrderMethod::Bsp, "bsp"}};
+    EnumName{visuals::draworder::OrderMethod::Exact, "exact"}};
+
+template <>
+inline constexpr std::array old_enum_names<visuals::draworder::OrderMethod>{
+    OldEnumName{"tree", visuals::draworder::OrderMethod::Exact, "the old name of exact"},
+    OldEnumName{"cells", visuals::draworder::OrderMethod::Exact, "only studied now (octant draw-order); exact is used"},
+    OldEnumName{"bsp", visuals::draworder::OrderMethod::Exact, "only studied now (octant draw-order); exact is used"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::draworder::OrderSource>{
     EnumName{visuals::draworder::OrderSource::Paper, "paper"},
     EnumName{visuals::draworder::OrderSource::Cells, "cells"}, EnumName{visuals::draworder::OrderSource::Tree, "tree"},
-    EnumName{visuals::draworder::OrderSource::Parts, "parts"}, EnumName{visuals::draworder::OrderSource::Bsp, "bsp"},
+    EnumName{visuals::draworder::OrderSource::Parts, "parts"},
     EnumName{visuals::draworder::OrderSource::TreeAndSplitPolygons, "tree-and-parts"}};
 
 /// One thing that can follow the frame time, with the name that people write for it.
@@ -160,6 +165,9 @@ void check_listed(const FieldInfo& info, int value);
 /// Returns the index of `text` among `names`. Throws Error "NAME: expected one of ..., got ...".
 std::size_t read_choice(const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names);
 
+/// Prints the note "NAME: 'tree' is the old name of exact" on stderr.
+void print_old_name_note(const FieldInfo& info, std::string_view text, std::string_view meaning);
+
 template <class Enum>
 
 requires std::is_enum_v<Enum> std::string text_of(Enum value) { return std::string(name_of(value)); }
@@ -168,6 +176,13 @@ template <class Enum>
 requires std::is_enum_v<Enum>
 
 void read_setting(const FieldInfo& info, std::string_view text, Enum& value) {
+    for (const OldEnumName<Enum>& old : old_enum_names<Enum>) {
+        if (text == old.name) {
+            value = old.value;
+            print_old_name_note(info, text, old.meaning);
+            return;
+        }
+    }
     const auto names = names_of<Enum>();
     value = static_cast<Enum>(read_choice(info, text, {names.begin(), names.end()}));
 }

@@ -1,7 +1,6 @@
 #include "ui/sweep/split_flight.h"
 
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"

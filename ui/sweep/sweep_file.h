@@ -37,7 +37,7 @@ inline constexpr std::size_t max_runs = 100000;
 ///   [vary.method.paper]                  # several settings under a name of their own
 ///   order-method = "paper"
 ///   [vary.method.tree]
-///   order-method = "tree"
+///   order-method = "exact"
 /// Files are looked for from the sweep's folder first. Throws Error "file:line: expected ..., got ..." for anything
 /// else, and for settings that a flight would refuse by themselves.
 Sweep read_sweep(const std::filesystem::path& file);

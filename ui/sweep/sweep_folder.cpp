@@ -4,13 +4,13 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/flight/flight_recorder.h"
-#include "ui/report/html_text.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -67,6 +67,15 @@ bool belongs_to_sweep(const fs::path& folder) {
     const auto job = [&](std::string_view name) { return folder / "jobs" / (std::string(name) + ".json"); };
     return !names.empty() && is_job(job(names.front())) &&
            std::ranges::all_of(names, [&](std::string_view name) { return fs::is_regular_file(job(name), code); });
+}
+
+/// A hash as a recording's run.json has it; empty = none.
+template <auto Member>
+constexpr auto recorded_hash(std::string_view key, std::string_view name) {
+    auto column = report::column<Member>(key, name);
+    column.kind = report::ColumnKind::Hash;
+    column.is_optional = true;
+    return column;
 }
 
 } // namespace
@@ -130,32 +139,41 @@ std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const Run
     return lines;
 }
 
+std::span<const report::Column<RunResult>> result_columns() {
+    using R = RunResult;
+    static constexpr std::array columns{
+        report::column<&R::name>("name", "flight"),
+        report::column<&R::done>("done", "done"),
+        report::column<&R::host>("host", "machine"),
+        recorded_hash<&R::state_hash>("state_hash", "states"),
+        recorded_hash<&R::picture_hash>("picture_hash", "pictures"),
+        report::column<&R::noise>("noise", "noise", 0, "why its timings are not to be trusted; empty = quiet"),
+        report::column<&R::fault>("fault", "why", 0, "why it is not done; else empty"),
+    };
+    return columns;
+}
+
 std::string sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results) {
-    report::HtmlTable table;
-    table.header = {"run"};
-    if (!sweep.runs.empty()) {
-        for (const auto& [name, value] : sweep.runs.front().varied) { table.header.push_back(name); }
-    }
-    table.header.insert(table.header.end(), {"repeat", "done", "host", "state_hash", "picture_hash", "noise"});
-    for (const report::Statistic& statistic : report::all_statistics()) { table.header.emplace_back(statistic.key); }
-    table.header.emplace_back("fault");
+    report::ResultTable table;
+    const auto columns = result_columns();
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
         const SweepRun& run = sweep.runs[i];
         const RunResult& result = results[i];
-        std::vector<std::string> row = {run.name};
-        for (const auto& [name, value] : run.varied) { row.push_back(value); }
-        row.insert(row.end(), {fmt::format("{}", run.repeat), result.done ? "1" : "0", result.host, result.state_hash,
-                                  result.picture_hash, result.noise});
+        std::vector<report::Cell> row = {{"run", run.name}};
+        for (const auto& [name, value] : run.varied) { row.emplace_back(name, value); }
+        row.emplace_back("repeat", run.repeat);
+        const auto add = [&](const report::Column<RunResult>& column) {
+            row.emplace_back(std::string(column.key), report::text_of(column, result));
+        };
+        std::ranges::for_each(columns.subspan(1, columns.size() - 2), add);
         const report::NamedValues summary = result.done
                                                 ? report::read_run_file(folder.recording(run.name) / "run.json").summary
                                                 : report::NamedValues();
         for (const report::Statistic& statistic : report::all_statistics()) {
-            const auto found =
-                std::ranges::find_if(summary, [&](const auto& each) { return each.first == statistic.key; });
-            row.push_back(found == summary.end() ? "" : found->second);
+            row.emplace_back(std::string(statistic.key), report::value_of(summary, statistic.key));
         }
-        row.push_back(result.fault);
-        table.rows.push_back(std::move(row));
+        add(columns.back());
+        table.add(std::move(row));
     }
     return report::csv_of(table);
 }

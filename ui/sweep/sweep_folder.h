@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/report/table.h"
 #include "ui/sweep/sweep_file.h"
 
 #include <filesystem>
@@ -49,6 +50,9 @@ struct RunResult {
     std::string picture_hash;
     std::string noise; ///< why its timings are not to be trusted; empty = quiet
 };
+
+/// How a result is written, but for the values that the sweep varies and the figures of the flight.
+std::span<const report::Column<RunResult>> result_columns();
 
 /// Looks at a run's recording: it is done when it has its summary, was not stopped, and was flown with these settings
 /// and input files by this very program file, and has its video where there is to be one.

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
+#include <functional>
+#include <span>
 #include <string>
 
 namespace octant::ui::terrain {
@@ -63,7 +65,6 @@ MeasuredMesh coarsest_mesh_within(MeshMaker& maker, terrain::ProjectedErrorMeter
 } // namespace
 
 namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
 
 namespace {
 
@@ -99,23 +100,30 @@ double mean_triangles_in_view(const std::vector<MeasuredMesh>& meshes) {
     return sum / static_cast<double>(meshes.size());
 }
 
-constexpr std::size_t value_count = 10;
-
-/// Columns of a table of errors, as numbers.
-std::array<double, value_count> values_of(const MeasuredMesh& mesh, bool by_error) {
-    return {static_cast<double>(mesh.triangles), static_cast<double>(mesh.triangles_in_view),
-        by_error ? mesh.coarseness : 1.0 / mesh.coarseness, mesh.error.maximum_px, mesh.error.p999_px,
-        mesh.error.p99_px, mesh.error.rms_px, mesh.error.mean_px, static_cast<double>(mesh.error.samples),
-        static_cast<double>(mesh.error.uncovered)};
-}
-
-std::vector<std::string> row_of(const std::string& name, const std::array<double, value_count>& values) {
-    std::vector<std::string> row = {name};
-    for (std::size_t k = 0; k < value_count; ++k) {
-        const bool counted = k < 2 || k > 7;
-        row.push_back(counted ? fmt::format("{:.0f}", values[k]) : fmt::format("{:.4g}", values[k]));
-    }
-    return row;
+/// A row of a table of errors: means over the meshes.
+std::vector<report::Cell> row_of(const std::string& name, std::span<const MeasuredMesh> meshes, bool by_error) {
+    const auto mean = [&](const auto& value_of) {
+        double sum = 0.0;
+        for (const MeasuredMesh& mesh : meshes) {
+            sum += static_cast<double>(std::invoke(value_of, mesh)) / static_cast<double>(meshes.size());
+        }
+        return sum;
+    };
+    const auto mean_error = [&](double terrain::ProjectedError::*part) {
+        return mean([&](const MeasuredMesh& mesh) { return mesh.error.*part; });
+    };
+    const double coarseness =
+        mean([&](const MeasuredMesh& mesh) { return by_error ? mesh.coarseness : 1.0 / mesh.coarseness; });
+    return {{"view", name}, {"triangles", "{:.0f}", mean(&MeasuredMesh::triangles)},
+        {"in view", "{:.0f}", mean(&MeasuredMesh::triangles_in_view)},
+        {by_error ? "error px" : "C", "{:.4g}", coarseness},
+        {"maximum px", "{:.4g}", mean_error(&terrain::ProjectedError::maximum_px)},
+        {"99.9 % px", "{:.4g}", mean_error(&terrain::ProjectedError::p999_px)},
+        {"99 % px", "{:.4g}", mean_error(&terrain::ProjectedError::p99_px)},
+        {"rms px", "{:.4g}", mean_error(&terrain::ProjectedError::rms_px)},
+        {"mean px", "{:.4g}", mean_error(&terrain::ProjectedError::mean_px)},
+        {"samples", "{:.0f}", mean([](const MeasuredMesh& mesh) { return mesh.error.samples; })},
+        {"uncovered", "{:.0f}", mean([](const MeasuredMesh& mesh) { return mesh.error.uncovered; })}};
 }
 
 /// Roettger's rule: the c with which it needs the fewest triangles.
@@ -142,35 +150,27 @@ BestRoughness best_of_roettger(const LoadedGround& ground, const ErrorMeasuremen
 
 } // namespace
 
-report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement& run) {
+report::ResultTable error_table(const LoadedGround& ground, const ErrorMeasurement& run) {
     const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
     const std::vector<MeasuredMesh> meshes = measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
-    report::HtmlTable table;
-    table.title = fmt::format("Projected error of {} meshes", settings::text_of(run.mesh.mesh));
-    table.header = {"view", "triangles", "in view", by_error ? "error px" : "C", "maximum px", "99.9 % px", "99 % px",
-        "rms px", "mean px", "samples", "uncovered"};
-    std::array<double, value_count> mean{};
+    report::ResultTable table{fmt::format("Projected error of {} meshes", settings::text_of(run.mesh.mesh))};
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const auto values = values_of(meshes[k], by_error);
-        for (std::size_t i = 0; i < value_count; ++i) { mean[i] += values[i] / static_cast<double>(meshes.size()); }
-        table.rows.push_back(row_of(fmt::format("{}", k + 1), values));
+        table.add(row_of(fmt::format("{}", k + 1), std::span(meshes).subspan(k, 1), by_error));
     }
-    if (meshes.size() > 1) { table.rows.push_back(row_of("mean", mean)); }
+    if (meshes.size() > 1) { table.add(row_of("mean", meshes, by_error)); }
     table.note = "Every sample of the field inside the frustum (near 10 m) counts once: distance "
                  "on the screen to the mesh's surface at the same place. In view: triangles not "
                  "wholly outside the frustum, back faces included.";
     return table;
 }
 
-report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run) {
+report::ResultTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run) {
     const double own = mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
     const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
     const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
-    report::HtmlTable table;
-    table.title = fmt::format("Triangles in view at {:.4g} px", *run.target_error_px);
-    table.header = {"mesh", "triangles", "c", "ratio"};
+    report::ResultTable table{fmt::format("Triangles in view at {:.4g} px", *run.target_error_px)};
     const auto row = [&](const std::string& name, double triangles, const std::string& c) {
-        table.add_row("{}\t{:.0f}\t{}\t{:.3f}", name, triangles, c, own / triangles);
+        table.add({{"mesh", name}, {"triangles", "{:.0f}", triangles}, {"c", c}, {"ratio", "{:.3f}", own / triangles}});
     };
     row(settings::text_of(run.mesh.mesh), own, "");
     row("Roettger, full fans", full.triangles, fmt::format("{}", full.roughness_c));

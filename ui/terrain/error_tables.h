@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/report/html_text.h"
+#include "ui/report/table.h"
 #include "ui/terrain/ground_view.h"
 #include "visuals/scene/camera.h"
 
@@ -19,10 +19,10 @@ struct ErrorMeasurement {
 };
 
 /// A row a camera, and the mean where there are several: triangles and error. Throws Error as mesh_from_options.
-report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement& run);
+report::ResultTable error_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 /// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with full and with partial
-/// fans, its c the best for it of some. `run.target_error_px` is there.
-report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run);
+/// fans, with the best of several values of c. `run.target_error_px` is there.
+report::ResultTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 } // namespace octant::ui::terrain

@@ -62,8 +62,6 @@ terrain::PerspectiveView picture_view(const scene::Camera& camera, const glm::iv
     return view;
 }
 
-namespace terrain = visuals::terrain;
-
 terrain::GroundSamples LoadedGround::samples() const {
     return std::visit([](const auto& ground) { return terrain::GroundSamples(ground); }, ground_);
 }
@@ -98,8 +96,6 @@ LoadedGround load_ground(GroundViewOptions& options, bool quiet) {
     }
     return ground;
 }
-
-namespace scene = visuals::scene;
 
 std::vector<EyePoint> read_eye_points(const std::filesystem::path& file, const std::string& map) {
     const std::string text = read_text_file(file);

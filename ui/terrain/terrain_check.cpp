@@ -173,8 +173,6 @@ int CrackFinder::cracks(const visuals::terrain::GroundMesh& mesh, const scene::C
     return cracks;
 }
 
-namespace terrain = visuals::terrain;
-
 namespace {
 
 constexpr glm::ivec2 size_px{320, 180};

@@ -5,6 +5,7 @@
 #include "ui/base/json_value.h"
 #include "visuals/terrain/ground_query.h"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -20,9 +21,12 @@ JsonValue point_results(const std::optional<glm::dvec3>& place) {
     return place ? JsonValue::list({place->x, place->y, place->z}) : JsonValue();
 }
 
-std::optional<double> above_m(const QueryPointResult& answer) {
-    return answer.query_point.z_m && answer.ground_m ? std::optional(*answer.query_point.z_m - *answer.ground_m)
-                                                     : std::nullopt;
+/// A column of a coordinate.
+template <auto Member>
+constexpr auto metres(std::string_view key) {
+    auto made = report::column<Member>(key, key, -10);
+    made.is_signed = true;
+    return made;
 }
 
 /// A number as a CSV cell; an empty cell where there is none.
@@ -34,11 +38,8 @@ std::string cells(const std::optional<glm::dvec3>& place) {
 
 std::string csv_text(const QueryResults& answers) {
     std::string text;
-    if (!answers.points.empty()) { text += "x_m,y_m,z_m,ground_m,above_ground_m\n"; }
-    for (const QueryPointResult& answer : answers.points) {
-        text += fmt::format("{:.10g},{:.10g},{},{},{}\n", answer.query_point.x_m, answer.query_point.y_m,
-            cell(answer.query_point.z_m), cell(answer.ground_m), cell(above_m(answer)));
-    }
+    if (!answers.points.empty()) { text += report::csv_header(query_columns()); }
+    for (const QueryPointResult& answer : answers.points) { text += report::csv_line(query_columns(), answer); }
     if (answers.sight) {
         const LineOfSightAnswer& sight = *answers.sight;
         text += fmt::format("visible,clearance_m,lowest_x_m,lowest_y_m,lowest_z_m,hidden_x_m,hidden_y_m,"
@@ -50,6 +51,18 @@ std::string csv_text(const QueryResults& answers) {
 }
 
 } // namespace
+
+QueryPointResult answer_of(const QueryPoint& point, const std::optional<double>& ground_m) {
+    const auto above_m = point.z_m && ground_m ? std::optional(*point.z_m - *ground_m) : std::nullopt;
+    return {point.x_m, point.y_m, point.z_m, ground_m, above_m};
+}
+
+std::span<const report::Column<QueryPointResult>> query_columns() {
+    using R = QueryPointResult;
+    static constexpr std::array columns{metres<&R::x_m>("x_m"), metres<&R::y_m>("y_m"), metres<&R::z_m>("z_m"),
+        metres<&R::ground_m>("ground_m"), metres<&R::above_ground_m>("above_ground_m")};
+    return columns;
+}
 
 std::optional<QueryPoint> point_from_text(std::string_view text) {
     const auto fields = split_fields(text, ',');
@@ -85,7 +98,7 @@ std::vector<QueryPointResult> ground_heights_at(
     const terrain::GroundSamples& ground, std::span<const QueryPoint> points) {
     std::vector<QueryPointResult> answers;
     for (const QueryPoint& point : points) {
-        answers.push_back({point, terrain::ground_height_m(ground, point.x_m, point.y_m)});
+        answers.push_back(answer_of(point, terrain::ground_height_m(ground, point.x_m, point.y_m)));
     }
     return answers;
 }
@@ -95,7 +108,7 @@ std::vector<QueryPointResult> drawn_heights_at(const DrawnMesh& drawn, std::span
     for (const QueryPoint& point : points) {
         auto height_m = drawn.surface.height_at(point.x_m, point.y_m);
         if (height_m) { *height_m += drawn.drop_m({point.x_m, point.y_m}); }
-        answers.push_back({point, height_m});
+        answers.push_back(answer_of(point, height_m));
     }
     return answers;
 }
@@ -128,8 +141,7 @@ std::string query_text(const QueryResults& answers, bool json) {
     JsonValue whole;
     whole["points"] = JsonValue::list({});
     for (const QueryPointResult& answer : answers.points) {
-        whole["points"].push_back({{"x_m", answer.query_point.x_m}, {"y_m", answer.query_point.y_m},
-            {"z_m", answer.query_point.z_m}, {"ground_m", answer.ground_m}, {"above_ground_m", above_m(answer)}});
+        whole["points"].push_back(report::json_of(query_columns(), answer));
     }
     if (answers.sight) {
         const LineOfSightAnswer& sight = *answers.sight;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/report/table.h"
 #include "visuals/terrain/frustum.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_measurement.h"
@@ -32,9 +33,18 @@ std::optional<QueryPoint> point_from_text(std::string_view text);
 std::vector<QueryPoint> read_points(const std::filesystem::path& file);
 
 struct QueryPointResult {
-    QueryPoint query_point;
-    std::optional<double> ground_m; ///< nothing outside the map or the mesh
+    double x_m = 0.0; ///< as QueryPoint
+    double y_m = 0.0;
+    std::optional<double> z_m;
+    std::optional<double> ground_m;       ///< nothing outside the map or the mesh
+    std::optional<double> above_ground_m; ///< of z_m
 };
+
+/// The answer for a point whose ground has that height.
+QueryPointResult answer_of(const QueryPoint& point, const std::optional<double>& ground_m);
+
+/// How an answer is written.
+std::span<const report::Column<QueryPointResult>> query_columns();
 
 struct LineOfSightAnswer {
     bool visible = true;

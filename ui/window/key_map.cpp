@@ -1,7 +1,7 @@
 #include "ui/window/key_map.h"
 
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 
 #define GLFW_INCLUDE_NONE

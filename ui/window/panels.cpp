@@ -1,8 +1,8 @@
 #include "ui/window/panels.h"
 
+#include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "sim/base/utf8.h"
-#include "sim/fixed_step.h"
+#include "sim/flight_steps.h"
 #include "sim/sun_position.h"
 #include "ui/base/data_files.h"
 #include "ui/flight/frame_renderer.h"

@@ -1,7 +1,6 @@
 #include "ui/window/viewer.h"
 
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"

@@ -2,13 +2,13 @@
 
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
-#include "sim/fixed_step.h"
+#include "sim/base/output_file.h"
+#include "sim/flight_steps.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -8,18 +8,18 @@
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "ui/base/data_files.h"
 #include "ui/base/stopwatch.h"
 #include "ui/settings/order_cache_name.h"
 #include "ui/world/input_files.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/ordercache/binary_file.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/refine/active_mesh.h"
@@ -127,9 +127,9 @@ void note_axes(const AircraftAxes& axes, const fs::path& file, std::vector<std::
     }
 }
 
-/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or a .pm file another layout, or files beside
-/// it: what was cached before is then made anew.
-constexpr unsigned refine_mesh_cache_version = 3;
+/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was cached
+/// before is then made anew.
+constexpr unsigned refine_mesh_cache_version = 4;
 
 template <class Item>
 void add_list(Hash& hash, const std::vector<Item>& list) {
@@ -152,69 +152,38 @@ std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
     return hash.value();
 }
 
-/// The file beside a hierarchy that tells what was repaired before it was made.
-fs::path repairs_file(fs::path file) { return file.replace_extension(".repairs"); }
-
-void write_repairs(const fs::path& file, const std::vector<std::string>& repairs) {
-    ordercache::BinaryWriter out;
-    out.number(std::uint64_t{repairs.size()});
-    for (const std::string& line : repairs) { out.text(line); }
-    out.number(checksum_of(out.bytes()));
-    write_file(file, out.bytes());
-}
-
-/// Throws Error.
-std::vector<std::string> read_repairs(const fs::path& file) {
-    constexpr std::size_t max_bytes = std::size_t{1} << 16U;
-    const std::string bytes = read_file(file, max_bytes);
-    try {
-        ordercache::BinaryReader in(bytes);
-        std::vector<std::string> repairs(in.count(sizeof(std::uint64_t)));
-        for (std::string& line : repairs) { line = in.text(); }
-        const std::string_view summed(bytes.data(), bytes.size() - in.bytes_left());
-        if (in.number<std::uint64_t>() != checksum_of(summed) || in.bytes_left() > 0) {
-            throw Error("expected the bytes of its checksum, got others");
-        }
-        return repairs;
-    } catch (const Error& fault) { throw_error_in(file, fault.what()); }
-}
-
-/// Without its notes. Nothing, and a note where there is a file, when it cannot be used.
-std::optional<RefineMesh> read_cached_mesh(const fs::path& file, std::vector<std::string>& notes) {
-    if (!path_exists(file)) { return std::nullopt; }
-    try {
-        RefineMesh kept;
-        kept.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
-        if (!kept.mesh->parts().notes.empty()) {
-            throw_error_in(file, "expected a whole file, got one that was cut off");
-        }
-        kept.repairs = read_repairs(repairs_file(file));
-        return kept;
-    } catch (const Error& fault) {
-        notes.push_back(fmt::format("order cache {}: made anew", fault.what()));
-        return std::nullopt;
-    }
-}
-
 } // namespace
 
 fs::path refine_mesh_cache_file(const fs::path& folder, const models::TriangleMesh& mesh) {
-    return folder / fmt::format("{:016x}{:016x}.pm", hash_of(mesh, 1), hash_of(mesh, 2));
+    return folder / fmt::format("{:016x}{:016x}.mesh", hash_of(mesh, 1), hash_of(mesh, 2));
 }
 
 RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
     const fs::path file = refine_mesh_cache_file(folder, mesh);
+    const std::string key = file.stem().string();
+    const CacheFile cache{.cache = "order cache",
+        .file = file,
+        .kind = {.content = "a prepared mesh", .signature = "octrefin", .version = refine_mesh_cache_version},
+        .key = key};
+    const auto decode = [&](BinaryReader& in) {
+        RefineMesh prepared;
+        prepared.repairs.resize(in.take_count(sizeof(std::uint64_t), "a number of repairs"));
+        for (std::string& line : prepared.repairs) { line = in.take_text(); }
+        prepared.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::progressive_mesh(in.take_text(), file));
+        return prepared;
+    };
     std::vector<std::string> notes;
-    if (auto kept = read_cached_mesh(file, notes)) {
-        kept->notes = std::move(mesh.notes);
-        note_repairs(input, *kept);
-        return std::move(*kept);
+    if (auto prepared = read_cache(cache, decode, notes)) {
+        prepared->notes = std::move(mesh.notes);
+        note_repairs(input, *prepared);
+        return std::move(*prepared);
     }
     RefineMesh made = make_refine_mesh(input, std::move(mesh));
-    try {
-        write_repairs(repairs_file(file), made.repairs); // first: a hierarchy never lacks them
-        refine::write_progressive(file, *made.mesh);
-    } catch (const Error& fault) { notes.push_back(fmt::format("order cache {}: not kept", fault.what())); }
+    BinaryWriter out;
+    out.put(std::uint64_t{made.repairs.size()});
+    for (const std::string& line : made.repairs) { out.put_text(line); }
+    out.put_text(refine::progressive_bytes(*made.mesh));
+    write_cache(cache, out.bytes(), notes);
     made.notes.insert(made.notes.end(), notes.begin(), notes.end());
     return made;
 }
@@ -433,17 +402,18 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
 constexpr std::uintmax_t max_bytes_of_user_cache = std::uintmax_t{256} << 20;
 
 /// A file of a cache.
-struct CacheFile {
+struct FoundFile {
     fs::file_time_type written;
     fs::path path;
     std::uintmax_t bytes = 0;
 };
 
-/// What caches keep, and nothing else that lies there. What another run is writing is left alone.
-const std::array<fs::path, 3> cache_file_endings{".order", ".pm", ".repairs"};
+/// What caches keep, and nothing else that lies there; the last two are of older releases. What another run is writing
+/// is left alone.
+const std::array<fs::path, 4> cache_file_endings{".order", ".mesh", ".pm", ".repairs"};
 
-std::vector<CacheFile> files_of(const fs::path& folder) {
-    std::vector<CacheFile> files;
+std::vector<FoundFile> files_of(const fs::path& folder) {
+    std::vector<FoundFile> files;
     std::error_code ignored;
     for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
         const fs::path kind = entry->path().extension();
@@ -466,10 +436,10 @@ std::vector<CacheFile> files_of(const fs::path& folder) {
 } // namespace
 
 void remove_oldest(const fs::path& folder, std::uintmax_t max_bytes) {
-    std::vector<CacheFile> files = files_of(folder);
-    std::ranges::sort(files, std::greater(), &CacheFile::written);
+    std::vector<FoundFile> files = files_of(folder);
+    std::ranges::sort(files, std::greater(), &FoundFile::written);
     std::uintmax_t sum = 0;
-    for (const CacheFile& file : files) {
+    for (const FoundFile& file : files) {
         if (file.bytes > max_bytes - sum) {
             std::error_code ignored;
             fs::remove(file.path, ignored);
@@ -536,17 +506,14 @@ draworder::OrderedModel with_order(
     return std::move(cached.ordered);
 }
 
-/// Whether a line of an OBJ file names a material file of pictures or glass, which meshes show.
-bool names_pictures_or_glass(std::string_view line, const fs::path& file) {
-    if (!line.starts_with("mtllib")) { return false; }
-    const fs::path folder = file.parent_path();
-    const fs::path materials = folder / models::polygons::after_first_word(line);
+/// Whether a material file has pictures or glass, which meshes show.
+bool has_pictures_or_glass(const fs::path& materials) {
     std::error_code ignored;
     if (!fs::is_regular_file(materials, ignored)) { return false; }
-    const auto pictures = models::polygons::pictures_of_mtl(materials);
-    return !models::polygons::opacities_of_mtl(materials).empty() ||
-           std::ranges::any_of(pictures,
-               [&](const auto& of_material) { return fs::is_regular_file(folder / of_material.second, ignored); });
+    const models::polygons::MtlFile read = models::polygons::read_mtl(materials);
+    return !read.opacities.empty() || std::ranges::any_of(read.pictures, [&](const auto& of_material) {
+        return fs::is_regular_file(materials.parent_path() / of_material.second, ignored);
+    });
 }
 
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
@@ -557,11 +524,13 @@ bool is_polygon_model(const fs::path& file) {
     std::size_t others = 0;
     bool is_plain = true;
     const std::string text = read_text_file(file);
-    for (const std::string_view line : split_lines(text)) {
-        if (line.starts_with("f ") || line.starts_with("f\t")) {
-            ++(split_words(line).size() == 4 ? triangles : others);
+    TextScanner lines(file, text);
+    while (lines.next_line()) {
+        if (lines.skip("f")) {
+            ++(lines.words().size() == 3 ? triangles : others);
+        } else if (lines.skip("mtllib")) {
+            is_plain = is_plain && !has_pictures_or_glass(file.parent_path() / lines.rest_of_line());
         }
-        is_plain = is_plain && !names_pictures_or_glass(line, file);
     }
     const std::size_t faces = triangles + others;
     const bool is_mesh = faces > max_triangles_of_a_model && others < faces / 10;
@@ -645,7 +614,7 @@ AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vec
         .order_cache = settings.surface.order_cache};
     for (const std::string& shape : inputs.shapes) {
         const fs::path file = base::aircraft_file(shape);
-        const LineReader opened(file);
+        open_file(file);
         add_mtime(file, inputs.files);
         for (const fs::path& named : referenced_files(file)) { add_mtime(named, inputs.files); }
     }

@@ -2,9 +2,8 @@
 
 #include "flightpaths/fly_script.h"
 #include "models/heights/runway_strip.h"
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
-#include "sim/base/geo_position.h"
 #include "sim/base/ground_height.h"
 #include "sim/trajectory.h"
 #include "ui/settings/aircraft_entry.h"

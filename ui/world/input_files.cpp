@@ -3,10 +3,12 @@
 #include "models/heights/map_inputs.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/meshfile/xml_tree.h"
+#include "models/polygons/obj_reader.h"
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
 #include "sim/base/hash.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/order_cache_name.h"
@@ -36,16 +38,6 @@ namespace {
 
 constexpr std::size_t largest_model_bytes = std::size_t{1} << 30U;
 constexpr std::size_t max_files = 2'000;
-
-/// What is left of a line after its first word, without quotes.
-std::string after_first_word(std::string_view line) {
-    constexpr std::string_view around = " \t\r\"";
-    const std::size_t word_end = line.find_first_of(" \t");
-    line.remove_prefix(std::min(word_end, line.size()));
-    const std::size_t first = line.find_first_not_of(around);
-    const std::size_t last = line.find_last_not_of(around);
-    return first == line.npos ? std::string() : std::string(line.substr(first, last - first + 1));
-}
 
 /// Follows names from file to file.
 class ReferenceCollector {
@@ -93,32 +85,27 @@ private:
 
     void add_ac3d_references(const fs::path& file, const fs::path& pictures) {
         const std::string text = text_of(file);
-        for (const std::string_view line : split_lines(text)) {
-            if (line.starts_with("texture ")) { add_picture(pictures, after_first_word(line)); }
+        TextScanner lines(file, text);
+        while (lines.next_line()) {
+            if (!lines.skip("texture")) { continue; }
+            std::string name(lines.rest_of_line());
+            std::erase(name, '"');
+            add_picture(pictures, name);
         }
     }
 
     void add_obj_references(const fs::path& file) {
-        LineReader lines(file);
-        while (const auto line = lines.next()) {
-            const auto words = split_words(*line);
-            if (words.size() < 2 || words.front() != "mtllib") { continue; }
-            // One name with blanks, or several.
-            add(file.parent_path() / std::string(words[1].data(), line->data() + line->size()));
-            for (auto word = words.begin() + 1; word != words.end(); ++word) {
-                add(file.parent_path() / std::string(*word));
-            }
+        TextScanner text = TextScanner::of_file(file);
+        while (text.next_line()) {
+            if (!text.skip("mtllib")) { continue; }
+            for (const std::string_view word : text.words()) { add(file.parent_path() / std::string(word)); }
+            add(file.parent_path() / std::string(text.rest_of_line())); // one name with blanks
         }
     }
 
     void add_material_references(const fs::path& file) {
-        const std::string text = text_of(file);
-        for (const std::string_view line : split_lines(text)) {
-            const auto words = split_words(line);
-            if (words.size() >= 2 && words.front() == "map_Kd") {
-                add_picture(
-                    file.parent_path(), words[1].starts_with('-') ? std::string(words.back()) : after_first_word(line));
-            }
+        for (const auto& [material, picture] : models::polygons::read_mtl(file).pictures) {
+            add_picture(file.parent_path(), picture);
         }
     }
 

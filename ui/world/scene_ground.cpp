@@ -7,6 +7,7 @@
 #include "models/heights/runway_strip.h"
 #include "models/procedural/procedural_models.h"
 #include "models/procedural/procedural_terrain.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
@@ -18,7 +19,6 @@
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
-#include "visuals/ordercache/binary_file.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <algorithm>
@@ -46,8 +46,6 @@ namespace terrain = visuals::terrain;
 using models::heights::HeightField;
 using models::heights::RunwayStrip;
 using scene::GroundShading;
-using visuals::ordercache::BinaryReader;
-using visuals::ordercache::BinaryWriter;
 
 // Built-in heights are cached. A file in the cache is: signature, version, columns, rows, spacing, heights, and a
 // checksum of all bytes before it.
@@ -55,8 +53,6 @@ using visuals::ordercache::BinaryWriter;
 namespace {
 
 constexpr std::array<std::string_view, 2> built_in{"hills", "canyon"};
-/// "octheigh" as a little-endian machine writes it; another machine's files read as another kind.
-constexpr std::uint64_t height_signature = 0x686769656874636fULL;
 
 std::string height_bytes(const HeightField& field) {
     std::vector<float> heights_m;
@@ -64,67 +60,48 @@ std::string height_bytes(const HeightField& field) {
         for (int column = 0; column < field.columns(); ++column) { heights_m.push_back(field.height_m(column, row)); }
     }
     BinaryWriter out;
-    out.number(height_signature);
-    out.number(models::procedural::procedural_version);
-    out.number(field.columns());
-    out.number(field.rows());
-    out.number(field.spacing_m());
-    out.array(heights_m);
-    out.number(checksum_of(out.bytes()));
-    return out.bytes();
+    out.put(field.columns());
+    out.put(field.rows());
+    out.put(field.spacing_m());
+    out.put_list(heights_m);
+    return out.take();
 }
 
-/// Nothing where the bytes are no kept heights. Throws Error where they end too soon.
-std::optional<HeightField> field_of(std::string_view bytes) {
-    BinaryReader in(bytes);
-    if (in.number<std::uint64_t>() != height_signature ||
-        in.number<std::uint32_t>() != models::procedural::procedural_version) {
-        return std::nullopt;
-    }
-    const int columns = in.number<int>();
-    const int rows = in.number<int>();
-    const double spacing_m = in.number<double>();
-    std::vector<float> heights_m = in.array<float>();
-    const std::string_view summed = bytes.substr(0, bytes.size() - in.bytes_left());
-    const auto sum = in.number<std::uint64_t>();
+/// Throws Error unless these are the heights of a built-in ground.
+HeightField take_heights(BinaryReader& in) {
+    const int columns = in.take<int>();
+    const int rows = in.take<int>();
+    const double spacing_m = in.take<double>();
+    std::vector<float> heights_m = in.take_list<float>("heights");
     const models::procedural::ProceduralTerrainOptions defaults;
     const auto side = static_cast<std::size_t>(defaults.size);
-    const bool is_field = columns == defaults.size && rows == defaults.size && spacing_m == defaults.spacing_m &&
-                          heights_m.size() == side * side &&
-                          std::ranges::all_of(heights_m, [](float m) { return std::isfinite(m); });
-    if (sum != checksum_of(summed) || in.bytes_left() > 0 || !is_field) { return std::nullopt; }
+    in.check(columns == defaults.size && rows == defaults.size && spacing_m == defaults.spacing_m &&
+                 heights_m.size() == side * side &&
+                 std::ranges::all_of(heights_m, [](float m) { return std::isfinite(m); }),
+        "heights of a built-in ground");
     return HeightField(columns, rows, spacing_m, std::move(heights_m));
-}
-
-/// Nothing where there is no file that can be used.
-std::optional<HeightField> read_cached_field(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) { return std::nullopt; }
-    try {
-        return field_of(read_file(file));
-    } catch (const Error&) { return std::nullopt; }
-}
-
-void write_cached_field(const fs::path& file, const HeightField& field) {
-    std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
-    if (failed) { return; }
-    try {
-        write_file(file, height_bytes(field));
-    } catch (const Error&) { // Made anew the next time.
-    }
 }
 
 } // namespace
 
 std::optional<HeightField> built_in_ground(std::string_view name) {
     if (std::ranges::find(built_in, name) == built_in.end()) { return std::nullopt; }
-    const fs::path cache = base::cache_folder();
-    const fs::path file = cache / "ground" / fmt::format("{}.heights", name);
-    std::optional<HeightField> field = cache.empty() ? std::nullopt : read_cached_field(file);
+    const bool has_cache = !base::cache_folder().empty();
+    const fs::path folder = base::cache_folder() / "ground";
+    const CacheFile cache{.cache = "ground cache",
+        .file = folder / fmt::format("{}.heights", name),
+        .kind = {.content = "heights", .signature = "octheigh", .version = models::procedural::procedural_version},
+        .key = name};
+    std::vector<std::string> unused_notes; // The heights are made again in a second.
+    std::optional<HeightField> field;
+    if (has_cache) { field = read_cache(cache, take_heights, unused_notes); }
     if (!field) {
         field = models::procedural::procedural_terrain(name);
-        if (!cache.empty()) { write_cached_field(file, *field); }
+        if (has_cache) {
+            std::error_code ignored;
+            fs::create_directories(folder, ignored);
+            write_cache(cache, height_bytes(*field), unused_notes);
+        }
     }
     field->name = name;
     return field;

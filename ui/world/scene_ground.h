@@ -4,7 +4,6 @@
 #include "models/heights/import_options.h"
 #include "models/heights/runway_strip.h"
 #include "sim/base/earth_frame.h"
-#include "sim/base/geo_position.h"
 #include "ui/settings/settings.h"
 #include "ui/world/input_files.h"
 #include "visuals/landscape/ground.h"

@@ -5,7 +5,7 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
-#include "sim/hidden_height.h"
+#include "sim/base/thread_pool.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <future>
 #include <utility>
 #include <vector>
 
@@ -246,7 +245,7 @@ void formation_states(const Flight& flight, const Formation& formation, const si
         const sim::Trajectory& path = own->second;
         states[i] = path.state_at(time_s);
         states[i].time_s = leader.time_s;
-        if (time_s < path.start_s() || time_s > path.end_s()) { states[i].position_m.z = sim::absent_height_m; }
+        states[i].is_present = time_s >= path.start_s() && time_s <= path.end_s();
     }
 }
 
@@ -289,21 +288,25 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     }
     const AircraftSources inputs =
         aircraft_sources(settings, shapes_of(settings, path ? path->other_aircraft : std::vector<std::string>()));
-    // The ground loads in another thread while the aircraft load in this one. load_aircraft() comes before get(), so
-    // its errors are reported first.
-    std::future<GroundAndPlacement> coming_ground =
-        std::async(std::launch::async, [&] { return shared_or_load_ground(shared_world, settings, device, path); });
+    // At the same time, because finding a painting order takes one thread. Errors of the aircraft come first.
+    auto [aircraft, loaded] = run_both(
+        true,
+        [&] {
+            return shared_world != nullptr && shared_world->aircraft.inputs == inputs ? shared_world->aircraft
+                                                                                      : load_aircraft(inputs);
+        },
+        [&] { return shared_or_load_ground(shared_world, settings, device, path); });
+    const SceneGround& ground = loaded.ground;
     World world;
-    world.aircraft = shared_world != nullptr && shared_world->aircraft.inputs == inputs ? shared_world->aircraft
-                                                                                        : load_aircraft(inputs);
-    auto [ground, placement] = coming_ground.get();
+    world.aircraft = std::move(aircraft);
     check_clouds(settings.air, *ground.ground);
     fill_scene(ground, world.aircraft, world.scene);
     world.notes = world.aircraft.notes;
     if (path) { add_notes(world.notes, path->notes); }
     add_notes(world.notes, ground.notes);
-    world.flight = path ? place_flight(settings, std::move(*path), placement_ground(ground), world.notes, placement)
-                        : live_flight(settings, placement_ground(ground));
+    world.flight =
+        path ? place_flight(settings, std::move(*path), placement_ground(ground), world.notes, loaded.placement)
+             : live_flight(settings, placement_ground(ground));
     if (!is_live) {
         world.scene.path = drawn_path(world.flight);
         add_own_paths(settings, ground, world);
@@ -312,7 +315,7 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     }
     world.leader_kind = sim::find_aircraft_kind(settings::aircraft_shape(settings.path.aircraft.front()));
     add_notes(world.notes, sun_notes(settings, ground.info.place));
-    world.ground = std::move(ground.info);
+    world.ground = ground.info;
     world.points = fixed_points(settings, world);
     note_views(settings, is_live, world);
     return world;

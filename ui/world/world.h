@@ -3,7 +3,6 @@
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
-#include "sim/base/geo_position.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/aircraft_loader.h"

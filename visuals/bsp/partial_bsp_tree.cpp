@@ -2,7 +2,7 @@
 // Structures", SIGGRAPH 1980.
 //
 // Deviations:
-// - Before a set is divided, what hides what for eyes anywhere is looked at (clusters.h). Only
+// - Before a set is divided, what hides what for eyes anywhere is looked at. Only
 //   cycles of pieces are divided; a convex shell becomes one list without any cut.
 // - Planes need not be those of polygons.
 // - Polygons that lie in a node's plane stay in the node, in file order, those of either facing
@@ -10,22 +10,68 @@
 #include "visuals/bsp/partial_bsp_tree.h"
 
 #include "models/polygons/polygon_outlines.h"
+#include "visuals/bsp/piece_batch.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace octant::visuals::bsp {
 
 namespace {
+
+/// Where up to 64 pieces reach, a bit for each (PlaneSideFlags).
+struct PlaneSideBits {
+    std::uint64_t before = 0;
+    std::uint64_t behind = 0;
+};
+
+/// Some pieces with their bounding spheres and corners side by side in memory, for questions that are asked of all of
+/// them.
+class PieceTable {
+public:
+    static constexpr std::size_t pieces_per_block = 64;
+
+    /// Every `step`th of `items`, from the first one.
+    PieceTable(const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step = 1);
+
+    std::size_t count() const { return count_; }
+
+    /// How many blocks of 64 pieces there are; the last one may have fewer.
+    std::size_t blocks() const { return (count() + pieces_per_block - 1) / pieces_per_block; }
+
+    /// How many pieces a block has.
+    std::size_t count_in(std::size_t block) const;
+
+    /// PolygonPieces::sides_reached() of the pieces of a block; the bits of those that are not there are 0.
+    PlaneSideBits sides_reached(std::size_t block, const Plane& plane) const;
+
+private:
+    /// The corners beyond PieceBatch::corners.
+    struct ExtraCorners {
+        std::size_t first = 0;
+        std::size_t end = 0;
+    };
+
+    void add(const PolygonPieces& pieces, const PolygonPiece& piece);
+
+    std::size_t count_ = 0;
+    std::vector<PieceBatch> lanes_;
+    std::vector<std::uint64_t> has_extra_corners_; ///< A bit a piece: it has more than PieceBatch::corners.
+    std::vector<ExtraCorners> extra_corners_;      ///< One a piece.
+    std::vector<glm::dvec3> corners_;
+};
 
 constexpr std::size_t lanes_a_block = PieceTable::pieces_per_block / PieceBatch::pieces;
 
@@ -48,8 +94,6 @@ void put(PieceBatch::Points& points, std::size_t place, const glm::dvec3& point)
     points.y[place] = point.y;
     points.z[place] = point.z;
 }
-
-} // namespace
 
 PieceTable::PieceTable(const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step) {
     const std::size_t count = (items.size() + step - 1) / step;
@@ -103,7 +147,14 @@ PlaneSideBits PieceTable::sides_reached(std::size_t block, const Plane& plane) c
 // Where to divide polygons. As in a BSP tree by polygons' own planes; across the axes, where models have gaps between
 // their parts, the number of cuts is known for all planes at once by a sweep.
 
-namespace {
+/// How a plane parts pieces.
+struct SplitCounts {
+    std::size_t before = 0;   ///< Wholly before the plane.
+    std::size_t behind = 0;   ///< Wholly behind it.
+    std::size_t coplanar = 0; ///< In it.
+    std::size_t cut = 0;      ///< On both sides of it.
+    bool cuts_swept = false;  ///< What a turning polygon sweeps is on both sides: it cannot be cut.
+};
 
 /// At most so many planes of pieces are tried.
 constexpr std::size_t max_own_planes = 64;
@@ -234,12 +285,12 @@ private:
 class Sweep {
 public:
     explicit Sweep(const Ends& ends)
-        : count_(ends.low.size()), lowlink_(ends.low), high_(ends.high), swept_low_(ends.swept_low),
+        : count_(ends.low.size()), low_(ends.low), high_(ends.high), swept_low_(ends.swept_low),
           swept_high_(ends.swept_high) {}
 
     SplitCounts split_at(double at) {
         SplitCounts parted;
-        parted.before = count_ - lowlink_(at - tolerance);
+        parted.before = count_ - low_(at - tolerance);
         parted.behind = high_(at + tolerance);
         // What lies within the tolerance of the plane is in both counts.
         const std::size_t known = parted.before + parted.behind;
@@ -254,7 +305,7 @@ public:
 
 private:
     std::size_t count_;
-    CountBelow lowlink_;
+    CountBelow low_;
     CountBelow high_;
     CountBelow swept_low_;
     CountBelow swept_high_;
@@ -283,8 +334,9 @@ Costed best_across(const PolygonPieces& pieces, std::span<const std::uint32_t> i
     return best;
 }
 
-} // namespace
-
+/// A plane that divides pieces in two, or takes at least one of them out because it lies in it: the one with few cuts
+/// and even halves among planes of pieces, at most 64 spread over them, and planes across the axes at the ends of
+/// pieces. Returns nothing when every plane cuts what turns or leaves all pieces together.
 std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
     Costed best = best_own(pieces, items);
     for (int axis = 0; axis < 3; ++axis) {
@@ -296,7 +348,58 @@ std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<cons
 
 // What hides what for eyes anywhere, and which pieces have an order that is right for all of them.
 
-namespace {
+/// A square of bits, 64 to a word.
+class BitMatrix {
+public:
+    explicit BitMatrix(std::size_t count) : words_((count + 63) / 64), bits_(words_ * 64 * words_, 0) {}
+
+    std::size_t words() const { return words_; }
+
+    std::uint64_t& word(std::size_t row, std::size_t word) { return bits_[row * words_ + word]; }
+
+    void add(std::size_t row, std::size_t column) { word(row, column / 64) |= std::uint64_t{1} << (column % 64); }
+
+    void remove(std::size_t row, std::size_t column) { word(row, column / 64) &= ~(std::uint64_t{1} << (column % 64)); }
+
+    /// Rows become columns, block by block.
+    void transpose() {
+        for (std::size_t row = 0; row < words_; ++row) {
+            for (std::size_t column = 0; column <= row; ++column) {
+                const Block lower = transposed_block(row, column);
+                put(column, row, transposed_block(column, row), lower);
+            }
+        }
+    }
+
+private:
+    using Block = std::array<std::uint64_t, 64>;
+
+    /// A block of 64 rows and columns, transposed by halves, quarters and so on.
+    Block transposed_block(std::size_t row, std::size_t column) {
+        Block block;
+        for (std::size_t i = 0; i < 64; ++i) { block[i] = word(row * 64 + i, column); }
+        std::uint64_t mask = 0xffffffffU;
+        for (unsigned width = 32; width != 0; width /= 2, mask ^= mask << width) {
+            for (unsigned i = 0; i < 64; i = (i + width + 1) & ~width) {
+                const std::uint64_t swapped = ((block[i] >> width) ^ block[i + width]) & mask;
+                block[i] ^= swapped << width;
+                block[i + width] ^= swapped;
+            }
+        }
+        return block;
+    }
+
+    /// Writes two blocks that have changed places.
+    void put(std::size_t row, std::size_t column, const Block& across, const Block& here) {
+        for (std::size_t i = 0; i < 64; ++i) {
+            word(column * 64 + i, row) = across[i];
+            word(row * 64 + i, column) = here[i];
+        }
+    }
+
+    std::size_t words_;
+    std::vector<std::uint64_t> bits_; ///< Rows in multiples of 64.
+};
 
 /// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
 bool has_separating_edge(const PolygonPieces& pieces, const PolygonPiece& a, const PolygonPiece& b) {
@@ -487,7 +590,7 @@ using Items = std::vector<std::uint32_t>;
 /// are polygons.
 class PartialBspBuilder {
 public:
-    PartialBspBuilder(PolygonPieces& pieces, bool has_list_leaves) : pieces_(pieces), by_clusters_(has_list_leaves) {}
+    explicit PartialBspBuilder(PolygonPieces& pieces) : pieces_(pieces) {}
 
     PartialBspTree build(Items items) {
         to_do_.push_back({std::move(items), -1, nullptr, 1, false});
@@ -523,7 +626,7 @@ private:
         if (task.items.empty()) { return PartialBspTree::nothing; }
         if (task.items.size() == 1) { return list_of(std::move(task.items)); }
         const std::size_t count = task.items.size();
-        const bool looks = by_clusters_ && !task.is_cycle && count <= max_samples_at_once &&
+        const bool looks = !task.is_cycle && count <= max_samples_at_once &&
                            (count <= always_looked_at || count <= task.looked_at / 4);
         if (!looks) { return choose_split(task); }
         task.looked_at = count;
@@ -629,15 +732,14 @@ private:
     }
 
     PolygonPieces& pieces_;
-    bool by_clusters_;
     std::vector<Task> to_do_;
     PartialBspTree tree_;
 };
 
 } // namespace
 
-PartialBspTree partial_bsp_tree(PolygonPieces& pieces, std::vector<std::uint32_t> items, bool has_list_leaves) {
-    return PartialBspBuilder(pieces, has_list_leaves).build(std::move(items));
+PartialBspTree partial_bsp_tree(PolygonPieces& pieces, std::vector<std::uint32_t> items) {
+    return PartialBspBuilder(pieces).build(std::move(items));
 }
 
 } // namespace octant::visuals::bsp

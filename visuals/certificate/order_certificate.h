@@ -20,8 +20,8 @@ struct OrderCertificate {
 /// plane that proves that nothing is hidden wrongly, and for each polygon that it leaves out that it faces away. What
 /// no proof is found for within a tolerance of 2e-9 of the model's size is sought with one of 1e-8 and then 5e-8, which
 /// the text tells; what is left is marked as such and counted. The order is one for every eye of the model
-/// (draworder::OrderMethod::Tree or Bsp), or for those that a view split with nothing on one side leaves
-/// (draworder::with_min_distance); of the others nothing is stated.
+/// (draworder::OrderMethod::Exact), or for those that a view split with nothing on one side leaves
+/// (orderstudy::with_min_distance); of the others nothing is stated.
 ///
 /// `progress(done, all)` counts nodes and lists. The time grows with the pairs.
 OrderCertificate order_certificate(const models::polygons::PolygonModel& model, const draworder::DrawOrder& order,

@@ -126,9 +126,4 @@ struct OrderCell {
 /// order is a painting order.
 DrawOrder file_order(const models::polygons::PolygonModel& model);
 
-/// Restricts an order by octants about a centre (body axes, metres) to the eyes with |x| + |y| + |z| >= `distance_m`
-/// from the centre: each octant gets one more view split, and nearer eyes are painted nothing. The first three view
-/// splits on each path must be planes through the centre across the axes, as OrderMethod::Cells makes them (asserted).
-DrawOrder with_min_distance(const DrawOrder& order, const glm::dvec3& centre_m, double distance_m);
-
 } // namespace octant::visuals::draworder

@@ -17,10 +17,6 @@
 
 namespace octant::visuals::draworder {
 
-//
-
-//
-
 // Outlines for the occlusion test. Polygons of a model share edges, and rounding would let them overlap a little and
 // seem to hide one another; shrinking each outline by an inset that is larger than the rounding prevents that.
 

@@ -4,7 +4,7 @@
 // - "Any point P of the octant" is one stated point, (1, 1, 1) * 3 R with the octant's signs.
 // - The normal is Newell's sum over all corners, not u x v of the first three, which may lie on one
 //   line.
-// - By default a polygon is listed when it faces some eye of the octant, not only P: near an axis
+// - A polygon is listed when it faces some eye of the octant, not only P: near an axis
 //   an eye sees polygons that P does not, and the renderer drops those that face away. Polygons
 //   that face away from P are compared like the others, by their outlines as seen from P.
 // - The paper does not say how a sequence is made from its pairs; here they are the edges of a
@@ -18,7 +18,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -109,9 +108,8 @@ std::string path_in_body(const std::string& path, const models::polygons::FileAx
 
 // E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time Animation", 1989,
 // section III.1, steps 2 to 4, equations (5)-(29). Deviations:
-// - The screen coordinates are not defined in the paper. Both readings are offered; in perspective
-//   depth is proportional to 1 / distance, without which a plane would not stay a plane and
-//   aXs + bYs + cZs + d = 0 would not hold.
+// - The screen coordinates are not defined in the paper. Here they are a parallel projection along the line from P to
+//   the origin, so that a plane stays a plane: aXs + bYs + cZs + d = 0.
 // - (8) is printed ZminB > ZminB and means ZminB > ZminA.
 // - (13)-(20) are printed as conditions for a crossing; any one that holds means that the edges do
 //   NOT cross.
@@ -183,36 +181,6 @@ PaintFirst by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
 
 } // namespace
 
-ScreenView::ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m)
-    : distance_m_(glm::length(viewpoint_m)), scale_m_(scale_m), screen_(screen) {
-    assert(distance_m_ > 0.0 && scale_m > 0.0);
-    towards_eye_ = viewpoint_m / distance_m_;
-    const bool along_x = std::abs(towards_eye_.x) > 0.9;
-    const glm::dvec3 aside = along_x ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    right_ = glm::normalize(glm::cross(aside, towards_eye_));
-    up_ = glm::cross(towards_eye_, right_);
-}
-
-glm::dvec3 ScreenView::screen_from_body(const glm::dvec3& point_m) const {
-    const glm::dvec3 in_view(glm::dot(point_m, right_), glm::dot(point_m, up_), glm::dot(point_m, towards_eye_));
-    if (screen_ == ScreenProjection::Parallel) { return in_view / scale_m_; }
-    assert(in_view.z < distance_m_);
-    return in_view * (distance_m_ / (distance_m_ - in_view.z) / scale_m_);
-}
-
-ScreenPolygon screen_polygon(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
-    ScreenPolygon seen;
-    for (const std::uint32_t vertex : model.corners(polygon)) {
-        seen.corners.push_back(view.screen_from_body(model.vertices_m[vertex]));
-    }
-    seen.least = seen.most = seen.corners.front();
-    for (const glm::dvec3& corner : seen.corners) {
-        seen.least = glm::min(seen.least, corner);
-        seen.most = glm::max(seen.most, corner);
-    }
-    return seen;
-}
-
 PaintFirst paint_first(const ScreenPolygon& a, const ScreenPolygon& b) {
     const PaintFirst by_depth = by_depth_range(a, b);
     if (by_depth != PaintFirst::Either) { return by_depth; }
@@ -224,19 +192,47 @@ namespace {
 /// Normal components below this are rounding.
 constexpr double min_component = 1e-12;
 
+/// Maps body axes to screen coordinates in units of the model's radius.
+class ScreenView {
+public:
+    ScreenView(const glm::dvec3& viewpoint_m, double radius_m)
+        : towards_eye_(viewpoint_m / glm::length(viewpoint_m)), radius_m_(radius_m) {
+        const bool along_x = std::abs(towards_eye_.x) > 0.9;
+        const glm::dvec3 aside = along_x ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+        right_ = glm::normalize(glm::cross(aside, towards_eye_));
+        up_ = glm::cross(towards_eye_, right_);
+    }
+
+    ScreenPolygon polygon(const models::polygons::PolygonModel& model, std::size_t polygon) const {
+        ScreenPolygon seen;
+        for (const std::uint32_t vertex : model.corners(polygon)) {
+            const glm::dvec3& point_m = model.vertices_m[vertex];
+            seen.corners.push_back(
+                glm::dvec3(glm::dot(point_m, right_), glm::dot(point_m, up_), glm::dot(point_m, towards_eye_)) /
+                radius_m_);
+        }
+        seen.least = seen.most = seen.corners.front();
+        for (const glm::dvec3& corner : seen.corners) {
+            seen.least = glm::min(seen.least, corner);
+            seen.most = glm::max(seen.most, corner);
+        }
+        return seen;
+    }
+
+private:
+    glm::dvec3 right_{0.0};
+    glm::dvec3 up_{0.0};
+    glm::dvec3 towards_eye_;
+    double radius_m_;
+};
+
 glm::dvec3 first_corner_m(const models::polygons::PolygonModel& model, std::size_t polygon) {
     return model.vertices_m[model.corners(polygon)[0]];
 }
 
-/// Step 1, n . l > 0: whether a polygon is seen from a point.
-bool faces_point(const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
-    const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
-    return glm::dot(normal, point_m - first_corner_m(model, polygon)) > 0.0;
-}
-
-/// Whether n . (eye - V1) > 0 for some eye of the octant with |eye| >= R. If a component of n has the octant's sign,
-/// eyes far out along its axis see the front. If none has, n . eye is largest at distance R on the axis where n has its
-/// smallest component.
+/// Step 1: whether n . (eye - V1) > 0 for some eye of the octant with |eye| >= R. If a component of n has the octant's
+/// sign, eyes far out along its axis see the front. If none has, n . eye is largest at distance R on the axis where n
+/// has its smallest component.
 bool faces_some_eye(
     const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& signs, double radius_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
@@ -245,19 +241,6 @@ bool faces_some_eye(
     if (largest > min_component) { return true; }
     const double offset_m = glm::dot(normal, first_corner_m(model, polygon));
     return std::min(largest, 0.0) * radius_m - offset_m > min_component * radius_m;
-}
-
-/// The polygons of an octant's list, ascending.
-std::vector<std::uint32_t> listed_polygons(const models::polygons::PolygonModel& model,
-    const PaperOrderOptions& options, const glm::dvec3& signs, double radius_m) {
-    std::vector<std::uint32_t> listed;
-    const glm::dvec3 viewpoint_m = signs * options.viewpoint_radii * radius_m;
-    for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
-        const bool faces = options.listed == ListingRule::FromPoint ? faces_point(model, i, viewpoint_m)
-                                                                    : faces_some_eye(model, i, signs, radius_m);
-        if (faces) { listed.push_back(i); }
-    }
-    return listed;
 }
 
 /// Step 5: compares all pairs. The precedences hold indices into `polygons`.
@@ -290,17 +273,20 @@ glm::dvec3 octant_signs(int octant) {
     return {octant % 2 == 0 ? 1.0 : -1.0, octant / 2 % 2 == 0 ? 1.0 : -1.0, octant < 4 ? 1.0 : -1.0};
 }
 
-OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options) {
-    assert(glm::all(glm::greaterThan(options.viewpoint_radii, glm::dvec3(0.0))));
+OctantOrders paper_orders(const models::polygons::PolygonModel& model) {
     const double radius_m = models::polygons::radius_m(model);
     OctantOrders orders;
     for (int octant = 0; octant < 8; ++octant) {
         const glm::dvec3 signs = octant_signs(octant);
-        const ScreenView view(signs * options.viewpoint_radii * radius_m, options.screen, radius_m);
-        const auto listed = listed_polygons(model, options, signs, radius_m);
+        const ScreenView view(signs * 3.0 * radius_m, radius_m);
+        std::vector<std::uint32_t> listed;
         std::vector<ScreenPolygon> seen;
-        seen.reserve(listed.size());
-        for (const std::uint32_t polygon : listed) { seen.push_back(screen_polygon(model, polygon, view)); }
+        for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
+            if (faces_some_eye(model, i, signs, radius_m)) {
+                listed.push_back(i);
+                seen.push_back(view.polygon(model, i));
+            }
+        }
         const TopologicalOrder sequence = topological_order(seen.size(), all_pairs(seen));
         for (const std::uint32_t place : sequence.order) {
             orders.lists[static_cast<std::size_t>(octant)].push_back(listed[place]);

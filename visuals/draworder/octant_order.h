@@ -42,40 +42,12 @@ std::string path_in_file(const std::string& path, const models::polygons::FileAx
 /// The inverse of path_in_file.
 std::string path_in_body(const std::string& path, const models::polygons::FileAxes& axes);
 
-/// How screen coordinates are made from a viewpoint; the paper does not say.
-enum class ScreenProjection {
-    Parallel,   ///< A parallel projection along the line from the viewpoint to the origin.
-    Perspective ///< A perspective projection from the viewpoint, which looks at the origin.
-};
-
-/// Maps body axes to screen coordinates (Xs, Ys, Zs), where a larger Zs is nearer to the eye. Straight lines and planes
-/// stay straight. Near the origin coordinates are in units of `scale_m`.
-class ScreenView {
-public:
-    /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With ScreenProjection::Perspective every point
-    /// that is mapped must be in front of the viewpoint (asserted).
-    ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m);
-
-    glm::dvec3 screen_from_body(const glm::dvec3& point_m) const;
-
-private:
-    glm::dvec3 right_{0.0};
-    glm::dvec3 up_{0.0};
-    glm::dvec3 towards_eye_{0.0};
-    double distance_m_ = 0.0;
-    double scale_m_ = 0.0;
-    ScreenProjection screen_;
-};
-
-/// A polygon in screen coordinates, with its bounding box.
+/// A polygon in screen coordinates (Xs, Ys, Zs), with its bounding box. A larger Zs is nearer to the eye.
 struct ScreenPolygon {
     std::vector<glm::dvec3> corners;
     glm::dvec3 least{0.0};
     glm::dvec3 most{0.0};
 };
-
-/// A polygon of the model in screen coordinates.
-ScreenPolygon screen_polygon(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
 
 /// Which of two polygons must be painted first.
 enum class PaintFirst { A, B, Either };
@@ -93,21 +65,6 @@ std::string octant_name(int octant);
 /// The direction (+-1, +-1, +-1) in the middle of an octant.
 glm::dvec3 octant_signs(int octant);
 
-/// Which polygons are put into an octant's list.
-enum class ListingRule {
-    FromOctant, ///< Those that face some eye of the octant at or beyond the model's radius.
-    FromPoint   ///< Those that face the octant's viewpoint P, as printed (step 1).
-};
-
-/// Options where the paper allows several readings.
-struct PaperOrderOptions {
-    /// The viewpoint P of octant +++, in units of the model's radius R; for the other octants its signs change. Each
-    /// component must be > 0, and with ScreenProjection::Perspective its length > 1 (asserted).
-    glm::dvec3 viewpoint_radii{3.0};
-    ScreenProjection screen = ScreenProjection::Parallel;
-    ListingRule listed = ListingRule::FromOctant;
-};
-
 /// The painting orders of the eight octants.
 struct OctantOrders {
     std::array<std::vector<std::uint32_t>, 8> lists; ///< Indexed by octant; first painted first.
@@ -116,9 +73,10 @@ struct OctantOrders {
     int cyclic_octants = 0; ///< The number of octants with broken cycles.
 };
 
-/// Steps 1 to 6 of the paper: the 8 painting orders of a model. Where the paper leaves the order free, the lower
-/// polygon number comes first. The time grows with the square of the polygons listed.
-OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options = {});
+/// Steps 1 to 6 of the paper: the 8 painting orders of a model. A list has the polygons that face some eye of the
+/// octant at or beyond the model's radius. Where the paper leaves the order free, the lower polygon number comes first.
+/// The time grows with the square of the polygons listed.
+OctantOrders paper_orders(const models::polygons::PolygonModel& model);
 
 /// The eye in body axes, metres: inverse(T R) * eye for an aircraft at `position_m` in the world with the attitude
 /// `body_to_world` (a unit quaternion). Its octant is the paper's run-time step, equations (33)-(36).

@@ -133,6 +133,17 @@ constexpr std::uint64_t units_of_witness = 2'000;
 constexpr std::uint64_t units_of_none = 1'000'000;
 constexpr std::uint64_t units_of_polygon_in_part = 60;
 
+/// How far an order is proved.
+struct OrderProof {
+    /// Pairs and polygons for which no proof was found.
+    std::uint64_t unproved = 0;
+    /// The first of these pairs: which is painted earlier, which later.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> unproved_pairs;
+    static constexpr std::size_t max_open = 100;
+    /// Whether the whole order was looked at; else the work was spent before.
+    bool is_complete = false;
+};
+
 /// Counts what is found, and what that costs.
 class Counting : public ProofVisitor {
 public:
@@ -176,8 +187,8 @@ private:
     OrderProof proof_;
 };
 
-} // namespace
-
+/// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core go. They are
+/// counted, not timed: the same model and order give the same proof.
 OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
     SearchBudget budget(seconds);
     OrderProof best;
@@ -198,8 +209,6 @@ OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOr
     }
     return best;
 }
-
-namespace {
 
 using models::polygons::PolygonModel;
 
@@ -398,9 +407,7 @@ RayTestResult ray_test_order(const PolygonModel& model, const DrawOrder& order, 
     const std::size_t angles = turns && scope.turning_parts ? angles_rad.size() : 1;
     OrderProof proof;
     if (!turns || scope.turning_parts) { // else no order is right, and none can be proved
-        proof = prove_order(model,
-            scope.min_distance_m > 0.0 ? with_min_distance(order, scope.centre_m, scope.min_distance_m) : order,
-            scope.proof_s);
+        proof = prove_order(model, scope.proved_order != nullptr ? *scope.proved_order : order, scope.proof_s);
     }
     RayTestResult ray_test{.unproved = proof.unproved, .is_proof_complete = proof.is_complete};
     RayTester trying(model, order, scope);

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace octant::visuals::draworder {
@@ -78,21 +77,6 @@ private:
     std::vector<FacingTarget> faced_;
 };
 
-/// How far an order is proved.
-struct OrderProof {
-    /// Pairs and polygons for which no proof was found.
-    std::uint64_t unproved = 0;
-    /// The first of these pairs: which is painted earlier, which later.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> unproved_pairs;
-    static constexpr std::size_t max_open = 100;
-    /// Whether the whole order was looked at; else the work was spent before.
-    bool is_complete = false;
-};
-
-/// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core go. They are
-/// counted, not timed: the same model and order give the same proof.
-OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds);
-
 /// Which eyes and polygons a ray test covers.
 struct RayTestOptions {
     /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can be right for them.
@@ -100,6 +84,8 @@ struct RayTestOptions {
     /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from there, metres.
     double min_distance_m = 0.0;
     glm::dvec3 centre_m{0.0};
+    /// The order for those eyes alone, which is proved in place of the other; null: the order itself.
+    const DrawOrder* proved_order = nullptr;
     /// About how long the proof may take on one core.
     double proof_s = 0.4;
 };
@@ -108,7 +94,7 @@ struct RayTestOptions {
 struct RayTestResult {
     long rays = 0;  ///< Rays that meet the front of a polygon away from its sides.
     long wrong = 0; ///< Of these, rays along which a polygon farther away was painted last.
-    /// Pairs and polygons for which no proof was found (prove_order).
+    /// Pairs and polygons for which no proof was found (proof_walk.h).
     std::uint64_t unproved = 0;
     bool is_proof_complete = false; ///< Whether the proof came to the end of the order.
 };

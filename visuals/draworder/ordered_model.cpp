@@ -1,16 +1,17 @@
-// Finds the orders of a model by the paper, by cells of eye space or by splitting polygons, and selects among the
-// results. The exact methods first cut polygons that pass through one another (split.cpp), then search over regions of
-// eyes (cell_search.cpp).
+// Finds the orders of a model by the paper or exactly. The exact method first cuts polygons that pass through one
+// another (split.cpp), then divides eye space (view_space_tree.cpp). Where that search ends, or splits more polygons
+// than needed, the polygons are split by planes (visuals/bsp). The result is tested before it is used
+// (order_ray_test.cpp).
 #include "visuals/draworder/ordered_model.h"
 
 #include "models/planar/planar_model.h"
 #include "visuals/bsp/partial_bsp_tree.h"
 #include "visuals/bsp/polygon_pieces.h"
-#include "visuals/draworder/cell_search.h"
 #include "visuals/draworder/occlusion.h"
 #include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/split.h"
 #include "visuals/draworder/view_cell.h"
+#include "visuals/draworder/view_space_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,30 @@
 
 namespace octant::visuals::draworder {
 
-// The method that never fails: polygons are divided by planes (a BSP tree of clusters).
+// The fall-back, which never fails: polygons are split by planes (a BSP tree whose leaves are lists).
 
 namespace {
 
 using models::polygons::PolygonModel;
 using Polygons = std::vector<std::uint32_t>;
+
+/// A model ordered by dividing its polygons, and the pieces that they were cut into.
+struct BspOrder {
+    models::polygons::PolygonModel model;
+    DrawOrder order;
+    int splits = 0; ///< How many polygons were added by cutting.
+    std::vector<std::string> notes;
+};
+
+/// A tree of view splits; some of its cells have no list yet.
+struct IncompleteOrder {
+    std::vector<DrawOrder::Node> nodes; ///< As DrawOrder takes them; at least one.
+    std::vector<std::vector<std::uint32_t>> lists;
+    /// For each cell without a list the sets of polygons that are painted one after the other; empty for others.
+    std::vector<std::vector<std::vector<std::uint32_t>>> incomplete_cells;
+    /// For each polygon of the model its plane, in body axes; those of slivers are not computed from their corners.
+    std::vector<Plane> planes;
+};
 
 /// A model of one turning part alone; `polygons` are its polygons.
 PolygonModel alone(const PolygonModel& model, const Polygons& polygons, std::uint32_t pivot) {
@@ -51,11 +70,11 @@ PolygonModel alone(const PolygonModel& model, const Polygons& polygons, std::uin
 /// Builds one order.
 class BspOrderBuilder {
 public:
-    BspOrderBuilder(PolygonModel model, BspLeaves way) : model_(std::move(model)), pieces_(model_), way_(way) {}
+    explicit BspOrderBuilder(PolygonModel model) : model_(std::move(model)), pieces_(model_) {}
 
     BspOrder order() {
         find_turning_parts();
-        tree_ = bsp::partial_bsp_tree(pieces_, items(), way_ == BspLeaves::Clusters);
+        tree_ = bsp::partial_bsp_tree(pieces_, items());
         for (const Polygons& cycle : tree_.unsplit_cycles) { add_note(cycle); }
         const auto splits = static_cast<int>(pieces_.added());
         pieces_.write_to(model_);
@@ -156,7 +175,7 @@ private:
     /// The child of a node that paints one set, which is divided.
     int parted(Polygons set) {
         add_new_pieces(set, model_.polygons.size());
-        tree_ = bsp::partial_bsp_tree(pieces_, std::move(set), true);
+        tree_ = bsp::partial_bsp_tree(pieces_, std::move(set));
         for (const Polygons& cycle : tree_.unsplit_cycles) { add_note(cycle); }
         if (tree_.root >= 0) {
             const std::size_t first = nodes_.size();
@@ -252,23 +271,12 @@ private:
 
     PolygonModel model_;
     bsp::PolygonPieces pieces_;
-    BspLeaves way_;
     bsp::PartialBspTree tree_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<Polygons> lists_;
     std::vector<std::size_t> made_at_; ///< For each list how many pieces there were.
     std::vector<std::string> notes_;
 };
-
-} // namespace
-
-BspOrder bsp_order(PolygonModel model, BspLeaves way) { return BspOrderBuilder(std::move(model), way).order(); }
-
-BspOrder complete_order(PolygonModel model, IncompleteOrder order) {
-    return BspOrderBuilder(std::move(model), BspLeaves::Clusters).completed(std::move(order));
-}
-
-namespace {
 
 using models::planar::PlanarModel;
 
@@ -280,8 +288,8 @@ constexpr double proof_share = 0.02;
 /// Of larger models: their parts are right as they are made, and a proof would not come to its end.
 constexpr double proof_share_of_large = 0.002;
 
-OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
-    const OctantOrders orders = paper_orders(model, options.paper);
+OrderedModel by_paper(models::polygons::PolygonModel model) {
+    const OctantOrders orders = paper_orders(model);
     OrderedModel out{.model = std::move(model), .order = DrawOrder(orders), .cells = {}, .notes = {}};
     for (int octant = 0; octant < 8; ++octant) {
         const glm::dvec3 signs = octant_signs(octant);
@@ -295,18 +303,20 @@ OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& 
     return out;
 }
 
-/// Completes orders of which some cells are open by dividing polygons there.
-OrderedModel completed(CellSearchResult orders, int penetrating, std::string& reason) {
-    const auto found = std::ranges::count_if(orders.incomplete_cells, [](const auto& sets) { return sets.empty(); });
-    reason = fmt::format("{} of {} cells are found, the others drawn by parts: {}", found, orders.cells.size(),
-        orders.incomplete_reason);
-    const ModelFaces& faces = orders.work.faces;
+/// Completes orders of which some cells are open by splitting polygons there.
+OrderedModel completed(CellSearchResult found, int penetrating, std::string& reason) {
+    ViewSpaceTree& tree = found.tree;
+    const auto complete = std::ranges::count_if(tree.incomplete_cells, [](const auto& sets) { return sets.empty(); });
+    reason = fmt::format(
+        "{} of {} cells are found, the others drawn by parts: {}", complete, tree.cells.size(), tree.incomplete_reason);
+    const ModelFaces& faces = found.work.faces;
     std::vector<Plane> planes;
     for (const Face& face : faces.faces) { planes.push_back(face.plane ? faces.in_model(*face.plane) : Plane()); }
-    const auto splits = static_cast<int>(orders.work.sibling_pieces.size());
-    std::vector<std::string> notes = std::move(orders.work.notes);
-    BspOrder parted = complete_order(std::move(orders.work.model),
-        {std::move(orders.nodes), std::move(orders.lists), std::move(orders.incomplete_cells), std::move(planes)});
+    const auto splits = static_cast<int>(found.work.sibling_pieces.size());
+    std::vector<std::string> notes = std::move(found.work.notes);
+    BspOrder parted =
+        BspOrderBuilder(std::move(found.work.model))
+            .completed({std::move(tree.nodes), std::move(tree.lists), std::move(tree.incomplete_cells), planes});
     for (std::string& note : parted.notes) {
         if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(std::move(note)); }
     }
@@ -318,24 +328,26 @@ OrderedModel completed(CellSearchResult orders, int penetrating, std::string& re
         .found_by = OrderSource::TreeAndSplitPolygons};
 }
 
-OrderedModel by_parts(models::polygons::PolygonModel model, BspLeaves way) {
-    BspOrder parted = bsp_order(std::move(model), way);
+/// Orders any model for every eye by splitting its polygons, without a search.
+OrderedModel by_parts(models::polygons::PolygonModel model) {
+    BspOrder parted = BspOrderBuilder(std::move(model)).order();
     return {.model = std::move(parted.model),
         .order = std::move(parted.order),
         .cells = {},
         .splits = parted.splits,
         .notes = std::move(parted.notes),
-        .found_by = way == BspLeaves::Single ? OrderSource::Bsp : OrderSource::Parts};
+        .found_by = OrderSource::Parts};
 }
 
 /// Tests an order; returns whether it may be used.
-bool is_right(OrderedModel& ordered, double search_s) {
+bool is_right(OrderedModel& ordered, double search_s, const DrawOrder* proved_order = nullptr) {
     const bool is_large = ordered.model.polygons.size() > max_polygons_searched;
     // Where no order is right for turning parts, they say nothing about the others.
     ordered.ray_test = ray_test_order(ordered.model, ordered.order,
         {.turning_parts = ordered.notes.empty(),
             .min_distance_m = ordered.min_distance_m,
             .centre_m = ordered.centre_m,
+            .proved_order = proved_order,
             .proof_s = search_s * (is_large ? proof_share_of_large : proof_share)});
     return ordered.ray_test.wrong == 0;
 }
@@ -362,7 +374,7 @@ public:
 private:
     void make() {
         if (!order_) {
-            order_ = by_parts(model_, BspLeaves::Clusters);
+            order_ = by_parts(model_);
             is_right_ = draworder::is_right(*order_, search_s_);
         }
     }
@@ -373,96 +385,74 @@ private:
     bool is_right_ = false;
 };
 
-/// Finds the orders by Cells or Tree; a tree only while it splits no more than `parts`. `reason` says why some cells
-/// are drawn by parts, if they are.
-OrderedModel exact(
-    models::polygons::PolygonModel model, const OrderOptions& options, BspFallback& parts, std::string& reason) {
+/// Finds the orders by a search over eye space, which may split no more polygons than `parts`. `reason` says why some
+/// cells are drawn by parts, if they are. Throws SearchGivenUp where nothing is found.
+OrderedModel searched(models::polygons::PolygonModel model, const OrderOptions& options, const OrderSearch& search,
+    BspFallback& parts, std::string& reason) {
+    if (model.polygons.size() > max_polygons_searched) {
+        throw SearchGivenUp{fmt::format("cells are searched for up to {} polygons", max_polygons_searched)};
+    }
     SearchBudget budget(options.seconds, options.progress);
     const int penetrating = split_penetrating(model, budget);
-    const bool by_cells = options.method == OrderMethod::Cells;
     const auto max_splits = [&] { return parts.max_splits() - penetrating; };
-    CellSearchResult orders =
-        by_cells ? best_cells(model, options.min_distance_radii, budget) : best_tree(model, budget, max_splits);
-    const ModelFaces& faces = orders.work.faces;
-    for (DrawOrder::Node& node : orders.nodes) { node.plane = faces.in_model(node.plane); }
-    for (OrderCell& cell : orders.cells) {
+    CellSearchResult found =
+        search.find ? search.find(model, budget, max_splits) : best_tree(model, budget, max_splits);
+    const ModelFaces& faces = found.work.faces;
+    ViewSpaceTree& tree = found.tree;
+    for (DrawOrder::Node& node : tree.nodes) { node.plane = faces.in_model(node.plane); }
+    for (OrderCell& cell : tree.cells) {
         for (Plane& plane : cell.planes) { plane = faces.in_model(plane); }
     }
-    if (!orders.incomplete_cells.empty()) { return completed(std::move(orders), penetrating, reason); }
-    return {.model = std::move(orders.work.model),
-        .order = DrawOrder(std::move(orders.nodes), orders.lists),
-        .cells = std::move(orders.cells),
+    if (!tree.incomplete_reason.empty()) { return completed(std::move(found), penetrating, reason); }
+    return {.model = std::move(found.work.model),
+        .order = DrawOrder(std::move(tree.nodes), tree.lists),
+        .cells = std::move(tree.cells),
         .centre_m = faces.origin_m,
-        .min_distance_m = by_cells ? options.min_distance_radii * faces.unit_m : 0.0,
-        .splits = penetrating + static_cast<int>(orders.work.sibling_pieces.size()),
-        .notes = std::move(orders.work.notes),
-        .found_by = by_cells ? OrderSource::Cells : OrderSource::Tree};
-}
-
-/// The orders of the method asked for; nothing where the search for cells is given up without any. `reason` says why
-/// then, and why some are not found; it stays empty where `parts` cut less.
-std::optional<OrderedModel> searched(
-    const models::polygons::PolygonModel& model, const OrderOptions& options, BspFallback& parts, std::string& reason) {
-    if (model.polygons.size() > max_polygons_searched) {
-        reason = fmt::format("cells are searched for up to {} polygons", max_polygons_searched);
-        return std::nullopt;
-    }
-    try {
-        return exact(model, options, parts, reason);
-    } catch (const SearchGivenUp& given_up) {
-        reason = given_up.is_worse_than_best ? "" : given_up.reason;
-        return std::nullopt;
-    }
-}
-
-/// Adds a note about pairs without a proof; no ray was wrong.
-void add_note(OrderedModel& ordered) {
-    if (ordered.ray_test.unproved > 0) {
-        ordered.notes.push_back(fmt::format(
-            "no proof is found for {} pairs of polygons; no ray at them was wrong", ordered.ray_test.unproved));
-    }
+        .min_distance_m = search.min_distance_radii * faces.unit_m,
+        .splits = penetrating + static_cast<int>(found.work.sibling_pieces.size()),
+        .notes = std::move(found.work.notes),
+        .found_by = search.source};
 }
 
 std::string error_summary(const RayTestResult& ray_test) {
     return fmt::format("{} of {} rays were wrong", ray_test.wrong, ray_test.rays);
 }
 
-/// What was found by cells or, where that had to split polygons more often, by parts.
-OrderedModel with_fewer_splits(OrderedModel found, BspFallback& parts) {
-    const bool by_tree = found.found_by == OrderSource::Tree || found.found_by == OrderSource::TreeAndSplitPolygons;
-    const bool by_parts = by_tree && found.splits > 0 && found.splits > parts.max_splits();
-    return by_parts ? parts.take() : std::move(found);
+/// What a search finds, or the parts where they split fewer polygons. Returns nothing, and `reason` says why, where
+/// the search finds nothing right; `reason` stays empty where the parts are better.
+std::optional<OrderedModel> best_found(const models::polygons::PolygonModel& model, const OrderOptions& options,
+    const OrderSearch& search, BspFallback& parts, std::string& reason) {
+    std::optional<OrderedModel> found;
+    try {
+        found = searched(model, options, search, parts, reason);
+    } catch (const SearchGivenUp& given_up) {
+        reason = given_up.is_worse_than_best ? "" : given_up.reason;
+        return std::nullopt;
+    }
+    std::optional<DrawOrder> proved_order;
+    if (search.proved_order) { proved_order = search.proved_order(*found); }
+    if (!is_right(*found, options.seconds, proved_order ? &*proved_order : nullptr)) {
+        reason = "by cells " + error_summary(found->ray_test);
+        return std::nullopt;
+    }
+    const bool holds_for_every_eye = found->min_distance_m == 0.0;
+    if (holds_for_every_eye && found->splits > 0 && found->splits > parts.max_splits()) { found = parts.take(); }
+    if (!reason.empty()) {
+        found->notes.push_back(found->found_by == OrderSource::TreeAndSplitPolygons
+                                   ? reason
+                                   : "drawn by parts, which cut less than cells: " + reason);
+    }
+    return found;
 }
 
-/// Finds the orders of a planar model by any method but that of the paper.
-OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions& options) {
+/// Finds the orders of a planar model.
+OrderedModel of_planar(
+    const models::polygons::PolygonModel& model, const OrderOptions& options, const OrderSearch& search) {
     BspFallback parts(model, options.seconds);
     std::string reason;
-    if (options.method != OrderMethod::Bsp) {
-        if (auto found = searched(model, options, parts, reason)) {
-            if (is_right(*found, options.seconds)) {
-                OrderedModel best = with_fewer_splits(std::move(*found), parts);
-                if (!reason.empty()) {
-                    best.notes.push_back(best.found_by == OrderSource::TreeAndSplitPolygons
-                                             ? reason
-                                             : "drawn by parts, which cut less than cells: " + reason);
-                }
-                return best;
-            }
-            reason = "by cells " + error_summary(found->ray_test);
-        }
-    }
-    const bool by_parts_right = parts.is_right();
+    if (auto found = best_found(model, options, search, parts, reason)) { return std::move(*found); }
     OrderedModel parted = parts.take();
-    if (!by_parts_right) {
-        const std::string instead = error_summary(parted.ray_test);
-        OrderedModel single = by_parts(std::move(model), BspLeaves::Single);
-        single.notes.push_back("drawn by a BSP tree: by parts " + instead);
-        if (!is_right(single, options.seconds)) {
-            single.notes.push_back("by the BSP tree " + error_summary(single.ray_test));
-        }
-        parted = std::move(single);
-    }
+    if (parted.ray_test.wrong > 0) { parted.notes.push_back("by parts " + error_summary(parted.ray_test)); }
     if (!reason.empty()) { parted.notes.push_back("drawn by parts, not by cells: " + reason); }
     return parted;
 }
@@ -499,12 +489,18 @@ OrderedModel in_model_frame(
 } // namespace
 
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options) {
-    if (options.method == OrderMethod::Paper) { return by_paper(std::move(model), options); }
-    using models::planar::Attitude; // octants are those of the model's own file
-    const PlanarModel planar =
-        models::planar::planar_model(model, options.method == OrderMethod::Cells ? Attitude::Given : Attitude::Own);
-    OrderedModel found = of_planar(planar.model, options);
-    add_note(found);
+    if (options.method == OrderMethod::Paper) { return by_paper(std::move(model)); }
+    return ordered_by(std::move(model), options, {});
+}
+
+OrderedModel ordered_by(models::polygons::PolygonModel model, const OrderOptions& options, const OrderSearch& search) {
+    const PlanarModel planar = models::planar::planar_model(
+        model, search.keeps_axes ? models::planar::Attitude::Given : models::planar::Attitude::Own);
+    OrderedModel found = of_planar(planar.model, options, search);
+    if (found.ray_test.unproved > 0) {
+        found.notes.push_back(fmt::format(
+            "no proof is found for {} pairs of polygons; no ray at them was wrong", found.ray_test.unproved));
+    }
     return in_model_frame(std::move(found), planar, model);
 }
 

@@ -45,7 +45,7 @@ struct ProofInput {
 
 /// Walks through an order and seeks for each pair of polygons that it paints one before the other the plane that proves
 /// that nothing is hidden wrongly, and for each polygon that it leaves out that it faces away. The order is one for
-/// every eye of the model, or for those that a view split with nothing on one side leaves (with_min_distance). An
+/// every eye of the model, or for those that a view split with nothing on one side leaves. An
 /// exception of the visitor ends the walk.
 void visit_proof(const ProofInput& input, ProofVisitor& visitor);
 

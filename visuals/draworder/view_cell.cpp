@@ -1,4 +1,4 @@
-// A region of eyes with its occlusion graph, and the last resort of both exact methods: where no division of eye space
+// A region of eyes with its occlusion graph, and the last resort of the search: where no division of eye space
 // gives an order, a polygon is split (section IV and figure 14 of the 1989 paper), and earlier results are updated.
 #include "visuals/draworder/view_cell.h"
 
@@ -8,7 +8,6 @@
 #include "visuals/draworder/split.h"
 
 #include <algorithm>
-#include <cassert>
 #include <fmt/format.h>
 #include <functional>
 #include <numeric>
@@ -23,14 +22,9 @@ namespace octant::visuals::draworder {
 // than the cyclic edges of its parent; and an acyclic graph over a region gives, by topological sorting, one list that
 // is right for all of its eyes.
 
-namespace {
-
-/// The most entries of all lists: each takes 4 bytes here and some 24 in a renderer's index buffer.
-constexpr std::size_t max_entries = 8'000'000;
-
-} // namespace
-
 void check_entries(std::size_t entries) {
+    // Each takes 4 bytes here and some 24 in a renderer's index buffer.
+    constexpr std::size_t max_entries = 8'000'000;
     if (entries > max_entries) {
         throw SearchGivenUp{fmt::format("the lists of its cells have more than {} entries", max_entries)};
     }
@@ -52,15 +46,15 @@ ViewCell view_cell(OcclusionGraphBuilder& graphs, const ViewRegion& region) {
 ViewCell part_of(OcclusionGraphBuilder& graphs, const ViewCell& node, ViewRegion part, const PlaneSideSets* sides) {
     const OcclusionGraph& inner = node.cycles.inner;
     const auto& among = node.cycles.polygons;
-    const OcclusionGraph unsplit_cycles = sides != nullptr ? graphs.remaining_in_front(inner, among, *sides) : inner;
-    const CyclicPart tested = sides != nullptr ? cyclic_part_of(unsplit_cycles, among) : node.cycles;
+    const OcclusionGraph remaining = sides != nullptr ? graphs.remaining_in_front(inner, among, *sides) : inner;
+    const CyclicPart tested = sides != nullptr ? cyclic_part_of(remaining, among) : node.cycles;
     const OcclusionGraph left = graphs.surviving(part, tested.inner, tested.polygons);
     OcclusionGraph graph = node.graph;
     for (const std::uint32_t a : among) {
         const auto row = graph.row(a);
         for (std::size_t word = 0; word < row.size(); ++word) {
-            const std::uint64_t off_rings = unsplit_cycles.row(a)[word] & ~tested.inner.row(a)[word];
-            row[word] = (row[word] & ~inner.row(a)[word]) | off_rings | left.row(a)[word];
+            const std::uint64_t off_cycles = remaining.row(a)[word] & ~tested.inner.row(a)[word];
+            row[word] = (row[word] & ~inner.row(a)[word]) | off_cycles | left.row(a)[word];
         }
     }
     return {std::move(part), std::move(graph), cyclic_part_of(left, tested.polygons)};
@@ -73,30 +67,6 @@ std::optional<PersistentCycle> cycle_at_eye(OcclusionGraphBuilder& graphs, const
     CyclicPart cycle = cyclic_part_of(graphs.at_eye(*eye, node.cycles.inner, among), among);
     if (cycle.edges == 0) { return std::nullopt; }
     return PersistentCycle{std::move(cycle.components.front()), node.region, eye};
-}
-
-std::vector<std::uint32_t> list_of(const OcclusionGraphBuilder& graphs, const ViewCell& node) {
-    const PolygonSet listed = graphs.listed(node.region);
-    std::vector<std::uint32_t> waits_for(node.graph.count(), 0);
-    for_each_bit(listed.words(),
-        [&](std::size_t a) { for_each_bit(node.graph.row(a), [&](std::size_t b) { ++waits_for[b]; }); });
-    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;
-    const auto release = [&](std::size_t polygon) {
-        if (waits_for[polygon] == 0 && listed.has(polygon)) { ready.push(polygon); }
-    };
-    for_each_bit(listed.words(), release);
-    std::vector<std::uint32_t> list;
-    while (!ready.empty()) {
-        const std::size_t next = ready.top();
-        ready.pop();
-        list.push_back(static_cast<std::uint32_t>(next));
-        for_each_bit(node.graph.row(next), [&](std::size_t later) {
-            --waits_for[later];
-            release(later);
-        });
-    }
-    assert(list.size() == count_common_bits(listed.words(), listed.words()));
-    return list;
 }
 
 std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuilder& graphs, const ViewCell& node) {
@@ -137,6 +107,12 @@ std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuild
     return clusters;
 }
 
+std::vector<std::uint32_t> list_of(const OcclusionGraphBuilder& graphs, const ViewCell& node) {
+    std::vector<std::uint32_t> list;
+    for (const auto& set : component_sets(graphs, node)) { list.insert(list.end(), set.begin(), set.end()); }
+    return list;
+}
+
 // Splitting of polygons that hide one another in a cycle: E. K. Kim, J. A. Park, C. Song, J. H. Kim, 1989, section IV
 // and figure 14.
 //
@@ -157,6 +133,12 @@ OcclusionGraph graph_of(OcclusionGraphBuilder& graphs, const PersistentCycle& pe
     return persistent_cycle.eye ? graphs.at_eye(*persistent_cycle.eye, pairs, among)
                                 : graphs.surviving(persistent_cycle.region, pairs, among);
 }
+
+/// A polygon to split, and the polygon in whose plane it is cut.
+struct PolygonCut {
+    std::uint32_t polygon = 0;
+    std::uint32_t cut_by = 0;
+};
 
 /// Whether a face reaches more than `margin` to both sides of a plane.
 bool straddles(const Face& face, const Plane& plane, double margin) {
@@ -190,8 +172,11 @@ std::size_t left_after(const ModelFaces& model, const PersistentCycle& persisten
     return cyclic_part_of(graph_of(graphs, among)).edges;
 }
 
-} // namespace
-
+/// The cut that resolves most of a shortest cycle in a persistent cycle. Of all pairs of the cycle in which one polygon
+/// straddles the plane of the other, it is the cut that leaves the fewest cyclic edges, and the lowest polygon numbers
+/// among equals. Returns nothing when there is no such pair. That happens only with turning polygons in the cycle,
+/// because fixed ones lack an order only if one of them straddles the plane of another, or where the tolerances of two
+/// tests differ.
 std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
     const ModelFaces& model = graphs.model();
     std::vector<std::uint32_t> cycle = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
@@ -213,6 +198,8 @@ std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const 
     return best;
 }
 
+/// The first pair with a turning polygon of a shortest cycle in a persistent cycle. Returns nothing where no polygon of
+/// the cycle turns, or where rounding has left no cycle.
 std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
     const auto cycle = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
     const auto& faces = graphs.model().faces;
@@ -223,7 +210,16 @@ std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const Pers
     return std::nullopt;
 }
 
-namespace {
+/// A piece overlaps no more polygons of its plane than the whole did, and often fewer.
+void end_overlaps(ModelFaces& faces, std::size_t piece) {
+    const Face& face = faces.faces[piece];
+    for (std::size_t other = 0; other < faces.faces.size(); ++other) {
+        if (!overlap_in_plane(face, faces.faces[other], faces.tolerances.inset)) {
+            faces.rigid.remove(piece, other);
+            faces.rigid.remove(other, piece);
+        }
+    }
+}
 
 /// A model that needs more than 100 + 2 splits a polygon is not suited to painting orders.
 constexpr std::uint32_t max_splits_a_polygon = 2;
@@ -248,27 +244,16 @@ void WorkingModel::resolve(const PersistentCycle& persistent_cycle) {
         faces.faces.push_back(outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
         faces.rigid.add_sibling(cut->polygon);
         faces.ignored.add_sibling(cut->polygon);
-        end_overlaps(cut->polygon);
-        end_overlaps(faces.faces.size() - 1);
+        end_overlaps(faces, cut->polygon);
+        end_overlaps(faces, faces.faces.size() - 1);
         return;
     }
     const auto weakest = pair_to_drop(graphs, persistent_cycle);
-    if (!weakest) { throw SearchGivenUp{"polygons hide one another in a ring that no cut resolves"}; }
+    if (!weakest) { throw SearchGivenUp{"polygons hide one another in a cycle that no cut resolves"}; }
     const Precedence pair = *weakest;
     faces.ignored.add(pair.later, pair.first);
     notes.push_back(fmt::format("{} and {} hide one another as they turn; no order is right at every angle",
         model.parts[model.polygons[pair.first].part], model.parts[model.polygons[pair.later].part]));
-}
-
-/// A piece overlaps no more polygons of its plane than the whole did, and often fewer.
-void WorkingModel::end_overlaps(std::size_t piece) {
-    const Face& face = faces.faces[piece];
-    for (std::size_t other = 0; other < faces.faces.size(); ++other) {
-        if (!overlap_in_plane(face, faces.faces[other], faces.tolerances.inset)) {
-            faces.rigid.remove(piece, other);
-            faces.rigid.remove(other, piece);
-        }
-    }
 }
 
 bool WorkingModel::add_new_pieces(ViewCell& node) const {

@@ -50,30 +50,13 @@ std::optional<PersistentCycle> cycle_at_eye(OcclusionGraphBuilder& graphs, const
 /// Throws SearchGivenUp when lists have more entries than can be held.
 void check_entries(std::size_t entries);
 
-/// The painting order of a node without cycles: the polygons that face some eye of it, first painted first, and the
-/// lowest number first where there is a choice.
-std::vector<std::uint32_t> list_of(const OcclusionGraphBuilder& graphs, const ViewCell& node);
-
-/// The polygons of a node with cycles that face some eye of it, as sets that are painted one after the other: those
-/// that hide one another in a cycle are one set, ascending; others stand alone.
+/// The polygons of a node that face some eye of it, as sets that are painted one after the other, the lowest number
+/// first where there is a choice: those that hide one another in a cycle are one set, ascending; others are sets of
+/// one.
 std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuilder& graphs, const ViewCell& node);
 
-/// A polygon to split, and the polygon in whose plane it is cut.
-struct PolygonCut {
-    std::uint32_t polygon = 0;
-    std::uint32_t cut_by = 0;
-};
-
-/// The cut that resolves most of a shortest cycle in a persistent cycle. Of all pairs of the cycle in which one polygon
-/// straddles the plane of the other, it is the cut that leaves the fewest cyclic edges, and the lowest polygon numbers
-/// among equals. Turning polygons are not cut. Returns nothing when there is no such pair. That happens only with
-/// turning polygons in the cycle, because fixed ones lack an order only if one of them straddles the plane of another,
-/// or where the tolerances of two tests differ.
-std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle);
-
-/// The first pair with a turning polygon of a shortest cycle in a persistent cycle: it is given up because no order can
-/// be right. Returns nothing where no polygon of the cycle turns, or where rounding has left no cycle.
-std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle);
+/// The painting order of a node without cycles: its component_sets(), which are single polygons, in one list.
+std::vector<std::uint32_t> list_of(const OcclusionGraphBuilder& graphs, const ViewCell& node);
 
 /// A model that may still be split while its orders are being found, with its faces.
 ///
@@ -85,8 +68,10 @@ struct WorkingModel {
         : model(std::move(of)), faces(model_faces(model, origin_m)),
           first_count(static_cast<std::uint32_t>(model.polygons.size())), notes(faces.notes) {}
 
-    /// Splits a polygon of a persistent cycle, or gives up a pair where only turning polygons are in the way. Throws
-    /// SearchGivenUp when there is nothing to split, or when a model has been split beyond what is sensible.
+    /// Splits a polygon of a shortest cycle in a persistent cycle along the plane of another one, so that the fewest
+    /// cyclic edges are left. Turning polygons are not split: where only they are in the way, a pair is given up, with
+    /// a note. Throws SearchGivenUp when there is nothing to split, or when a model has been split beyond what is
+    /// sensible.
     void resolve(const PersistentCycle& persistent_cycle);
 
     /// Counts work of the search, if there is a budget; throws SearchGivenUp when it is spent.
@@ -99,8 +84,6 @@ struct WorkingModel {
 
     /// Adds such pieces to a list that was made when there were `polygons` polygons.
     void add_new_pieces(std::vector<std::uint32_t>& list, std::size_t polygons) const;
-
-    void end_overlaps(std::size_t piece);
 
     models::polygons::PolygonModel model;
     ModelFaces faces;

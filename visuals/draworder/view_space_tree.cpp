@@ -1,4 +1,4 @@
-// OrderMethod::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides
+// OrderMethod::Exact: painting orders for every eye, the model's inside included. Section IV of the 1989 paper divides
 // the viewing directions until all hidden surfaces are removed; here eye space is divided by planes until each cell's
 // occlusion graph has no cycle.
 //
@@ -7,6 +7,7 @@
 #include "visuals/draworder/view_space_tree.h"
 
 #include "sim/base/plane.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/search_budget.h"
 
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -78,18 +78,6 @@ Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> amo
 /// The step with which about `most` of `all` items are taken.
 std::size_t stride(std::size_t all, std::size_t most) { return all / most + 1; }
 
-std::vector<Plane> axis_planes_of(const Outlines& outlines, std::size_t most) {
-    std::vector<Plane> planes;
-    const std::size_t all = 3 * outlines.corners.size();
-    for (std::size_t i = 0; i < all; i += stride(all, most)) {
-        const auto axis = static_cast<int>(i / outlines.corners.size());
-        glm::dvec3 normal(0.0);
-        normal[axis] = 1.0;
-        planes.push_back({normal, -outlines.corners[i % outlines.corners.size()][axis]});
-    }
-    return planes;
-}
-
 void add_edge_planes(std::vector<Plane>& planes, const Outlines& outlines, std::size_t most) {
     const std::size_t all = outlines.edges.size() * outlines.corners.size();
     for (std::size_t i = 0; i < all; i += stride(all, most)) {
@@ -136,12 +124,11 @@ std::vector<Plane> each_once(const std::vector<Plane>& planes) {
     return out;
 }
 
-} // namespace
-
-std::vector<Plane> axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
-    return each_once(axis_planes_of(outlines_of(model, among), most));
-}
-
+/// Planes by which eye space may be cut so that the occlusion relation among some polygons gets simpler, each once, the
+/// plainest first: the polygons' own planes, and planes through an edge of one polygon and a corner of another. The
+/// last kind includes all that bound the region from where one polygon hides another, so that cutting by them resolves
+/// every pair in the end. About `most` of them are made, spread evenly over all that there are. A model that is turned
+/// gets the same planes, turned.
 std::vector<Plane> candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
     const Outlines outlines = outlines_of(model, among);
     std::vector<Plane> planes;
@@ -151,6 +138,12 @@ std::vector<Plane> candidate_planes(const ModelFaces& model, std::span<const std
     add_edge_planes(planes, outlines, most);
     return each_once(planes);
 }
+
+/// Where a face lies to a plane. Both are true when it lies in the plane, and neither when it straddles it.
+struct PlaneSide {
+    bool before = false;
+    bool behind = false;
+};
 
 PlaneSide side_of(const Plane& plane, const Face& face, double on_plane) {
     double least = on_plane;
@@ -162,6 +155,8 @@ PlaneSide side_of(const Plane& plane, const Face& face, double on_plane) {
     }
     return {least >= -on_plane, largest <= on_plane};
 }
+
+} // namespace
 
 PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among) {
     PolygonsByPlaneSide sides(model.faces.size());
@@ -189,6 +184,55 @@ PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::s
 
 namespace {
 
+/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie to the plane alone.
+/// This is quick, so that thousands of planes can be judged. The edges of each component are held in rows of their own,
+/// so that small components of large models cost little; of large components only some rows are looked at, evenly
+/// spread, and stand for all. Keeps a reference to the faces.
+class PlaneScorer {
+public:
+    PlaneScorer(const ModelFaces& model, const CyclicPart& cycles);
+
+    /// Turns to a plane.
+    void set_plane(const Plane& plane);
+
+    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on cycles or not.
+    std::size_t edges_left_in_front() const;
+    /// The number of cyclic edges that remain for eyes behind the plane.
+    std::size_t edges_left_behind() const;
+
+private:
+    /// A polygon of a component, with a bounding sphere, and where its bits are.
+    struct Member {
+        std::uint32_t polygon = 0;
+        glm::dvec3 middle{0.0};
+        double radius = 0.0;
+        /// The index of its component's first word in the sets below.
+        std::size_t first_word = 0;
+        /// Its own bit, counted from that word.
+        std::size_t bit = 0;
+        /// The index of its row's first word in rows_.
+        std::size_t first_row_word = 0;
+        std::size_t words = 0;
+        /// How many rows its row stands for; 0 when it has none.
+        std::size_t weight = 0;
+    };
+
+    using Words = std::vector<std::uint64_t>;
+
+    void add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component);
+    std::size_t left(const Words& occluded, const Words& occluders, const Words& unseen) const;
+
+    const ModelFaces& model_;
+    std::vector<Member> members_;
+    Words rows_;
+    Words front_or_on_;
+    Words back_or_on_;
+    Words unseen_in_front_;
+    Words unseen_behind_;
+    bool some_unseen_ = false;
+    std::size_t edges_ = 0;
+};
+
 /// Of a component at most about this many rows are looked at.
 constexpr std::size_t max_rows = 192;
 
@@ -208,8 +252,6 @@ std::pair<glm::dvec3, double> ball_around(const std::vector<glm::dvec3>& corners
 void set(std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
     words[first_word + bit / 64] |= std::uint64_t{1} << (bit % 64);
 }
-
-} // namespace
 
 PlaneScorer::PlaneScorer(const ModelFaces& model, const CyclicPart& cycles) : model_(model), edges_(cycles.edges) {
     for (const std::vector<std::uint32_t>& component : cycles.components) { add(cycles.inner, component); }
@@ -271,11 +313,11 @@ std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, con
             ended += parted ? member.weight * count_common_bits(row, others) : 0;
             continue;
         }
-        const bool removed = has(unseen, member.first_word, member.bit);
+        const bool is_unseen = has(unseen, member.first_word, member.bit);
         mask.resize(member.words);
         for (std::size_t word = 0; word < member.words; ++word) {
             const std::size_t at = member.first_word + word;
-            mask[word] = removed ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
+            mask[word] = is_unseen ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
         }
         ended += member.weight * count_common_bits(row, mask);
     }
@@ -285,17 +327,6 @@ std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, con
 std::size_t PlaneScorer::edges_left_in_front() const { return left(front_or_on_, back_or_on_, unseen_in_front_); }
 
 std::size_t PlaneScorer::edges_left_behind() const { return left(back_or_on_, front_or_on_, unseen_behind_); }
-
-namespace {
-
-/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both results. Neither may
-/// write to what the other one uses, so that the result is the same either way.
-template <typename PaintFirst, typename Second>
-auto both(bool worthwhile, PaintFirst first, Second second) {
-    auto there = std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
-    auto here = second();
-    return std::pair(there.get(), std::move(here));
-}
 
 /// Graphs with more edges are judged without the exact test.
 constexpr std::size_t max_exact_edges = 4'000;
@@ -327,10 +358,17 @@ std::uint64_t units_of_plane(const CyclicPart& cycles) {
 }
 
 /// The work of counting the edges that a plane leaves on cycles.
-std::uint64_t units_of_rings(const CyclicPart& cycles) {
+std::uint64_t units_of_cycles(const CyclicPart& cycles) {
     const std::size_t words = cycles.inner.count() / 64 + 1;
     return 2 * (30 + 4 * words) * cycles.polygons.size() + 4 * cycles.edges;
 }
+
+/// A node that was divided by a plane.
+struct CellSplit {
+    Plane plane;
+    ViewCell front;
+    ViewCell back;
+};
 
 /// Judges the planes that may divide one node.
 class SplitPlaneChooser {
@@ -342,7 +380,7 @@ public:
 
 private:
     std::vector<ViewSplit> by_sides(std::span<const Plane> planes, std::size_t first_number) const;
-    std::vector<ViewSplit> by_rings(std::span<const ViewSplit> choices) const;
+    std::vector<ViewSplit> by_cycles(std::span<const ViewSplit> choices) const;
     std::vector<ViewSplit> ranked(std::span<const Plane> planes) const;
     std::vector<ViewSplit> of_planes(std::span<const std::uint32_t> among, std::size_t most) const;
     std::vector<ViewSplit> coarse_ranking() const;
@@ -393,7 +431,7 @@ std::vector<ViewSplit> SplitPlaneChooser::by_sides(std::span<const Plane> planes
 }
 
 /// Second stage: the cost of each choice by the edges that stay on cycles.
-std::vector<ViewSplit> SplitPlaneChooser::by_rings(std::span<const ViewSplit> choices) const {
+std::vector<ViewSplit> SplitPlaneChooser::by_cycles(std::span<const ViewSplit> choices) const {
     const CyclicPart& cycles = node_.cycles;
     CyclicEdgeCounter counter;
     std::vector<ViewSplit> out(choices.begin(), choices.end());
@@ -412,16 +450,16 @@ std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) 
     work_.spend(planes.size() * units_of_plane(node_.cycles));
     const bool large = is_large(node_);
     const std::size_t half = planes.size() / 2;
-    auto [choices, others] = both(
+    auto [choices, others] = run_both(
         large, [&] { return by_sides(planes.first(half), 0); }, [&] { return by_sides(planes.subspan(half), half); });
     choices.insert(choices.end(), others.begin(), others.end());
     std::sort(choices.begin(), choices.end());
     choices.resize(std::min(search_.coarse_candidates, choices.size()));
-    work_.spend(choices.size() * units_of_rings(node_.cycles));
+    work_.spend(choices.size() * units_of_cycles(node_.cycles));
     const std::size_t middle = choices.size() / 2;
     const std::span<const ViewSplit> all(choices);
-    auto [judged, rest] = both(
-        large, [&] { return by_rings(all.first(middle)); }, [&] { return by_rings(all.subspan(middle)); });
+    auto [judged, rest] = run_both(
+        large, [&] { return by_cycles(all.first(middle)); }, [&] { return by_cycles(all.subspan(middle)); });
     judged.insert(judged.end(), rest.begin(), rest.end());
     std::sort(judged.begin(), judged.end());
     return judged;
@@ -435,7 +473,7 @@ CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
         OcclusionGraphBuilder graphs(work_.faces);
         return part_of(graphs, node_, *node_.region.cut(before), &sets);
     };
-    auto [front, back] = both(
+    auto [front, back] = run_both(
         is_large(node_), [&] { return part(plane, sides); }, [&] { return part(turned_over(plane), turned); });
     return {plane, std::move(front), std::move(back)};
 }
@@ -443,7 +481,7 @@ CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
 /// The choices by the candidate planes of some polygons, of which there are about `most`.
 std::vector<ViewSplit> SplitPlaneChooser::of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
     std::vector<Plane> planes;
-    if (search_.tries_axis_planes_first) { planes = axis_planes(work_.faces, among, 2 * most); }
+    if (search_.first_planes) { planes = search_.first_planes(work_.faces, among, 2 * most); }
     const auto others = candidate_planes(work_.faces, among, most);
     planes.insert(planes.end(), others.begin(), others.end());
     return ranked(planes);
@@ -484,14 +522,6 @@ std::optional<CellSplit> SplitPlaneChooser::best() const {
     }
     return best;
 }
-
-} // namespace
-
-std::optional<CellSplit> best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search) {
-    return SplitPlaneChooser(work, node, search).best();
-}
-
-namespace {
 
 /// A branch of the tree while it grows: a finished cell, or a plane with two branches.
 struct Branch {
@@ -556,7 +586,7 @@ std::optional<CellSplit> TreeBuilder::settle(ViewCell& node) {
         std::optional<PersistentCycle> persistent_cycle;
         if (!search_.prefers_planes) { persistent_cycle = cycle_at_eye(graphs_, node); }
         if (!persistent_cycle) {
-            if (auto fork = best_split(work_, node, search_.plane_search)) { return fork; }
+            if (auto fork = SplitPlaneChooser(work_, node, search_.plane_search).best()) { return fork; }
             persistent_cycle = cycle_at_eye(graphs_, node);
         }
         if (!persistent_cycle) {
@@ -619,7 +649,7 @@ int flatten(Branch& branch, const WorkingModel& work, ViewSpaceTree& out) {
         for (std::vector<std::uint32_t>& set : branch.incomplete_cells) { work.add_new_pieces(set, branch.polygons); }
         out.lists.push_back(std::move(branch.list));
         out.incomplete_cells.push_back(std::move(branch.incomplete_cells));
-        out.cell_planes.push_back(std::move(branch.planes));
+        out.cells.push_back({"", std::move(branch.planes)});
         return ~static_cast<int>(out.lists.size() - 1);
     }
     const std::size_t at = out.nodes.size();
@@ -641,6 +671,76 @@ ViewSpaceTree view_space_tree(WorkingModel& work, const ViewCell& root, const Tr
     flatten(*branch, work, tree);
     tree.incomplete_reason = builder.incomplete_reason();
     return tree;
+}
+
+namespace {
+
+// As the searches are greedy, small models are searched several times with other weights; the result with the fewest
+// splits, then with the fewest cells, is returned.
+
+/// Models with more cyclic edges get one quick search only.
+constexpr std::size_t max_edges_searched_again = 2'000;
+
+/// About the work of testing a pair of polygons (SearchBudget).
+constexpr std::uint64_t units_of_pair = 300;
+
+/// The searches whose results are compared; the last one only where the others split polygons.
+const std::array<TreeSearch, 4> tree_searches{{{.plane_search = {.power = 1.0}, .keeps_partial_result = true},
+    {.plane_search = {.power = 0.5}, .keeps_partial_result = true},
+    {.plane_search = {.power = 1.5}, .keeps_partial_result = true},
+    {.prefers_planes = true, .keeps_partial_result = true}}};
+/// Halves first: a plane that only takes something off a large graph leaves nearly all of the work to its children.
+const TreeSearch quick_search{.plane_search = {.power = 3.0, .edge_planes = 300, .coarse_candidates = 48, .exact = 2},
+    .keeps_partial_result = true};
+
+/// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
+bool has_fewer_splits(const CellSearchResult& a, const CellSearchResult& b) {
+    return std::pair(!a.tree.incomplete_reason.empty(), a.cost()) <
+           std::pair(!b.tree.incomplete_reason.empty(), b.cost());
+}
+
+void keep_better(std::optional<CellSearchResult>& best, CellSearchResult orders) {
+    if (!best || has_fewer_splits(orders, *best)) { best = std::move(orders); }
+}
+
+CellSearchResult searched(WorkingModel work, const ViewCell& root, const TreeSearch& search) {
+    ViewSpaceTree tree = view_space_tree(work, root, search);
+    return {std::move(work), std::move(tree)};
+}
+
+} // namespace
+
+CellSearchResult best_tree(
+    const models::polygons::PolygonModel& model, SearchBudget& budget, const std::function<int()>& max_splits) {
+    WorkingModel work(model, glm::dvec3(0.0));
+    work.budget = &budget;
+    work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    OcclusionGraphBuilder graphs(work.faces);
+    const ViewCell root = view_cell(graphs, ViewRegion::all_space());
+    if (root.cycles.edges > max_edges_searched_again) {
+        TreeSearch search = quick_search;
+        search.max_splits = max_splits;
+        return searched(work, root, search);
+    }
+    std::optional<CellSearchResult> best;
+    std::optional<SearchGivenUp> beaten;
+    for (TreeSearch search : tree_searches) {
+        if (best && best->work.sibling_pieces.empty() && search.prefers_planes) { break; }
+        search.max_splits = max_splits;
+        if (best && best->tree.incomplete_reason.empty()) { search.cost_limit = best->cost(); }
+        search.keeps_partial_result = search.keeps_partial_result && !search.cost_limit && !beaten;
+        try {
+            keep_better(best, searched(work, root, search));
+        } catch (const SearchGivenUp& given_up) {
+            if (given_up.is_worse_than_best) {
+                beaten = given_up;
+            } else if (!best && !beaten) {
+                throw;
+            }
+        }
+    }
+    if (!best) { throw SearchGivenUp(*beaten); }
+    return std::move(*best);
 }
 
 } // namespace octant::visuals::draworder

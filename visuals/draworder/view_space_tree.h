@@ -1,9 +1,11 @@
 #pragma once
 
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/occlusion.h"
 #include "visuals/draworder/occlusion_graph.h"
+#include "visuals/draworder/search_budget.h"
 #include "visuals/draworder/view_cell.h"
 
 #include <glm/vec3.hpp>
@@ -19,26 +21,6 @@
 
 namespace octant::visuals::draworder {
 
-/// Planes perpendicular to a coordinate axis through the corners of the polygons `among`, those of x before y before z:
-/// about `most` of them, spread evenly over all that there are.
-std::vector<Plane> axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
-
-/// Planes by which eye space may be cut so that the occlusion relation among some polygons gets simpler, each once, the
-/// plainest first: the polygons' own planes, and planes through an edge of one polygon and a corner of another. The
-/// last kind includes all that bound the region from where one polygon hides another, so that cutting by them resolves
-/// every pair in the end. About `most` of them are made, spread evenly over all that there are. A model that is turned
-/// gets the same planes, turned.
-std::vector<Plane> candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
-
-/// Where a face lies to a plane. Both are true when it lies in the plane, and neither when it straddles it.
-struct PlaneSide {
-    bool before = false;
-    bool behind = false;
-};
-
-/// Where a face lies to a plane, with `on_plane` as the tolerance.
-PlaneSide side_of(const Plane& plane, const Face& face, double on_plane);
-
 /// Where polygons lie to a plane that cuts a region of eyes, and for each side of it those polygons that lie in the
 /// plane and face away from all eyes there.
 struct PolygonsByPlaneSide {
@@ -53,55 +35,6 @@ struct PolygonsByPlaneSide {
 /// Where the polygons `among` lie to a plane.
 PolygonsByPlaneSide sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among);
 
-/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie to the plane alone.
-/// This is quick, so that thousands of planes can be judged. The edges of each component are held in rows of their own,
-/// so that small components of large models cost little; of large components only some rows are looked at, evenly
-/// spread, and stand for all. Keeps a reference to the faces.
-class PlaneScorer {
-public:
-    PlaneScorer(const ModelFaces& model, const CyclicPart& cycles);
-
-    /// Turns to a plane.
-    void set_plane(const Plane& plane);
-
-    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on cycles or not.
-    std::size_t edges_left_in_front() const;
-    /// The number of cyclic edges that remain for eyes behind the plane.
-    std::size_t edges_left_behind() const;
-
-private:
-    /// A polygon of a component, with a bounding sphere, and where its bits are.
-    struct Member {
-        std::uint32_t polygon = 0;
-        glm::dvec3 middle{0.0};
-        double radius = 0.0;
-        /// The index of its component's first word in the sets below.
-        std::size_t first_word = 0;
-        /// Its own bit, counted from that word.
-        std::size_t bit = 0;
-        /// The index of its row's first word in rows_.
-        std::size_t first_row_word = 0;
-        std::size_t words = 0;
-        /// How many rows its row stands for; 0 when it has none.
-        std::size_t weight = 0;
-    };
-
-    using Words = std::vector<std::uint64_t>;
-
-    void add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component);
-    std::size_t left(const Words& occluded, const Words& occluders, const Words& unseen) const;
-
-    const ModelFaces& model_;
-    std::vector<Member> members_;
-    Words rows_;
-    Words front_or_on_;
-    Words back_or_on_;
-    Words unseen_in_front_;
-    Words unseen_behind_;
-    bool some_unseen_ = false;
-    std::size_t edges_ = 0;
-};
-
 /// How thoroughly a plane is searched for.
 struct SplitPlaneSearch {
     /// A graph with E cyclic edges is taken to cost E^power.
@@ -112,26 +45,16 @@ struct SplitPlaneSearch {
     std::size_t coarse_candidates = 400;
     /// For so many planes both sides are tested exactly.
     std::size_t exact = 48;
-    /// Whether planes across the axes are tried first. A model that is turned then gets others.
-    bool tries_axis_planes_first = false;
+    /// Further planes of the polygons `among`, about `max` of them, which are tried first; may be empty.
+    std::function<std::vector<Plane>(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t max)>
+        first_planes = {};
 };
 
-/// A node that was divided by a plane.
-struct CellSplit {
-    Plane plane;
-    ViewCell front;
-    ViewCell back;
-};
-
-/// The plane that leaves a node simplest, with the node divided by it; nothing when no plane makes the node simpler.
-/// Throws SearchGivenUp (search_budget.h) when a budget is spent.
-std::optional<CellSplit> best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search);
-
-/// A tree of planes over a region of eye space, with the lists and planes of its cells. Planes are in the faces' space.
+/// A tree of planes over a region of eye space, with the lists of its cells. Planes are in the faces' space.
 struct ViewSpaceTree {
     std::vector<DrawOrder::Node> nodes; ///< Node 0 is the root; children come after their parents.
     std::vector<std::vector<std::uint32_t>> lists;
-    std::vector<std::vector<Plane>> cell_planes;
+    std::vector<OrderCell> cells;
     /// For each cell without a list of its own, where the search was given up, its sets of polygons (component_sets);
     /// empty for others.
     std::vector<std::vector<std::vector<std::uint32_t>>> incomplete_cells;
@@ -166,5 +89,18 @@ struct TreeSearch {
 /// otherwise. Throws SearchGivenUp (search_budget.h) when it grows beyond what can be held, or when a budget is spent;
 /// where part of it is kept, only if there is none.
 ViewSpaceTree view_space_tree(WorkingModel& work, const ViewCell& root, const TreeSearch& search);
+
+/// What a search over eye space finds.
+struct CellSearchResult {
+    WorkingModel work; ///< The model, with the polygons that were split.
+    ViewSpaceTree tree;
+
+    TreeCost cost() const { return {work.sibling_pieces.size(), tree.cells.size()}; }
+};
+
+/// The best of several trees over all of eye space. Throws SearchGivenUp when no search finds any, or only trees that
+/// split polygons more often than `max_splits` says (TreeSearch).
+CellSearchResult best_tree(
+    const models::polygons::PolygonModel& model, SearchBudget& budget, const std::function<int()>& max_splits = {});
 
 } // namespace octant::visuals::draworder

@@ -5,10 +5,9 @@
 #include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
-#include "sim/base/parallel_for.h"
-#include "sim/base/utf8.h"
+#include "sim/base/text_file.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/groundfile/tile_damage_log.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <algorithm>
@@ -23,12 +22,15 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -126,10 +128,7 @@ std::string sanitized_utf8(std::string_view text) {
 } // namespace
 
 GroundFileLayout::GroundFileLayout(const GroundLayout& layout) {
-    for (int level = 0; level < layout.levels(); ++level) {
-        const GroundLayout::Level& at = layout.level(level);
-        tiles += static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
-    }
+    for (int level = 0; level < layout.levels(); ++level) { tiles += layout.level(level).tile_count(); }
     checksums = (GroundHeader::bytes + layout.total_bytes() + checksum_bytes - 1) / checksum_bytes * checksum_bytes;
     file_bytes = checksums + checksum_bytes * (tiles + 1);
     const std::size_t page = GroundLayout::page_bytes;
@@ -161,9 +160,7 @@ std::uint64_t hash_of(const GroundShape& shape) {
 
 GroundHeader header_of(const GroundShape& shape, const GroundMetadata& metadata) {
     GroundHeader header;
-    header.version = !shape.has_both_margins ? GroundHeader::version_3
-                     : !shape.has_unit_codes ? GroundHeader::version_4
-                                             : GroundHeader::current_version;
+    header.version = !shape.has_both_margins ? 3 : !shape.has_unit_codes ? 4 : GroundHeader::current_version;
     header.columns = shape.columns;
     header.rows = shape.rows;
     header.spacing_m = shape.spacing_m;
@@ -187,8 +184,7 @@ GroundHeader header_of(const GroundShape& shape, const GroundMetadata& metadata)
 }
 
 GroundShape shape_of(const GroundHeader& h) {
-    return {h.columns, h.rows, h.spacing_m, h.height_base_m, h.height_unit_m, h.version > GroundHeader::version_3,
-        h.version > GroundHeader::version_4};
+    return {h.columns, h.rows, h.spacing_m, h.height_base_m, h.height_unit_m, h.version > 3, h.version > 4};
 }
 
 GroundMetadata metadata_of(const GroundHeader& h) {
@@ -235,15 +231,15 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
     if (!whole || header.magic != GroundHeader::current_magic) {
         throw_error_in(path, "expected a ground made by terrain import, got another kind of file");
     }
-    if (header.version < GroundHeader::version_1 || header.version > GroundHeader::current_version) {
-        throw_error_in(path, fmt::format("expected a ground of version {} to {}, got version {}: import it again",
-                                 GroundHeader::version_1, GroundHeader::current_version, header.version));
+    if (header.version < 1 || header.version > GroundHeader::current_version) {
+        throw_error_in(path, fmt::format("expected a ground of version 1 to {}, got version {}: import it again",
+                                 GroundHeader::current_version, header.version));
     }
-    if (header.version == GroundHeader::version_1) {
+    if (header.version == 1) {
         header.system = {};
         header.system_checksum = part_checksum(header.system);
     }
-    if (header.version <= GroundHeader::version_2) {
+    if (header.version <= 2) {
         header.deviation = {};
         header.deviation_checksum = part_checksum(header.deviation);
     }
@@ -251,11 +247,10 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
         header.deviation_checksum != part_checksum(header.deviation) || !is_intact(header)) {
         throw_error_in(path, "expected a sound header, got a damaged one: import it again");
     }
-    if (header.version <= GroundHeader::version_5 && !is_square_field(shape_of(header))) {
-        throw_error_in(
-            path, fmt::format("expected a ground of version {}, got version {}, whose heights end otherwise at "
-                              "the map's border: import it again",
-                      GroundHeader::current_version, header.version));
+    if (header.version <= 5 && !is_square_field(shape_of(header))) {
+        throw_error_in(path, fmt::format("expected a ground of version {}, got version {}, whose heights end otherwise "
+                                         "at the map's border: import it again",
+                                 GroundHeader::current_version, header.version));
     }
     if (header.layout != hash_of(shape_of(header))) {
         throw_error_in(path, "expected today's layout, got that of another release: import it again");
@@ -264,27 +259,6 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
 }
 
 namespace {
-
-/// The tiles of a mapped file. Each tile is compared with its checksum when it is first read. A damaged tile is
-/// repaired in memory, never in the file, and logged (log_tile_damage).
-class ChecksumValidator final : public terrain::TileValidator {
-public:
-    /// A finished file, sound before its tiles, mapped with Access::CopyOnWrite, and its header.
-    ChecksumValidator(std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header);
-
-private:
-    /// Whether a tile's bytes in the file match its checksum; false for a repaired one.
-    bool is_intact(int level, std::size_t tile) const;
-    void validate(int level, std::size_t tile) const override;
-
-    std::filesystem::path path_;
-    std::shared_ptr<MappedFile> file_;
-    GroundTiles ground_; ///< Over the same memory, guarded by this object.
-    std::size_t checksums_;
-    /// Held while a tile is checked or repaired, which may need other tiles.
-    mutable std::recursive_mutex mutex_;
-    mutable std::vector<bool> bad_;
-};
 
 struct TileId {
     int level = 0;
@@ -354,9 +328,7 @@ private:
                node.row < end_.row;
     }
 
-    std::size_t index_of(GridIndex node) const {
-        return static_cast<std::size_t>(((node.row - first_.row) << at_.tile_shift) + node.column - first_.column);
-    }
+    std::size_t index_of(GridIndex node) const { return at_.node_in_tile(node.column, node.row); }
 
     void write_height(NodePart part, GridIndex node, std::int16_t stored) {
         reinterpret_cast<std::int16_t*>(
@@ -395,10 +367,8 @@ private:
             const int level = ground_.levels() - 1 - zeros;
             const GroundLayout::Level& at = ground_.layout().level(level);
             const GridIndex node{sample.column >> (zeros + 1), sample.row >> (zeros + 1)};
-            const auto tile = static_cast<std::size_t>(
-                (node.row >> at.tile_shift) * at.tiles_across + (node.column >> at.tile_shift));
             const bool in_tile = node.column < at.columns && node.row < at.rows;
-            if (in_tile && !is_intact_(level, tile)) { return std::nullopt; }
+            if (in_tile && !is_intact_(level, at.tile_of(node.column, node.row))) { return std::nullopt; }
         }
         return static_cast<double>(ground_.height_m(sample.column, sample.row));
     }
@@ -484,40 +454,74 @@ std::span<const std::byte> tile_bytes(const GroundTiles& ground, int level, std:
     return ground.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
 }
 
-ChecksumValidator::ChecksumValidator(
-    std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header)
-    : TileValidator(GroundLayout(shape_of(header)), false), path_(std::move(path)), file_(std::move(file)),
-      ground_(shape_of(header), metadata_of(header),
-          std::as_const(*file_).bytes().subspan(GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
-          nullptr, std::shared_ptr<const TileValidator>(std::shared_ptr<const void>(), this)),
-      checksums_(GroundFileLayout(ground_.layout()).checksums), bad_(GroundFileLayout(ground_.layout()).tiles) {}
+using TileKey = std::tuple<int, std::size_t, std::size_t>; ///< level, row, column
 
-bool ChecksumValidator::is_intact(int level, std::size_t tile) const {
-    const std::scoped_lock lock(mutex_);
-    const std::size_t index = index_of(level, tile);
-    if (bad_[index] || is_valid(index)) { return !bad_[index]; }
-    std::uint64_t checksum = 0;
-    const std::size_t place = checksums_ + 8 * (index + 1); // the first is that of the bytes before the tiles
-    std::memcpy(&checksum, std::as_const(*file_).bytes().data() + place, sizeof checksum);
-    return checksum_of(tile_bytes(ground_, level, tile)) == checksum;
+struct DamageLog {
+    std::mutex mutex;
+    std::map<std::filesystem::path, std::set<TileKey>> tiles;
+};
+
+DamageLog& damage_log() {
+    static DamageLog all;
+    return all;
 }
 
-void ChecksumValidator::validate(int level, std::size_t tile) const {
-    const std::scoped_lock lock(mutex_);
-    const std::size_t index = index_of(level, tile);
-    if (is_valid(index)) { return; }
-    if (!is_intact(level, tile)) {
-        bad_[index] = true;
-        const GroundLayout::Level& at = ground_.layout().level(level);
-        const auto across = static_cast<std::size_t>(at.tiles_across);
-        log_tile_damage(path_, {level, tile % across, tile / across});
-        const std::span<const std::byte> bytes = tile_bytes(ground_, level, tile);
-        const auto offset = static_cast<std::size_t>(bytes.data() - std::as_const(*file_).bytes().data());
-        repair_tile([this](int l, std::size_t t) { return is_intact(l, t); }, ground_, {level, tile},
-            file_->writable_copy(offset, bytes.size()));
+/// Counts a damaged tile that this program met. Any thread may call it.
+void log_tile_damage(const std::filesystem::path& file, const TileKey& tile) {
+    DamageLog& all = damage_log();
+    const std::scoped_lock lock(all.mutex);
+    all.tiles[file].insert(tile);
+}
+
+/// The tiles of a mapped file. Each tile is compared with its checksum when it is first read. A damaged tile is
+/// repaired in memory, never in the file, and logged (log_tile_damage).
+class ChecksumValidator final : public terrain::TileValidator {
+public:
+    /// A finished file, sound before its tiles, mapped with Access::CopyOnWrite, and its header.
+    ChecksumValidator(std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header)
+        : TileValidator(GroundLayout(shape_of(header)), false), path_(std::move(path)), file_(std::move(file)),
+          ground_(shape_of(header), metadata_of(header),
+              std::as_const(*file_).bytes().subspan(GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
+              nullptr, std::shared_ptr<const TileValidator>(std::shared_ptr<const void>(), this)),
+          checksums_(GroundFileLayout(ground_.layout()).checksums), bad_(GroundFileLayout(ground_.layout()).tiles) {}
+
+private:
+    /// Whether a tile's bytes in the file match its checksum; false for a repaired one.
+    bool is_intact(int level, std::size_t tile) const {
+        const std::scoped_lock lock(mutex_);
+        const std::size_t index = index_of(level, tile);
+        if (bad_[index] || is_valid(index)) { return !bad_[index]; }
+        std::uint64_t checksum = 0;
+        const std::size_t place = checksums_ + 8 * (index + 1); // the first is that of the bytes before the tiles
+        std::memcpy(&checksum, std::as_const(*file_).bytes().data() + place, sizeof checksum);
+        return checksum_of(tile_bytes(ground_, level, tile)) == checksum;
     }
-    set_valid(index);
-}
+
+    void validate(int level, std::size_t tile) const override {
+        const std::scoped_lock lock(mutex_);
+        const std::size_t index = index_of(level, tile);
+        if (is_valid(index)) { return; }
+        if (!is_intact(level, tile)) {
+            bad_[index] = true;
+            const GroundLayout::Level& at = ground_.layout().level(level);
+            const auto across = static_cast<std::size_t>(at.tiles_across);
+            log_tile_damage(path_, {level, tile / across, tile % across});
+            const std::span<const std::byte> bytes = tile_bytes(ground_, level, tile);
+            const auto offset = static_cast<std::size_t>(bytes.data() - std::as_const(*file_).bytes().data());
+            repair_tile([this](int l, std::size_t t) { return is_intact(l, t); }, ground_, {level, tile},
+                file_->writable_copy(offset, bytes.size()));
+        }
+        set_valid(index);
+    }
+
+    std::filesystem::path path_;
+    std::shared_ptr<MappedFile> file_;
+    GroundTiles ground_; ///< Over the same memory, guarded by this object.
+    std::size_t checksums_;
+    /// Held while a tile is checked or repaired, which may need other tiles.
+    mutable std::recursive_mutex mutex_;
+    mutable std::vector<bool> bad_;
+};
 
 using std::filesystem::path;
 
@@ -588,7 +592,7 @@ void verify_ground(const path& path, int threads) {
     std::size_t before = 1;
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
-        const std::size_t count = static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+        const std::size_t count = at.tile_count();
         std::atomic<std::size_t> first_bad = count;
         parallel_for(count, threads, [&](std::size_t tile, std::size_t /*worker*/) {
             const auto bytes = memory_of(file, layout).subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
@@ -599,13 +603,25 @@ void verify_ground(const path& path, int threads) {
         });
         if (first_bad < count) {
             const auto across = static_cast<std::size_t>(at.tiles_across);
-            throw_error_in(
-                path, fmt::format("expected sound tiles, got damage in level {}, tile column {}, row {}: import "
-                                  "it again",
-                          level, first_bad % across, first_bad / across));
+            throw_error_in(path,
+                fmt::format("expected sound tiles, got damage in level {}, tile column {}, row {}: import it again",
+                    level, first_bad % across, first_bad / across));
         }
         before += count;
     }
+}
+
+std::vector<std::string> tile_damage_messages() {
+    DamageLog& all = damage_log();
+    const std::scoped_lock lock(all.mutex);
+    std::vector<std::string> lines;
+    for (const auto& [file, tiles] : all.tiles) {
+        const auto& [level, row, column] = *tiles.begin();
+        lines.push_back(fmt::format("{}: expected sound tiles, got damage in {} tile{} (the coarsest in level {}, "
+                                    "column {}, row {}), where a coarser ground was shown: import it again",
+            file.string(), tiles.size(), tiles.size() == 1 ? "" : "s", level, column, row));
+    }
+    return lines;
 }
 
 } // namespace octant::visuals::groundfile

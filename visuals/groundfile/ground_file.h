@@ -54,18 +54,11 @@ struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> current_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
+    /// Version 5: errors and heights beyond the field's border are those of a field that repeats its last column and
+    /// row; read_header takes only fields without such samples. 4: also with the codes of all grounds
+    /// (GroundShape::has_unit_codes). 3: also without the errors without margin (GroundShape::has_both_margins). 2:
+    /// also without a deviation. 1: also without a system.
     static constexpr std::uint32_t current_version = 6;
-    /// The same as version 6, but errors and heights beyond the field's border are those of a field that repeats its
-    /// last column and row there. read_header takes a field without such samples.
-    static constexpr std::uint32_t version_5 = 5;
-    /// The same as version 5, but with the codes of all grounds (GroundShape::has_unit_codes).
-    static constexpr std::uint32_t version_4 = 4;
-    /// The same as version 4, but without the errors without margin (GroundShape::has_both_margins).
-    static constexpr std::uint32_t version_3 = 3;
-    /// The same as version 3, but without a deviation.
-    static constexpr std::uint32_t version_2 = 2;
-    /// The same as version 2, but without a system.
-    static constexpr std::uint32_t version_1 = 1;
 
     std::array<char, 16> magic = current_magic;
     std::uint32_t version = current_version;
@@ -129,13 +122,18 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
 bool is_ground_file(const std::filesystem::path& path);
 
 /// Maps a ground into memory; its pages come from the disk when they are first read. Checks everything but the tiles.
-/// Each tile is checked when it is first read; a damaged tile is repaired in memory and logged (log_tile_damage).
+/// Each tile is checked when it is first read; a damaged tile is repaired in memory and counted
+/// (tile_damage_messages).
 /// Throws Error (no such file, another kind of file, unfinished, cut off or damaged before the tiles).
 GroundTiles open_ground(const std::filesystem::path& path);
 
 /// A hash of the header, of the bytes before the tiles and of the checksums of all tiles. It distinguishes grounds
 /// without reading the tiles. Throws Error as open_ground does.
 std::uint64_t hash_of_ground(const std::filesystem::path& path);
+
+/// One line for each ground file in which this program met damage so far: how many tiles, and the first of them by
+/// level and place. Empty when there was none.
+std::vector<std::string> tile_damage_messages();
 
 /// Checks the tiles, too, which reads the whole file. Throws Error that names the first bad tile.
 void verify_ground(const std::filesystem::path& path, int threads = 2);

@@ -33,12 +33,15 @@
 
 namespace octant::visuals::groundfile {
 
+namespace heights = models::heights;
+using heights::void_height_m;
+using std::filesystem::path;
+
 namespace {
 
-// Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by tile with a margin.
+using Stage = ImportProgress::Stage;
 
-/// Stands for a sample without data among a field's numbers.
-constexpr std::int16_t void_value = std::numeric_limits<std::int16_t>::min();
+// Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by tile with a margin.
 
 /// The most samples that are filled in one piece.
 constexpr std::size_t max_samples_at_once = std::size_t{1} << 22U;
@@ -57,33 +60,7 @@ struct Field {
 };
 
 float height_of(std::int16_t number) {
-    return number == void_value ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number);
-}
-
-/// The mean of the known samples of a block; NaN when there are none.
-float block_mean(const Field& field, int column, int row, int edge) {
-    double sum = 0.0;
-    int known = 0;
-    for (int y = row; y < std::min(row + edge, field.rows); ++y) {
-        for (int x = column; x < std::min(column + edge, field.columns); ++x) {
-            const std::int16_t number = field.at(x, y);
-            sum += number == void_value ? 0.0 : number;
-            known += number == void_value ? 0 : 1;
-        }
-    }
-    return known == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(sum / known);
-}
-
-models::heights::HeightGrid block_means(const Field& field, int edge) {
-    models::heights::HeightGrid means;
-    means.columns = (field.columns + edge - 1) / edge;
-    means.rows = (field.rows + edge - 1) / edge;
-    for (int row = 0; row < field.rows; row += edge) {
-        for (int column = 0; column < field.columns; column += edge) {
-            means.heights_m.push_back(block_mean(field, column, row, edge));
-        }
-    }
-    return means;
+    return number == void_height_m ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number);
 }
 
 /// A rectangle of samples; east and north are one past the last.
@@ -97,18 +74,18 @@ struct SampleRectangle {
 bool has_voids(const Field& field, const SampleRectangle& piece) {
     for (int row = piece.south; row < piece.north; ++row) {
         const std::int16_t* const start = &field.at(0, row);
-        if (std::find(start + piece.west, start + piece.east, void_value) != start + piece.east) { return true; }
+        if (std::find(start + piece.west, start + piece.east, void_height_m) != start + piece.east) { return true; }
     }
     return false;
 }
 
 /// Writes the heights of a grid into the voids of a piece. `of` is the rectangle that the grid covers.
 void write_filled(
-    const Field& field, const SampleRectangle& piece, const models::heights::HeightGrid& grid, SampleRectangle of) {
+    const Field& field, const SampleRectangle& piece, const heights::HeightGrid& grid, SampleRectangle of) {
     for (int row = piece.south; row < piece.north; ++row) {
         for (int column = piece.west; column < piece.east; ++column) {
             std::int16_t& number = field.at(column, row);
-            if (number == void_value) {
+            if (number == void_height_m) {
                 number = static_cast<std::int16_t>(std::lround(grid.at(column - of.west, row - of.south)));
             }
         }
@@ -116,11 +93,10 @@ void write_filled(
 }
 
 /// Fills the voids of one piece, starting from the coarse field.
-void fill_rectangle(
-    const Field& field, const SampleRectangle& piece, const models::heights::HeightGrid& coarse, int edge) {
+void fill_rectangle(const Field& field, const SampleRectangle& piece, const heights::HeightGrid& coarse, int edge) {
     const SampleRectangle wide{std::max(0, piece.west - margin), std::min(field.columns, piece.east + margin),
         std::max(0, piece.south - margin), std::min(field.rows, piece.north + margin)};
-    models::heights::HeightGrid grid;
+    heights::HeightGrid grid;
     grid.columns = wide.east - wide.west;
     grid.rows = wide.north - wide.south;
     for (int row = wide.south; row < wide.north; ++row) {
@@ -128,8 +104,8 @@ void fill_rectangle(
             grid.heights_m.push_back(height_of(field.at(column, row)));
         }
     }
-    models::heights::fill_voids_from(grid, [&](int column, int row) {
-        return models::heights::interpolated(
+    heights::fill_voids_from(grid, [&](int column, int row) {
+        return heights::interpolated(
             coarse, (wide.west + column + 0.5) / edge - 0.5, (wide.south + row + 0.5) / edge - 0.5);
     });
     write_filled(field, piece, grid, wide);
@@ -143,8 +119,9 @@ void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) 
     const Field field{numbers, columns, rows};
     int edge = 1;
     while (numbers.size() > max_samples_at_once * static_cast<std::size_t>(edge * edge)) { edge *= 2; }
-    models::heights::HeightGrid coarse = block_means(field, edge);
-    models::heights::fill_voids(coarse);
+    heights::HeightGrid coarse = heights::block_means(
+        columns, rows, edge, [&](int column, int row) { return height_of(field.at(column, row)); });
+    heights::fill_voids(coarse);
     if (edge == 1) {
         const SampleRectangle all{0, columns, 0, rows};
         write_filled(field, all, coarse, all);
@@ -159,21 +136,19 @@ void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) 
     }
 }
 
-static_assert(void_value == models::heights::void_height_m);
-
 void take_range(double lowest_m, double highest_m, ImportProgress& progress) {
     progress.lowest_m = std::min(progress.lowest_m, lowest_m);
     progress.highest_m = std::max(progress.highest_m, highest_m);
 }
 
 void read_integer_metres(
-    models::heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
+    heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
     source.read(first_row, numbers);
     std::int16_t lowest_m = std::numeric_limits<std::int16_t>::max();
-    std::int16_t highest_m = void_value;
+    std::int16_t highest_m = void_height_m;
     int voids = 0;
     for (const std::int16_t number : numbers) {
-        const bool is_void = number == void_value;
+        const bool is_void = number == void_height_m;
         voids += is_void ? 1 : 0;
         lowest_m = std::min(lowest_m, is_void ? lowest_m : number);
         highest_m = std::max(highest_m, number);
@@ -183,19 +158,19 @@ void read_integer_metres(
 }
 
 void read_fractions(
-    models::heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
+    heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
     std::vector<float> heights_m(numbers.size());
     source.read(first_row, heights_m);
     const terrain::GroundShape shape = terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const bool is_void = std::isnan(heights_m[i]);
         progress.voids += is_void ? 1 : 0;
-        numbers[i] = is_void ? void_value : terrain::stored_number(heights_m[i], shape);
+        numbers[i] = is_void ? void_height_m : terrain::stored_number(heights_m[i], shape);
     }
 }
 
 /// Updates the lowest and highest height in `progress` by some rows.
-void scan_rows(models::heights::HeightSource& source, int first_row, int count, ImportProgress& progress) {
+void scan_rows(heights::HeightSource& source, int first_row, int count, ImportProgress& progress) {
     std::vector<float> heights_m(static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
     source.read(first_row, heights_m);
     for (const float height_m : heights_m) {
@@ -203,11 +178,11 @@ void scan_rows(models::heights::HeightSource& source, int first_row, int count, 
     }
 }
 
-/// Reads the rows that fill the span as the numbers to keep, void_value for samples without data. If the source has
+/// Reads the rows that fill the span as the numbers to keep, void_height_m for samples without data. If the source has
 /// whole metres, these are kept, and lowest and highest in `progress` are updated; otherwise the numbers are those of
 /// shape_of the scanned heights. Counts voids. Throws Error as the source does.
 void read_rows(
-    models::heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
+    heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
     if (source.has_integer_metres()) {
         read_integer_metres(source, first_row, numbers, progress);
     } else {
@@ -219,12 +194,7 @@ void read_rows(
 // step.
 
 /// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from another.
-std::uint64_t hash_of_inputs(
-    const std::vector<std::filesystem::path>& inputs, const models::heights::ImportOptions& options);
-
-using std::filesystem::path;
-
-std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOptions& options) {
+std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const heights::ImportOptions& options) {
     Hash hash;
     hash.add_word(GroundHeader::current_version);
     hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
@@ -268,8 +238,8 @@ void check_output(const std::vector<path>& inputs, const path& out, const path& 
 void check_partial_file(const path& part) {
     std::error_code code;
     if (!is_ground_file(part) && std::filesystem::file_size(part, code) > 0) {
-        throw_error_in(part, "expected what an earlier import left, got another kind of file: move it away or "
-                             "choose another --out");
+        throw_error_in(part,
+            "expected what an earlier import left, got another kind of file: move it away or choose another --out");
     }
 }
 
@@ -281,12 +251,6 @@ void rename_into_place(const path& part, const path& out) {
     sync_folder_of(out);
 }
 
-using std::filesystem::path;
-using Stage = ImportProgress::Stage;
-using terrain::GroundAssembler;
-using terrain::HeightStatistics;
-using terrain::StoredHeights;
-
 constexpr int samples_per_band = 1 << 22;
 constexpr std::size_t tiles_per_batch = 256;
 
@@ -294,36 +258,207 @@ constexpr std::size_t tiles_per_batch = 256;
 class Import {
 public:
     Import(
-        const std::vector<path>& inputs, path out, const GroundImportOptions& options, const ImportCallback& callback);
+        const std::vector<path>& inputs, path out, const GroundImportOptions& options, const ImportCallback& callback)
+        : out_(std::move(out)), part_(out_), options_(options), callback_(callback),
+          source_(inputs, options.source_options), layout_(source_.columns(), source_.rows()), plan_(layout_),
+          inputs_(hash_of_inputs(inputs, options.source_options)) {
+        part_ += ".part";
+        check_output(inputs, out_, part_);
+        if (!is_storable(terrain::shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
+            throw_error_in(source_.name(),
+                fmt::format("expected samples from 1 mm to 1000 km apart, got {:g} m", source_.spacing_m()));
+        }
+    }
 
-    ImportSummary run();
+    ImportSummary run() {
+        shape_ = {source_.columns(), source_.rows(), source_.spacing_m(), 0.0, 1.0};
+        if (!resume_unfinished()) { restart(); }
+        if (progress_.stage == Stage::Scanning) { scan(); }
+        if (progress_.stage == Stage::Reading) {
+            read();
+            fill();
+        }
+        build();
+        finish();
+        return {shape_, metadata_, plan_.file_bytes, note_, source_.notes()};
+    }
 
 private:
     /// Takes up an unfinished file if there is one that fits. Returns whether there was.
-    bool resume_unfinished();
+    bool resume_unfinished() {
+        std::error_code code;
+        if (!std::filesystem::exists(part_, code)) { return false; }
+        file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadWrite);
+        check_partial_file(part_);
+        note_ = part_.string() + ": of other inputs or damaged, started anew";
+        try {
+            progress_ = read_header(part_, std::as_const(*file_).bytes()).progress;
+        } catch (const Error&) { return false; }
+        if (progress_.inputs != inputs_ || file_->bytes().size() != plan_.numbers + 2 * samples() ||
+            progress_.stage == Stage::Filling || progress_.stage == Stage::Complete) {
+            return false;
+        }
+        const bool builds = progress_.stage == Stage::Building;
+        note_ = fmt::format("{}: goes on after {} of {} {}", part_.string(),
+            builds ? progress_.tiles_done : progress_.rows_done,
+            builds ? plan_.tiles : static_cast<std::size_t>(source_.rows()), builds ? "tiles" : "rows");
+        return true;
+    }
+
     /// Makes an empty file of the size that is needed while working.
-    void restart();
-    void report_progress(ImportStage stage, double done);
+    void restart() {
+        file_.reset();
+        progress_ = {};
+        progress_.inputs = inputs_;
+        progress_.stage = source_.has_integer_metres() ? Stage::Reading : Stage::Scanning;
+        progress_.lowest_m = std::numeric_limits<double>::max();
+        progress_.highest_m = std::numeric_limits<double>::lowest();
+        file_ = std::make_unique<MappedFile>(part_, plan_.numbers + 2 * samples());
+        write_header();
+    }
+
+    void report_progress(ImportStage stage, double done) {
+        if (callback_(stage, done)) { save(); }
+    }
+
     /// Brings everything done so far to the disk, the header last.
-    void save();
-    void scan();
-    void read();
-    void fill();
-    void build();
-    void finish();
+    void save() {
+        file_->sync();
+        write_header();
+        file_->sync();
+    }
+
+    void scan() {
+        for_each_band(ImportStage::Scanning,
+            [&](int first_row, int count) { read_inputs([&] { scan_rows(source_, first_row, count, progress_); }); });
+        progress_.stage = Stage::Reading;
+        progress_.rows_done = 0;
+    }
+
+    void read() {
+        std::vector<std::int16_t> band;
+        const auto columns = static_cast<std::size_t>(source_.columns());
+        for_each_band(ImportStage::Reading, [&](int first_row, int count) {
+            band.resize(static_cast<std::size_t>(count) * columns);
+            read_inputs([&] { read_rows(source_, first_row, band, progress_); });
+            const std::size_t offset = plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
+            file_->write(offset, std::as_bytes(std::span(band)));
+        });
+        if (static_cast<std::size_t>(progress_.voids) == samples()) {
+            remove_part();
+            throw_error_in(source_.name(), "expected at least one height, got only samples without data");
+        }
+    }
+
+    /// Fills the voids. From here until they are filled a stop must start anew, because half-filled voids would not be
+    /// found again.
+    void fill() {
+        if (progress_.voids > 0) {
+            report_progress(ImportStage::Filling, 0.0);
+            progress_.stage = Stage::Filling;
+            save();
+            fill_integer_voids(numbers(), source_.columns(), source_.rows());
+            progress_.stage = Stage::Building;
+            report_progress(ImportStage::Filling, 1.0);
+        }
+        progress_.stage = Stage::Building;
+    }
+
+    void build() {
+        shape_ = terrain::shape_of(
+            source_.columns(), source_.rows(), source_.spacing_m(), progress_.lowest_m, progress_.highest_m);
+        const terrain::StoredHeights stored = terrain::stored_heights(numbers(), shape_, source_.has_integer_metres());
+        const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
+        const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
+        terrain::GroundAssembler assembly(shape_, layout_, stored, memory, options_.threads);
+        report_progress(ImportStage::Building, 0.0);
+        const terrain::HeightStatistics figures = assembly.write_overview();
+        metadata_ = {source_.name(), source_.place(), source_.system(), progress_.voids, figures.lowest_m,
+            figures.highest_m, figures.mean_m};
+        const auto put = [&](std::size_t index, std::size_t offset, std::span<const std::byte> tile) {
+            const std::uint64_t checksum = checksum_of(tile);
+            std::memcpy(table.data() + 8 * (index + 1), &checksum, 8);
+            file_->write(GroundHeader::bytes + offset, tile);
+        };
+        while (progress_.tiles_done < plan_.tiles) {
+            progress_.tiles_done = assembly.build(progress_.tiles_done, tiles_per_batch, put);
+            report_progress(
+                ImportStage::Building, static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
+        }
+        const std::uint64_t checksum = checksum_of(memory.first(layout_.first_tile()));
+        std::memcpy(table.data(), &checksum, 8);
+        checksums_ = checksum_of(table);
+        const GroundTiles made(shape_, metadata_, memory, nullptr);
+        read_inputs([&] {
+            metadata_.deviation =
+                source_.deviation_of([&made](double x_m, double y_m) { return made.height_at(x_m, y_m); });
+        });
+    }
+
+    void finish() {
+        report_progress(ImportStage::Writing, 0.0);
+        file_->truncate(plan_.file_bytes);
+        file_->sync();
+        progress_ = {};
+        progress_.stage = Stage::Complete;
+        write_header();
+        file_->sync();
+        verify_written();
+        rename_into_place(part_, out_); // While the part is still locked.
+        file_.reset();
+        callback_(ImportStage::Writing, 1.0);
+    }
+
     /// Throws Error unless the disk gives back what was written.
-    void verify_written();
-    void write_header();
-    void remove_part();
+    void verify_written() {
+        file_->drop_cached_pages();
+        try {
+            verify_ground(part_, options_.threads);
+        } catch (const Error& fault) {
+            remove_part();
+            throw_error_in(out_, fmt::format("cannot be read back as it was written, try again: {}", fault.what()));
+        }
+    }
+
+    void write_header() {
+        GroundHeader header = header_of(shape_, metadata_);
+        header.progress = progress_;
+        header.checksums = checksums_;
+        const auto page = header_page(header);
+        file_->write(0, page);
+    }
+
+    void remove_part() {
+        std::error_code code;
+        std::filesystem::remove(part_, code);
+    }
 
     /// Lets `read` read the inputs. If they are at fault, the unfinished file is removed, because there is nothing to
     /// go on from.
     template <typename Read>
-    void read_inputs(const Read& read);
+    void read_inputs(const Read& read) {
+        try {
+            read();
+        } catch (const Error&) {
+            remove_part();
+            throw;
+        }
+    }
 
     /// Calls `work(first row, rows)` for the rows that are not yet done, from the north, and reports progress.
     template <typename Work>
-    void for_each_band(ImportStage stage, const Work& work);
+    void for_each_band(ImportStage stage, const Work& work) {
+        const int rows = source_.rows();
+        const int rows_per_band = std::max(1, samples_per_band / source_.columns());
+        report_progress(stage, static_cast<double>(progress_.rows_done) / rows);
+        while (progress_.rows_done < static_cast<std::uint64_t>(rows)) {
+            const int end = rows - static_cast<int>(progress_.rows_done);
+            const int first = std::max(0, end - rows_per_band);
+            work(first, end - first);
+            progress_.rows_done = static_cast<std::uint64_t>(rows - first);
+            report_progress(stage, static_cast<double>(progress_.rows_done) / rows);
+        }
+    }
 
     std::span<std::byte> file_part(std::size_t offset, std::size_t size) {
         return file_->bytes().subspan(offset, size);
@@ -343,7 +478,7 @@ private:
     path part_;
     GroundImportOptions options_;
     const ImportCallback& callback_;
-    models::heights::HeightSource source_;
+    heights::HeightSource source_;
     GroundLayout layout_;
     GroundFileLayout plan_;
     std::uint64_t inputs_;
@@ -354,201 +489,6 @@ private:
     std::uint64_t checksums_ = 0;
     std::string note_;
 };
-
-Import::Import(
-    const std::vector<path>& inputs, path out, const GroundImportOptions& options, const ImportCallback& callback)
-    : out_(std::move(out)), part_(out_), options_(options), callback_(callback),
-      source_(inputs, options.source_options), layout_(source_.columns(), source_.rows()), plan_(layout_),
-      inputs_(hash_of_inputs(inputs, options.source_options)) {
-    part_ += ".part";
-    check_output(inputs, out_, part_);
-    if (!is_storable(terrain::shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
-        throw_error_in(source_.name(),
-            fmt::format("expected samples from 1 mm to 1000 km apart, got {:g} m", source_.spacing_m()));
-    }
-}
-
-ImportSummary Import::run() {
-    shape_ = {source_.columns(), source_.rows(), source_.spacing_m(), 0.0, 1.0};
-    if (!resume_unfinished()) { restart(); }
-    if (progress_.stage == Stage::Scanning) { scan(); }
-    if (progress_.stage == Stage::Reading) {
-        read();
-        fill();
-    }
-    build();
-    finish();
-    return {shape_, metadata_, plan_.file_bytes, note_, source_.notes()};
-}
-
-bool Import::resume_unfinished() {
-    std::error_code code;
-    if (!std::filesystem::exists(part_, code)) { return false; }
-    file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadWrite);
-    check_partial_file(part_);
-    note_ = part_.string() + ": of other inputs or damaged, started anew";
-    try {
-        progress_ = read_header(part_, std::as_const(*file_).bytes()).progress;
-    } catch (const Error&) { return false; }
-    if (progress_.inputs != inputs_ || file_->bytes().size() != plan_.numbers + 2 * samples() ||
-        progress_.stage == Stage::Filling || progress_.stage == Stage::Complete) {
-        return false;
-    }
-    const bool builds = progress_.stage == Stage::Building;
-    note_ = fmt::format("{}: goes on after {} of {} {}", part_.string(),
-        builds ? progress_.tiles_done : progress_.rows_done,
-        builds ? plan_.tiles : static_cast<std::size_t>(source_.rows()), builds ? "tiles" : "rows");
-    return true;
-}
-
-void Import::restart() {
-    file_.reset();
-    progress_ = {};
-    progress_.inputs = inputs_;
-    progress_.stage = source_.has_integer_metres() ? Stage::Reading : Stage::Scanning;
-    progress_.lowest_m = std::numeric_limits<double>::max();
-    progress_.highest_m = std::numeric_limits<double>::lowest();
-    file_ = std::make_unique<MappedFile>(part_, plan_.numbers + 2 * samples());
-    write_header();
-}
-
-void Import::report_progress(ImportStage stage, double done) {
-    if (callback_(stage, done)) { save(); }
-}
-
-void Import::save() {
-    file_->sync();
-    write_header();
-    file_->sync();
-}
-
-void Import::write_header() {
-    GroundHeader header = header_of(shape_, metadata_);
-    header.progress = progress_;
-    header.checksums = checksums_;
-    const auto page = header_page(header);
-    file_->write(0, page);
-}
-
-void Import::remove_part() {
-    std::error_code code;
-    std::filesystem::remove(part_, code);
-}
-
-template <typename Read>
-void Import::read_inputs(const Read& read) {
-    try {
-        read();
-    } catch (const Error&) {
-        remove_part();
-        throw;
-    }
-}
-
-template <typename Work>
-void Import::for_each_band(ImportStage stage, const Work& work) {
-    const int rows = source_.rows();
-    const int rows_per_band = std::max(1, samples_per_band / source_.columns());
-    report_progress(stage, static_cast<double>(progress_.rows_done) / rows);
-    while (progress_.rows_done < static_cast<std::uint64_t>(rows)) {
-        const int end = rows - static_cast<int>(progress_.rows_done);
-        const int first = std::max(0, end - rows_per_band);
-        work(first, end - first);
-        progress_.rows_done = static_cast<std::uint64_t>(rows - first);
-        report_progress(stage, static_cast<double>(progress_.rows_done) / rows);
-    }
-}
-
-void Import::scan() {
-    for_each_band(ImportStage::Scanning,
-        [&](int first_row, int count) { read_inputs([&] { scan_rows(source_, first_row, count, progress_); }); });
-    progress_.stage = Stage::Reading;
-    progress_.rows_done = 0;
-}
-
-void Import::read() {
-    std::vector<std::int16_t> band;
-    const auto columns = static_cast<std::size_t>(source_.columns());
-    for_each_band(ImportStage::Reading, [&](int first_row, int count) {
-        band.resize(static_cast<std::size_t>(count) * columns);
-        read_inputs([&] { read_rows(source_, first_row, band, progress_); });
-        const std::size_t offset = plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
-        file_->write(offset, std::as_bytes(std::span(band)));
-    });
-    if (static_cast<std::size_t>(progress_.voids) == samples()) {
-        remove_part();
-        throw_error_in(source_.name(), "expected at least one height, got only samples without data");
-    }
-}
-
-/// Fills the voids. From here until they are filled a stop must start anew, because half-filled voids would not be
-/// found again.
-void Import::fill() {
-    if (progress_.voids > 0) {
-        report_progress(ImportStage::Filling, 0.0);
-        progress_.stage = Stage::Filling;
-        save();
-        fill_integer_voids(numbers(), source_.columns(), source_.rows());
-        progress_.stage = Stage::Building;
-        report_progress(ImportStage::Filling, 1.0);
-    }
-    progress_.stage = Stage::Building;
-}
-
-void Import::build() {
-    shape_ = terrain::shape_of(
-        source_.columns(), source_.rows(), source_.spacing_m(), progress_.lowest_m, progress_.highest_m);
-    const StoredHeights heights = terrain::stored_heights(numbers(), shape_, source_.has_integer_metres());
-    const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
-    const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
-    GroundAssembler assembly(shape_, layout_, heights, memory, options_.threads);
-    report_progress(ImportStage::Building, 0.0);
-    const HeightStatistics figures = assembly.write_overview();
-    metadata_ = {source_.name(), source_.place(), source_.system(), progress_.voids, figures.lowest_m,
-        figures.highest_m, figures.mean_m};
-    const auto put = [&](std::size_t index, std::size_t offset, std::span<const std::byte> tile) {
-        const std::uint64_t checksum = checksum_of(tile);
-        std::memcpy(table.data() + 8 * (index + 1), &checksum, 8);
-        file_->write(GroundHeader::bytes + offset, tile);
-    };
-    while (progress_.tiles_done < plan_.tiles) {
-        progress_.tiles_done = assembly.build(progress_.tiles_done, tiles_per_batch, put);
-        report_progress(
-            ImportStage::Building, static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
-    }
-    const std::uint64_t checksum = checksum_of(memory.first(layout_.first_tile()));
-    std::memcpy(table.data(), &checksum, 8);
-    checksums_ = checksum_of(table);
-    const GroundTiles made(shape_, metadata_, memory, nullptr);
-    read_inputs([&] {
-        metadata_.deviation =
-            source_.deviation_of([&made](double x_m, double y_m) { return made.height_at(x_m, y_m); });
-    });
-}
-
-void Import::finish() {
-    report_progress(ImportStage::Writing, 0.0);
-    file_->truncate(plan_.file_bytes);
-    file_->sync();
-    progress_ = {};
-    progress_.stage = Stage::Complete;
-    write_header();
-    file_->sync();
-    verify_written();
-    rename_into_place(part_, out_); // While the part is still locked.
-    file_.reset();
-    callback_(ImportStage::Writing, 1.0);
-}
-
-void Import::verify_written() {
-    file_->drop_cached_pages();
-    try {
-        verify_ground(part_, options_.threads);
-    } catch (const Error& fault) {
-        remove_part();
-        throw_error_in(out_, fmt::format("cannot be read back as it was written, try again: {}", fault.what()));
-    }
-}
 
 } // namespace
 

@@ -21,28 +21,6 @@ namespace {
     throw_error_in(path, fmt::format("cannot be {}: {}", what, std::strerror(errno)));
 }
 
-/// Closes a descriptor unless it is released, so that nothing leaks when a constructor throws.
-class OpenedGround {
-public:
-    explicit OpenedGround(int descriptor) : descriptor_(descriptor) {}
-
-    ~OpenedGround() {
-        if (descriptor_ >= 0) { ::close(descriptor_); }
-    }
-
-    OpenedGround(const OpenedGround&) = delete;
-    OpenedGround& operator=(const OpenedGround&) = delete;
-    OpenedGround(OpenedGround&&) = delete;
-    OpenedGround& operator=(OpenedGround&&) = delete;
-
-    int get() const { return descriptor_; }
-
-    int release() { return std::exchange(descriptor_, -1); }
-
-private:
-    int descriptor_;
-};
-
 std::size_t size_of_regular(const std::filesystem::path& path, int descriptor) {
     struct stat status {};
 
@@ -76,31 +54,32 @@ int allocate_space(int descriptor, off_t length) {
 
 } // namespace
 
-MappedFile::MappedFile(std::filesystem::path path, Access access) : path_(std::move(path)) {
-    const bool writes = access == Access::ReadWrite;
-    OpenedGround file(::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK));
-    if (file.get() < 0) { throw_system_error(path_, writes ? "opened for writing" : "opened for reading"); }
-    size_ = size_of_regular(path_, file.get());
-    if (writes) { lock(path_, file.get()); }
-    descriptor_ = file.get();
-    map(writes ? PROT_READ | PROT_WRITE : PROT_READ, access != Access::CopyOnWrite);
-    file.release();
+MappedFile::MappedFile(std::filesystem::path path, int flags, const char* purpose)
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0644)) {
+    if (descriptor_ < 0) { throw_system_error(path_, purpose); }
 }
 
-MappedFile::MappedFile(std::filesystem::path path, std::size_t size) : path_(std::move(path)), size_(size) {
-    OpenedGround file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644));
-    if (file.get() < 0) { throw_system_error(path_, "written"); }
-    size_of_regular(path_, file.get());
-    lock(path_, file.get());
-    if (::ftruncate(file.get(), 0) != 0) { throw_system_error(path_, "written"); }
-    if (const int fault = allocate_space(file.get(), static_cast<off_t>(size)); fault != 0) {
+MappedFile::MappedFile(std::filesystem::path path, Access access)
+    : MappedFile(std::move(path), access == Access::ReadWrite ? O_RDWR : O_RDONLY,
+          access == Access::ReadWrite ? "opened for writing" : "opened for reading") {
+    const bool writes = access == Access::ReadWrite;
+    size_ = size_of_regular(path_, descriptor_);
+    if (writes) { lock(path_, descriptor_); }
+    map(writes ? PROT_READ | PROT_WRITE : PROT_READ, access != Access::CopyOnWrite);
+}
+
+MappedFile::MappedFile(std::filesystem::path path, std::size_t size)
+    : MappedFile(std::move(path), O_RDWR | O_CREAT, "written") {
+    size_of_regular(path_, descriptor_);
+    lock(path_, descriptor_);
+    if (::ftruncate(descriptor_, 0) != 0) { throw_system_error(path_, "written"); }
+    if (const int fault = allocate_space(descriptor_, static_cast<off_t>(size)); fault != 0) {
         ::unlink(path_.c_str());
         throw_error_in(
             path_, fmt::format("expected room for {} MB on the disk: {}", size / 1000000 + 1, std::strerror(fault)));
     }
-    descriptor_ = file.get();
+    size_ = size;
     map(PROT_READ | PROT_WRITE, true);
-    file.release();
 }
 
 void MappedFile::map(int protection, bool shared) {
@@ -151,8 +130,12 @@ void MappedFile::truncate(std::size_t size) {
 
 void sync_folder_of(const std::filesystem::path& path) {
     const std::filesystem::path parent = path.parent_path();
-    const OpenedGround folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC));
-    if (folder.get() >= 0 && ::fsync(folder.get()) != 0 && errno != EINVAL) { throw_system_error(path, "written"); }
+    const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC);
+    if (folder < 0) { return; }
+    const int fault = ::fsync(folder) == 0 ? 0 : errno;
+    ::close(folder);
+    errno = fault;
+    if (fault != 0 && fault != EINVAL) { throw_system_error(path, "written"); }
 }
 
 } // namespace octant::visuals::groundfile

@@ -53,6 +53,8 @@ public:
     void truncate(std::size_t size);
 
 private:
+    /// Opens the file. Throws Error "cannot be {purpose}".
+    MappedFile(std::filesystem::path path, int flags, const char* purpose);
     void map(int protection, bool shared);
 
     std::filesystem::path path_;

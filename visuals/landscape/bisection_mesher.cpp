@@ -5,9 +5,10 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/landscape/ground_palette.h"
+#include "visuals/nature/daylight.h"
 #include "visuals/nature/detailed_ground.h"
 #include "visuals/nature/relief_shadows.h"
-#include "visuals/nature/daylight.h"
+#include "visuals/nature/scenery.h"
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/land_cover_contrast.h"
 #include "visuals/terrain/ground_mesh.h"
@@ -384,9 +385,6 @@ public:
 
     const std::shared_ptr<const nature::ReliefShadows>& terrain_shadows() const { return terrain_shadows_; }
 
-    /// Whether things may stand in the cell beyond a sample.
-    bool allows_scenery(int column, int row) const;
-
     std::optional<double> height_at(double x_m, double y_m) const override { return tiles_->height_at(x_m, y_m); }
 
     double spacing_m() const override { return tiles_->spacing_m(); }
@@ -410,7 +408,7 @@ public:
         const scene::GroundSettings& ground, const scene::AirSettings& air) const override;
 
 private:
-    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
+    std::unique_ptr<GroundMesher> make_mesher() const override;
 
     std::shared_ptr<const terrain::GroundTiles> tiles_;
     scene::AirSettings air_;
@@ -448,12 +446,6 @@ BisectionGround::BisectionGround(std::shared_ptr<const terrain::GroundTiles> til
       contrast_(std::make_shared<const scene::LandCoverContrast>(
           GroundPalette(air, climate_at(tiles_->metadata().place)).contrast())),
       mean_colour_(VertexColours(*tiles_, air, terrain_shadows_).mean()) {}
-
-bool BisectionGround::allows_scenery(int column, int row) const {
-    constexpr double clear_m = models::heights::level_margin_m;
-    const glm::dvec2 at_m = (glm::dvec2(column, row) + 0.5) * spacing_m() - tiles_->half_extent_m();
-    return !runway() || runway()->distance_m(at_m) > clear_m + spacing_m();
-}
 
 glm::vec3 BisectionGround::colour_at(double x_m, double y_m, double footprint_m) const {
     const terrain::GroundSamples samples(*tiles_);
@@ -504,16 +496,9 @@ constexpr double default_triangles = 20000.0;
 /// Meshes by screen-space error with geomorphs, made ahead on a thread where that is asked for.
 class BisectionGroundMesher final : public GroundMesher {
 public:
-    BisectionGroundMesher(std::shared_ptr<const BisectionGround> ground, const MeshSettings& settings)
+    explicit BisectionGroundMesher(std::shared_ptr<const BisectionGround> ground)
         : ground_(std::move(ground)), mesher_(ground_->tiles()),
-          colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows()),
-          detailed_ground_(nature::Scenery(-ground_->tiles().half_extent_m(),
-              {ground_->tiles().columns(), ground_->tiles().rows()}, ground_->tiles().spacing_m(),
-              [this](int column, int row) { return scenery_density_at(column, row); })),
-          prefetcher_(ground_->tiles()) {
-        detailed_ground_.scenery().set_daylight(daylight_of(ground_->air()));
-        apply_settings(settings);
-    }
+          colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows()), prefetcher_(ground_->tiles()) {}
 
     const Ground& ground() const override { return *ground_; }
 
@@ -525,7 +510,7 @@ public:
         target_.geomorphs = settings.ground.geomorphs;
         detail_ = {settings.ground.near_detail, settings.ground.scenery && !settings.has_texture};
         has_texture_ = settings.has_texture;
-        use_roads(settings.ground.roads && !settings.has_texture);
+        make_decorations(settings);
         is_coloured_ = false;
         earth_radius_m_ =
             settings.ground.earth_curvature ? ellipsoid_below(ground_->tiles().metadata().place).mean_radius_m() : 0.0;
@@ -537,9 +522,6 @@ public:
         background_task_.wait();
         ground_ = std::move(moved);
         colours_.apply_settings(ground_->air(), ground_->terrain_shadows());
-        use_roads(roads_ != nullptr);
-        detailed_ground_.scenery().clear_cache();
-        detailed_ground_.scenery().set_daylight(daylight_of(ground_->air()));
         is_coloured_ = false;
         return true;
     }
@@ -578,8 +560,10 @@ public:
         }
         const std::size_t first = triangles.size();
         const double moved_m = nature::max_offset_ratio * ground_->spacing_m();
+        double tallest_m = 0.0;
+        for (const auto& decoration : decorations_) { tallest_m = std::max(tallest_m, decoration->height_m()); }
         const glm::dvec3 below_m(0.0, 0.0, moved_m);
-        const glm::dvec3 above_m(0.0, 0.0, moved_m + nature::Scenery::highest_m);
+        const glm::dvec3 above_m(0.0, 0.0, moved_m + tallest_m);
         mesher_.triangles_in(
             [&](const glm::dvec3& min_m, const glm::dvec3& max_m) { return wanted(min_m - below_m, max_m + above_m); },
             triangles);
@@ -587,29 +571,20 @@ public:
     }
 
 private:
-    /// Where things stand follows from where roads are.
-    void use_roads(bool wanted) {
-        std::shared_ptr<const roads::RoadNetwork> roads = wanted ? ground_->road_network() : nullptr;
-        if (roads != roads_) {
-            roads_ = std::move(roads);
-            detailed_ground_.scenery().clear_cache();
-        }
-    }
-
-    /// Nothing stands on a road, and more houses stand along it.
-    nature::SceneryDensity scenery_density_at(int column, int row) const {
-        constexpr double along_road_m = 90.0;
-        constexpr float houses_along_road = 8.0F; ///< times as many
-        if (!ground_->allows_scenery(column, row)) { return {}; }
-        nature::SceneryDensity scenery_density = colours_.scenery_density_of(column, row);
-        const double spacing_m = ground_->spacing_m();
-        const glm::dvec2 middle_m = (glm::dvec2(column, row) + 0.5) * spacing_m - ground_->half_extent_m();
-        if (!roads_) { return scenery_density; }
-        if (roads_->is_near(middle_m, spacing_m * 0.75 + roads::half_width_m)) { return {}; }
-        if (scenery_density.houses > 0.0F && roads_->is_near(middle_m, along_road_m + spacing_m)) {
-            scenery_density.houses = std::min(houses_along_road * scenery_density.houses, 0.3F);
-        }
-        return scenery_density;
+    /// Trees and houses come with what lies on the ground, which says where they stand.
+    void make_decorations(const MeshSettings& settings) {
+        GroundMesher::apply_settings(settings);
+        if (!detail_.scenery) { return; }
+        const auto density_at = [this](int column, int row) {
+            nature::SceneryDensity density = colours_.scenery_density_of(column, row);
+            const double cell_m = ground_->spacing_m();
+            const glm::dvec2 middle_m = (glm::dvec2(column, row) + 0.5) * cell_m - ground_->half_extent_m();
+            for (const auto& decoration : decorations_) { decoration->limit_scenery(middle_m, cell_m, density); }
+            return density;
+        };
+        const terrain::GroundTiles& tiles = ground_->tiles();
+        decorations_.push_back(nature::scenery_decoration(-tiles.half_extent_m(), {tiles.columns(), tiles.rows()},
+            tiles.spacing_m(), daylight_of(settings.air), density_at));
     }
 
     bool adds_detail() const { return detail_.has_subdivision || detail_.scenery; }
@@ -657,8 +632,8 @@ private:
     void show(const terrain::GroundMesh& mesh) {
         drawn_mesh_ = {mesh.vertices, mesh.indices, 0, 0};
         if (adds_detail()) {
-            drawn_mesh_ =
-                detailed_ground_.detailed_mesh(mesh, near_view_, detail_, has_texture_ ? nullptr : &colour_at_point_);
+            drawn_mesh_ = detailed_ground_.detailed_mesh(
+                mesh, near_view_, detail_, decorations_, has_texture_ ? nullptr : &colour_at_point_);
         }
     }
 
@@ -677,7 +652,6 @@ private:
     VertexColours colours_;
     nature::DetailedGround detailed_ground_;
     nature::NearDetailOptions detail_;
-    std::shared_ptr<const roads::RoadNetwork> roads_; ///< null: none are shown
     bool has_texture_ = false;
     nature::ColourAtPoint colour_at_point_ = [this](const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
         return colours_.at(place_m, from_eye_m);
@@ -699,9 +673,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<GroundMesher> BisectionGround::make_mesher(const MeshSettings& settings) const {
+std::unique_ptr<GroundMesher> BisectionGround::make_mesher() const {
     auto ground = std::static_pointer_cast<const BisectionGround>(shared_from_this());
-    return std::make_unique<BisectionGroundMesher>(std::move(ground), settings);
+    return std::make_unique<BisectionGroundMesher>(std::move(ground));
 }
 
 std::shared_ptr<const Ground> make_bisection_ground(terrain::GroundTiles ground, const scene::AirSettings& air,

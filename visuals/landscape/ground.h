@@ -97,6 +97,9 @@ public:
         return nullptr;
     }
 
+    /// What lies on it under these settings, for one view.
+    nature::GroundDecorations lying_decorations(const MeshSettings& settings) const;
+
     /// The meshes of one more view. The ground has_mesh_settings() the settings say (asserted).
     std::unique_ptr<GroundMesher> mesher(const MeshSettings& settings) const;
 
@@ -108,7 +111,8 @@ protected:
         : runway_(std::move(runway)) {}
 
 private:
-    virtual std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const = 0;
+    /// A mesher without settings.
+    virtual std::unique_ptr<GroundMesher> make_mesher() const = 0;
 
     std::shared_ptr<const models::heights::RunwayStrip> runway_;
     mutable std::once_flag backdrop_once_;

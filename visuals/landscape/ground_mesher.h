@@ -1,64 +1,30 @@
 #pragma once
 
+#include "sim/base/thread_pool.h"
+#include "visuals/nature/ground_decoration.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/vec3.hpp>
 
-#include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 namespace octant::visuals::landscape {
-
-/// Runs work on an idle thread of a thread pool. Returns false without running it when no thread is idle. The work must
-/// not throw.
-using IdleThreadRunner = std::function<bool(std::function<void()> work)>;
-
-/// Runs one function at a time on a thread of its own or of a thread pool, while the owner goes on.
-class BackgroundTask {
-public:
-    BackgroundTask() = default;
-    BackgroundTask(const BackgroundTask&) = delete;
-    BackgroundTask& operator=(const BackgroundTask&) = delete;
-    BackgroundTask(BackgroundTask&&) = delete;
-    BackgroundTask& operator=(BackgroundTask&&) = delete;
-    ~BackgroundTask(); ///< waits
-
-    /// Waits for the previous work, then begins this one: on an idle thread of the pool, else on a thread of its own,
-    /// which is created on first use.
-    void begin(std::function<void()> work, const IdleThreadRunner& on_idle_thread);
-
-    /// Returns when no work is running. Rethrows what the work threw.
-    void wait();
-
-private:
-    void run(const std::stop_token& stop);
-    void run_work();
-
-    std::mutex mutex_;
-    std::condition_variable_any state_changed_;
-    std::function<void()> work_;       ///< empty: nothing to do
-    bool runs_on_pool_thread_ = false; ///< another's thread does it
-    std::exception_ptr exception_;
-    std::jthread thread_;
-};
 
 class Ground;
 
 /// How a view's ground is meshed, and for which pictures.
 struct MeshSettings {
     scene::GroundSettings ground;
+    scene::AirSettings air;
     int picture_height_px = 720;
     /// Nearest triangles first, for pictures with a depth buffer; else farthest first.
     bool is_front_to_back = false;
-    /// A texture colours the ground: it then has no things on it, which would get its colours.
+    /// A texture colours the ground: neither trees and houses nor roads are on it, which would get its colours.
     bool has_texture = false;
 };
 
@@ -112,11 +78,15 @@ public:
     virtual void reset_detail(const MeshRequest& /*request*/) {}
 
     /// Uses other settings from the next frame on; the state of the detail control stays. The ground must support the
-    /// settings: has_mesh_settings(), asserted by reuse_or_make_mesher().
-    virtual void apply_settings(const MeshSettings& /*settings*/) {}
+    /// settings: has_mesh_settings(), asserted by reuse_or_make_mesher(). The decorations are made anew.
+    virtual void apply_settings(const MeshSettings& settings);
+
+    /// What stands and lies on the ground in this view, as the settings want it. What stands is among the triangles;
+    /// what lies is for whoever draws them. Valid until the next apply_settings().
+    const nature::GroundDecorations& decorations() const { return decorations_; }
 
     /// Uses another ground from the next frame on, if it has the same heights in the same memory and differs only in
-    /// colours. Otherwise returns false and changes nothing.
+    /// colours; apply_settings() must follow. Otherwise returns false and changes nothing.
     virtual bool switch_ground(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
 
     /// Begins the work of the next triangles() on another thread; that call should have the same request. A second
@@ -143,6 +113,8 @@ public:
 
 protected:
     GroundMesher() = default;
+
+    nature::GroundDecorations decorations_;
 };
 
 } // namespace octant::visuals::landscape

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "sim/base/geo_position.h"
+#include "sim/base/earth_frame.h"
 #include "visuals/nature/climate.h"
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/relief_shadows.h"

@@ -1,6 +1,6 @@
 #include "visuals/landscape/ground_texture_maker.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/landscape/ground_palette.h"
 
 #include <glm/common.hpp>

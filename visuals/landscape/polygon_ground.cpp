@@ -75,7 +75,7 @@ public:
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
 private:
-    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
+    std::unique_ptr<GroundMesher> make_mesher() const override;
 
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         indices_.insert(indices_.end(), {a, b, c});
@@ -126,7 +126,7 @@ private:
     std::vector<models::ColourVertex> vertices_;
 };
 
-std::unique_ptr<GroundMesher> PolygonGround::make_mesher(const MeshSettings& /*settings*/) const {
+std::unique_ptr<GroundMesher> PolygonGround::make_mesher() const {
     return std::make_unique<PolygonGroundMesher>(std::static_pointer_cast<const PolygonGround>(shared_from_this()));
 }
 

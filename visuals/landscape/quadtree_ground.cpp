@@ -121,7 +121,7 @@ public:
     }
 
 private:
-    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
+    std::unique_ptr<GroundMesher> make_mesher() const override;
 
     std::shared_ptr<const models::heights::HeightField> field_;
     std::shared_ptr<const terrain::Quadtree> tree_; ///< of that field
@@ -134,14 +134,13 @@ private:
 /// Meshes of the quadtree at a resolution C that holds the triangle count.
 class QuadtreeGroundMesher final : public GroundMesher {
 public:
-    QuadtreeGroundMesher(std::shared_ptr<const QuadtreeGround> ground, const MeshSettings& settings)
-        : ground_(std::move(ground)), mesher_(ground_->tree(), ground_->colours()) {
-        apply_settings(settings);
-    }
+    explicit QuadtreeGroundMesher(std::shared_ptr<const QuadtreeGround> ground)
+        : ground_(std::move(ground)), mesher_(ground_->tree(), ground_->colours()) {}
 
     const Ground& ground() const override { return *ground_; }
 
     void apply_settings(const MeshSettings& settings) override {
+        GroundMesher::apply_settings(settings);
         const scene::GroundSettings& ground = settings.ground;
         control_ = control_settings(ground);
         exact_ = ground.detail == scene::DetailControl::Exact;
@@ -222,9 +221,8 @@ private:
     bool fixed_resolution_ = false;
 };
 
-std::unique_ptr<GroundMesher> QuadtreeGround::make_mesher(const MeshSettings& settings) const {
-    return std::make_unique<QuadtreeGroundMesher>(
-        std::static_pointer_cast<const QuadtreeGround>(shared_from_this()), settings);
+std::unique_ptr<GroundMesher> QuadtreeGround::make_mesher() const {
+    return std::make_unique<QuadtreeGroundMesher>(std::static_pointer_cast<const QuadtreeGround>(shared_from_this()));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_position.h"
+#include "sim/base/earth_frame.h"
 
 #include <glm/vec3.hpp>
 

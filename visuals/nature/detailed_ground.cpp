@@ -1,8 +1,8 @@
 #include "visuals/nature/detailed_ground.h"
 
-#include "sim/base/geometry2d.h"
 #include "sim/base/hash.h"
-#include "visuals/nature/scenery.h"
+#include "sim/base/plane.h"
+#include "sim/base/units.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,6 +19,46 @@
 #include <vector>
 
 namespace octant::visuals::nature {
+
+namespace {
+
+/// Edges of the ground that are shorter stay whole; over the distance of samples.
+constexpr float min_split_edge_ratio = 1.0F / 24.0F;
+constexpr double default_edge_rad = 0.08;
+constexpr double default_edge_px = 70.0; ///< the same in 720 lines over 45 degrees
+constexpr double min_budget_edge_rad = 0.02;
+constexpr double default_width_rad = 1.4;
+/// Halvings over those that even level ground takes: slopes, edges of the picture.
+constexpr double slope_allowance = 1.3;
+constexpr double base_splits = 500.0; ///< halvings of large level triangles, wherever the eye is
+constexpr double default_scenery_triangles = 4000.0;
+constexpr std::size_t unlimited_scenery_triangles = 100'000; ///< more than there can be
+constexpr double scenery_max_height_m = 900.0;               ///< of the eye over the ground
+
+} // namespace
+
+/// Of level ground between two distances, triangles whose edges look a long take 2 width / a^2 ln(far / near): each
+/// covers a^2 / 2 times the square of its distance.
+void apply_detail_budget(const DetailBudget& budget, const NearDetailOptions& detail, NearDetailView& view) {
+    const double share = std::clamp(budget.share.value_or(1.0), 0.005, 2.0);
+    const double wide = std::clamp(budget.width_rad / default_width_rad, 0.01, 2.0);
+    const double edge_rad = budget.share ? default_edge_rad * std::sqrt(wide / share)
+                                         : std::max(default_edge_px / budget.focal_px, min_budget_edge_rad);
+    view.min_edge_rad = static_cast<float>(edge_rad);
+    const double to_m = 1.42 * view.spacing_m / edge_rad;
+    const double from_m =
+        std::max(budget.height_above_ground_m, static_cast<double>(min_split_edge_ratio) * view.spacing_m / edge_rad);
+    const double width_rad = budget.share ? budget.width_rad : 2.0 * pi;
+    const double level = 2.0 * width_rad / (edge_rad * edge_rad) * std::log(std::max(to_m / from_m, 1.0));
+    const double splits = slope_allowance * level + base_splits * share;
+    view.max_splits = detail.has_subdivision ? static_cast<std::size_t>(splits) : 0;
+    const double low = std::clamp(1.2 - budget.height_above_ground_m / scenery_max_height_m, 0.0, 1.0);
+    const double things = default_scenery_triangles * share * low;
+    view.max_scenery_triangles = !detail.scenery ? 0
+                                 : budget.share  ? static_cast<std::size_t>(things)
+                                                 : unlimited_scenery_triangles;
+    view.range_ratio = static_cast<float>(std::sqrt(std::min(share, 1.0)));
+}
 
 namespace {
 
@@ -89,141 +129,185 @@ std::uint32_t blended(std::uint32_t a, std::uint32_t b, float share_of_b, float 
 
 } // namespace
 
-void NearDetailMesh::begin(const NearDetailView& view, std::span<const models::ColourVertex> vertices, Scenery* scenery,
-    const ColourAtPoint* colour) {
-    view_ = view;
-    scenery_ = scenery;
-    colour_ = colour;
-    vertices_.assign(vertices.begin(), vertices.end());
-    midpoints_.resize(std::max({min_places, std::bit_ceil(2 * view.max_splits), midpoints_.size()}));
-    ++frame_;
-    added_ = 0;
-}
-
-bool NearDetailMesh::exceeds_min_edge(std::uint32_t a, std::uint32_t b) const {
-    const glm::vec3& from = vertices_[a].position_m;
-    const glm::vec3& to = vertices_[b].position_m;
-    return squared_angular_size(from, to) > view_.min_edge_rad * view_.min_edge_rad && is_splittable(view_, from, to);
-}
-
-/// The vertex in the middle of an edge that is halved; the edge's first end where it stays whole.
-std::uint32_t NearDetailMesh::midpoint_of(std::uint32_t a, std::uint32_t b) {
-    if (a > b) { std::swap(a, b); }
-    if (!exceeds_min_edge(a, b)) { return a; }
-    const std::uint64_t edge = (std::uint64_t{a} << 32U | b) + 1;
-    const std::size_t mask = midpoints_.size() - 1;
-    std::size_t at = scrambled(a * 0x9e3779b1U ^ b) & mask;
-    while (midpoints_[at].frame == frame_ && midpoints_[at].edge != edge) { at = (at + 1) & mask; }
-    EdgeMidpoint& middle = midpoints_[at];
-    if (middle.frame != frame_) {
-        if (added_ >= view_.max_splits) { return a; }
-        middle = {edge, add_midpoint(a, b), frame_};
+/// Adds detail below the distance of samples to ground near the eye: edges that look long are halved, and the halves'
+/// middles are moved up or down and take the colours of their places, in other shades where it is steep. All follow
+/// from the middle's place in the world, the steepness of its edge and how long that looks, growing from nothing. What
+/// lies at samples stays where it is. Triangles that share an edge halve it alike, so that there are no cracks, and the
+/// parts of a triangle come from near to far. Under what stands on the ground, the ground stays even, and each thing
+/// goes with the part in which it stands.
+class NearDetailMesh {
+public:
+    /// Begins a frame: vertices of the mesh, with the eye subtracted, to which more are added. `decorations`: what
+    /// stands on the ground; null = nothing. `colour`: of middles; null = between those of the ends.
+    void begin(const NearDetailView& view, std::span<const models::ColourVertex> vertices,
+        const GroundDecorations* decorations, const ColourAtPoint* colour) {
+        view_ = view;
+        decorations_ = decorations;
+        scenery_triangles_ = 0;
+        colour_ = colour;
+        vertices_.assign(vertices.begin(), vertices.end());
+        midpoints_.resize(std::max({min_places, std::bit_ceil(2 * view.max_splits), midpoints_.size()}));
+        ++frame_;
+        added_ = 0;
     }
-    return middle.vertex;
-}
 
-/// How far the middle of an edge between neighbouring samples, or shorter, lies above it when it has wholly come;
-/// nothing under what stands on the ground, which stays even.
-float NearDetailMesh::vertical_offset_m(
-    const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const {
-    if (scenery_ != nullptr && scenery_->has_scenery_at(place_m)) { return 0.0F; }
-    const auto spacing_m = static_cast<float>(view_.spacing_m);
-    const float max_m =
-        std::min(offset_per_slope * std::abs(to_m.z - from_m.z), static_cast<float>(max_offset_ratio) * spacing_m);
-    const double cell_m = view_.spacing_m / 64.0;
-    return 0.5F * max_m * noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
-}
-
-std::uint32_t NearDetailMesh::add_midpoint(std::uint32_t a, std::uint32_t b) {
-    const models::ColourVertex from = vertices_[a];
-    const models::ColourVertex to = vertices_[b];
-    glm::vec3 at_m = 0.5F * (from.position_m + to.position_m);
-    const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
-    const float length_m = std::sqrt(squared_plan_length_m2(from.position_m, to.position_m));
-    const float distance_m = std::max(std::sqrt(squared_length(at_m)), min_detail_distance_m);
-    const float grown =
-        std::clamp((length_m / (view_.min_edge_rad * distance_m) - 1.0F) / (full_offset_ratio - 1.0F), 0.0F, 1.0F);
-    std::uint32_t colour = blended(from.colour, to.colour, 0.5F, 1.0F);
-    if (colour_ != nullptr) { colour = blended(colour, (*colour_)(place_m, at_m), grown, 1.0F); }
-    if (length_m < 1.45F * static_cast<float>(view_.spacing_m) && colour >> 24U != 0) {
-        const float slope = std::abs(to.position_m.z - from.position_m.z) / length_m;
-        const float rough = std::min(slope / level_slope, 1.0F);
-        const double cell_m = view_.spacing_m / 64.0;
-        const float shades = noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 2);
-        at_m.z += grown * vertical_offset_m(from.position_m, to.position_m, place_m);
-        colour = blended(colour, colour, 0.0F, 1.0F + shade * grown * rough * shades);
+    /// Appends a triangle in its parts to `indices`, nearest first; each part after what stands on it where
+    /// `has_scenery` says that anything does.
+    void add(const std::uint32_t* corners, bool has_scenery, std::vector<std::uint32_t>& indices) {
+        add_subdivided({corners[0], corners[1], corners[2]}, 0, has_scenery, indices);
     }
-    vertices_.push_back({at_m, colour});
-    return static_cast<std::uint32_t>(vertices_.size() - 1);
-}
 
-void NearDetailMesh::add(const std::uint32_t* corners, bool has_scenery, std::vector<std::uint32_t>& indices) {
-    add_subdivided({corners[0], corners[1], corners[2]}, 0, has_scenery, indices);
-}
+    /// Appends what stands on a triangle.
+    void add_standing(const std::array<glm::vec3, 3>& triangle_m, std::vector<std::uint32_t>& indices) {
+        const std::size_t before = indices.size();
+        for (const auto& decoration : *decorations_) { decoration->add_standing(triangle_m, vertices_, indices); }
+        scenery_triangles_ += (indices.size() - before) / 3;
+    }
 
-bool NearDetailMesh::is_outside(const TriangleIndices& triangle) const {
-    return octant::visuals::nature::is_outside(
-        view_, {vertices_[triangle.a].position_m, vertices_[triangle.b].position_m, vertices_[triangle.c].position_m});
-}
+    /// Triangles of what stands on the ground in this frame.
+    std::size_t scenery_triangles() const { return scenery_triangles_; }
 
-/// Things stand within quarters of cells, which are even where anything stands.
-bool NearDetailMesh::is_quarter_cell(const TriangleIndices& triangle) const {
-    const glm::vec3& a = vertices_[triangle.a].position_m;
-    const glm::vec3& b = vertices_[triangle.b].position_m;
-    const glm::vec3& c = vertices_[triangle.c].position_m;
-    const float max_m = quarter_edge * static_cast<float>(view_.spacing_m);
-    return std::max({squared_plan_length_m2(a, b), squared_plan_length_m2(b, c), squared_plan_length_m2(c, a)}) <
-           max_m * max_m;
-}
+    /// Those of the mesh, then new ones.
+    std::vector<models::ColourVertex>& vertices() { return vertices_; }
 
-void NearDetailMesh::add_scenery(const TriangleIndices& triangle, std::vector<std::uint32_t>& indices) {
-    scenery_->add(
-        {vertices_[triangle.a].position_m, vertices_[triangle.b].position_m, vertices_[triangle.c].position_m},
-        vertices_, indices);
-}
+private:
+    struct EdgeMidpoint {
+        std::uint64_t edge = 0; ///< both ends; 0 = unused
+        std::uint32_t vertex = 0;
+        std::uint32_t frame = 0;
+    };
 
-/// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through the cut stands
-/// upright, so that the part on the eye's side hides nothing of the other. What stands on the triangle goes with its
-/// parts down to quarters of cells, unless a cut goes through quarters, as it does where a longer edge stays whole.
-void NearDetailMesh::add_subdivided(
-    const TriangleIndices& triangle, int depth, bool has_scenery, std::vector<std::uint32_t>& indices) {
-    const TriangleIndices turns[3] = {
-        triangle, {triangle.b, triangle.c, triangle.a}, {triangle.c, triangle.a, triangle.b}};
-    const TriangleIndices* longest = nullptr;
-    std::uint32_t middle = 0;
-    float length2 = 0.0F;
-    float most2 = 0.0F;
-    const bool whole = depth >= max_split_depth || (depth > 0 && is_outside(triangle));
-    for (const TriangleIndices& turn : turns) {
-        const float own2 = squared_plan_length_m2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);
-        most2 = std::max(most2, own2);
-        if (own2 <= length2 || whole) { continue; }
-        const std::uint32_t own = midpoint_of(turn.a, turn.b);
-        if (own != std::min(turn.a, turn.b)) {
-            longest = &turn;
-            middle = own;
-            length2 = own2;
+    struct TriangleIndices {
+        std::uint32_t a;
+        std::uint32_t b;
+        std::uint32_t c;
+    };
+
+    bool exceeds_min_edge(std::uint32_t a, std::uint32_t b) const {
+        const glm::vec3& from = vertices_[a].position_m;
+        const glm::vec3& to = vertices_[b].position_m;
+        return squared_angular_size(from, to) > view_.min_edge_rad * view_.min_edge_rad &&
+               is_splittable(view_, from, to);
+    }
+
+    /// The vertex in the middle of an edge that is halved; the edge's first end where it stays whole.
+    std::uint32_t midpoint_of(std::uint32_t a, std::uint32_t b) {
+        if (a > b) { std::swap(a, b); }
+        if (!exceeds_min_edge(a, b)) { return a; }
+        const std::uint64_t edge = (std::uint64_t{a} << 32U | b) + 1;
+        const std::size_t mask = midpoints_.size() - 1;
+        std::size_t at = scrambled(a * 0x9e3779b1U ^ b) & mask;
+        while (midpoints_[at].frame == frame_ && midpoints_[at].edge != edge) { at = (at + 1) & mask; }
+        EdgeMidpoint& middle = midpoints_[at];
+        if (middle.frame != frame_) {
+            if (added_ >= view_.max_splits) { return a; }
+            middle = {edge, add_midpoint(a, b), frame_};
         }
+        return middle.vertex;
     }
-    const bool cuts_quarters = length2 < most2;
-    if (has_scenery && (longest == nullptr || cuts_quarters || is_quarter_cell(triangle))) {
-        add_scenery(triangle, indices);
-        has_scenery = false;
+
+    std::uint32_t add_midpoint(std::uint32_t a, std::uint32_t b) {
+        const models::ColourVertex from = vertices_[a];
+        const models::ColourVertex to = vertices_[b];
+        glm::vec3 at_m = 0.5F * (from.position_m + to.position_m);
+        const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
+        const float length_m = std::sqrt(squared_plan_length_m2(from.position_m, to.position_m));
+        const float distance_m = std::max(std::sqrt(squared_length(at_m)), min_detail_distance_m);
+        const float grown =
+            std::clamp((length_m / (view_.min_edge_rad * distance_m) - 1.0F) / (full_offset_ratio - 1.0F), 0.0F, 1.0F);
+        std::uint32_t colour = blended(from.colour, to.colour, 0.5F, 1.0F);
+        if (colour_ != nullptr) { colour = blended(colour, (*colour_)(place_m, at_m), grown, 1.0F); }
+        if (length_m < 1.45F * static_cast<float>(view_.spacing_m) && colour >> 24U != 0) {
+            const float slope = std::abs(to.position_m.z - from.position_m.z) / length_m;
+            const float rough = std::min(slope / level_slope, 1.0F);
+            const double cell_m = view_.spacing_m / 64.0;
+            const float shades = noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 2);
+            at_m.z += grown * vertical_offset_m(from.position_m, to.position_m, place_m);
+            colour = blended(colour, colour, 0.0F, 1.0F + shade * grown * rough * shades);
+        }
+        vertices_.push_back({at_m, colour});
+        return static_cast<std::uint32_t>(vertices_.size() - 1);
     }
-    if (longest == nullptr) {
-        for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) { indices.push_back(corner); }
-        return;
+
+    /// How far the middle of an edge between neighbouring samples, or shorter, lies above it when it has wholly come;
+    /// nothing under what stands on the ground, which stays even.
+    float vertical_offset_m(const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const {
+        if (decorations_ != nullptr && std::ranges::any_of(*decorations_,
+                                           [&](const auto& decoration) { return decoration->stands_at(place_m); })) {
+            return 0.0F;
+        }
+        const auto spacing_m = static_cast<float>(view_.spacing_m);
+        const float max_m =
+            std::min(offset_per_slope * std::abs(to_m.z - from_m.z), static_cast<float>(max_offset_ratio) * spacing_m);
+        const double cell_m = view_.spacing_m / 64.0;
+        return 0.5F * max_m * noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
     }
-    ++added_;
-    const TriangleIndices first{longest->a, middle, longest->c};
-    const TriangleIndices second{middle, longest->b, longest->c};
-    const glm::vec3& cut_from = vertices_[longest->c].position_m;
-    const glm::vec3& cut_to = vertices_[middle].position_m;
-    const bool eye_by_first = (signed_area2(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
-                              (signed_area2(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
-    add_subdivided(eye_by_first ? first : second, depth + 1, has_scenery, indices);
-    add_subdivided(eye_by_first ? second : first, depth + 1, has_scenery, indices);
-}
+
+    std::array<glm::vec3, 3> corners_of(const TriangleIndices& triangle) const {
+        return {vertices_[triangle.a].position_m, vertices_[triangle.b].position_m, vertices_[triangle.c].position_m};
+    }
+
+    /// Things stand within quarters of cells, which are even where anything stands.
+    bool is_quarter_cell(const TriangleIndices& triangle) const {
+        const auto [a, b, c] = corners_of(triangle);
+        const float max_m = quarter_edge * static_cast<float>(view_.spacing_m);
+        return std::max({squared_plan_length_m2(a, b), squared_plan_length_m2(b, c), squared_plan_length_m2(c, a)}) <
+               max_m * max_m;
+    }
+
+    /// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through the cut stands
+    /// upright, so that the part on the eye's side hides nothing of the other. What stands on the triangle goes with
+    /// its parts down to quarters of cells, unless a cut goes through quarters, as it does where a longer edge stays
+    /// whole.
+    void add_subdivided(
+        const TriangleIndices& triangle, int depth, bool has_scenery, std::vector<std::uint32_t>& indices) {
+        const TriangleIndices turns[3] = {
+            triangle, {triangle.b, triangle.c, triangle.a}, {triangle.c, triangle.a, triangle.b}};
+        const TriangleIndices* longest = nullptr;
+        std::uint32_t middle = 0;
+        float length2 = 0.0F;
+        float most2 = 0.0F;
+        const bool whole = depth >= max_split_depth || (depth > 0 && is_outside(view_, corners_of(triangle)));
+        for (const TriangleIndices& turn : turns) {
+            const float own2 = squared_plan_length_m2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);
+            most2 = std::max(most2, own2);
+            if (own2 <= length2 || whole) { continue; }
+            const std::uint32_t own = midpoint_of(turn.a, turn.b);
+            if (own != std::min(turn.a, turn.b)) {
+                longest = &turn;
+                middle = own;
+                length2 = own2;
+            }
+        }
+        const bool cuts_quarters = length2 < most2;
+        if (has_scenery && (longest == nullptr || cuts_quarters || is_quarter_cell(triangle))) {
+            add_standing(corners_of(triangle), indices);
+            has_scenery = false;
+        }
+        if (longest == nullptr) {
+            for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) { indices.push_back(corner); }
+            return;
+        }
+        ++added_;
+        const TriangleIndices first{longest->a, middle, longest->c};
+        const TriangleIndices second{middle, longest->b, longest->c};
+        const glm::vec3& cut_from = vertices_[longest->c].position_m;
+        const glm::vec3& cut_to = vertices_[middle].position_m;
+        const bool eye_by_first = (signed_area2(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
+                                  (signed_area2(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
+        add_subdivided(eye_by_first ? first : second, depth + 1, has_scenery, indices);
+        add_subdivided(eye_by_first ? second : first, depth + 1, has_scenery, indices);
+    }
+
+    NearDetailView view_;
+    const GroundDecorations* decorations_ = nullptr;
+    const ColourAtPoint* colour_ = nullptr;
+    std::uint32_t frame_ = 0;
+    std::size_t added_ = 0; ///< halvings
+    std::size_t scenery_triangles_ = 0;
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<EdgeMidpoint> midpoints_; ///< a table by edge
+};
 
 namespace {
 
@@ -242,59 +326,82 @@ bool is_far(const std::array<glm::vec3, 3>& triangle, float min_edge_rad) {
 
 } // namespace
 
-float NearDetailHistogram::min_edge_rad_for_budget(const terrain::GroundMesh& mesh, const NearDetailView& view) {
-    view_ = view;
-    min_angular_size2_ = view.min_edge_rad * view.min_edge_rad;
-    split_counts_.fill(0);
-    counted_ = 0;
-    is_near_.resize(mesh.indices.size() / 3);
-    for (std::size_t i = 0; i < is_near_.size(); ++i) {
-        const Triangle triangle{mesh.vertices[mesh.indices[3 * i]].position_m,
-            mesh.vertices[mesh.indices[3 * i + 1]].position_m, mesh.vertices[mesh.indices[3 * i + 2]].position_m};
-        is_near_[i] = is_far(triangle, view.min_edge_rad) ? 0 : 1;
-        if (is_near_[i] != 0) {
-            count(triangle, min_angular_size2_ * static_cast<float>(1U << (bins / bins_an_octave)), 0);
+/// Counts how many halvings the near triangles of a mesh take, by how long edges must look to be halved, so that a
+/// number of them can be held without cutting any off.
+class NearDetailHistogram {
+public:
+    /// Returns how long edges must look, no less than `view.min_edge_rad`, for a little less than `view.max_splits`
+    /// halvings. It changes steadily with the view.
+    float min_edge_rad_for_budget(const terrain::GroundMesh& mesh, const NearDetailView& view) {
+        view_ = view;
+        min_angular_size2_ = view.min_edge_rad * view.min_edge_rad;
+        split_counts_.fill(0);
+        counted_ = 0;
+        is_near_.resize(mesh.indices.size() / 3);
+        for (std::size_t i = 0; i < is_near_.size(); ++i) {
+            const Triangle triangle{mesh.vertices[mesh.indices[3 * i]].position_m,
+                mesh.vertices[mesh.indices[3 * i + 1]].position_m, mesh.vertices[mesh.indices[3 * i + 2]].position_m};
+            is_near_[i] = is_far(triangle, view.min_edge_rad) ? 0 : 1;
+            if (is_near_[i] != 0) {
+                count(triangle, min_angular_size2_ * static_cast<float>(1U << (bins / bins_an_octave)), 0);
+            }
         }
+        const float aim = share_aimed_at * static_cast<float>(view.max_splits);
+        auto left = static_cast<float>(counted_);
+        std::size_t bin = 0;
+        while (bin < bins && left - static_cast<float>(split_counts_[bin]) > aim) {
+            left -= static_cast<float>(split_counts_[bin++]);
+        }
+        if (left <= aim || bin == bins) {
+            return view.min_edge_rad * std::exp2(0.5F * static_cast<float>(bin) / bins_an_octave);
+        }
+        const float part = (left - aim) / static_cast<float>(split_counts_[bin]);
+        const float octaves = (static_cast<float>(bin) + part) / bins_an_octave;
+        return view.min_edge_rad * std::exp2(0.5F * octaves);
     }
-    const float aim = share_aimed_at * static_cast<float>(view.max_splits);
-    auto left = static_cast<float>(counted_);
-    std::size_t bin = 0;
-    while (bin < bins && left - static_cast<float>(split_counts_[bin]) > aim) {
-        left -= static_cast<float>(split_counts_[bin++]);
-    }
-    if (left <= aim || bin == bins) {
-        return view.min_edge_rad * std::exp2(0.5F * static_cast<float>(bin) / bins_an_octave);
-    }
-    const float part = (left - aim) / static_cast<float>(split_counts_[bin]);
-    const float octaves = (static_cast<float>(bin) + part) / bins_an_octave;
-    return view.min_edge_rad * std::exp2(0.5F * octaves);
-}
 
-/// As NearDetailMesh halves it, by the longest edge. Parts are halved no sooner than the whole.
-void NearDetailHistogram::count(const Triangle& triangle, float max_look2, int depth) {
-    if (depth >= max_split_depth || (depth > 0 && is_outside(view_, triangle))) { return; }
-    std::size_t longest = 0;
-    float length2 = 0.0F;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const float own2 = squared_plan_length_m2(triangle[k], triangle[(k + 1) % 3]);
-        if (own2 > length2) {
-            length2 = own2;
-            longest = k;
+    /// Whether a triangle of the last mesh has edges that may look long: most are too far off.
+    bool is_near(std::size_t triangle) const { return is_near_[triangle] != 0; }
+
+private:
+    using Triangle = std::array<glm::vec3, 3>;
+
+    static constexpr std::uint32_t bins_an_octave = 32;
+    static constexpr std::size_t bins = std::size_t{16} * bins_an_octave;
+
+    /// As NearDetailMesh halves it, by the longest edge. Parts are halved no sooner than the whole.
+    void count(const Triangle& triangle, float max_look2, int depth) {
+        if (depth >= max_split_depth || (depth > 0 && is_outside(view_, triangle))) { return; }
+        std::size_t longest = 0;
+        float length2 = 0.0F;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float own2 = squared_plan_length_m2(triangle[k], triangle[(k + 1) % 3]);
+            if (own2 > length2) {
+                length2 = own2;
+                longest = k;
+            }
         }
+        const glm::vec3& a = triangle[longest];
+        const glm::vec3& b = triangle[(longest + 1) % 3];
+        const glm::vec3& c = triangle[(longest + 2) % 3];
+        const float seen2 = std::min(squared_angular_size(a, b), max_look2);
+        if (seen2 <= min_angular_size2_ || !is_splittable(view_, a, b)) { return; }
+        const std::uint32_t doublings = std::bit_cast<std::uint32_t>(seen2 / min_angular_size2_);
+        const std::size_t bin = (doublings - bits_of_one) >> bin_shift;
+        ++split_counts_[std::min(bin, bins - 1)];
+        ++counted_;
+        const glm::vec3 middle = 0.5F * (a + b);
+        count({a, middle, c}, seen2, depth + 1);
+        count({middle, b, c}, seen2, depth + 1);
     }
-    const glm::vec3& a = triangle[longest];
-    const glm::vec3& b = triangle[(longest + 1) % 3];
-    const glm::vec3& c = triangle[(longest + 2) % 3];
-    const float seen2 = std::min(squared_angular_size(a, b), max_look2);
-    if (seen2 <= min_angular_size2_ || !is_splittable(view_, a, b)) { return; }
-    const std::uint32_t doublings = std::bit_cast<std::uint32_t>(seen2 / min_angular_size2_);
-    const std::size_t bin = (doublings - bits_of_one) >> bin_shift;
-    ++split_counts_[std::min(bin, bins - 1)];
-    ++counted_;
-    const glm::vec3 middle = 0.5F * (a + b);
-    count({a, middle, c}, seen2, depth + 1);
-    count({middle, b, c}, seen2, depth + 1);
-}
+
+    NearDetailView view_;
+    float min_angular_size2_ = 0.0F;
+    std::size_t counted_ = 0;
+    /// Halvings by the square of how long the edge looks, over min_angular_size2_.
+    std::array<std::uint32_t, bins> split_counts_{};
+    std::vector<std::uint8_t> is_near_;
+};
 
 namespace {
 
@@ -340,23 +447,47 @@ void reverse_triangles(std::vector<std::uint32_t>& indices) {
 
 } // namespace
 
+struct DetailedFrame {
+    std::vector<models::ColourVertex> vertices;
+    std::vector<std::uint32_t> indices;
+};
+
+struct DetailedGround::Memory {
+    NearDetailHistogram histogram;
+    NearDetailMesh mesh_builder;
+    std::array<DetailedFrame, 2> frames;
+    std::size_t frame_number = 0;
+    std::vector<std::uint32_t> first_index_of; ///< for each triangle of the mesh, and the end
+    std::vector<std::uint32_t> replaced;
+};
+
+DetailedGround::DetailedGround() : memory_(std::make_unique<Memory>()) {}
+
+DetailedGround::~DetailedGround() = default;
+
 /// Goes from near to far, so that what there is no room for is far off.
 DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMesh& mesh, const NearDetailView& wanted,
-    const NearDetailOptions& detail, const ColourAtPoint* colour) {
+    const NearDetailOptions& detail, const GroundDecorations& decorations, const ColourAtPoint* colour) {
+    Memory& memory = *memory_;
+    NearDetailMesh& mesh_builder = memory.mesh_builder;
+    std::vector<std::uint32_t>& first_index_of = memory.first_index_of;
     NearDetailView view = wanted;
-    if (detail.has_subdivision) { view.min_edge_rad = histogram_.min_edge_rad_for_budget(mesh, wanted); }
-    frame_ = 1 - frame_;
-    Frame& frame = frames_[frame_];
-    std::swap(mesh_builder_.vertices(), frame.vertices); // memory of the frame before the last
-    mesh_builder_.begin(view, mesh.vertices, detail.scenery ? &scenery_ : nullptr, colour);
-    scenery_.begin(view);
+    if (detail.has_subdivision) { view.min_edge_rad = memory.histogram.min_edge_rad_for_budget(mesh, wanted); }
+    memory.frame_number = 1 - memory.frame_number;
+    DetailedFrame& frame = memory.frames[memory.frame_number];
+    std::swap(mesh_builder.vertices(), frame.vertices); // memory of the frame before the last
+    mesh_builder.begin(view, mesh.vertices, detail.scenery ? &decorations : nullptr, colour);
+    float reach_m = 0.0F;
+    for (const auto& decoration : decorations) {
+        decoration->begin_standing(view);
+        if (detail.scenery) { reach_m = std::max(reach_m, static_cast<float>(decoration->reach_m())); }
+    }
     const bool far_first = view.order == terrain::PaintOrder::BackToFront;
     const NearToFar walk{mesh.indices, far_first};
     const std::size_t count = walk.count;
-    const auto reach_m = static_cast<float>(detail.scenery ? scenery_.reach_m() : 0.0);
     frame.indices.clear();
     frame.indices.reserve(mesh.indices.size());
-    first_index_of_.resize(count + 1);
+    first_index_of.resize(count + 1);
     const auto corners_m = [&](std::size_t triangle) {
         const std::uint32_t* const corners = &mesh.indices[3 * triangle];
         return std::array{mesh.vertices[corners[0]].position_m, mesh.vertices[corners[1]].position_m,
@@ -365,45 +496,49 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMes
     const auto has_scenery = [&](std::size_t triangle) {
         return reach_m > 0.0F && is_nearer(corners_m(triangle), reach_m);
     };
-    const auto is_near = [&](std::size_t triangle) { return detail.has_subdivision && histogram_.is_near(triangle); };
+    const auto is_near = [&](std::size_t triangle) {
+        return detail.has_subdivision && memory.histogram.is_near(triangle);
+    };
     for (std::size_t step = 0; step < count; ++step) {
         // Most triangles stay as they are.
         const std::size_t first = step;
         while (step < count && !is_near(walk.triangle(step)) && !has_scenery(walk.triangle(step))) { ++step; }
-        walk.append(first, step, frame.indices, first_index_of_);
+        walk.append(first, step, frame.indices, first_index_of);
         if (step == count) { break; }
         const std::size_t triangle = walk.triangle(step);
         if (is_near(triangle)) {
-            first_index_of_[walk.place(step)] = static_cast<std::uint32_t>(frame.indices.size() / 3);
-            mesh_builder_.add(&mesh.indices[3 * triangle], has_scenery(triangle), frame.indices);
+            first_index_of[walk.place(step)] = static_cast<std::uint32_t>(frame.indices.size() / 3);
+            mesh_builder.add(&mesh.indices[3 * triangle], has_scenery(triangle), frame.indices);
         } else {
             const auto before = static_cast<std::uint32_t>(frame.indices.size() / 3);
-            scenery_.add(corners_m(triangle), mesh_builder_.vertices(), frame.indices);
-            walk.append(step, step + 1, frame.indices, first_index_of_);
-            first_index_of_[walk.place(step)] = before;
+            mesh_builder.add_standing(corners_m(triangle), frame.indices);
+            walk.append(step, step + 1, frame.indices, first_index_of);
+            first_index_of[walk.place(step)] = before;
         }
     }
     const auto all = static_cast<std::uint32_t>(frame.indices.size() / 3);
-    first_index_of_[far_first ? 0 : count] = all;
+    first_index_of[far_first ? 0 : count] = all;
     if (far_first) {
         reverse_triangles(frame.indices);
-        for (std::uint32_t& first : first_index_of_) { first = all - first; }
+        for (std::uint32_t& first : first_index_of) { first = all - first; }
     }
-    std::swap(mesh_builder_.vertices(), frame.vertices);
-    const std::size_t scenery_triangles = scenery_.triangles_added();
-    return {frame.vertices, frame.indices, frame.indices.size() / 3 - count - scenery_triangles, scenery_triangles};
+    std::swap(mesh_builder.vertices(), frame.vertices);
+    const std::size_t scenery_triangles = mesh_builder.scenery_triangles();
+    return {frame.vertices, frame.indices, frame.indices.size() / 3 - count - scenery_triangles, scenery_triangles,
+        view.min_edge_rad};
 }
 
 void DetailedGround::replace(std::vector<std::uint32_t>& triangles, std::size_t first) const {
-    replaced_.clear();
+    std::vector<std::uint32_t>& replaced = memory_->replaced;
+    replaced.clear();
     for (std::size_t i = first; i < triangles.size(); ++i) {
-        for (std::uint32_t detailed_mesh = first_index_of_[triangles[i]];
-             detailed_mesh < first_index_of_[triangles[i] + 1]; ++detailed_mesh) {
-            replaced_.push_back(detailed_mesh);
+        for (std::uint32_t detailed_mesh = memory_->first_index_of[triangles[i]];
+             detailed_mesh < memory_->first_index_of[triangles[i] + 1]; ++detailed_mesh) {
+            replaced.push_back(detailed_mesh);
         }
     }
     triangles.resize(first);
-    triangles.insert(triangles.end(), replaced_.begin(), replaced_.end());
+    triangles.insert(triangles.end(), replaced.begin(), replaced.end());
 }
 
 } // namespace octant::visuals::nature

@@ -3,7 +3,7 @@
 // below the mean of ever wider surroundings.
 #include "visuals/nature/relief_shadows.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <algorithm>
 #include <cmath>

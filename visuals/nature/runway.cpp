@@ -2,10 +2,15 @@
 
 #include "sim/base/units.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
+#include <utility>
 
 namespace octant::visuals::nature {
 
@@ -139,6 +144,8 @@ void paint_centre_line(float length_m, std::vector<RunwayRectangle>& patches) {
     }
 }
 
+constexpr float max_rectangle_length_m = 150.0F;
+
 /// A long patch in equal parts.
 void add_in_parts(const RunwayRectangle& whole, std::vector<RunwayRectangle>& patches) {
     const float all_m = whole.max_m.x - whole.min_m.x;
@@ -179,6 +186,112 @@ std::vector<RunwayRectangle> runway_rectangles(double length_m, double width_m, 
         paint_end(end, numbers[is_other ? 1 : 0]);
     }
     return patches;
+}
+
+namespace {
+
+constexpr glm::vec3 surface_colour(0.31F, 0.31F, 0.32F); ///< display values under a light of 1
+constexpr glm::vec3 paint_colour(0.88F, 0.88F, 0.86F);
+constexpr double whole_px = 0.6; ///< what looks as wide has its own colour ...
+constexpr double min_px = 0.3;   ///< ... and what looks narrower is left out
+constexpr int default_triangles = 1600;
+constexpr double max_share = 0.2; ///< of the triangles that are aimed at
+constexpr double near_m = 700.0;  ///< up to here it may take all of them
+
+class RunwayDecoration final : public GroundDecoration {
+public:
+    RunwayDecoration(std::shared_ptr<const models::heights::RunwayStrip> strip, const Daylight& day)
+        : strip_(std::move(strip)),
+          rectangles_(runway_rectangles(strip_->length_m, strip_->width_m, strip_->heading_rad)),
+          light_(day.ambient() + day.sunlight() * std::max(static_cast<float>(day.to_sun().z), 0.0F)) {
+        std::ranges::stable_sort(rectangles_, {}, [](const RunwayRectangle& one) { return one.min_m.x; });
+    }
+
+    /// Nothing stands where the ground is levelled.
+    void limit_scenery(const glm::dvec2& middle_m, double cell_m, SceneryDensity& density) const override {
+        if (strip_->distance_m(middle_m) <= models::heights::level_margin_m + cell_m) { density = {}; }
+    }
+
+    int max_patch_triangles(const glm::dvec3& eye_m, double /*pixel_rad*/, int triangle_target) const override {
+        const glm::dvec2 position_m(eye_m);
+        const double distance_m = std::hypot(strip_->distance_m(position_m), eye_m.z - strip_->plane_m(position_m));
+        const double most = std::min<double>(default_triangles, max_share * triangle_target);
+        return static_cast<int>(most * std::clamp(near_m / std::max(distance_m, 1.0), 0.1, 1.0));
+    }
+
+    /// A marking that looks narrow takes the colour of the surface, and so does not go in a step.
+    bool begin_lying(const glm::dvec3& eye_m, double pixel_rad) override {
+        eye_m_ = glm::dvec2(eye_m);
+        seen_.clear();
+        for (const RunwayRectangle& one : rectangles_) {
+            const glm::dvec2 middle_m = strip_->place(0.5 * glm::dvec2(one.min_m + one.max_m));
+            const double distance_m = glm::distance(glm::dvec3(middle_m, strip_->plane_m(middle_m)), eye_m);
+            const glm::vec2 size_m = one.max_m - one.min_m;
+            const double seen_px = static_cast<double>(std::min(size_m.x, size_m.y)) / (distance_m * pixel_rad);
+            if (seen_px <= min_px) { continue; }
+            const auto own = static_cast<float>(std::clamp((seen_px - min_px) / (whole_px - min_px), 0.0, 1.0));
+            GroundPatch patch = patch_of(one);
+            patch.colour = (one.is_painted ? glm::mix(surface_colour, paint_colour, own) : surface_colour) * light_;
+            patch.is_marking = one.is_painted;
+            patch.is_required = !one.is_painted;
+            seen_.push_back({glm::dvec2(one.min_m), glm::dvec2(one.max_m), patch});
+        }
+        return !seen_.empty();
+    }
+
+    bool may_lie_in(const glm::dvec2& min_m, const glm::dvec2& max_m) const override {
+        const auto [low_m, high_m] = on_strip(min_m, max_m);
+        return high_m.x >= 0.0 && low_m.x <= strip_->length_m && low_m.y <= 0.5 * strip_->width_m &&
+               high_m.y >= -0.5 * strip_->width_m;
+    }
+
+    void find_patches(const glm::dvec2& min_m, const glm::dvec2& max_m, std::vector<GroundPatch>& patches) override {
+        const auto [low_m, high_m] = on_strip(min_m + eye_m_, max_m + eye_m_);
+        const double first_m = low_m.x - static_cast<double>(max_rectangle_length_m);
+        auto one = std::ranges::lower_bound(seen_, first_m, {}, [](const SeenRectangle& seen) { return seen.min_m.x; });
+        for (; one != seen_.end() && one->min_m.x < high_m.x; ++one) {
+            if (one->max_m.x > low_m.x && one->min_m.y < high_m.y && one->max_m.y > low_m.y) {
+                patches.push_back(one->patch);
+            }
+        }
+    }
+
+private:
+    /// Along the strip and left of its middle, and on the ground.
+    struct SeenRectangle {
+        glm::dvec2 min_m;
+        glm::dvec2 max_m;
+        GroundPatch patch;
+    };
+
+    /// What holds a rectangle of the map: along the strip and left of its middle.
+    std::pair<glm::dvec2, glm::dvec2> on_strip(const glm::dvec2& min_m, const glm::dvec2& max_m) const {
+        const glm::dvec2 half_m = 0.5 * (max_m - min_m);
+        const glm::dvec2 middle_m = strip_->strip_from_world(0.5 * (min_m + max_m));
+        const glm::dvec2 reach_m(
+            glm::dot(glm::abs(strip_->along()), half_m), glm::dot(glm::abs(strip_->left()), half_m));
+        return {middle_m - reach_m, middle_m + reach_m};
+    }
+
+    GroundPatch patch_of(const RunwayRectangle& one) const {
+        GroundPatch::Corners corners = {glm::dvec2(one.min_m), glm::dvec2(one.max_m.x, one.min_m.y),
+            glm::dvec2(one.max_m), glm::dvec2(one.min_m.x, one.max_m.y)};
+        for (glm::dvec2& corner : corners) { corner = strip_->place(corner) - eye_m_; }
+        return GroundPatch(corners);
+    }
+
+    std::shared_ptr<const models::heights::RunwayStrip> strip_;
+    std::vector<RunwayRectangle> rectangles_;
+    glm::vec3 light_;
+    std::vector<SeenRectangle> seen_; ///< in this frame
+    glm::dvec2 eye_m_{0.0};
+};
+
+} // namespace
+
+std::unique_ptr<GroundDecoration> runway_decoration(
+    std::shared_ptr<const models::heights::RunwayStrip> strip, const Daylight& day) {
+    return std::make_unique<RunwayDecoration>(std::move(strip), day);
 }
 
 } // namespace octant::visuals::nature

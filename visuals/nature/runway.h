@@ -1,9 +1,13 @@
 #pragma once
 
+#include "models/heights/runway_strip.h"
+#include "visuals/nature/daylight.h"
+#include "visuals/nature/ground_decoration.h"
+
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,15 +40,13 @@ struct RunwayRectangle {
 /// What the two ends are called by those who approach them: "07" and "25". The beginning first.
 std::array<std::string, 2> runway_numbers(double heading_rad);
 
-/// No patch is longer.
-inline constexpr float max_rectangle_length_m = 150.0F;
-
 /// The surface, then what is painted on it. There is room for all of it (asserted): the runway is 45 m wide, or more,
 /// and 1,500 m long.
 std::vector<RunwayRectangle> runway_rectangles(double length_m, double width_m, double heading_rad);
 
-/// Display values under a light of 1.
-inline constexpr glm::vec3 runway_surface_colour(0.31F, 0.31F, 0.32F);
-inline constexpr glm::vec3 runway_paint_colour(0.88F, 0.88F, 0.86F);
+/// The runway on a strip of levelled ground, under a daylight. What looks narrow takes the colour of the surface before
+/// it is left out.
+std::unique_ptr<GroundDecoration> runway_decoration(
+    std::shared_ptr<const models::heights::RunwayStrip> strip, const Daylight& day);
 
 } // namespace octant::visuals::nature

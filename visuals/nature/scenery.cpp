@@ -1,57 +1,66 @@
 #include "visuals/nature/scenery.h"
-#include "sim/base/geometry2d.h"
+
+#include "models/colour_vertex.h"
+#include "sim/base/plane.h"
 #include "sim/base/hash.h"
-#include "sim/base/units.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::nature {
 
-namespace {
-
-constexpr double default_edge_rad = 0.08;
-constexpr double default_edge_px = 70.0; ///< the same in 720 lines over 45 degrees
-constexpr double min_edge_rad = 0.02;
-constexpr double default_width_rad = 1.4;
-/// Halvings over those that even level ground takes: slopes, edges of the picture.
-constexpr double slope_allowance = 1.3;
-constexpr double base_splits = 500.0; ///< halvings of large level triangles, wherever the eye is
-constexpr double default_scenery_triangles = 4000.0;
-constexpr std::size_t unlimited_scenery_triangles = 100'000; ///< more than there can be
-constexpr double scenery_max_height_m = 900.0;               ///< of the eye over the ground
-
-} // namespace
-
-/// Of level ground between two distances, triangles whose edges look a long take 2 width / a^2 ln(far / near): each
-/// covers a^2 / 2 times the square of its distance.
-void apply_detail_budget(const DetailBudget& budget, const NearDetailOptions& detail, NearDetailView& view) {
-    const double share = std::clamp(budget.share.value_or(1.0), 0.005, 2.0);
-    const double wide = std::clamp(budget.width_rad / default_width_rad, 0.01, 2.0);
-    const double edge_rad = budget.share ? default_edge_rad * std::sqrt(wide / share)
-                                         : std::max(default_edge_px / budget.focal_px, min_edge_rad);
-    view.min_edge_rad = static_cast<float>(edge_rad);
-    const double to_m = 1.42 * view.spacing_m / edge_rad;
-    const double from_m =
-        std::max(budget.height_above_ground_m, static_cast<double>(min_split_edge_ratio) * view.spacing_m / edge_rad);
-    const double width_rad = budget.share ? budget.width_rad : 2.0 * pi;
-    const double level = 2.0 * width_rad / (edge_rad * edge_rad) * std::log(std::max(to_m / from_m, 1.0));
-    const double splits = slope_allowance * level + base_splits * share;
-    view.max_splits = detail.has_subdivision ? static_cast<std::size_t>(splits) : 0;
-    const double low = std::clamp(1.2 - budget.height_above_ground_m / scenery_max_height_m, 0.0, 1.0);
-    const double things = default_scenery_triangles * share * low;
-    view.max_scenery_triangles = !detail.scenery ? 0
-                                 : budget.share  ? static_cast<std::size_t>(things)
-                                                 : unlimited_scenery_triangles;
-    view.range_ratio = static_cast<float>(std::sqrt(std::min(share, 1.0)));
-}
+// Things of few polygons that are convex, or nearly: seen from outside, none of their front faces hides another.
+// Triangles are counter-clockwise seen from outside.
 
 namespace {
+
+/// Eight directions, counter-clockwise from east.
+constexpr std::array<glm::vec2, 8> compass_directions = {glm::vec2(1.0F, 0.0F), {0.70710678F, 0.70710678F},
+    {0.0F, 1.0F}, {-0.70710678F, 0.70710678F}, {-1.0F, 0.0F}, {-0.70710678F, -0.70710678F}, {0.0F, -1.0F},
+    {0.70710678F, -0.70710678F}};
+
+/// Appends vertices and triangles of things, which have none of the ground's fine pattern.
+struct LowPolyBuilder {
+    std::vector<models::ColourVertex>& vertices;
+    std::vector<std::uint32_t>& indices;
+
+    std::uint32_t add(const glm::vec3& at_m, const glm::vec3& colour) {
+        vertices.push_back({at_m, models::packed_colour(colour) & 0x00ffffffU});
+        return static_cast<std::uint32_t>(vertices.size() - 1);
+    }
+
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
+};
+
+/// Where a thing stands. Nothing of it lies below that plane, which may be painted before it.
+struct GroundAnchor {
+    glm::vec3 at_m;
+    glm::vec2 ground_slope; ///< metres up a metre east and north
+
+    /// Height of the ground over the foot, so far off.
+    float height_at_offset_m(const glm::vec2& off_m) const {
+        return ground_slope.x * off_m.x + ground_slope.y * off_m.y;
+    }
+};
+
+/// A tree's colours under light: of sides that face the compass, and from above.
+struct TreeColours {
+    std::array<glm::vec3, 8> sides;
+    glm::vec3 top;
+};
+
+enum class TreeShape { Conical, Round };
+
+/// How finely a tree is built. Far ones have four sides, others eight; near ones are rounder.
+enum class TreeLod { Near, Medium, Far };
 
 /// How a tree is built: heights and radii of rings over its height and radius, from below.
 struct Outline {
@@ -68,8 +77,7 @@ const Outline& outline_of(TreeShape shape, TreeLod detail) {
     return detail == TreeLod::Near ? round_crown : crown;
 }
 
-} // namespace
-
+/// `size_m`: radius and height. The crown's rings lie along the ground.
 void add_tree(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& size_m, TreeShape shape, TreeLod detail,
     const TreeColours& light) {
     const Outline& outline = outline_of(shape, detail);
@@ -101,6 +109,9 @@ void add_tree(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& s
     }
 }
 
+/// Four walls and a gable roof. `along` (unit) is the ridge's direction, `size_m` half the length, half the width and
+/// the height; `height_share`, 0..1, says how much of the height there is yet; walls face along, to the left, back and
+/// to the right, the roof's sides left and right.
 void add_house(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& along, const glm::vec3& size_m,
     float height_share, const std::array<glm::vec3, 4>& wall, const std::array<glm::vec3, 2>& roof) {
     const glm::vec2 across(-along.y, along.x);
@@ -132,8 +143,6 @@ void add_house(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& 
         to.triangle(first, first + 1, first + 2);
     }
 }
-
-namespace {
 
 constexpr std::size_t cache_size = std::size_t{1} << 15U;
 constexpr double max_reach_m = 900.0;
@@ -193,7 +202,7 @@ struct Species {
     TreeShape shape;
 };
 
-/// By Scenery::Kind: broadleaf, conifer, shrub.
+/// By kind: broadleaf, conifer, shrub.
 const Species& species_of(std::size_t kind) {
     static const std::array<Species, 3> all = {Species{glm::vec3(0.25F, 0.36F, 0.15F), 9.0F, 4.3F, TreeShape::Round},
         Species{glm::vec3(0.16F, 0.27F, 0.15F), 12.0F, 3.0F, TreeShape::Conical},
@@ -201,188 +210,238 @@ const Species& species_of(std::size_t kind) {
     return all[kind - 1];
 }
 
+class Scenery final : public GroundDecoration {
+public:
+    Scenery(const glm::dvec2& first_m, const glm::ivec2& samples, double spacing_m, const Daylight& day,
+        SceneryDensityAt density_at)
+        : first_m_(first_m), samples_(samples), spacing_m_(spacing_m),
+          stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1)),
+          max_radius_m_(static_cast<float>(placement_radius_ratio * spacing_m)),
+          reach_m_(max_radius_m_ < min_radius_m ? 0.0 : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m)),
+          density_at_(std::move(density_at)), shade_(day.ambient()), item_cache_(cache_size) {
+        const glm::vec3 to_sun(day.to_sun());
+        for (std::size_t i = 0; i < compass_directions.size(); ++i) {
+            const glm::vec3 outwards =
+                glm::normalize(glm::vec3(compass_directions[i].x, compass_directions[i].y, 0.45F));
+            side_light_[i] = day.sunlight() * std::max(glm::dot(outwards, to_sun), 0.0F);
+        }
+        side_light_[upward_light_index] = day.sunlight() * std::max(to_sun.z, 0.0F);
+    }
+
+    void begin_standing(const NearDetailView& view) override {
+        view_ = view;
+        added_ = 0;
+    }
+
+    double reach_m() const override { return reach_m_ * static_cast<double>(view_.range_ratio); }
+
+    double height_m() const override { return 16.0; }
+
+    bool stands_at(const glm::dvec2& place_m) override {
+        constexpr double near = 0.01; // of a cell
+        if (reach_m_ <= 0.0) { return false; }
+        const glm::dvec2 place = (place_m - first_m_) / spacing_m_;
+        const glm::ivec2 least(glm::floor(place - near));
+        const glm::ivec2 most(glm::floor(place + near));
+        for (int row = std::max(least.y, 0); row <= std::min(most.y, samples_.y - 2); ++row) {
+            for (int column = std::max(least.x, 0); column <= std::min(most.x, samples_.x - 2); ++column) {
+                if (row % stride_ != 0 || column % stride_ != 0) { continue; }
+                const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
+                for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
+                    const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter_index)] - 0.5;
+                    const bool upright = std::abs(way.y) > std::abs(way.x);
+                    const double out =
+                        upright ? std::copysign(1.0, way.y) * from_middle.y : std::copysign(1.0, way.x) * from_middle.x;
+                    const double aside = std::abs(upright ? from_middle.x : from_middle.y);
+                    if (out > aside - near && item_at(column, row, quarter_index).kind != SceneryKind::None) {
+                        return true;
+                    }
+                }
+            }
+        }
+        return false;
+    }
+
+    void add_standing(const std::array<glm::vec3, 3>& triangle_m, std::vector<models::ColourVertex>& vertices,
+        std::vector<std::uint32_t>& indices) override {
+        placed_items_.clear();
+        collect(triangle_m);
+        std::ranges::sort(placed_items_,
+            [&](const PlacedItem& one, const PlacedItem& other) { return one.power_m2 < other.power_m2; });
+        for (const PlacedItem& one : placed_items_) {
+            const float distance_m = glm::length(one.at_m);
+            // Each grows out of the ground at a distance of its own.
+            const float begins_m =
+                static_cast<float>(reach_m()) *
+                (first_growth_ratio + (1.0F - first_growth_ratio) * share_of(one.item.random_bits, 0));
+            const float height_share = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
+            if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) { continue; }
+            const std::size_t before = indices.size();
+            if (one.item.kind == SceneryKind::House) {
+                build_house(one, height_share, vertices, indices);
+            } else {
+                build_tree(one, height_share, detail_at(distance_m), vertices, indices);
+            }
+            remove_back_faces(vertices, before, indices);
+            added_ += (indices.size() - before) / 3;
+        }
+    }
+
+private:
+    enum class SceneryKind : std::uint8_t { None, Broadleaf, Conifer, Shrub, House };
+
+    struct SceneryItem {
+        SceneryKind kind = SceneryKind::None;
+        std::uint8_t sun = 255;
+        std::uint32_t random_bits = 0;
+    };
+
+    struct CachedItem {
+        std::uint64_t place = ~std::uint64_t{0};
+        SceneryItem item;
+    };
+
+    struct PlacedItem {
+        glm::vec3 at_m;
+        glm::vec2 ground_slope; ///< of its ground, metres up a metre east and north
+        SceneryItem item;
+        /// The power of the eye in plan with respect to the circle around it: of two that stand apart, the one with the
+        /// greater power hides no part of the other.
+        float power_m2 = 0.0F;
+    };
+
+    SceneryItem item_at(int column, int row, int quarter_index) {
+        const std::uint64_t place =
+            (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
+            static_cast<std::uint64_t>(quarter_index);
+        const std::uint32_t random_bits =
+            scrambled(static_cast<std::uint32_t>(column * 4 + quarter_index) * 0x9e3779b1U ^
+                      scrambled(static_cast<std::uint32_t>(row)));
+        CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
+        if (known.place != place) {
+            const SceneryDensity scenery_density = density_at_(column, row);
+            const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
+            float sum = scenery_density.houses;
+            SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
+            for (const auto& [share, own] : {std::pair(scenery_density.conifers, SceneryKind::Conifer),
+                     std::pair(scenery_density.broadleaves, SceneryKind::Broadleaf),
+                     std::pair(scenery_density.shrubs, SceneryKind::Shrub)}) {
+                sum += share;
+                kind = kind == SceneryKind::None && pick < sum ? own : kind;
+            }
+            if (kind == SceneryKind::House && max_radius_m_ < house_radius_m) { kind = SceneryKind::None; }
+            known = {place, {kind, static_cast<std::uint8_t>(std::clamp(scenery_density.sun, 0.0F, 1.0F) * 255.0F),
+                                scrambled(random_bits)}};
+        }
+        return known.item;
+    }
+
+    /// What stands within a triangle, with the ground below it as drawn.
+    void collect(const std::array<glm::vec3, 3>& triangle_m) {
+        const auto& [a, b, c] = triangle_m;
+        const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - first_m_;
+        const glm::dvec2 least = (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
+        const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
+        const float area = signed_area2(a, b, c);
+        const glm::vec3 across = glm::cross(b - a, c - a);
+        const glm::vec2 ground_slope = glm::vec2(across) / -across.z;
+        const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
+        const auto first_of = [&](double from) {
+            const int cell = std::max(static_cast<int>(std::floor(from)), 0);
+            return (cell + stride_ - 1) / stride_ * stride_;
+        };
+        const int last_column = std::min(static_cast<int>(std::floor(most.x)), samples_.x - 2);
+        const int last_row = std::min(static_cast<int>(std::floor(most.y)), samples_.y - 2);
+        for (int row = first_of(least.y); row <= last_row; row += stride_) {
+            for (int column = first_of(least.x); column <= last_column; column += stride_) {
+                for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
+                    const glm::dvec2 place =
+                        (glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(quarter_index)]) *
+                            spacing_m_ -
+                        to_grid;
+                    glm::vec3 at_m(glm::dvec3(place, 0.0));
+                    const float u = signed_area2(b, c, at_m) / area;
+                    const float v = signed_area2(c, a, at_m) / area;
+                    if (u < 0.0F || v < 0.0F || u + v > 1.0F) { continue; }
+                    at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
+                    if (glm::dot(at_m, at_m) > reach2_m2) { continue; }
+                    const SceneryItem item = item_at(column, row, quarter_index);
+                    if (item.kind != SceneryKind::None) {
+                        const float radius = radius_m(item);
+                        const float power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - radius * radius;
+                        placed_items_.push_back({at_m, ground_slope, item, power_m2});
+                    }
+                }
+            }
+        }
+    }
+
+    float house_half_m() const { return std::min(0.62F * max_radius_m_, 5.5F); }
+
+    /// Of a circle that holds it in plan, its middle where it stands.
+    float radius_m(const SceneryItem& item) const {
+        if (item.kind == SceneryKind::House) { return house_corner * house_half_m(); }
+        const Species& species = species_of(static_cast<std::size_t>(item.kind));
+        return std::min(size_of(item.random_bits) * species.radius_m, max_radius_m_);
+    }
+
+    /// A colour under the light on one of the eight sides, or from above.
+    glm::vec3 lit(const PlacedItem& one, const glm::vec3& own, std::size_t side) const {
+        const float sun = static_cast<float>(one.item.sun) * (1.0F / 255.0F);
+        return own * (shade_ + sun * side_light_[side]);
+    }
+
+    void build_house(const PlacedItem& one, float height_share, std::vector<models::ColourVertex>& vertices,
+        std::vector<std::uint32_t>& indices) const {
+        const std::uint32_t random_bits = one.item.random_bits;
+        const glm::vec3 plaster =
+            glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(random_bits, 12));
+        const glm::vec3 tiles =
+            glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(random_bits, 4));
+        const std::size_t turn = random_bits >> 20U & 7U;
+        const auto wall = [&](std::size_t eighths) { return lit(one, plaster, (turn + eighths) % 8); };
+        const auto roof = [&](std::size_t eighths) {
+            return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upward_light_index));
+        };
+        const float half_m = house_half_m();
+        LowPolyBuilder to{vertices, indices};
+        add_house(to, {one.at_m, one.ground_slope}, compass_directions[turn],
+            glm::vec3(house_length * half_m, house_width * half_m, house_m), height_share,
+            {wall(0), wall(2), wall(4), wall(6)}, {roof(2), roof(6)});
+    }
+
+    void build_tree(const PlacedItem& one, float height_share, TreeLod detail,
+        std::vector<models::ColourVertex>& vertices, std::vector<std::uint32_t>& indices) const {
+        const Species& species = species_of(static_cast<std::size_t>(one.item.kind));
+        const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.item.random_bits, 8));
+        TreeColours light{{}, lit(one, leaf, upward_light_index)};
+        for (std::size_t side = 0; side < light.sides.size(); ++side) { light.sides[side] = lit(one, leaf, side); }
+        LowPolyBuilder to{vertices, indices};
+        add_tree(to, {one.at_m, one.ground_slope},
+            {radius_m(one.item), size_of(one.item.random_bits) * species.height_m * height_share}, species.shape,
+            detail, light);
+    }
+
+    glm::dvec2 first_m_;
+    glm::ivec2 samples_;
+    double spacing_m_;
+    int stride_;         ///< cells from one that bears something to the next
+    float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
+    double reach_m_;
+    SceneryDensityAt density_at_;
+    std::array<glm::vec3, 9> side_light_{}; ///< on the eight sides, then on what faces up; the shade
+    glm::vec3 shade_{0.4F};
+    NearDetailView view_;
+    std::size_t added_ = 0; ///< triangles in this frame
+    std::vector<CachedItem> item_cache_;
+    std::vector<PlacedItem> placed_items_; ///< on one triangle
+};
+
 } // namespace
 
-Scenery::Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, SceneryDensityAt scenery_density_at)
-    : first_m_(first_m), samples_(samples), spacing_m_(spacing_m),
-      stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1)),
-      max_radius_m_(static_cast<float>(placement_radius_ratio * spacing_m)),
-      reach_m_(max_radius_m_ < min_radius_m ? 0.0 : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m)),
-      density_at_(std::move(scenery_density_at)), item_cache_(cache_size) {}
-
-void Scenery::set_daylight(const Daylight& day) {
-    shade_ = day.ambient();
-    const glm::vec3 to_sun(day.to_sun());
-    for (std::size_t i = 0; i < compass_directions.size(); ++i) {
-        const glm::vec3 outwards = glm::normalize(glm::vec3(compass_directions[i].x, compass_directions[i].y, 0.45F));
-        side_light_[i] = day.sunlight() * std::max(glm::dot(outwards, to_sun), 0.0F);
-    }
-    side_light_[upward_light_index] = day.sunlight() * std::max(to_sun.z, 0.0F);
-}
-
-void Scenery::clear_cache() { std::ranges::fill(item_cache_, CachedItem{}); }
-
-void Scenery::begin(const NearDetailView& view) {
-    view_ = view;
-    added_ = 0;
-}
-
-Scenery::SceneryItem Scenery::item_at(int column, int row, int quarter_index) {
-    const std::uint64_t place = (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
-                                static_cast<std::uint64_t>(quarter_index);
-    const std::uint32_t random_bits = scrambled(static_cast<std::uint32_t>(column * 4 + quarter_index) * 0x9e3779b1U ^
-                                                scrambled(static_cast<std::uint32_t>(row)));
-    CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
-    if (known.place != place) {
-        const SceneryDensity scenery_density = density_at_(column, row);
-        const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
-        float sum = scenery_density.houses;
-        SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
-        for (const auto& [share, own] : {std::pair(scenery_density.conifers, SceneryKind::Conifer),
-                 std::pair(scenery_density.broadleaves, SceneryKind::Broadleaf),
-                 std::pair(scenery_density.shrubs, SceneryKind::Shrub)}) {
-            sum += share;
-            kind = kind == SceneryKind::None && pick < sum ? own : kind;
-        }
-        if (kind == SceneryKind::House && max_radius_m_ < house_radius_m) { kind = SceneryKind::None; }
-        known = {place, {kind, static_cast<std::uint8_t>(std::clamp(scenery_density.sun, 0.0F, 1.0F) * 255.0F),
-                            scrambled(random_bits)}};
-    }
-    return known.item;
-}
-
-bool Scenery::has_scenery_at(const glm::dvec2& place_m) {
-    constexpr double near = 0.01; // of a cell
-    if (reach_m_ <= 0.0) { return false; }
-    const glm::dvec2 place = (place_m - first_m_) / spacing_m_;
-    const glm::ivec2 least(glm::floor(place - near));
-    const glm::ivec2 most(glm::floor(place + near));
-    for (int row = std::max(least.y, 0); row <= std::min(most.y, samples_.y - 2); ++row) {
-        for (int column = std::max(least.x, 0); column <= std::min(most.x, samples_.x - 2); ++column) {
-            if (row % stride_ != 0 || column % stride_ != 0) { continue; }
-            const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
-            for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
-                const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter_index)] - 0.5;
-                const bool upright = std::abs(way.y) > std::abs(way.x);
-                const double out =
-                    upright ? std::copysign(1.0, way.y) * from_middle.y : std::copysign(1.0, way.x) * from_middle.x;
-                const double aside = std::abs(upright ? from_middle.x : from_middle.y);
-                if (out > aside - near && item_at(column, row, quarter_index).kind != SceneryKind::None) {
-                    return true;
-                }
-            }
-        }
-    }
-    return false;
-}
-
-/// What stands within a triangle, with the ground below it as drawn.
-void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
-    const auto& [a, b, c] = triangle_m;
-    const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - first_m_;
-    const glm::dvec2 least = (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
-    const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
-    const float area = signed_area2(a, b, c);
-    const glm::vec3 across = glm::cross(b - a, c - a);
-    const glm::vec2 ground_slope = glm::vec2(across) / -across.z;
-    const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
-    const auto first_of = [&](double from) {
-        const int cell = std::max(static_cast<int>(std::floor(from)), 0);
-        return (cell + stride_ - 1) / stride_ * stride_;
-    };
-    const int last_column = std::min(static_cast<int>(std::floor(most.x)), samples_.x - 2);
-    const int last_row = std::min(static_cast<int>(std::floor(most.y)), samples_.y - 2);
-    for (int row = first_of(least.y); row <= last_row; row += stride_) {
-        for (int column = first_of(least.x); column <= last_column; column += stride_) {
-            for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
-                const glm::dvec2 place =
-                    (glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(quarter_index)]) * spacing_m_ -
-                    to_grid;
-                glm::vec3 at_m(glm::dvec3(place, 0.0));
-                const float u = signed_area2(b, c, at_m) / area;
-                const float v = signed_area2(c, a, at_m) / area;
-                if (u < 0.0F || v < 0.0F || u + v > 1.0F) { continue; }
-                at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
-                if (glm::dot(at_m, at_m) > reach2_m2) { continue; }
-                const SceneryItem item = item_at(column, row, quarter_index);
-                if (item.kind != SceneryKind::None) {
-                    const float radius = radius_m(item);
-                    const float power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - radius * radius;
-                    placed_items_.push_back({at_m, ground_slope, item, power_m2});
-                }
-            }
-        }
-    }
-}
-
-void Scenery::add(const std::array<glm::vec3, 3>& triangle_m, std::vector<models::ColourVertex>& vertices,
-    std::vector<std::uint32_t>& indices) {
-    placed_items_.clear();
-    collect(triangle_m);
-    std::ranges::sort(
-        placed_items_, [&](const PlacedItem& one, const PlacedItem& other) { return one.power_m2 < other.power_m2; });
-    for (const PlacedItem& one : placed_items_) {
-        const float distance_m = glm::length(one.at_m);
-        // Each grows out of the ground at a distance of its own.
-        const float begins_m = static_cast<float>(reach_m()) *
-                               (first_growth_ratio + (1.0F - first_growth_ratio) * share_of(one.item.random_bits, 0));
-        const float height_share = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
-        if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) { continue; }
-        const std::size_t before = indices.size();
-        if (one.item.kind == SceneryKind::House) {
-            build_house(one, height_share, vertices, indices);
-        } else {
-            build_tree(one, height_share, detail_at(distance_m), vertices, indices);
-        }
-        remove_back_faces(vertices, before, indices);
-        added_ += (indices.size() - before) / 3;
-    }
-}
-
-float Scenery::house_half_m() const { return std::min(0.62F * max_radius_m_, 5.5F); }
-
-/// Of a circle that holds it in plan, its middle where it stands.
-float Scenery::radius_m(const SceneryItem& item) const {
-    if (item.kind == SceneryKind::House) { return house_corner * house_half_m(); }
-    const Species& species = species_of(static_cast<std::size_t>(item.kind));
-    return std::min(size_of(item.random_bits) * species.radius_m, max_radius_m_);
-}
-
-/// A colour under the light on one of the eight sides, or from above.
-glm::vec3 Scenery::lit(const PlacedItem& one, const glm::vec3& own, std::size_t side) const {
-    const float sun = static_cast<float>(one.item.sun) * (1.0F / 255.0F);
-    return own * (shade_ + sun * side_light_[side]);
-}
-
-void Scenery::build_house(const PlacedItem& one, float height_share, std::vector<models::ColourVertex>& vertices,
-    std::vector<std::uint32_t>& indices) const {
-    const std::uint32_t random_bits = one.item.random_bits;
-    const glm::vec3 plaster =
-        glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(random_bits, 12));
-    const glm::vec3 tiles =
-        glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(random_bits, 4));
-    const std::size_t turn = random_bits >> 20U & 7U;
-    const auto wall = [&](std::size_t eighths) { return lit(one, plaster, (turn + eighths) % 8); };
-    const auto roof = [&](std::size_t eighths) {
-        return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upward_light_index));
-    };
-    const float half_m = house_half_m();
-    LowPolyBuilder to{vertices, indices};
-    add_house(to, {one.at_m, one.ground_slope}, compass_directions[turn],
-        glm::vec3(house_length * half_m, house_width * half_m, house_m), height_share,
-        {wall(0), wall(2), wall(4), wall(6)}, {roof(2), roof(6)});
-}
-
-void Scenery::build_tree(const PlacedItem& one, float height_share, TreeLod detail,
-    std::vector<models::ColourVertex>& vertices, std::vector<std::uint32_t>& indices) const {
-    const Species& species = species_of(static_cast<std::size_t>(one.item.kind));
-    const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.item.random_bits, 8));
-    TreeColours light{{}, lit(one, leaf, upward_light_index)};
-    for (std::size_t side = 0; side < light.sides.size(); ++side) { light.sides[side] = lit(one, leaf, side); }
-    LowPolyBuilder to{vertices, indices};
-    add_tree(to, {one.at_m, one.ground_slope},
-        {radius_m(one.item), size_of(one.item.random_bits) * species.height_m * height_share}, species.shape, detail,
-        light);
+std::unique_ptr<GroundDecoration> scenery_decoration(const glm::dvec2& first_m, const glm::ivec2& samples,
+    double spacing_m, const Daylight& day, SceneryDensityAt density_at) {
+    return std::make_unique<Scenery>(first_m, samples, spacing_m, day, std::move(density_at));
 }
 
 } // namespace octant::visuals::nature

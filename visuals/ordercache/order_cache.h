@@ -19,13 +19,13 @@ std::string encode_key(const models::polygons::PolygonModel& model, const drawor
 std::string encode_order(const draworder::OrderedModel& ordered);
 
 /// The inverse of encode_order, bit for bit. `given` is the model that was ordered; names, materials, parts and pivots
-/// are its own. The bytes may be anything: every number that leads to something is checked. Throws Error "expected ...,
-/// got ...".
+/// are its own. The bytes may be anything: every number that leads to something is checked. Throws Error "at byte N:
+/// expected ..., got ...".
 draworder::OrderedModel decode_order(std::string_view bytes, const models::polygons::PolygonModel& given);
 
 /// Raised whenever draworder::ordered() gives any model another result, or a file another layout: what was kept before
 /// is then computed anew.
-inline constexpr std::uint32_t order_version = 9;
+inline constexpr std::uint32_t order_version = 11;
 
 /// An ordered model, and how it was come by.
 struct CachedOrder {

@@ -6,6 +6,7 @@
 #include "sim/base/format_once.h"
 #include "sim/base/plane.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 #include "visuals/draworder/octant_order.h"
 
 #include <glm/geometric.hpp>
@@ -199,137 +200,8 @@ std::string order_text(const CellOrders& orders, const models::polygons::FileAxe
 
 namespace {
 
-/// The words of a file of orders, line by line, and what they may stand for. What is read is left behind; a word that
-/// is wrong is refused with an Error that names file, line, what was expected and what was found.
-class OrderTokens {
-public:
-    OrderTokens(const std::filesystem::path& path, const models::polygons::FileAxes& axes) : path_(path), axes_(axes) {}
-
-    /// Goes to the next line of the file, of which a comment after # does not count. The text must outlive the work on
-    /// the line.
-    void begin_line(std::string_view text);
-
-    /// The words of the line with one space between them.
-    std::string line() const;
-
-    bool has_more() const { return at_ < words_.size(); }
-
-    /// The next word, which must be there.
-    std::string_view peek() const { return words_[at_]; }
-
-    void advance() { ++at_; }
-
-    /// Goes back to the word before, to refuse it.
-    void back() { --at_; }
-
-    void rewind() { at_ = 0; }
-
-    /// Throws Error about the next word.
-    [[noreturn]] void refuse(const std::string& expected) const;
-
-    bool next_is(std::string_view word) const { return has_more() && peek() == word; }
-
-    /// Reads that word where it comes next; returns whether it did.
-    bool skip(std::string_view word);
-
-    double number(const char* what);
-
-    /// A number that must not be negative.
-    double min_zero(const char* what);
-
-    /// A whole number within limits.
-    long count(const char* what, long least, long most);
-
-    /// Three numbers: a vector in body axes.
-    glm::dvec3 vector(const char* what);
-
-    /// A vector that must not be zero.
-    glm::dvec3 nonzero_vector(const char* what);
-
-    /// A plane with a normal of any length.
-    Plane plane();
-
-private:
-    std::filesystem::path path_;
-    models::polygons::FileAxes axes_;
-    std::vector<std::string_view> words_;
-    std::size_t at_ = 0;
-    int line_ = 0;
-};
-
 constexpr double largest_number = 1e12;
 constexpr double min_length = 1e-12; ///< A normal or direction must be longer than this.
-
-void OrderTokens::begin_line(std::string_view text) {
-    ++line_;
-    words_ = split_words(text.substr(0, text.find('#')));
-    at_ = 0;
-}
-
-std::string OrderTokens::line() const { return fmt::format("{}", fmt::join(words_, " ")); }
-
-void OrderTokens::refuse(const std::string& expected) const {
-    const std::string got = has_more() ? fmt::format("'{}'", printable(std::string(peek()))) : "none";
-    throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
-}
-
-bool OrderTokens::skip(std::string_view word) {
-    const bool there = next_is(word);
-    at_ += there ? 1 : 0;
-    return there;
-}
-
-double OrderTokens::number(const char* what) {
-    const auto value = has_more() ? finite_number(peek()) : std::nullopt;
-    if (!value || std::abs(*value) > largest_number) {
-        refuse(fmt::format("{} (a number within {:g})", what, largest_number));
-    }
-    ++at_;
-    return *value;
-}
-
-glm::dvec3 OrderTokens::vector(const char* what) {
-    const double x = number(what);
-    const double y = number(what);
-    const double z = number(what);
-    return axes_.body_from_file({x, y, z});
-}
-
-glm::dvec3 OrderTokens::nonzero_vector(const char* what) {
-    const glm::dvec3 v = vector(what);
-    if (glm::length(v) < min_length) {
-        --at_;
-        refuse(fmt::format("{} with a length", what));
-    }
-    return v;
-}
-
-long OrderTokens::count(const char* what, long least, long most) {
-    const auto value = has_more() ? whole_number(peek()) : std::nullopt;
-    if (!value || *value < least || *value > most) { refuse(fmt::format("{} ({} to {})", what, least, most)); }
-    ++at_;
-    return *value;
-}
-
-double OrderTokens::min_zero(const char* what) {
-    const double value = number(what);
-    if (value < 0.0) {
-        --at_;
-        refuse(fmt::format("{} of 0 or more", what));
-    }
-    return value;
-}
-
-Plane OrderTokens::plane() {
-    const glm::dvec3 normal = nonzero_vector("a normal");
-    const double length = glm::length(normal);
-    // A unit vector stays as written, bit for bit.
-    const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
-    return {normal * factor, number("an offset") * factor};
-}
-
-using draworder::DrawOrder;
-
 constexpr long max_planes = 1000;
 constexpr long max_directions = 64;
 constexpr std::size_t max_cells = 1'000'000;
@@ -337,16 +209,15 @@ constexpr std::size_t max_cells = 1'000'000;
 /// The reading of one file, line by line and word by word.
 class OrderReader {
 public:
-    OrderReader(const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes)
-        : path_(path), axes_(axes), words_(path, axes), used_(faces) {
+    OrderReader(const std::filesystem::path& path, std::string_view text, std::size_t faces,
+        const models::polygons::FileAxes& axes)
+        : path_(path), axes_(axes), words_(path, text, {.comment = '#', .max_number = largest_number}), used_(faces) {
         orders_.faces = faces;
     }
 
     CellOrders read() {
-        const std::string text = read_text_file(path_);
-        for (const std::string_view line : split_lines(text)) {
-            words_.begin_line(line);
-            if (words_.has_more()) { take(); }
+        while (words_.next_line()) {
+            if (has_more()) { take(); }
         }
         if (seen_.empty()) { throw_error_in(path_, "expected 'draworder 1' first, got an empty file"); }
         if (orders_.cells.empty() && lists_.empty()) {
@@ -357,20 +228,59 @@ public:
     }
 
 private:
+    bool has_more() { return !words_.peek().empty(); }
+
+    double number(const char* what) {
+        const auto value = words_.take_number();
+        if (!value) { words_.refuse_next(fmt::format("{} (a number within {:g})", what, largest_number)); }
+        return *value;
+    }
+
+    double non_negative_number(const char* what) {
+        const double value = number(what);
+        if (value < 0.0) { words_.refuse_last(fmt::format("{} of 0 or more", what)); }
+        return value;
+    }
+
+    long count(const char* what, long min, long max) {
+        const auto value = words_.take_integer(min, max);
+        if (!value) { words_.refuse_next(fmt::format("{} ({} to {})", what, min, max)); }
+        return *value;
+    }
+
+    /// Three numbers: a vector in body axes.
+    glm::dvec3 vector(const char* what) {
+        const double x = number(what);
+        const double y = number(what);
+        return axes_.body_from_file({x, y, number(what)});
+    }
+
+    glm::dvec3 nonzero_vector(const char* what) {
+        const glm::dvec3 v = vector(what);
+        if (glm::length(v) < min_length) { words_.refuse_last(fmt::format("{} with a length", what)); }
+        return v;
+    }
+
+    /// A plane with a normal of any length.
+    Plane plane() {
+        const glm::dvec3 normal = nonzero_vector("a normal");
+        const double length = glm::length(normal);
+        // A unit vector stays as written, bit for bit.
+        const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
+        return {normal * factor, number("an offset") * factor};
+    }
+
     std::uint32_t face() {
         const long last = static_cast<long>(orders_.faces) - 1;
-        return static_cast<std::uint32_t>(words_.count("a polygon of the model", 0, last));
+        return static_cast<std::uint32_t>(count("a polygon of the model", 0, last));
     }
 
     /// The polygons up to the end of the line, none of them twice.
     std::vector<std::uint32_t> different_faces() {
         std::vector<std::uint32_t> list;
-        while (words_.has_more()) {
+        while (has_more()) {
             const std::uint32_t polygon = face();
-            if (used_[polygon]) {
-                words_.back();
-                words_.refuse("each polygon once");
-            }
+            if (used_[polygon]) { words_.refuse_last("each polygon once"); }
             used_[polygon] = true;
             list.push_back(polygon);
         }
@@ -381,41 +291,44 @@ private:
     void take() {
         const std::string keyword(words_.peek());
         if (seen_.empty()) {
-            if (words_.line() != "draworder 1") { words_.refuse("'draworder 1' first"); }
+            const auto& words = words_.words();
+            if (words.size() != 2 || keyword != "draworder" || words[1] != "1") {
+                words_.refuse_next("'draworder 1' first");
+            }
             seen_.insert(keyword);
             return;
         }
         if (keyword != "center" && keyword != "metric" && keyword != "faces" && keyword != "twosided" &&
             keyword != "parents" && keyword != "cell" && keyword != "list" && keyword != "node") {
-            words_.refuse("center, metric, faces, twosided, parents, cell, list or node");
+            words_.refuse_next("center, metric, faces, twosided, parents, cell, list or node");
         }
         const bool is_part = keyword == "list" || keyword == "node";
         if (is_part ? !orders_.cells.empty() : keyword == "cell" && !lists_.empty()) {
-            words_.refuse("either cells or parts");
+            words_.refuse_next("either cells or parts");
         }
         if (!is_part && keyword != "cell" && (!seen_.insert(keyword).second || !orders_.cells.empty())) {
-            words_.refuse("each keyword once and before the cells");
+            words_.refuse_next("each keyword once and before the cells");
         }
-        words_.advance();
+        words_.word_or_end();
         take(keyword);
-        if (words_.has_more()) { words_.refuse("the end of the line"); }
+        if (has_more()) { words_.refuse_next("the end of the line"); }
     }
 
     void take(const std::string& keyword) {
         if (keyword == "center") {
-            orders_.centre_m = words_.vector("the centre");
+            orders_.centre_m = vector("the centre");
         } else if (keyword == "metric") {
             take_metric();
         } else if (keyword == "faces") {
             const long faces = static_cast<long>(orders_.faces);
-            words_.count("as many faces as the model has", faces, faces);
+            count("as many faces as the model has", faces, faces);
         } else if (keyword == "twosided") {
             orders_.two_sided = different_faces();
         } else if (keyword == "parents") {
             take_parents();
         } else if (keyword == "list") {
             need_faces();
-            if (lists_.size() == max_cells) { words_.refuse(fmt::format("at most {} lists", max_cells)); }
+            if (lists_.size() == max_cells) { words_.refuse_next(fmt::format("at most {} lists", max_cells)); }
             lists_.push_back(different_faces());
         } else if (keyword == "node") {
             need_faces();
@@ -426,20 +339,17 @@ private:
     }
 
     void need_faces() {
-        if (!seen_.contains("faces")) {
-            words_.rewind();
-            words_.refuse("faces before the first cell or list");
-        }
+        if (!seen_.contains("faces")) { words_.refuse_last("faces before the first cell or list"); }
     }
 
     void take_node() {
-        if (nodes_.size() == max_cells) { words_.refuse(fmt::format("at most {} nodes", max_cells)); }
+        if (nodes_.size() == max_cells) { words_.refuse_next(fmt::format("at most {} nodes", max_cells)); }
         DrawOrder::Node node;
         node.kind = words_.skip("choice")     ? DrawOrder::Kind::ViewSplit
                     : words_.skip("parting")  ? DrawOrder::Kind::PolygonSplit
                     : words_.skip("sequence") ? DrawOrder::Kind::Sequence
                                               : throw_wrong_kind();
-        if (node.kind != DrawOrder::Kind::Sequence) { node.plane = words_.plane(); }
+        if (node.kind != DrawOrder::Kind::Sequence) { node.plane = plane(); }
         node.front = child();
         node.back = child();
         if (node.kind == DrawOrder::Kind::PolygonSplit) {
@@ -449,24 +359,23 @@ private:
         nodes_.push_back(node);
     }
 
-    [[noreturn]] DrawOrder::Kind throw_wrong_kind() const { words_.refuse("choice, parting or sequence"); }
+    [[noreturn]] DrawOrder::Kind throw_wrong_kind() { words_.refuse_next("choice, parting or sequence"); }
 
     /// A child as DrawOrder::Node has it. Whether a list is there is known only at the end.
     int child() {
         if (words_.skip("nothing")) { return DrawOrder::nothing; }
         const auto most = static_cast<long>(max_cells);
-        if (words_.skip("list")) { return ~static_cast<int>(words_.count("the number of a list", 0, most)); }
+        if (words_.skip("list")) { return ~static_cast<int>(count("the number of a list", 0, most)); }
         if (words_.skip("node")) {
             const auto later = static_cast<long>(nodes_.size()) + 1;
-            const auto number = words_.count("the number of a later node", later, most);
+            const auto number = count("the number of a later node", later, most);
             if (!below_one_.insert(number).second) {
-                words_.back();
                 // Where nodes have several parents, the ways from the root may be too many to walk.
-                words_.refuse("each node below one other");
+                words_.refuse_last("each node below one other");
             }
             return static_cast<int>(number);
         }
-        words_.refuse("a child: node K, list K or nothing");
+        words_.refuse_next("a child: node K, list K or nothing");
     }
 
     /// Makes the order of the parts that were read.
@@ -494,32 +403,29 @@ private:
     }
 
     void take_metric() {
-        if (!words_.next_is("l1") && !words_.next_is("l2")) { words_.refuse("l1 or l2"); }
-        orders_.metric = words_.next_is("l1") ? Metric::L1 : Metric::L2;
-        words_.advance();
+        if (words_.peek() != "l1" && words_.peek() != "l2") { words_.refuse_next("l1 or l2"); }
+        orders_.metric = words_.peek() == "l1" ? Metric::L1 : Metric::L2;
+        words_.word_or_end();
     }
 
     void take_parents() {
         for (std::size_t i = 0; i < orders_.faces; ++i) {
             orders_.parents.push_back(
-                static_cast<std::uint32_t>(words_.count("a polygon of the whole model", 0, 999'999'999)));
+                static_cast<std::uint32_t>(count("a polygon of the whole model", 0, 999'999'999)));
         }
     }
 
     void take_cell() {
         need_faces();
-        if (orders_.cells.size() == max_cells) { words_.refuse(fmt::format("at most {} cells", max_cells)); }
+        if (orders_.cells.size() == max_cells) { words_.refuse_next(fmt::format("at most {} cells", max_cells)); }
         ListedCell cell;
         take_region(cell);
-        if (words_.skip("min")) { cell.min_m = words_.min_zero("the least distance"); }
+        if (words_.skip("min")) { cell.min_m = non_negative_number("the least distance"); }
         if (words_.skip("max")) {
-            cell.max_m = words_.min_zero("the greatest distance");
-            if (cell.max_m <= cell.min_m) {
-                words_.back();
-                words_.refuse("a greatest distance above the least");
-            }
+            cell.max_m = non_negative_number("the greatest distance");
+            if (cell.max_m <= cell.min_m) { words_.refuse_last("a greatest distance above the least"); }
         }
-        if (!words_.skip("order")) { words_.refuse("min R, max R or order"); }
+        if (!words_.skip("order")) { words_.refuse_next("min R, max R or order"); }
         cell.list = different_faces();
         orders_.cells.push_back(std::move(cell));
     }
@@ -527,36 +433,33 @@ private:
     /// Reads a cell's region and makes its planes.
     void take_region(ListedCell& cell) {
         if (words_.skip("cone")) {
-            const long directions = words_.count("how many directions", 3, max_directions);
-            for (long i = 0; i < directions; ++i) { cell.directions.push_back(words_.nonzero_vector("a direction")); }
+            const long directions = count("how many directions", 3, max_directions);
+            for (long i = 0; i < directions; ++i) { cell.directions.push_back(nonzero_vector("a direction")); }
         } else if (words_.skip("half")) {
             take_planes(cell);
             return;
-        } else if (words_.has_more() && draworder::is_octant_path(words_.peek())) {
+        } else if (has_more() && draworder::is_octant_path(words_.peek())) {
             cell.path = draworder::path_in_body(std::string(words_.peek()), axes_);
             const auto corners = draworder::octant_triangle(cell.path);
             cell.directions.assign(corners.begin(), corners.end());
-            words_.advance();
+            words_.word_or_end();
         } else {
-            words_.refuse(fmt::format("a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
+            words_.refuse_next(fmt::format("a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
                 draworder::max_path_levels));
         }
         const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
-        if (!planes) {
-            words_.back();
-            words_.refuse("directions that do not lie in one plane");
-        }
+        if (!planes) { words_.refuse_last("directions that do not lie in one plane"); }
         cell.planes = *planes;
     }
 
     void take_planes(ListedCell& cell) {
-        const long planes = words_.count("how many planes", 0, max_planes);
-        for (long i = 0; i < planes; ++i) { cell.planes.push_back(words_.plane()); }
+        const long planes = count("how many planes", 0, max_planes);
+        for (long i = 0; i < planes; ++i) { cell.planes.push_back(plane()); }
     }
 
     std::filesystem::path path_;
     models::polygons::FileAxes axes_;
-    OrderTokens words_;
+    TextScanner words_;
     CellOrders orders_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<std::vector<std::uint32_t>> lists_;
@@ -569,7 +472,8 @@ private:
 
 CellOrders read_order_file(
     const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes) {
-    return OrderReader(path, faces, axes).read();
+    const std::string text = read_text_file(path);
+    return OrderReader(path, text, faces, axes).read();
 }
 
 } // namespace octant::visuals::orderfile

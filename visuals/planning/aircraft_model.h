@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_state.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/bounding_box.h"

@@ -1,6 +1,5 @@
 #include "visuals/planning/fleet.h"
 
-#include "sim/hidden_height.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/planning/mesh_levels.h"
 
@@ -33,6 +32,8 @@ glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& 
     matrix[3] = glm::dvec4(state.position_m - eye_m, 1.0);
     return matrix;
 }
+
+constexpr double absent_depth_m = 1e5;
 
 /// The state as it is seen over a round earth: sunk as far as the ground below it.
 sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
@@ -91,18 +92,20 @@ void Fleet::add(std::uint32_t model) {
     parts_.resize(parts_.size() + pivots + 1);
 }
 
-void Fleet::place(const FrameView& view, const AircraftStates& aircraft, std::span<const AircraftEffects> effects) {
+void Fleet::place(const FrameView& view, const PlanRequest& request, std::span<const AircraftEffects> effects) {
     const glm::dvec3& eye_m = view.camera.eye_m;
-    for (std::size_t i = 0; i < aircraft.states.size(); ++i) {
-        const sim::AircraftState state = sunk(aircraft.states[i], eye_m, view.earth_radius_m);
-        placed_[i].is_hidden = sim::is_absent_height(aircraft.states[i].position_m.z);
-        place(placed_[i], state, aircraft.articulated_parts, view);
+    for (std::size_t i = 0; i < request.states.size(); ++i) {
+        sim::AircraftState state = sunk(request.states[i], eye_m, view.earth_radius_m);
+        placed_[i].is_hidden = !state.is_present;
+        // Far below the eye an absent aircraft has no shadow, no effects and no part in the painting order of others.
+        if (!state.is_present) { state.position_m = eye_m - glm::dvec3(0.0, 0.0, absent_depth_m); }
+        place(placed_[i], state, request.articulated_parts, view);
         bounding_boxes_[i] = bounding_box_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
     }
-    if (placed_.size() > aircraft.states.size()) {
-        sim::AircraftState around_eye = aircraft.states.front();
+    if (placed_.size() > request.states.size()) {
+        sim::AircraftState around_eye = request.states.front();
         around_eye.position_m = eye_m;
-        place(placed_.back(), around_eye, aircraft.articulated_parts, view);
+        place(placed_.back(), around_eye, request.articulated_parts, view);
     }
 }
 

@@ -20,13 +20,6 @@
 
 namespace octant::visuals::planning {
 
-/// Where the aircraft of a frame are, and which of their parts do not turn by themselves.
-struct AircraftStates {
-    /// The states of Scene::aircraft.
-    std::span<const sim::AircraftState> states;
-    std::span<const ArticulatedPart> articulated_parts = {};
-};
-
 /// The aircraft of one view, and the cockpit around its eye: where each one is in a frame, as what it is drawn
 /// (polygons in the order of its eye point, a level of detail, or a mesh refined for the frame), and the box that
 /// stands in for it. Levels and refined meshes go on from frame to frame. Keeps its memory.
@@ -37,7 +30,7 @@ public:
 
     /// Decides where each aircraft is, which list it is painted by and which box stands in for it. `effects`: one for
     /// each of Scene::aircraft, which its box holds, too, or none at all.
-    void place(const FrameView& view, const AircraftStates& aircraft, std::span<const AircraftEffects> effects);
+    void place(const FrameView& view, const PlanRequest& request, std::span<const AircraftEffects> effects);
 
     /// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep theirs as they are.
     void refine(const FrameView& view);

@@ -152,17 +152,17 @@ void FrameTransparents::set_daylight(const nature::Daylight& day) {
 }
 
 void FrameTransparents::make(
-    const FrameView& view, const AircraftStates& aircraft, const Fleet& fleet, const scene::FramePlan& plan) {
+    const FrameView& view, const PlanRequest& request, const Fleet& fleet, const scene::FramePlan& plan) {
     transparents_.begin(plan.view_to_clip * plan.world_to_view, view.size_px, plan.haze);
     if (clouds_) {
         const auto clouds = clouds_->seen_from(view.camera.eye_m, cloud_height_m_, view.earth_radius_m);
         cloud_range_ = transparents_.add(clouds.vertices, clouds.indices);
     }
-    add_effects(view, aircraft, fleet);
-    if (ribbon_) { add_ribbon(view, aircraft.states.front().time_s, fleet.bounding_boxes()); }
+    add_effects(view, request, fleet);
+    if (ribbon_) { add_ribbon(view, request.states.front().time_s, fleet.bounding_boxes()); }
 }
 
-void FrameTransparents::add_effects(const FrameView& view, const AircraftStates& aircraft, const Fleet& fleet) {
+void FrameTransparents::add_effects(const FrameView& view, const PlanRequest& request, const Fleet& fleet) {
     constexpr double min_px = 6.0; // smaller aircraft have no effects
     for (std::size_t i = 0; i < effects_.size(); ++i) {
         const OrientedBox& hull = fleet.bounding_boxes()[i];
@@ -170,8 +170,8 @@ void FrameTransparents::add_effects(const FrameView& view, const AircraftStates&
         const bool is_seen = radius_m(hull) > min_px * view.pixel_rad * away_m && in_view(hull, view);
         effect_ranges_[i] =
             is_seen ? effects_[i].add(fleet.placed()[i].parts[0],
-                          strength_of(sim::find_aircraft_kind(scene_.model_of(i).polygons.name), aircraft.states[i]),
-                          aircraft.articulated_parts, static_cast<std::uint32_t>(i), transparents_)
+                          strength_of(sim::find_aircraft_kind(scene_.model_of(i).polygons.name), request.states[i]),
+                          request.articulated_parts, static_cast<std::uint32_t>(i), transparents_)
                     : AircraftEffects::TransparentRanges();
     }
 }

@@ -86,7 +86,7 @@ public:
 
     /// Makes the veils of a frame, seen by the matrices and through the haze of its plan, which must stay until the
     /// next frame. `fleet`: as it is placed for the same frame.
-    void make(const FrameView& view, const AircraftStates& aircraft, const Fleet& fleet, const scene::FramePlan& plan);
+    void make(const FrameView& view, const PlanRequest& request, const Fleet& fleet, const scene::FramePlan& plan);
 
     /// All of them together; valid until the next frame.
     scene::OverlayDraw draw() const { return transparents_.draw(); }
@@ -107,7 +107,7 @@ public:
     std::span<const PathRibbon::Dash> dashes() const { return dashes_; }
 
 private:
-    void add_effects(const FrameView& view, const AircraftStates& aircraft, const Fleet& fleet);
+    void add_effects(const FrameView& view, const PlanRequest& request, const Fleet& fleet);
     void add_ribbon(const FrameView& view, double time_s, std::span<const OrientedBox> bounding_boxes);
 
     const Scene& scene_;

@@ -1,4 +1,5 @@
 #include "visuals/planning/placed_aircraft.h"
+
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>

@@ -2,10 +2,9 @@
 
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/bounding_box.h"
+#include "visuals/planning/frame_view.h"
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -13,19 +12,6 @@
 #include <vector>
 
 namespace octant::visuals::planning {
-
-/// How a part of an aircraft is turned and moved in place of turning by itself. Painting order takes a part as if it
-/// were not moved.
-struct ArticulatedPart {
-    /// Index into Scene::aircraft.
-    std::uint32_t aircraft = 0;
-    /// Index into PolygonModel::pivots of the aircraft's own model, not of one that stands in for it from afar.
-    std::uint32_t pivot = 0;
-    /// Within body axes. The part turns about its pivot's axis alone: as far as this turns about it.
-    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
-    /// Along body axes.
-    glm::dvec3 offset_m{0.0};
-};
 
 /// One aircraft of one frame, where it is.
 struct PlacedAircraft {
@@ -49,7 +35,7 @@ struct PlacedAircraft {
     int cell = 0;
     /// Whether it was in view in the last frame, and so had a representation to go on from.
     bool is_represented = false;
-    /// Whether it is not there: nothing of it is drawn.
+    /// True if the aircraft is absent (AircraftState::is_present): nothing of it is drawn.
     bool is_hidden = false;
     /// Index into AircraftModel::errors_m.
     std::size_t representation = 0;

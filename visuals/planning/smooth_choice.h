@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/planning/frame_view.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/refined_aircraft.h"
 #include "visuals/scene/settings.h"
@@ -11,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,12 +27,6 @@ struct SmoothCandidate {
 /// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has; in all as many as
 /// asked for, or all. `assigned`: one an aircraft.
 void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, std::span<int> assigned);
-
-/// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the settings say.
-struct SmoothTarget {
-    std::optional<int> polygons;
-    std::optional<double> share;
-};
 
 /// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes that are refined
 /// included. Keeps the choice, so that shading does not flicker, and its memory.

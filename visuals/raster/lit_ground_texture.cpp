@@ -1,6 +1,6 @@
 #include "visuals/raster/lit_ground_texture.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -16,15 +16,11 @@ public:
     /// At least two texels each way.
     struct MipLevel {
         MipLevel(int columns, int rows)
-            : width(columns), height(rows),
-              stride(stride_of(columns)), last_place{(columns - 1) * 65536.0 - 1.0, (rows - 1) * 65536.0 - 1.0},
-              texels(number(0, rows)) {}
+            : width(columns), height(rows), stride(stride_of(columns)), texels(number(0, rows)) {}
 
         int width;
         int height;
-        int stride; ///< texels from a row to the next
-        /// Across and up, with a texel right and above: 2^-16 texel; the rest are 0.
-        alignas(32) std::array<double, 4> last_place;
+        int stride;                        ///< texels from a row to the next
         std::vector<std::uint32_t> texels; ///< red in the lowest byte; rows from the south
 
         std::size_t number(int column, int row) const {

@@ -85,7 +85,7 @@ private:
 } // namespace
 
 scene::Picture mask_picture(const scene::FramePlan& plan, std::span<const scene::ModelBuffers> models,
-    const glm::ivec2& size_px, Workers& workers) {
+    const glm::ivec2& size_px, ThreadPool& workers) {
     assert(!plan.ground_texture);
     const SamplePattern pattern = sample_pattern(samples);
     const SampleLanes lanes(pattern);

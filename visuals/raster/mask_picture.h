@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/raster/workers.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/model_buffers.h"
 #include "visuals/scene/picture.h"
@@ -15,6 +15,6 @@ namespace octant::visuals::raster {
 /// 16 x 16, each of its samples a dot at its place: in the colour of the triangle that covers it, one hue each, or grey
 /// where none does yet. The plan must be without a ground texture (asserted).
 scene::Picture mask_picture(const scene::FramePlan& plan, std::span<const scene::ModelBuffers> models,
-    const glm::ivec2& size_px, Workers& workers);
+    const glm::ivec2& size_px, ThreadPool& workers);
 
 } // namespace octant::visuals::raster

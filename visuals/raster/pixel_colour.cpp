@@ -1,6 +1,6 @@
 #include "visuals/raster/pixel_colour.h"
 
-#include "visuals/raster/affine_textured_triangle.h"
+#include "visuals/raster/texture_planes.h"
 #include "visuals/raster/triangle.h"
 
 #include <algorithm>
@@ -121,7 +121,7 @@ PixelColour affine_texture_colour(const TileTriangle& one, const TileJob& job, i
     };
     const auto share = [&](std::size_t i) {
         return (limited(triangle.gradients, i, column, row) / 128.0 + 128.0) /
-               static_cast<double>(AffineTexturedTriangle::whole_share);
+               static_cast<double>(TexturePlanes::whole_share);
     };
     return textured({place(0), place(1), share(2), share(3)}, triangle.texture, job);
 }
@@ -260,7 +260,7 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
         return affine_texture_colour(one, job, column, row);
     case Fill::TextureInPerspective:
         return perspective_texture_colour(one, job, column, row);
-    case Fill::Mesh:
+    case Fill::MeshEdges:
         return wireframe_colour(one, job, column, row);
     case Fill::Lit:
         return lit_colour(one, job, column, row);

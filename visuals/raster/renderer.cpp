@@ -30,7 +30,7 @@ glm::vec3 haze_ahead(const scene::FramePlan& plan) {
 
 } // namespace
 
-Renderer::Renderer(std::shared_ptr<Workers> workers, const glm::ivec2& size_px, int samples,
+Renderer::Renderer(std::shared_ptr<ThreadPool> workers, const glm::ivec2& size_px, int samples,
     std::shared_ptr<scene::WindowPicture> window)
     : workers_(std::move(workers)), window_(std::move(window)), samples_(samples), lanes_(sample_pattern(samples)),
       binner_(sample_pattern(samples), *workers_) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "sim/base/thread_pool.h"
 #include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/triangle_binner.h"
-#include "visuals/raster/workers.h"
 #include "visuals/scene/renderer.h"
 #include "visuals/scene/window_picture.h"
 
@@ -23,7 +23,7 @@ class Renderer final : public scene::Renderer {
 public:
     /// Picture size in pixels, at most 8,192 each way; 1, 4 or 16 samples a pixel. Pictures that are aimed at a window
     /// are made in the memory of `window`.
-    Renderer(std::shared_ptr<Workers> workers, const glm::ivec2& size_px, int samples,
+    Renderer(std::shared_ptr<ThreadPool> workers, const glm::ivec2& size_px, int samples,
         std::shared_ptr<scene::WindowPicture> window = nullptr);
 
     /// Which way painting order is walked.
@@ -70,7 +70,7 @@ private:
     std::size_t byte_at(int x, int y) const;
     void draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect);
 
-    std::shared_ptr<Workers> workers_;
+    std::shared_ptr<ThreadPool> workers_;
     scene::RendererInfo info_;
     std::shared_ptr<scene::WindowPicture> window_;
     int samples_ = 0;

@@ -428,8 +428,8 @@ HWY_INLINE void with_parts_of_strip(const TileBox& box, int left, const Paint& p
     paint(std::integral_constant<std::size_t, strip_parts>());
 }
 
-/// Covers what is free of a triangle in parts of the strip that begins at a column of the tile. Calls paint(row,
-/// samples of the parts, those of them that are fresh) where some may be, and next_row() after each row.
+/// Covers what is free of a triangle in parts of the strip that begins at a column of the tile. Calls paint(row, fresh
+/// samples of the parts) where some may be, and next_row() after each row.
 template <std::size_t parts, class Paint, class NextRow>
 HWY_INLINE void walk_strip(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box,
     int left, TileBuffer& buffer, const Paint& paint, const NextRow& next_row) {
@@ -451,7 +451,7 @@ HWY_INLINE void walk_strip(const Triangle& triangle, const TileJob& job, const S
                 after[i] = hn::Or(before, masks[i]);
                 hn::StoreU(after[i], Strip(), covered + i * part_px);
             }
-            paint(row, masks, fresh);
+            paint(row, fresh);
             full |= std::uint64_t{full_bits(after)} << left;
             buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
         }

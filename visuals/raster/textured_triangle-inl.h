@@ -1,6 +1,8 @@
-// Textured triangles. In this order: planes for a span in which they are as good as perspective; triangles in
-// perspective; windows of eight pixels that wait for texels; triangles that perspective bends by less than a
-// thirty-second of a texel (most of them). Included once for each instruction set.
+// Textured triangles, all by one span routine: first the coverage of a strip, then the colours of windows of eight
+// pixels. In a window texture coordinates, light and haze are planes. Planes of a triangle in perspective are fitted to
+// parts of the strip: to all of its rows, to a few of them or to single windows, as few parts as the error allows. In
+// this order: the bilinear filter; windows that wait for colours; planes over windows; colours; triangles. Included
+// once for each instruction set.
 #if defined(OCTANT_RASTER_TEXTURED_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_TEXTURED_TRIANGLE_INL
 #undef OCTANT_RASTER_TEXTURED_TRIANGLE_INL
@@ -8,17 +10,16 @@
 #define OCTANT_RASTER_TEXTURED_TRIANGLE_INL
 #endif
 
-#include "visuals/raster/coverage-inl.h"
-#include "visuals/raster/gouraud-inl.h"
 #include "visuals/raster/strip-inl.h"
-#include "visuals/raster/texture_sampling-inl.h"
+#include "visuals/raster/texture_planes.h"
+#include "visuals/raster/tile.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -26,329 +27,159 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// -- Texture coordinates as planes over a part of the tile, where the error against perspective is small.
+// -- The bilinear filter: the four texels around a place, mixed in whole numbers.
 
-/// A textured triangle's values in a part of a tile, as planes that are right in the part's middle. A value there is v0
-/// + (s dx + t dy) / (1 + e), where e is how much 1 / w differs from the middle's, as a share of it: without e it is
-/// wrong by no more than |s dx + t dy| |e| / (1 - |e|).
-class AffineSpan {
-public:
-    static constexpr double max_texels_wrong = 1.0 / 16.0; ///< of the level that is looked at
-    static constexpr double max_share_wrong = 1.0 / 512.0; ///< of light and haze
+using Texels = hn::Repartition<std::uint32_t, Strip>;
+using TexelsSigned = hn::RebindToSigned<Texels>;
+using TexelPlaces = hn::Vec<TexelsSigned>; ///< 2^-16 texel
 
-    HWY_INLINE AffineSpan(
-        const TexturePlanes& planes, const LitGroundTexture& image, const glm::ivec2& tile_px, const TileBox& part)
-        : first_px_(tile_px + glm::ivec2(part.left, part.first_row)) {
-        const glm::dvec2 half_px(0.5 * (part.right - part.left), 0.5 * (part.last_row - part.first_row));
-        const TexturePoint middle = planes.at(first_px_.x + half_px.x, first_px_.y + half_px.y);
-        const auto slope = [&](const Four& per_px, double over_w) HWY_ATTR {
-            return stored(four([&](std::size_t i) HWY_ATTR {
-                const auto turned = hn::Mul(middle.value[i], real(over_w));
-                return hn::Mul(hn::Sub(per_px[i], turned), real(middle.w));
-            }));
-        };
-        const Values value = stored(middle.value);
-        const Values per_x = slope(planes.per_x, planes.over_w.per_x);
-        const Values per_y = slope(planes.per_y, planes.over_w.per_y);
-        chosen = select_mip_levels(TexelDerivatives{{per_x[0], per_x[1]}, {per_y[0], per_y[1]}}, image.levels().size());
-        // Pixels that begin beyond the part keep numbers in their range.
-        const glm::dvec2 reach_px = half_px + 1.0;
-        const double bent =
-            (std::abs(planes.over_w.per_x) * reach_px.x + std::abs(planes.over_w.per_y) * reach_px.y) * middle.w;
-        is_accurate = bent < 0.5;
-        const double texel = 65536.0 / texel_scale(chosen.fine);
-        Values first;
-        for (std::size_t i = 0; i < value.size(); ++i) {
-            const double reach = std::abs(per_x[i]) * reach_px.x + std::abs(per_y[i]) * reach_px.y;
-            const double limit = i < 2 ? max_texels_wrong * texel : max_share_wrong;
-            const double range = i < 2 ? max_texels * texel : max_share;
-            is_accurate = is_accurate && reach * bent <= limit * (1.0 - bent) && std::abs(value[i]) + reach < range;
-            first[i] = value[i] - per_x[i] * half_px.x - per_y[i] * half_px.y;
-        }
-        if (is_accurate) { set_planes(first, per_x, per_y); }
-    }
+/// Red, green and blue of the pixels of a register, 1/128 level, 32,640 at most.
+using Colours = std::array<hn::Vec<Strip>, 3>;
 
-    /// Of the chosen level or the next coarser one, from a pixel of the picture on.
-    HWY_INLINE TexelSpan line(std::size_t coarser, const glm::ivec2& at) const {
-        const glm::ivec2 off = at - first_px_;
-        const auto& [x, y] = places_[coarser];
-        return {{x.at(off), y.at(off)}, {x.per_x, y.per_x}};
-    }
-
-    /// Light left or haze, 2^-16, of a block from a pixel of the picture on.
-    HWY_INLINE void share(std::size_t which, const glm::ivec2& at, std::array<std::uint16_t, block_px>& to) const {
-        using Signed = hn::RebindToSigned<Pixels>;
-        constexpr int coarser = 12; ///< from share_unit to 2^-14
-        const Plane& plane = shares_[which];
-        const auto first = hn::Set(Signed(), static_cast<std::int16_t>(plane.at(at - first_px_) >> coarser));
-        const auto per_px = hn::Set(Signed(), static_cast<std::int16_t>(plane.per_x >> coarser));
-        for (std::size_t i = 0; i < block_px; i += hn::Lanes(Pixels())) {
-            const auto steps = lane_indices_from(Signed(), i);
-            const auto value = hn::Add(first, hn::Mul(steps, per_px));
-            const auto within = hn::Min(hn::Max(value, hn::Zero(Signed())), hn::Set(Signed(), 16383));
-            hn::StoreU(hn::ShiftLeft<2>(hn::BitCast(Pixels(), within)), Pixels(), &to[i]);
-        }
-    }
-
-    bool is_accurate; ///< as said above; if not, nothing else is to be used
-    MipSelection chosen;
-
-private:
-    using Values = std::array<double, 4>;
-    static constexpr double share_unit = 0x1p26;
-    static constexpr double max_texels = 16384.0; ///< what 32 bits hold, 2^-16, and half of it
-    static constexpr double max_share = 1.9;      ///< what 16 bits hold, 2^-14
-
-    /// Whole numbers that wrap.
-    struct Plane {
-        std::int32_t base;
-        std::int32_t per_x;
-        std::int32_t per_y;
-
-        Plane() = default;
-
-        HWY_INLINE Plane(double at_first, double step_x, double step_y)
-            : base(static_cast<std::int32_t>(at_first)), per_x(static_cast<std::int32_t>(step_x)),
-              per_y(static_cast<std::int32_t>(step_y)) {}
-
-        HWY_INLINE std::int32_t at(const glm::ivec2& off) const {
-            return static_cast<std::int32_t>(static_cast<std::uint32_t>(base) +
-                                             static_cast<std::uint32_t>(per_x) * static_cast<std::uint32_t>(off.x) +
-                                             static_cast<std::uint32_t>(per_y) * static_cast<std::uint32_t>(off.y));
-        }
-    };
-
-    static HWY_INLINE Values stored(const Four& values) {
-        alignas(32) Values result;
-        for (std::size_t i = 0; i < four_parts; ++i) {
-            hn::Store(values[i], Reals(), &result[i * hn::MaxLanes(Reals())]);
-        }
-        return result;
-    }
-
-    HWY_INLINE void set_planes(const Values& first, const Values& per_x, const Values& per_y) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            const double scale = texel_scale(chosen.fine + k);
-            for (std::size_t i = 0; i < 2; ++i) {
-                places_[k][i] = Plane((first[i] + 0.5) * scale - 32768.0, per_x[i] * scale, per_y[i] * scale);
-            }
-            const std::size_t i = 2 + k;
-            shares_[k] = Plane(first[i] * share_unit, per_x[i] * share_unit, per_y[i] * share_unit);
-        }
-    }
-
-    glm::ivec2 first_px_;
-    std::array<std::array<Plane, 2>, 2> places_; ///< of the chosen level and the next coarser one
-    std::array<Plane, 2> shares_;                ///< light left and haze, share_unit
+/// The places of a register's pixels in a level: of those in even lanes, then of those in odd lanes.
+struct TextureCoords {
+    std::array<TexelPlaces, 2> x;
+    std::array<TexelPlaces, 2> y;
 };
 
-/// A textured triangle's planes in its part of a tile: for all of it where they are near enough, else for a few rows at
-/// a time.
-class AffineRows {
-public:
-    HWY_INLINE AffineRows(
-        const TexturePlanes& planes, const LitGroundTexture& image, const glm::ivec2& tile_px, const TileBox& box)
-        : planes_(planes), image_(image), tile_px_(tile_px), box_(box), current_box_(box),
-          texture_(planes, image, tile_px, box) {
-        if (!texture_.is_accurate) {
-            current_box_.last_row = current_box_.first_row - 1; // none
-        }
+/// The lower halves of both registers' values in turn: those of `even` in even lanes.
+template <class V>
+HWY_INLINE hn::Vec<Strip> lower_halves(V even, V odd) {
+    return hn::OddEven(hn::BitCast(Strip(), hn::ShiftLeft<16>(odd)), hn::BitCast(Strip(), even));
+}
+
+template <class V>
+HWY_INLINE hn::Vec<Strip> upper_halves(V even, V odd) {
+    return hn::OddEven(hn::BitCast(Strip(), odd), hn::BitCast(Strip(), hn::ShiftRight<16>(even)));
+}
+
+/// How four texels are mixed, sixteen bits at a time.
+struct BilinearWeights {
+    hn::Vec<Strip> right; ///< share of the right ones, 2^-16
+    hn::Vec<Strip> up;    ///< share of the upper ones, 1/128
+
+    HWY_INLINE BilinearWeights(TexelPlaces even_x, TexelPlaces odd_x, TexelPlaces even_y, TexelPlaces odd_y)
+        : right(lower_halves(even_x, odd_x)), up(hn::ShiftRight<9>(lower_halves(even_y, odd_y))) {}
+
+    /// Bytes, left below, right below, left above and right above; 1/128.
+    HWY_INLINE hn::Vec<Strip> mixed(const std::array<hn::Vec<Strip>, 4>& texels_2x2) const {
+        const auto column = [&](std::size_t side) HWY_ATTR {
+            const auto down = hn::Sub(hn::Set(Strip(), 128), up);
+            return hn::Add(hn::Mul(texels_2x2[side], down), hn::Mul(texels_2x2[side + 2], up));
+        };
+        // The left texel has what the right one leaves of 65,535.
+        return hn::Add(hn::MulHigh(column(0), hn::Not(right)), hn::MulHigh(column(1), right));
+    }
+};
+
+/// Access to the texels of a level.
+struct TexelGrid {
+    const std::uint32_t* texels;
+    const std::uint32_t* above; ///< the row above the first one
+    TexelPlaces stride;
+    TexelPlaces last_x; ///< a step before the rim, 2^-16 texel
+    TexelPlaces last_y;
+
+    HWY_INLINE explicit TexelGrid(const LitGroundTexture::MipLevel& level)
+        : texels(level.texels.data()), above(level.texels.data() + level.stride) {
+        stride = hn::Set(TexelsSigned(), level.stride);
+        last_x = hn::Set(TexelsSigned(), (level.width - 1) * 65536 - 1);
+        last_y = hn::Set(TexelsSigned(), (level.height - 1) * 65536 - 1);
+    }
+};
+
+/// Texels around places: those left below, right below, left above and right above.
+struct TexelQuads {
+    std::array<hn::Vec<Texels>, 4> texels_2x2;
+
+    /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
+    HWY_INLINE TexelQuads(const TexelGrid& grid, TexelPlaces x, TexelPlaces y) {
+        const auto number = hn::Add(hn::Mul(hn::ShiftRight<16>(y), grid.stride), hn::ShiftRight<16>(x));
+        load_neighbours(grid.texels, number, texels_2x2[0], texels_2x2[1]);
+        load_neighbours(grid.above, number, texels_2x2[2], texels_2x2[3]);
     }
 
-    /// Of a row of the tile, which lies in the triangle's part.
-    HWY_INLINE const AffineSpan& of(int row) {
-        if (row < current_box_.first_row || row > current_box_.last_row) {
-            constexpr int few = 4;
-            current_box_.first_row = row;
-            current_box_.last_row = std::min(row + few - 1, box_.last_row);
-            texture_ = AffineSpan(planes_, image_, tile_px_, current_box_);
-        }
-        return texture_;
+#if HWY_TARGET == HWY_AVX2
+
+    /// Texels by their numbers, and those right of them: both are loaded at once. One by one they come faster than by
+    /// the processor's own gathering.
+    static HWY_INLINE void load_neighbours(
+        const std::uint32_t* from, TexelPlaces number, hn::Vec<Texels>& left_ones, hn::Vec<Texels>& right_ones) {
+        const __m128i low = _mm256_castsi256_si128(number.raw);
+        const __m128i high = _mm256_extracti128_si256(number.raw, 1);
+        // The first two of each four, then the others.
+        const __m256 front = texels_of(from, _mm_cvtsi128_si64(low), _mm_cvtsi128_si64(high));
+        const __m256 back = texels_of(from, _mm_extract_epi64(low, 1), _mm_extract_epi64(high, 1));
+        left_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0x88));
+        right_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0xdd));
     }
 
 private:
-    const TexturePlanes& planes_;
-    const LitGroundTexture& image_;
-    glm::ivec2 tile_px_;
-    TileBox box_;
-    TileBox current_box_;
-    AffineSpan texture_;
-};
-
-// -- Triangles in perspective. Texture coordinates, light and haze are planes where AffineSpan allows it. Elsewhere
-// they are exact at both ends of sixteen pixels and linear between them.
-
-/// Pixels of a strip whose value is not zero, a bit each.
-HWY_INLINE std::uint32_t set_bits(const StripValues& values) {
-    StripValues is_set;
-    for (std::size_t i = 0; i < strip_parts; ++i) {
-        is_set[i] = hn::VecFromMask(Strip(), hn::Ne(values[i], hn::Zero(Strip())));
+    /// By two numbers of 32 bits each.
+    static HWY_INLINE __m256 texels_of(const std::uint32_t* from, std::int64_t low, std::int64_t high) {
+        return _mm256_set_m128(
+            texels_of(from, static_cast<std::uint64_t>(high)), texels_of(from, static_cast<std::uint64_t>(low)));
     }
-    return full_bits(is_set);
-}
 
-/// Pixels of a strip that are coloured from one place on.
-struct TextureBlock {
-    glm::ivec2 at;               ///< column and row of the picture
-    int last_column;             ///< of the strip's pixels that the triangle covers
-    const std::uint16_t* counts; ///< of new samples of each of its sixteen pixels
-    std::size_t pixel;           ///< of the tile
-
-    int px() const { return std::clamp(last_column - at.x, 1, block_px); }
-};
-
-/// Light and haze of a block's pixels.
-struct BlockShares {
-    alignas(32) std::array<std::uint16_t, block_px> light_left; ///< 2^-16
-    alignas(32) std::array<std::uint16_t, block_px> haze;
-};
-
-/// A block's colours by the texture's levels: the second one's share is none if it is not there.
-struct BlockTexels {
-    BlockColours fine;
-    BlockColours coarse;
-    std::uint16_t coarse_share; ///< 2^-16
-};
-
-/// Adds a block's colours to the sums.
-HWY_INLINE void add_colours(const BlockTexels& texels, const BlockShares& shares, const TileJob& job,
-    const TextureBlock& block, TileBuffer& buffer) {
-    const Pixels values;
-    const auto coarse_share = hn::Set(values, texels.coarse_share);
-    const auto part_of = [&](hn::Vec<Pixels> from, hn::Vec<Pixels> to, hn::Vec<Pixels> weight) HWY_ATTR {
-        return hn::Add(hn::Sub(from, hn::MulHigh(from, weight)), hn::MulHigh(to, weight));
-    };
-    for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
-        const auto light_left = hn::LoadU(values, &shares.light_left[i]);
-        const auto haze_share = hn::LoadU(values, &shares.haze[i]);
-        const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
-        const auto count = hn::LoadU(values, block.counts + i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            auto mine = hn::LoadU(values, &texels.fine.level[k][i]);
-            if (texels.coarse_share > 0) {
-                mine = part_of(mine, hn::LoadU(values, &texels.coarse.level[k][i]), coarse_share);
-            }
-            const auto haze_level =
-                hn::Set(values, static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
-            const auto seen = hn::Add(hn::MulHigh(mine, seen_share), hn::MulHigh(haze_level, haze_share));
-            const auto colour = hn::ShiftRight<3>(hn::Add(seen, hn::Set(values, 4)));
-            std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
-            hn::StoreU(hn::Add(hn::LoadU(values, sums), hn::Mul(colour, count)), values, sums);
-        }
+    static HWY_INLINE __m128 texels_of(const std::uint32_t* from, std::uint64_t two) {
+        const auto* const first = reinterpret_cast<const __m128i*>(from + (two & 0xffffffff));
+        const auto* const second = reinterpret_cast<const __m64*>(from + (two >> 32U));
+        return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(first)), second);
     }
-}
 
-/// Light and haze, even between both ends of a block.
-HWY_INLINE BlockShares shares_between(const std::array<TexturePoint, 2>& ends, double share_of_px) {
-    const auto sixteen_bits = [&](const TexturePoint& end) HWY_ATTR {
-        return four([&](std::size_t i) HWY_ATTR {
-            const auto within = hn::Min(hn::Max(end.value[i], real(0.0)), real(1.0));
-            return hn::Mul(within, real(65535.0));
-        });
-    };
-    const BlockStepper walk(sixteen_bits(ends[0]), sixteen_bits(ends[1]), share_of_px);
-    const Pixels values;
-    BlockShares shares;
-    const auto along = [&](std::size_t which, std::array<std::uint16_t, block_px>& to) HWY_ATTR {
-        for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
-            const auto steps = lane_indices_from(values, i);
-            const auto at = hn::Add(hn::Set(values, static_cast<std::uint16_t>(walk.first[which])),
-                hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(walk.per_px[which]))));
-            hn::StoreU(at, values, &to[i]);
-        }
-    };
-    along(2, shares.light_left);
-    along(3, shares.haze);
-    return shares;
-}
+#else
 
-/// Colours a block, right in perspective at both of its ends.
-HWY_INLINE void add_texture(
-    const TexturePlanes& planes, const TileJob& job, const TextureBlock& block, TileBuffer& buffer) {
-    static constexpr auto one_over = [] {
-        std::array<double, block_px + 1> shares{};
-        for (int px = 1; px <= block_px; ++px) { shares[static_cast<std::size_t>(px)] = 1.0 / px; }
-        return shares;
-    }();
-    const double by_px = one_over[static_cast<std::size_t>(block.px())];
-    const std::array ends{planes.at(block.at.x, block.at.y), planes.at(block.at.x + block.px(), block.at.y)};
-    const MipSelection chosen = select_mip_levels(texel_derivatives(planes, ends, by_px), job.ground->levels().size());
-    BlockTexels texels;
-    texels.coarse_share = chosen.coarse_share;
-    sample_texture(*job.ground, chosen.fine, chosen, ends, by_px, texels.fine);
-    if (chosen.coarse_share > 0) { sample_texture(*job.ground, chosen.fine + 1, chosen, ends, by_px, texels.coarse); }
-    add_colours(texels, shares_between(ends, by_px), job, block, buffer);
-}
-
-/// Colours a block of a triangle whose places are planes.
-HWY_INLINE void add_affine_texture(
-    const AffineSpan& affine, const TileJob& job, const TextureBlock& block, TileBuffer& buffer) {
-    BlockTexels texels;
-    texels.coarse_share = affine.chosen.coarse_share;
-    const std::vector<LitGroundTexture::MipLevel>& levels = job.ground->levels();
-    const std::size_t fine = affine.chosen.fine;
-    sample_line(levels[fine], affine.line(0, block.at), Probes(affine.chosen, fine), texels.fine);
-    if (affine.chosen.coarse_share > 0) {
-        sample_line(levels[fine + 1], affine.line(1, block.at), Probes(affine.chosen, fine + 1), texels.coarse);
-    }
-    BlockShares shares;
-    affine.share(0, block.at, shares.light_left);
-    affine.share(1, block.at, shares.haze);
-    add_colours(texels, shares, job, block, buffer);
-}
-
-/// Colours what is new in a row of a strip, each block by add_block().
-template <class AddBlock>
-HWY_INLINE void add_textured_row(const AddBlock& add_block, const glm::ivec2& at, const StripValues& masks,
-    const StripValues& fresh, std::size_t pixel) {
-    const std::uint32_t fresh_bits = set_bits(fresh);
-    if (fresh_bits == 0) { return; }
-    alignas(64) std::array<std::uint16_t, strip_px + block_px> counts;
-    for (std::size_t i = 0; i < strip_parts; ++i) {
-        hn::Store(hn::PopulationCount(fresh[i]), Strip(), counts.data() + i * part_px);
-    }
-    std::fill(counts.begin() + strip_px, counts.end(), std::uint16_t{0});
-    const std::uint32_t covered_bits = set_bits(masks);
-    const int last = 31 - std::countl_zero(covered_bits);
-    for (int first = std::countr_zero(covered_bits); first <= last; first += block_px) {
-        const std::uint32_t in_block = fresh_bits >> first & 0xffffU;
-        if (in_block != 0) {
-            const TextureBlock block{
-                at + glm::ivec2(first, 0), at.x + last, counts.data() + first, pixel + static_cast<std::size_t>(first)};
-            add_block(block);
-        }
-    }
-}
-
-/// Paints a triangle of Fill::TextureInPerspective that no plane cuts.
-HWY_NOINLINE void paint_texture(
-    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    const TileBox box(*one.triangle, job);
-    if ((box.rows() & ~buffer.full_rows) == 0) { return; }
-    const TexturePlanes planes(*one.extra);
-    AffineRows affine_rows(planes, *job.ground, job.first_px, box);
-    const auto add = [&](const TextureBlock& block) HWY_ATTR {
-        const AffineSpan& affine = affine_rows.of(block.at.y - job.first_px.y);
-        if (affine.is_accurate) {
-            add_affine_texture(affine, job, block, buffer);
-        } else {
-            add_texture(planes, job, block, buffer);
-        }
-    };
-    for (int left = box.left; left <= box.right; left += strip_px) {
-        const auto paint = [&](int row, const StripValues& masks, const StripValues& fresh) HWY_ATTR {
-            const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-            const auto pixel = static_cast<std::size_t>(row * tile_width + left);
-            add_textured_row(add, at, masks, fresh, pixel);
+    /// Texels by their numbers, and those right of them: both are loaded at once.
+    static HWY_INLINE void load_neighbours(
+        const std::uint32_t* from, TexelPlaces number, hn::Vec<Texels>& left_ones, hn::Vec<Texels>& right_ones) {
+        const Texels texels;
+        const hn::Repartition<std::uint64_t, Texels> pairs;
+        const hn::RebindToSigned<decltype(pairs)> offsets;
+        const auto load = [&](auto some) HWY_ATTR {
+            const auto bytes = hn::BitCast(offsets, hn::ShiftLeft<2>(some));
+            return hn::GatherOffset(pairs, reinterpret_cast<const std::uint64_t*>(from), bytes);
         };
-        walk_strip<strip_parts>(*one.triangle, job, lanes, box, left, buffer, paint, []() HWY_ATTR {});
+        const auto numbers = hn::BitCast(pairs, number);
+        const auto even = load(hn::And(numbers, hn::Set(pairs, std::uint64_t{0xffffffff})));
+        const auto odd = load(hn::ShiftRight<32>(numbers));
+        left_ones = hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
+        right_ones = hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
     }
+
+#endif
+};
+
+/// A level's colours at places. Places beyond the level's rim have the colours of the rim.
+HWY_INLINE Colours filter_bilinear(const TexelGrid& grid, const TextureCoords& places) {
+    const auto within = [&](TexelPlaces place, TexelPlaces last)
+                            HWY_ATTR { return hn::Min(hn::Max(place, hn::Zero(TexelsSigned())), last); };
+    const auto even_x = within(places.x[0], grid.last_x);
+    const auto odd_x = within(places.x[1], grid.last_x);
+    const auto even_y = within(places.y[0], grid.last_y);
+    const auto odd_y = within(places.y[1], grid.last_y);
+    const TexelQuads even(grid, even_x, even_y);
+    const TexelQuads odd(grid, odd_x, odd_y);
+    std::array<hn::Vec<Strip>, 4> texels_2x2;
+    const auto red_and_blue = [&](const TexelQuads& of, TexelPlaces x, TexelPlaces y) HWY_ATTR {
+        for (std::size_t i = 0; i < texels_2x2.size(); ++i) {
+            texels_2x2[i] = hn::BitCast(Strip(), hn::And(of.texels_2x2[i], hn::Set(Texels(), 0x00ff00ffU)));
+        }
+        return hn::BitCast(Texels(), BilinearWeights(x, x, y, y).mixed(texels_2x2));
+    };
+    const auto of_even = red_and_blue(even, even_x, even_y);
+    const auto of_odd = red_and_blue(odd, odd_x, odd_y);
+    for (std::size_t i = 0; i < texels_2x2.size(); ++i) { // green
+        texels_2x2[i] = hn::ShiftRight<8>(lower_halves(even.texels_2x2[i], odd.texels_2x2[i]));
+    }
+    return {lower_halves(of_even, of_odd), BilinearWeights(even_x, odd_x, even_y, odd_y).mixed(texels_2x2),
+        upper_halves(of_even, of_odd)};
 }
 
 // -- Windows of eight pixels that wait for their colours: a register is filled with windows of any rows.
 
 constexpr std::size_t texture_window_px = 8;
 constexpr std::size_t windows_at_once = part_px / texture_window_px;
+constexpr std::size_t windows_in_memory = 8; ///< TextureWindows::begin is read by so many, used or not
 using TextureWindow = hn::CappedTag<std::uint16_t, texture_window_px>;
 
 /// The next windows of a queue, as many as a register holds.
@@ -388,7 +219,7 @@ private:
     }
 };
 
-/// The windows of a strip of a triangle that have new samples.
+/// The windows of a strip of a triangle that have new samples, row after row.
 class TextureQueue {
 public:
     /// A row's new samples in parts of the strip; a window may reach beyond them. `row`: from the triangle's first.
@@ -412,14 +243,28 @@ public:
     HWY_INLINE void finish(std::size_t rows) {
         const std::size_t row_begin = rows * tile_width;
         put_none(row_begin);
-        for (std::size_t i = 0; i + 1 < windows_at_once; ++i) {
+        for (std::size_t i = 0; i < windows_at_once; ++i) {
             windows_[count_ + i] = static_cast<std::uint16_t>(row_begin);
         }
     }
 
     std::size_t count() const { return count_; }
 
-    TextureWindows windows(std::size_t first) const { return {windows_.data() + first}; }
+    /// The row of a window, from the triangle's first.
+    std::size_t row(std::size_t window) const { return windows_[window] / tile_width; }
+
+    /// The column of a window, from the strip's first.
+    int column(std::size_t window) const { return windows_[window] % tile_width; }
+
+    /// The windows from `first` on, as many as a register holds. Those from `end` on are replaced by windows without
+    /// new samples, for which `room` has the memory.
+    HWY_INLINE TextureWindows windows(
+        std::size_t first, std::size_t end, std::array<std::uint16_t, windows_in_memory>& room) const {
+        if (end == count_ || first + windows_at_once <= end) { return {windows_.data() + first}; }
+        room.fill(windows_[count_]); // finish() has put one there
+        std::copy(windows_.data() + first, windows_.data() + end, room.data());
+        return {room.data()};
+    }
 
     HWY_INLINE hn::Vec<Strip> fresh(const TextureWindows& windows) const { return windows.load(fresh_.data()); }
 
@@ -432,10 +277,11 @@ private:
 
     /// New samples of pixels; rows lie as a tile's do.
     alignas(64) std::array<std::uint16_t, (tile_height + 1) * tile_width> fresh_;
-    /// As TextureWindows::begin; eight are read at once.
-    std::array<std::uint16_t, tile_height * max_of_row + 8> windows_;
+    std::array<std::uint16_t, tile_height * max_of_row + windows_in_memory> windows_; ///< as TextureWindows::begin
     std::size_t count_ = 0;
 };
+
+// -- Planes of texture coordinates, light and haze over windows.
 
 /// Four planes of a triangle over the windows of a strip, four lanes for a window: two of places in the texture, then
 /// light and haze.
@@ -443,22 +289,21 @@ class WindowPlanes {
 public:
     using Blocks = hn::Repartition<std::int32_t, Strip>;
 
+    /// `first_px`: the strip's first pixel. Columns of light and haze are counted from so many columns left of it.
     HWY_INLINE
-    WindowPlanes(const ColourGradients& gradients, const TileJob& job, const TileBox& box, int left) {
+    WindowPlanes(const ColourGradients& gradients, const glm::ivec2& first_px, int columns_right) {
         alignas(16) static constexpr std::array<std::int32_t, 4> share_lanes{0, 0, -1, -1};
         // To the middle level, and what rounds levels to 1/128.
         alignas(16) static constexpr std::array<std::int32_t, 4> more{128 * 65536, 128 * 65536, 256, 256};
         const Blocks blocks;
         const auto set = [&](int value) HWY_ATTR { return hn::Set(blocks, value); };
         is_share_ = hn::LoadDup128(blocks, share_lanes.data());
-        // Columns of shares are counted from the box.
-        right_ = hn::And(set(left - box.left), is_share_);
+        right_ = hn::And(set(columns_right), is_share_);
         const auto per_x = hn::LoadDup128(blocks, gradients.per_x.data());
         per_row_ = hn::LoadDup128(blocks, gradients.per_y.data());
         const auto base = hn::Add(hn::LoadDup128(blocks, gradients.base.data()), hn::LoadDup128(blocks, more.data()));
-        const auto first_column = hn::Sub(set(job.first_px.x + left), right_);
-        const auto first_row = set(job.first_px.y + box.first_row);
-        at_ = hn::Add(hn::Add(base, hn::Mul(per_x, first_column)), hn::Mul(per_row_, first_row));
+        const auto first_column = hn::Sub(set(first_px.x), right_);
+        at_ = hn::Add(hn::Add(base, hn::Mul(per_x, first_column)), hn::Mul(per_row_, set(first_px.y)));
         const auto steps = hn::LoadDup128(StripSigned(), gradients.per_column.data());
         per_column_ =
             hn::IfVecThenElse(is_share_, hn::BitCast(blocks, hn::InterleaveLower(StripSigned(), steps, steps)), per_x);
@@ -518,107 +363,100 @@ struct ShareSteps {
     }
 };
 
-// -- Affine triangles: texture coordinates, light and haze are planes over the whole triangle.
-
-using Texels = hn::Repartition<std::uint32_t, Strip>;
-using TexelCoords = hn::Vec<hn::RebindToSigned<Texels>>; ///< 2^-16 texel
-using Colours = FilteredColours<Strip>;
-
-/// Places of a register's pixels in the fine level: of those in even lanes, then in odd ones.
-struct TextureCoords {
-    std::array<TexelCoords, 2> x;
-    std::array<TexelCoords, 2> y;
-};
-
-/// Two rows' places, from those of a register's first pixel in each: of its even lanes, then of its odd ones. `px`:
-/// after how many a row begins.
+/// The places of windows from those of their first pixels.
 struct TextureCoordSteps {
-    TexelCoords of_even;
-    TexelCoords to_odd;
+    TexelPlaces of_even;
+    TexelPlaces to_odd;
 
-    HWY_INLINE TextureCoordSteps(std::int32_t per_x, int px) {
-        const hn::RebindToSigned<Texels> whole;
-        const auto pairs = hn::And(lane_indices_from(whole, 0), hn::Set(whole, px / 2 - 1));
+    HWY_INLINE explicit TextureCoordSteps(std::int32_t per_x) {
+        const TexelsSigned whole;
+        const auto pairs =
+            hn::And(lane_indices_from(whole, 0), hn::Set(whole, static_cast<std::int32_t>(texture_window_px / 2 - 1)));
         to_odd = hn::Set(whole, per_x);
         of_even = hn::Mul(hn::ShiftLeft<1>(pairs), to_odd);
     }
 
-    HWY_INLINE std::array<TexelCoords, 2> from(TexelCoords first) const {
+    HWY_INLINE std::array<TexelPlaces, 2> from(TexelPlaces first) const {
         const auto even = hn::Add(first, of_even);
         return {even, hn::Add(even, to_odd)};
     }
 };
+
+// -- Colours: mip levels, several places in a pixel that is longer than wide, light and haze.
 
 /// `weight`: of the other one, 2^-16.
 HWY_INLINE hn::Vec<Strip> interpolated(hn::Vec<Strip> from, hn::Vec<Strip> to, hn::Vec<Strip> weight) {
     return hn::Add(hn::Sub(from, hn::MulHigh(from, weight)), hn::MulHigh(to, weight));
 }
 
-HWY_INLINE Colours colours_at(const TexelGrid<Texels>& level, const TextureCoords& places) {
-    return filter_bilinear<Strip>(level, places.x[0], places.y[0], places.x[1], places.y[1]);
-}
-
 /// Places in the next coarser level.
 HWY_INLINE TextureCoords coarser(const TextureCoords& places) {
-    const auto of = [](TexelCoords place) HWY_ATTR {
-        const auto quarter = hn::Set(hn::RebindToSigned<Texels>(), 16384); // of a texel
+    const auto of = [](TexelPlaces place) HWY_ATTR {
+        const auto quarter = hn::Set(TexelsSigned(), 16384); // of a texel
         return hn::Sub(hn::ShiftRight<1>(place), quarter);
     };
     return {{of(places.x[0]), of(places.x[1])}, {of(places.y[0]), of(places.y[1])}};
 }
 
-/// What all of a triangle's pixels have in common.
+/// What all pixels of the same planes have in common.
 struct TextureSampler {
-    TexelGrid<Texels> fine;
-    TexelGrid<Texels> coarse;
+    TexelGrid fine;
+    TexelGrid coarse;
     bool has_coarse; ///< else the fine one is all
     hn::Vec<Strip> coarse_share;
-    Probes probes;
+    // The places in the fine level whose mean is a pixel's colour, 2^-16 texel.
+    int places;
+    hn::Vec<Strip> share_of_place;          ///< 2^-16
+    std::array<std::int32_t, 2> last_place; ///< from the pixel's middle
+    std::array<std::int32_t, 2> place_step; ///< to the next one
     std::array<std::uint16_t, 3> haze;
 
     HWY_INLINE TextureSampler(const MipSelection& levels, const TileJob& job)
         : fine(job.ground->levels()[levels.fine]),
           coarse(job.ground->levels()[levels.fine + (levels.coarse_share > 0 ? 1U : 0U)]),
           has_coarse(levels.coarse_share > 0), coarse_share(hn::Set(Strip(), levels.coarse_share)),
-          probes(levels, levels.fine) {
+          places(levels.probes), share_of_place(hn::Set(Strip(), static_cast<std::uint16_t>(65535 / levels.probes))) {
+        const double scale = texel_scale(levels.fine);
+        for (std::size_t k = 0; k < 2; ++k) {
+            last_place[k] = static_cast<std::int32_t>(static_cast<double>(levels.reach[k]) * scale);
+            place_step[k] = places > 1 ? 2 * last_place[k] / (places - 1) : 0;
+        }
         for (std::size_t k = 0; k < haze.size(); ++k) {
             haze[k] = static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F);
         }
     }
 
-    /// The texture's, 1/128 level.
-    HWY_INLINE Colours at(const TextureCoords& places) const {
-        Colours colours = colours_at(fine, places);
+    /// Whether a pixel takes one place of one level, as most do.
+    bool is_single() const { return places == 1 && !has_coarse; }
+
+    /// The texture's colours at places.
+    HWY_INLINE Colours at(const TextureCoords& coords) const {
+        Colours colours = filter_bilinear(fine, coords);
         if (has_coarse) {
-            const Colours next = colours_at(coarse, coarser(places));
+            const Colours next = filter_bilinear(coarse, coarser(coords));
             for (std::size_t k = 0; k < 3; ++k) { colours[k] = interpolated(colours[k], next[k], coarse_share); }
         }
         return colours;
     }
 
-    static HWY_INLINE TextureCoords moved(const TextureCoords& places, std::int32_t dx, std::int32_t dy) {
-        const hn::RebindToSigned<Texels> whole;
-        const auto x = hn::Set(whole, dx);
-        const auto y = hn::Set(whole, dy);
-        return {{hn::Add(places.x[0], x), hn::Add(places.x[1], x)}, {hn::Add(places.y[0], y), hn::Add(places.y[1], y)}};
-    }
-
-    /// Whether a pixel takes one place of one level, as most do.
-    bool is_single() const { return probes.count == 1 && !has_coarse; }
-
-    /// The mean of a pixel's places, 1/128 level.
-    HWY_INLINE Colours around(const TextureCoords& places) const {
-        return probes.mean<Strip>([&](std::int32_t dx, std::int32_t dy) HWY_ATTR { return at(moved(places, dx, dy)); });
-    }
-
-    /// The same, of a pixel that is_single() says takes one place where it is.
+    /// The mean over the places of a pixel; `is_single` as is_single() says.
     template <bool is_single>
-    HWY_INLINE Colours texture(const TextureCoords& places) const {
-        if constexpr (is_single) {
-            return colours_at(fine, places);
-        } else {
-            return around(places);
+    HWY_INLINE Colours mean(const TextureCoords& middle) const {
+        if constexpr (is_single) { return filter_bilinear(fine, middle); }
+        const auto from_middle = [&](std::int32_t dx, std::int32_t dy) HWY_ATTR {
+            const auto x = hn::Set(TexelsSigned(), dx);
+            const auto y = hn::Set(TexelsSigned(), dy);
+            return at({{hn::Add(middle.x[0], x), hn::Add(middle.x[1], x)},
+                {hn::Add(middle.y[0], y), hn::Add(middle.y[1], y)}});
+        };
+        Colours sum = from_middle(-last_place[0], -last_place[1]);
+        if (places == 1) { return sum; }
+        for (auto& colour : sum) { colour = hn::MulHigh(colour, share_of_place); }
+        for (int k = 1; k < places; ++k) {
+            const Colours one = from_middle(k * place_step[0] - last_place[0], k * place_step[1] - last_place[1]);
+            for (std::size_t i = 0; i < 3; ++i) { sum[i] = hn::Add(sum[i], hn::MulHigh(one[i], share_of_place)); }
         }
+        return sum;
     }
 
     /// Under light and behind haze, 1/16 level.
@@ -627,72 +465,115 @@ struct TextureSampler {
         const auto of = [&](std::size_t k) HWY_ATTR {
             const auto own = hn::MulHigh(colours[k], seen_share);
             const auto of_haze = hn::MulHigh(hn::Set(Strip(), haze[k]), haze_share);
-            const auto sum = hn::Add(own, of_haze);
-            return hn::ShiftRight<3>(hn::Add(sum, hn::Set(Strip(), 4)));
+            return hn::ShiftRight<3>(hn::Add(hn::Add(own, of_haze), hn::Set(Strip(), 4)));
         };
         return {of(0), of(1), of(2)};
     }
 };
 
+// -- Triangles: strip by strip, coverage first.
+
+/// A strip of a triangle while it is painted.
+struct TexturedStrip {
+    const TileJob& job;
+    TileBox box; ///< of the triangle in the tile
+    int left;    ///< first column of the strip
+    TileBuffer& buffer;
+    TextureQueue queue;
+
+    /// The strip's first column and row in the picture.
+    glm::ivec2 first_px() const { return job.first_px + glm::ivec2(left, box.first_row); }
+};
+
 /// Covers what is free of a triangle in a strip; what is new waits for its colours.
 template <std::size_t parts>
-HWY_INLINE void cover_texture_strip(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes,
-    const TileBox& box, int left, TileBuffer& buffer, TextureQueue& queue) {
+HWY_INLINE void cover_texture_strip(const Triangle& triangle, const SampleLanes& lanes, TexturedStrip& strip) {
     using Values = PartValues<parts>;
-    const auto wait = [&](int row, const Values& /*masks*/, const Values& fresh)
-                          HWY_ATTR { queue.add_row(static_cast<std::size_t>(row - box.first_row), fresh); };
-    walk_strip<parts>(triangle, job, lanes, box, left, buffer, wait, []() HWY_ATTR {});
-    queue.finish(static_cast<std::size_t>(box.last_row - box.first_row + 1));
+    const auto wait = [&](int row, const Values& fresh)
+                          HWY_ATTR { strip.queue.add_row(static_cast<std::size_t>(row - strip.box.first_row), fresh); };
+    walk_strip<parts>(triangle, strip.job, lanes, strip.box, strip.left, strip.buffer, wait, []() HWY_ATTR {});
+    strip.queue.finish(static_cast<std::size_t>(strip.box.last_row - strip.box.first_row + 1));
 }
 
-/// Colours what waits of a strip that begins at a column of the tile.
+/// Colours the windows begin .. end - 1 of a strip. `columns_right`: as in WindowPlanes.
 template <bool is_single>
-HWY_INLINE void colour_windows(const Triangle& triangle, const TileJob& job, const TextureSampler& look,
-    const TileBox& box, int left, const TextureQueue& queue, TileBuffer& buffer) {
-    const ColourGradients& levels = triangle.gradients;
-    const WindowPlanes planes(levels, job, box, left);
-    const TextureCoordSteps x(levels.per_x[0], texture_window_px);
-    const TextureCoordSteps y(levels.per_x[1], texture_window_px);
-    const ShareSteps light(levels, 2);
-    const ShareSteps haze(levels, 3);
-    const auto strip_begin = static_cast<std::size_t>(box.first_row * tile_width + left);
-    for (std::size_t i = 0; i < queue.count(); i += windows_at_once) {
-        const TextureWindows windows = queue.windows(i);
+HWY_INLINE void colour_windows(const ColourGradients& gradients, const TextureSampler& sampler, int columns_right,
+    std::size_t begin, std::size_t end, TexturedStrip& strip) {
+    const WindowPlanes planes(gradients, strip.first_px(), columns_right);
+    const TextureCoordSteps x(gradients.per_x[0]);
+    const TextureCoordSteps y(gradients.per_x[1]);
+    const ShareSteps light(gradients, 2);
+    const ShareSteps haze(gradients, 3);
+    const auto strip_begin = static_cast<std::size_t>(strip.box.first_row * tile_width + strip.left);
+    std::array<std::uint16_t, windows_in_memory> room;
+    for (std::size_t i = begin; i < end; i += windows_at_once) {
+        const TextureWindows windows = strip.queue.windows(i, end, room);
         const auto first = planes.at(windows);
         const auto halves = hn::BitCast(StripSigned(), first);
         const TextureCoords places{x.from(hn::Broadcast<0>(first)), y.from(hn::Broadcast<1>(first))};
-        const Colours colours = look.seen(look.template texture<is_single>(places),
+        const Colours colours = sampler.seen(sampler.template mean<is_single>(places),
             light.share(hn::Broadcast<4>(halves)), haze.share(hn::Broadcast<6>(halves)));
-        const auto counts = hn::PopulationCount(queue.fresh(windows));
+        const auto counts = hn::PopulationCount(strip.queue.fresh(windows));
         for (std::size_t k = 0; k < 3; ++k) {
-            std::uint16_t* const sums = buffer.sums[k].data() + strip_begin;
+            std::uint16_t* const sums = strip.buffer.sums[k].data() + strip_begin;
             windows.store(hn::Add(windows.load(sums), hn::Mul(colours[k], counts)), sums);
         }
     }
 }
 
-/// Colours what waits of a strip.
-HWY_INLINE void colour_pending(const Triangle& triangle, const TileJob& job, const TileBox& box, int left,
-    const TextureQueue& queue, TileBuffer& buffer) {
-    if (queue.count() == 0) { return; }
-    const TextureSampler look(triangle.texture, job);
-    if (look.is_single()) {
-        colour_windows<true>(triangle, job, look, box, left, queue, buffer);
+HWY_NOINLINE void colour_by_planes(const ColourGradients& gradients, const MipSelection& levels, int columns_right,
+    std::size_t begin, std::size_t end, TexturedStrip& strip) {
+    const TextureSampler sampler(levels, strip.job);
+    if (sampler.is_single()) {
+        colour_windows<true>(gradients, sampler, columns_right, begin, end, strip);
     } else {
-        colour_windows<false>(triangle, job, look, box, left, queue, buffer);
+        colour_windows<false>(gradients, sampler, columns_right, begin, end, strip);
     }
 }
 
-/// Paints a triangle of Fill::Texture.
-HWY_NOINLINE void paint_affine_triangle(
-    const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+/// Colours a strip of a triangle in perspective, by planes over as many rows as the error allows, else by planes of
+/// their own for each window.
+HWY_INLINE void colour_in_perspective(const TriangleExtra& extra, TexturedStrip& strip) {
+    const TextureQueue& queue = strip.queue;
+    const glm::ivec2 first_px = strip.first_px();
+    const auto fit = [&](int column, std::size_t row, int columns, int rows) {
+        return fit_texture_planes(extra, {first_px.x + column, first_px.y + static_cast<int>(row), columns, rows},
+            strip.job.ground->levels().size());
+    };
+    const int columns = std::min(strip.box.right - strip.left + 1, strip_px);
+    int rows = strip.box.last_row - strip.box.first_row + 1;
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < queue.count(); begin = end) {
+        const std::size_t row = queue.row(begin);
+        TexturePlanes planes = fit(0, row, columns, rows);
+        for (; !planes.is_accurate && rows > 1; planes = fit(0, row, columns, rows)) { rows /= 2; }
+        end = begin + 1;
+        if (planes.is_accurate) {
+            while (end < queue.count() && queue.row(end) < row + static_cast<std::size_t>(rows)) { ++end; }
+            colour_by_planes(planes.gradients, planes.mip_selection, 0, begin, end, strip);
+        } else {
+            const int column = queue.column(begin);
+            planes = fit(column, row, static_cast<int>(texture_window_px), 1);
+            colour_by_planes(planes.gradients, planes.mip_selection, -column, begin, end, strip);
+        }
+    }
+}
+
+/// Paints a triangle of Fill::Texture, or one of Fill::TextureInPerspective that no plane cuts.
+HWY_NOINLINE void paint_texture(
+    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const Triangle& triangle = *one.triangle;
     const TileBox box(triangle, job);
     if ((box.rows() & ~buffer.full_rows) == 0) { return; }
     for (int left = box.left; left <= box.right; left += strip_px) {
-        TextureQueue queue;
-        with_parts_of_strip(box, left,
-            [&](auto parts) HWY_ATTR { cover_texture_strip<parts>(triangle, job, lanes, box, left, buffer, queue); });
-        colour_pending(triangle, job, box, left, queue, buffer);
+        TexturedStrip strip{job, box, left, buffer, {}};
+        with_parts_of_strip(
+            box, left, [&](auto parts) HWY_ATTR { cover_texture_strip<parts>(triangle, lanes, strip); });
+        if (triangle.fill == Fill::TextureInPerspective) {
+            colour_in_perspective(*one.extra, strip);
+        } else if (strip.queue.count() > 0) {
+            colour_by_planes(triangle.gradients, triangle.texture, left - box.left, 0, strip.queue.count(), strip);
+        }
     }
 }
 

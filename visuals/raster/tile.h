@@ -35,7 +35,7 @@ struct TileJob {
     glm::vec3 haze{0.0F};                       ///< levels, for textures
     const DetailRays* detail_texture = nullptr; ///< none in a picture without
     const Light* light = nullptr;               ///< for Fill::Lit
-    bool tints_mesh_levels = false;             ///< for Fill::Mesh
+    bool tints_mesh_levels = false;             ///< for Fill::MeshEdges
     bool far_to_near = false;                   ///< each triangle over what is there; one sample a pixel
     bool blue_first = false;                    ///< in each pixel; else red
     std::uint8_t* rgba = nullptr;               ///< of its upper left pixel

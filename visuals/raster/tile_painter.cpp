@@ -5,8 +5,7 @@
 //   strip-inl.h               coverage masks and gradients of 32 pixels of a row
 //   gouraud-inl.h             triangles with linear colours, by strips: nearly all triangles
 //   coverage-inl.h            all other triangles: coverage, colour, depth groups, transparent triangles
-//   texture_sampling-inl.h    mip levels, texels and the bilinear filter
-//   textured_triangle-inl.h   textured triangles, affine and in perspective
+//   textured_triangle-inl.h   textured triangles: texels, filter, planes, spans
 //   detail_texture-inl.h      the detail texture of near ground, after all triangles of the tile
 //   reference_rasterizer-inl.h  painter's algorithm and depth buffer with one sample a pixel, for comparison
 // This file ends with the order of the work on a tile: clear, paint, add detail, resolve, blend, overlay.
@@ -34,7 +33,6 @@
 #include "visuals/raster/pixel_colour.h"
 #include "visuals/raster/reference_rasterizer-inl.h"
 #include "visuals/raster/strip-inl.h"
-#include "visuals/raster/texture_sampling-inl.h"
 #include "visuals/raster/textured_triangle-inl.h"
 
 #include <cstddef>
@@ -238,9 +236,8 @@ HWY_INLINE void paint_one(const TileTriangle& one, const TileJob& job, const Sam
         } else {
             paint_gouraud<PaintAs::OtherThanGround>(*one.triangle, job, lanes, buffer);
         }
-    } else if (fill_with == Fill::Texture) {
-        paint_affine_triangle(*one.triangle, job, lanes, buffer);
-    } else if (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0) {
+    } else if (fill_with == Fill::Texture ||
+               (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0)) {
         paint_texture(one, job, lanes, buffer);
     } else {
         cover(one, job, lanes, buffer);

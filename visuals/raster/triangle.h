@@ -127,11 +127,11 @@ struct InverseDepthPlane {
 
 /// How the colour of a triangle's pixels is found.
 enum class Fill : std::uint8_t {
-    Gouraud,     ///< three planes of levels
-    Perspective, ///< as Levels, corrected for perspective
-    Texture,     ///< places in the texture, light and haze as planes: AffineTexturedTriangle
+    Gouraud,     ///< three planes of colour
+    Perspective, ///< as Gouraud, corrected for perspective
+    Texture,     ///< planes of texture coordinates, light and haze: TexturePlanes
     TextureInPerspective,
-    Mesh,       ///< levels, and lines along the edges
+    MeshEdges,  ///< colour, and lines along the edges
     Lit,        ///< by light and normal in each pixel
     Transparent ///< linear colours, blended by their alpha over farther surfaces
 };
@@ -146,7 +146,7 @@ struct TriangleExtra {
     std::array<ClipLine, scene::Clip::max_planes> cuts{};
     int cut_count = 0;
     std::array<AttributePlane, 3> from_edges{}; ///< over w; 1 at the corner opposite the edge
-    std::array<const LitVertex*, 3> lit{};      ///< of from_edges, for Fill::Lit
+    std::array<const LitVertex*, 3> lit{};      ///< the corners, interpolated by from_edges, for Fill::Lit
     float mesh_level = 0.0F;                    ///< how many times the longest edge is twice the sample spacing
 };
 

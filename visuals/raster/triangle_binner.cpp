@@ -138,7 +138,7 @@ void FrameDraws::add_on_ground(VertexBlock::Kind ground, std::span<const models:
 
 void FrameDraws::add_ground(const FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style) {
     const bool shows_mesh = plan.mesh_display != scene::MeshDisplay::None;
-    const Fill usual = shows_mesh ? Fill::Mesh : plan.ground_texture ? Fill::TextureInPerspective : Fill::Gouraud;
+    const Fill usual = shows_mesh ? Fill::MeshEdges : plan.ground_texture ? Fill::TextureInPerspective : Fill::Gouraud;
     const std::size_t own = plan.ground.vertices.size();
     const auto is_paint = [&](std::size_t i) {
         return indices[i] >= own && has_own_colour(plan.shadow_vertices[indices[i] - own]);
@@ -368,7 +368,7 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
             const std::uint32_t a = slice.indices[i];
             const std::uint32_t b = slice.indices[i + 1];
             const std::uint32_t c = slice.indices[i + 2];
-            if (slice.style.fill == Fill::Mesh) {
+            if (slice.style.fill == Fill::MeshEdges) {
                 setup.set_mesh_level(mesh_level(position_m(a), position_m(b), position_m(c), plan.sample_spacing_m));
             }
             const FlatColour* const flat =

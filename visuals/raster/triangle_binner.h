@@ -1,11 +1,11 @@
 #pragma once
 
+#include "sim/base/thread_pool.h"
 #include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/projection.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/triangle_setup.h"
 #include "visuals/raster/vertex_stage.h"
-#include "visuals/raster/workers.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/model_buffers.h"
 
@@ -90,7 +90,7 @@ private:
 /// each other in painting order, so do the triangles of a tile, on however many threads.
 class TriangleBinner {
 public:
-    TriangleBinner(const SamplePattern& samples, Workers& workers) : samples_(samples), workers_(workers) {}
+    TriangleBinner(const SamplePattern& samples, ThreadPool& workers) : samples_(samples), workers_(workers) {}
 
     /// The plan's memory is not read any more after this.
     void prepare(const FrameInput& input);
@@ -129,7 +129,7 @@ private:
     void append(const Batch& batch, int tile, std::vector<TileTriangle>& list) const;
 
     SamplePattern samples_;
-    Workers& workers_;
+    ThreadPool& workers_;
     Projection projection_;
     Light light_;
     DetailRays detail_rays_;

@@ -1,7 +1,7 @@
 #include "visuals/raster/triangle_setup.h"
 
-#include "visuals/raster/affine_textured_triangle.h"
 #include "visuals/raster/projection.h"
+#include "visuals/raster/texture_planes.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/raster/triangle_planes.h"
 
@@ -110,7 +110,7 @@ constexpr std::int32_t per_px = ScreenVertex::per_px;
 /// Levels that a straight line over the picture may be wrong by without correction.
 constexpr float min_correction = 1.0F;
 
-/// Of an even texture: texels a pixel above which a triangle counts as a sliver.
+/// Texels a pixel above which an affine textured triangle counts as a sliver.
 constexpr double texture_per_px = 8.0;
 
 bool is_above(const ScreenVertex& a, const ScreenVertex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
@@ -164,13 +164,13 @@ void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint
     }
 }
 
-/// Adds a textured triangle if perspective need not be looked at.
+/// Adds a textured triangle if its planes hold for all of it; else returns false.
 bool TriangleSetup::add_affine_triangle(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list) {
-    const std::optional<AffineTexturedTriangle> even = fit_affine_texture(corners, texture_levels_);
-    if (!even) { return false; }
+    const std::optional<AffineTexturedTriangle> affine = fit_affine_texture(corners, texture_levels_);
+    if (!affine) { return false; }
     fill_ = Fill::Texture;
-    mip_selection_ = even->mip_selection;
-    add_placed(even->vertices[0], even->vertices[1], even->vertices[2], list);
+    mip_selection_ = affine->mip_selection;
+    add_placed(affine->vertices[0], affine->vertices[1], affine->vertices[2], list);
     return true;
 }
 
@@ -190,10 +190,10 @@ Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, b
     const auto [a, b, c] = corners;
     if (style_.fill != Fill::Gouraud || flat_ != nullptr) { return style_.fill; }
     if (is_cut) { return Fill::Perspective; }
-    const float min_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
-    const float max_over_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
+    const float min_inverse_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
+    const float max_inverse_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
     // At the middle of an edge the line is wrong by range * correction.
-    const float correction = (max_over_w - min_by_w) / (2.0F * (max_over_w + min_by_w));
+    const float correction = (max_inverse_w - min_inverse_w) / (2.0F * (max_inverse_w + min_inverse_w));
     if (correction * 255.0F <= min_correction) { return Fill::Gouraud; }
     float range = 0.0F;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -218,7 +218,7 @@ void TriangleSetup::add_extra(std::span<const ClipVertex, 3> corners, TriangleLi
                 static_cast<double>(corners[1].vertex.value[i]), static_cast<double>(corners[2].vertex.value[i])});
         }
     }
-    if (fill_ == Fill::Mesh || fill_ == Fill::Lit) {
+    if (fill_ == Fill::MeshEdges || fill_ == Fill::Lit) {
         extra.from_edges = {
             solver.plane({1.0, 0.0, 0.0}), solver.plane({0.0, 1.0, 0.0}), solver.plane({0.0, 0.0, 1.0})};
         extra.mesh_level = mesh_level_;

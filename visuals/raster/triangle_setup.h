@@ -80,7 +80,7 @@ private:
     const FlatColour* flat_ = nullptr;      ///< of a flat polygon of an aircraft
     std::array<const LitVertex*, 3> lit_{}; ///< of a smooth one that is lit in each pixel
     std::uint32_t extra_ = Triangle::none;
-    MipSelection mip_selection_; ///< of one with an even texture
+    MipSelection mip_selection_; ///< of an affine textured triangle
     // Its polygon while the view cuts it.
     std::vector<ClipVertex> polygon_;
     std::vector<ClipVertex> scratch_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace octant::visuals::refine {
@@ -34,8 +35,11 @@ inline constexpr std::uint8_t has_right_face = 2;
 /// Whether a file calls itself a progressive mesh by its ending, .pm.
 bool is_progressive_file(const std::filesystem::path& path);
 
-/// Writes a versioned file of checksummed blocks: the base mesh, the vertex splits from the coarsest on, and the
-/// original's vertex and face numbers. Throws Error when the file cannot be written.
+/// A versioned file of checksummed blocks: the base mesh, the vertex splits from the coarsest on, and the original's
+/// vertex and face numbers.
+std::string progressive_bytes(const ProgressiveMesh& mesh);
+
+/// Writes progressive_bytes. Throws Error when the file cannot be written.
 void write_progressive(const std::filesystem::path& path, const ProgressiveMesh& mesh);
 
 /// Reads a file that write_progressive wrote. A whole file gives back the same hierarchy: the same nodes, and vertices
@@ -47,5 +51,9 @@ void write_progressive(const std::filesystem::path& path, const ProgressiveMesh&
 /// mesh. The memory used is bounded by what the file holds, whatever counts it claims.
 ProgressiveMesh read_progressive(
     const std::filesystem::path& path, std::size_t max_vertices = std::numeric_limits<std::size_t>::max());
+
+/// As read_progressive, from the bytes of a file. `path` is for messages.
+ProgressiveMesh progressive_mesh(std::string_view bytes, const std::filesystem::path& path,
+    std::size_t max_vertices = std::numeric_limits<std::size_t>::max());
 
 } // namespace octant::visuals::refine

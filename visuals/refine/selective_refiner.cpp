@@ -131,80 +131,6 @@ std::size_t FaceLists::bytes() const {
            sizeof(Link) * links_.capacity();
 }
 
-// What two earlier rules of selective refinement remember of a collapse: J. C. Xia, A. Varshney, "Dynamic
-// View-Dependent Simplification for Polygonal Models", 1996 (the 1-ring), and H. Hoppe, "View-Dependent Refinement of
-// Progressive Meshes", 1997, section 3 (four faces).
-//
-// The constructor starts from the original mesh and performs all collapses, finest first, on a FaceLists whose vertices
-// are nodes, and notes the neighbourhood of each collapse. Only the study and `octant refine --rule` use this, to count
-// the splits that each rule forces.
-
-namespace {
-
-/// The face other than `except` at the edge between two nodes; `none` on a boundary.
-std::uint32_t face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t except) {
-    std::uint32_t across = none;
-    faces.for_each_corner(node, [&](std::uint32_t corner) {
-        if (faces.label(corner / 3) != except && (faces.vertex(FaceLists::next_in_face(corner)) == other ||
-                                                     faces.vertex(FaceLists::previous_in_face(corner)) == other)) {
-            across = faces.label(corner / 3);
-        }
-    });
-    return across;
-}
-
-/// The corner of `face` that is neither `node` nor `other`.
-std::uint32_t third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t face) {
-    std::uint32_t third = none;
-    faces.for_each_corner(node, [&](std::uint32_t corner) {
-        if (faces.label(corner / 3) == face) {
-            const std::uint32_t next = faces.vertex(FaceLists::next_in_face(corner));
-            third = next == other ? faces.vertex(FaceLists::previous_in_face(corner)) : next;
-        }
-    });
-    return third;
-}
-
-} // namespace
-
-ClassicSplitRules::ClassicSplitRules(const ProgressiveMesh& mesh)
-    : leaves_(static_cast<std::uint32_t>(mesh.leaf_count())), introducers_(mesh.face_count(), none) {
-    FaceLists faces(mesh.node_count(), mesh.face_count());
-    for (std::uint32_t node = 0; node < mesh.node_count(); ++node) { faces.add_vertex(); }
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) { faces.add(mesh.faces()[face], face); }
-    adjacent_faces_.resize(mesh.node_count() - leaves_);
-    rings_.resize(adjacent_faces_.size());
-    const std::vector<std::uint32_t> order = mesh.coarsest_first();
-    for (auto at = order.rbegin(); at != order.rend(); ++at) {
-        const std::uint32_t node = *at;
-        const VertexSplit split = mesh.split_of(node);
-        auto& adjacent = adjacent_faces_[node - leaves_];
-        std::size_t k = 0;
-        for (const std::uint32_t face : {split.left_face, split.right_face}) {
-            adjacent[k] = none;
-            adjacent[k + 1] = none;
-            if (face != none) {
-                introducers_[face] = node;
-                const std::uint32_t cut = third_vertex(faces, split.first, split.second, face);
-                adjacent[k] = face_across(faces, split.first, cut, face);
-                adjacent[k + 1] = face_across(faces, split.second, cut, face);
-                faces.remove(faces.find(split.first, face));
-            }
-            k += 2;
-        }
-        for (const std::uint32_t child : {split.first, split.second}) {
-            faces.move_corners(child, node, [](std::uint32_t) { return true; });
-        }
-        std::vector<std::uint32_t>& ring = rings_[node - leaves_];
-        faces.for_each_corner(node, [&](std::uint32_t corner) {
-            ring.push_back(faces.vertex(FaceLists::next_in_face(corner)));
-            ring.push_back(faces.vertex(FaceLists::previous_in_face(corner)));
-        });
-        std::ranges::sort(ring);
-        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    }
-}
-
 namespace {
 
 RefinedVertex drawn(const NodeGeometry& shape) { return {shape.position_m, shape.normal, packed_rgba8(shape.colour)}; }
@@ -229,9 +155,6 @@ std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::si
 
 SelectiveRefiner::SelectiveRefiner(std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
     : mesh_(std::move(mesh)), options_(std::move(options)), faces_(mesh_->leaf_count(), mesh_->face_count()) {
-    if (options_.rule != SplitRule::Selective && !options_.classic_rules) {
-        options_.classic_rules = std::make_shared<const ClassicSplitRules>(*mesh_);
-    }
     stack_.reserve(64);
     path_.reserve(64);
     restart();
@@ -289,7 +212,7 @@ std::size_t SelectiveRefiner::split_single(std::uint32_t node, std::vector<std::
     if (begins_there < node) {
         return 0; // it is split
     }
-    if (begins_there == node && options_.rule == SplitRule::Selective) {
+    if (begins_there == node && !options_.required_split) {
         if (const Cuts cuts = active_cuts(node); cuts.left != cuts.right) { // nearly always
             apply_split(node, cuts);
             return 1;
@@ -313,7 +236,8 @@ void SelectiveRefiner::split_with_prerequisites(std::uint32_t node, std::vector<
             stack_.pop_back();
         } else if (!is_active(next)) {
             stack_.push_back(mesh_->parent(next));
-        } else if (const std::uint32_t first = required_split(next); first != none) {
+        } else if (const std::uint32_t first = options_.required_split ? options_.required_split(*this, next) : none;
+                   first != none) {
             stack_.push_back(first);
         } else if (const Cuts cuts = active_cuts(next); cuts.left == cuts.right) {
             stack_.push_back(node_at(slots_[cuts.left]));
@@ -349,38 +273,6 @@ SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
     const std::uint32_t left = mesh_->split_of(node).left_cut;
     const std::uint32_t right = mesh_->split_of(node).right_cut;
     return {left == none ? none : starts_.last_up_to(left), right == none ? none - 1 : starts_.last_up_to(right)};
-}
-
-/// A node that the rule Hoppe or Xia wants to be split before an active node; `none` when the node may split.
-std::uint32_t SelectiveRefiner::required_split(std::uint32_t node) const {
-    switch (options_.rule) {
-    case SplitRule::Hoppe:
-        return split_required_by_hoppe(node);
-    case SplitRule::Xia:
-        return split_required_by_xia(node);
-    case SplitRule::Selective:
-        break;
-    }
-    return none;
-}
-
-/// The introducer of one of the four faces next to the node's edge that is not in the active mesh yet.
-std::uint32_t SelectiveRefiner::split_required_by_hoppe(std::uint32_t node) const {
-    for (const std::uint32_t face : options_.classic_rules->adjacent_faces(node)) {
-        if (face == none) { continue; }
-        const std::uint32_t introducer = options_.classic_rules->introducer(face);
-        if (introducer != none && !is_split(introducer)) { return introducer; }
-    }
-    return none;
-}
-
-/// The unsplit parent of a node of the 1-ring at collapse time.
-std::uint32_t SelectiveRefiner::split_required_by_xia(std::uint32_t node) const {
-    for (const std::uint32_t around : options_.classic_rules->ring(node)) {
-        const std::uint32_t parent = mesh_->parent(around);
-        if (parent != none && !is_split(parent)) { return parent; }
-    }
-    return none;
 }
 
 /// vsplit: replaces an active node by its children, given its active cut vertices, which must differ.

@@ -224,38 +224,6 @@ private:
     std::vector<std::uint8_t> marks_;
 };
 
-/// Which neighbourhood must be active before a node may split.
-enum class SplitRule {
-    Selective, ///< Kim & Lee 2000, 2001: two different active cut vertices.
-    Hoppe,     ///< Hoppe 1997: the faces next to the two removed ones at collapse time.
-    Xia        ///< Xia & Varshney 1996: all vertices of the 1-ring at collapse time.
-};
-
-/// The neighbourhoods that the two earlier rules store for each collapse. They are here so that the three rules can be
-/// compared over one hierarchy. Found by replaying all collapses of the mesh once.
-class ClassicSplitRules {
-public:
-    explicit ClassicSplitRules(const ProgressiveMesh& mesh);
-
-    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the two faces that the
-    /// collapse removed; `none` on a boundary. `node` is an inner node.
-    const std::array<std::uint32_t, 4>& adjacent_faces(std::uint32_t node) const {
-        return adjacent_faces_[node - leaves_];
-    }
-
-    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed, ascending.
-    std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
-
-    /// The inner node whose split adds an original face to the active mesh; `none` for a face of the base mesh.
-    std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
-
-private:
-    std::uint32_t leaves_;
-    std::vector<std::array<std::uint32_t, 4>> adjacent_faces_;
-    std::vector<std::vector<std::uint32_t>> rings_;
-    std::vector<std::uint32_t> introducers_;
-};
-
 /// A vertex as it is drawn, in the layout that the graphics card takes. 20 bytes.
 struct RefinedVertex {
     glm::vec3 position_m{0.0F}; ///< Relative to the hierarchy's origin.
@@ -263,13 +231,16 @@ struct RefinedVertex {
     std::uint32_t colour = 0; ///< Packed as models::ColourVertex::colour is.
 };
 
+class SelectiveRefiner;
+
+/// The node that an earlier rule wants split before an active node may split; `none` when there is none.
+using RequiredSplit = std::function<std::uint32_t(const SelectiveRefiner& refiner, std::uint32_t active_node)>;
+
 /// How a front splits.
 struct RefinerOptions {
-    SplitRule rule = SplitRule::Selective;
-    bool records_splits = false; ///< Fills recent_splits().
-    bool repair = true;          ///< Mends fold-overs and refuses collapses that would make any.
-    /// What the rules Hoppe and Xia need; made by the constructor when null. Not used by Selective.
-    std::shared_ptr<const ClassicSplitRules> classic_rules{}; ///< for the rules Hoppe and Xia only; null = made
+    RequiredSplit required_split{}; ///< Empty: Kim and Lee's rule, which asks for nothing but two cut vertices.
+    bool records_splits = false;    ///< Fills recent_splits().
+    bool repair = true;             ///< Mends fold-overs and refuses collapses that would make any.
 };
 
 /// How many operations were done since the front was made.
@@ -285,11 +256,9 @@ struct RefinerCounts {
 /// corners lie below three different active nodes. It starts as the base mesh. Splits and collapses may come in any
 /// order; the mesh stays an oriented manifold of the same topology.
 ///
-/// The rule decides how many further splits a split forces:
-/// - Selective: none, unless both cut vertices of the node lie below one active node. Then that
-///   node splits first, and so on. The chain ends, because each node in it was collapsed later than
-///   the one that needs it. The collapse of a boundary edge has one cut vertex and forces none.
-/// - Hoppe, Xia: every split that brings back the neighbourhood at collapse time.
+/// A split forces none, unless both cut vertices of the node lie below one active node. Then that node splits first,
+/// and so on. The chain ends, because each node in it was collapsed later than the one that needs it. The collapse of a
+/// boundary edge has one cut vertex and forces none. Earlier rules (classic_split_rules.h) force more.
 ///
 /// Vertices and faces live in numbered slots and places that are used again; a split changes only the faces around its
 /// vertex. No memory is allocated once the front has been as large before, except by split_all.
@@ -309,8 +278,8 @@ public:
     /// is forced only if it was not asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
 
-    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order, for the rule
-    /// Selective. At most 200 are found.
+    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order, without those of
+    /// an earlier rule. At most 200 are found.
     void find_forced_splits(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
     /// Returns to the base mesh. Memory is kept and the counts go on.
@@ -363,11 +332,9 @@ public:
 
     const RefinerCounts& counts() const { return counts_; }
 
-    /// The slot of an active node: its index in vertices(). When a node is split, its first child takes over its slot.
-    std::uint32_t slot(std::uint32_t active_node) const { return slots_[mesh_->first_leaf(active_node)]; }
-
-    /// The slot of the active node at the first leaf of a node that is split.
-    std::uint32_t slot_below(std::uint32_t split_node) const { return slot(split_node); }
+    /// The slot of an active node: its index in vertices(). When a node is split, its first child takes over its slot;
+    /// of a node that is split it is the slot of the active node at its first leaf.
+    std::uint32_t slot(std::uint32_t node) const { return slots_[mesh_->first_leaf(node)]; }
 
     /// The active node in a slot; `none` for an empty slot.
     std::uint32_t node_at(std::uint32_t slot) const { return faces_.vertex_label(slot); }
@@ -406,9 +373,6 @@ private:
     };
 
     Cuts active_cuts(std::uint32_t node) const;
-    std::uint32_t required_split(std::uint32_t node) const;
-    std::uint32_t split_required_by_hoppe(std::uint32_t node) const;
-    std::uint32_t split_required_by_xia(std::uint32_t node) const;
     std::uint32_t new_slot();
     void put(std::uint32_t slot, std::uint32_t node, const NodeGeometry& shape);
     std::size_t split_single(std::uint32_t node, std::vector<std::uint32_t>* forced);

@@ -87,11 +87,11 @@ RefinedVertex Geomorphs::drawn(const SelectiveRefiner& refiner, const Move& move
 
 void Geomorphs::start(const SelectiveRefiner& refiner, std::uint32_t split_node) {
     const VertexSplit split = refiner.mesh().split_of(split_node);
-    const std::uint32_t first = refiner.slot_below(split.first);
+    const std::uint32_t first = refiner.slot(split.first);
     const Move* known = find(first);
     const RefinedVertex from = known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(split_node);
     add({first, split.first, from, 0.0});
-    add({refiner.slot_below(split.second), split.second, from, 0.0});
+    add({refiner.slot(split.second), split.second, from, 0.0});
 }
 
 void Geomorphs::retarget(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target) {
@@ -229,8 +229,8 @@ void ViewRefiner::start_moves() {
     split_frames_.resize(refiner_.vertices().size(), 0);
     for (const std::uint32_t node : refiner_.recent_splits()) {
         const VertexSplit split = refiner_.mesh().split_of(node);
-        split_frames_[refiner_.slot_below(split.first)] = frame_;
-        split_frames_[refiner_.slot_below(split.second)] = frame_;
+        split_frames_[refiner_.slot(split.first)] = frame_;
+        split_frames_[refiner_.slot(split.second)] = frame_;
         if (options_.geomorphs) { moves_.start(refiner_, node); }
     }
     refiner_.clear_recent_splits();

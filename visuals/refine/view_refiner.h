@@ -12,8 +12,8 @@ namespace octant::visuals::refine {
 
 /// How fast vertices travel.
 struct GeomorphOptions {
-    /// No vertex moves farther than this on the screen in one frame.
-    double step_px = 0.6; ///< no vertex moves farther on the screen in a frame, seen from one eye
+    /// No vertex moves farther than this on the screen in one frame, seen from one eye.
+    double step_px = 0.6;
     /// A move takes at least this many frames.
     double frames = 8.0;
 };
@@ -74,17 +74,16 @@ struct ViewRefinerOptions {
     /// A node with a projected error below this share of error_px is merged; below 1.
     double merge_error_ratio = 0.75;
     /// CriterionOptions::angle_margin_rad for merges: a node that may come into sight soon is not merged.
-    double merge_angle_margin_rad = 0.2; ///< criterion.angle_margin_rad for merges: what comes into sight keeps
+    double merge_angle_margin_rad = 0.2;
     /// A node that was split is not merged for this many frames.
     int merge_delay_frames = 10;
     /// A node that was merged is not split again for merge_delay_frames either, nor is one that would force it to
     /// split, unless its error is more than this many times error_px or nothing else mends a turned face.
     double resplit_error_ratio = 3.0;
     /// At most this many splits and this many collapses are begun in one frame.
-    std::size_t operations = 2000; ///< splits and collapses asked for in a frame, at most
+    std::size_t operations = 2000;
     bool geomorphs = true;
-    /// The weights for splits.
-    CriterionOptions criterion{}; ///< Options for the errors of splits.
+    CriterionOptions criterion{}; ///< The weights for splits.
     GeomorphOptions geomorph{};
     bool repair = true; ///< Mends fold-overs.
 };

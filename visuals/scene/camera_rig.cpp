@@ -2,7 +2,7 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "sim/fixed_step.h"
+#include "sim/flight_steps.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

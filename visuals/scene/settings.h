@@ -73,7 +73,7 @@ struct ViewSettings {
 /// How hidden surfaces of aircraft are removed, and with which detail.
 struct SurfaceSettings {
     HiddenSurface hidden_surface = HiddenSurface::Octant;
-    draworder::OrderMethod order_method = draworder::OrderMethod::Tree;
+    draworder::OrderMethod order_method = draworder::OrderMethod::Exact;
     /// About the most that the search for an order takes, on one core.
     double order_seconds = 20.0;
     /// Where orders are kept: a folder, "user" for the user's own cache, or "none". The pictures are the same.

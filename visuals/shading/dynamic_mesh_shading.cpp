@@ -101,8 +101,7 @@ bool DynamicMeshSelector::choose(const DynamicMesh& mesh, const glm::dvec3& eye_
     assert(mesh.indices.size() == 3 * mesh.labels.size());
     assert(smooth_count <= mesh.triangle_count && mesh.triangle_count <= mesh.labels.size());
     const ViewAndLight look{eye_m, light};
-    const ReselectionTolerance tolerance{settings_.reselect_rad, settings_.reselect_distance};
-    const bool moved = !has_choice_ || needs_reselection(last_view_, look, glm::dvec3(mesh.centre_m), tolerance);
+    const bool moved = !has_choice_ || needs_reselection(last_view_, look, glm::dvec3(mesh.centre_m), settings_);
     if (!moved && !changed && smooth_count == smooth_count_) { return false; }
     last_view_ = moved ? look : last_view_;
     smooth_count_ = smooth_count;

@@ -25,18 +25,6 @@
 
 namespace octant::visuals::shading {
 
-// Operations of H. Kim, H. Park, "A Hybrid Rendering Model to support LOD (Level of Detail)", 2008, section 4 and table
-// 2. Deviations: the printed 5408 for all smooth is (9 + 4) x 416; its row says (9 + 4) x 415 = 5395.
-
-OperationCounts operation_counts(int polygons, int smooth) {
-    assert(smooth >= 0 && smooth <= polygons);
-    const int selection = 9 * polygons;
-    return {.selection = selection,
-        .all_flat = selection + polygons,
-        .all_smooth = selection + 4 * polygons,
-        .hybrid = selection + (polygons - smooth) + 4 * smooth};
-}
-
 // How many polygons are smooth, by distance and by the device's speed: H. Kim, H. Park, "A Hybrid Rendering Model to
 // support LOD (Level of Detail)", 2008, sections 3 and 4.
 //
@@ -109,22 +97,20 @@ float intensity(const glm::vec3& place_m, const glm::vec3& normal, float colour_
 // choice is kept until the tolerance is exceeded. This saves the selection (9 operations a polygon in the 2008 paper's
 // count) in most frames and keeps polygons from flickering between flat and smooth.
 
-namespace {} // namespace
-
 bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, const glm::dvec3& centre_m,
-    const ReselectionTolerance& tolerance) {
+    const ShadingRuleSettings& settings) {
     if (now.eye_m == before.eye_m && now.light == before.light) { return false; }
     ShadingLight turned = before.light;
     turned.to_light = now.light.to_light;
     if (turned != now.light ||
-        angle_rad(glm::dvec3(now.light.to_light), glm::dvec3(before.light.to_light)) > tolerance.angle_rad) {
+        angle_rad(glm::dvec3(now.light.to_light), glm::dvec3(before.light.to_light)) > settings.reselect_rad) {
         return true;
     }
     const glm::dvec3 before_m = before.eye_m - centre_m;
     const glm::dvec3 now_m = now.eye_m - centre_m;
     const double farther_m = std::abs(glm::length(now_m) - glm::length(before_m));
-    return farther_m > tolerance.distance_share * glm::length(before_m) ||
-           angle_rad(before_m, now_m) > tolerance.angle_rad;
+    return farther_m > settings.reselect_distance * glm::length(before_m) ||
+           angle_rad(before_m, now_m) > settings.reselect_rad;
 }
 
 // Selection of the greatest keys by counting: one pass fills a histogram over the keys' top 12 bits, a scan from the
@@ -253,8 +239,7 @@ int ShadingSelector::take_best(int smooth_count) {
 ShadingChoice ShadingSelector::choose(const glm::dvec3& eye_m, const ShadingLight& light, int smooth_count) {
     assert(smooth_count >= 0 && static_cast<std::size_t>(smooth_count) <= polygons_->size());
     const ViewAndLight look{eye_m, light};
-    const ReselectionTolerance tolerance{settings_.reselect_rad, settings_.reselect_distance};
-    const bool moved = !has_choice_ || needs_reselection(last_view_, look, glm::dvec3(polygons_->centre_m), tolerance);
+    const bool moved = !has_choice_ || needs_reselection(last_view_, look, glm::dvec3(polygons_->centre_m), settings_);
     if (!moved && smooth_count == smooth_count_) { return {.smooth = smooth_, .smooth_count = smooth_count}; }
     if (moved) {
         last_view_ = look;

@@ -14,23 +14,6 @@
 
 namespace octant::visuals::shading {
 
-/// Operation counts as the 2008 paper has them in section 4 and table 2: every polygon costs 9 operations for the
-/// choice, then 1 when it is flat and 4 when it is smooth. n is the number of polygons, g of smooth ones, f = n - g of
-/// flat ones.
-struct OperationCounts {
-    int selection = 0;  ///< 9 n
-    int all_flat = 0;   ///< 9 n + n
-    int all_smooth = 0; ///< 9 n + 4 n
-    int hybrid = 0;     ///< 9 n + f + 4 g
-};
-
-/// The counts for n polygons (at least 0) of which g (0 to n, asserted) are smooth.
-OperationCounts operation_counts(int polygons, int smooth);
-
-/// The row that the paper prints for 415 polygons with 9 smooth ones. Its 5408 is 13 x 416, for the torus has 416
-/// polygons; 13 x 415 would be 5395.
-inline constexpr OperationCounts paper_counts{.selection = 3735, .all_flat = 4150, .all_smooth = 5408, .hybrid = 4177};
-
 /// The distances from the eye between which polygons turn from smooth to flat.
 struct ShadingRange {
     double near_m = 0.0;   ///< Up to this distance all polygons are smooth.
@@ -72,24 +55,11 @@ inline float diffuse_intensity(float cosine, float colour_sum, const ShadingLigh
 float intensity(const glm::vec3& place_m, const glm::vec3& normal, float colour_sum, const ShadingLight& light,
     const glm::vec3& eye_m);
 
-/// How much the eye and the light may change before smooth polygons are chosen again.
-struct ReselectionTolerance {
-    /// The eye may move by this angle about the model's centre, and the light may turn by it.
-    double angle_rad = 0.03;
-    /// The distance from the eye to the centre may change by this share of itself.
-    double distance_share = 0.05;
-};
-
 /// The eye and the light that a choice was made for, in the model's axes.
 struct ViewAndLight {
     glm::dvec3 eye_m{0.0};
     ShadingLight light;
 };
-
-/// Whether `now` differs from `before` by more than the tolerance, for a model with its centre at `centre_m`. Any
-/// change of the light but its direction counts.
-bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, const glm::dvec3& centre_m,
-    const ReselectionTolerance& tolerance);
 
 /// Packs a tier (0 to 3) and a rank (at least 0, finite) into one number, so that comparing keys compares first by tier
 /// and then by rank. It uses that the bits of non-negative floats sort as integers do. The lowest bit of the rank is
@@ -143,6 +113,11 @@ struct ShadingRuleSettings {
 /// Settings with which every choice depends on eye and light of that call only: no hysteresis and no tolerance. For
 /// measurements.
 ShadingRuleSettings without_hysteresis(ShadingRule rule);
+
+/// Whether `now` differs from `before` by more than reselect_rad and reselect_distance allow, for a model with its
+/// centre at `centre_m`. Any change of the light but its direction counts.
+bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, const glm::dvec3& centre_m,
+    const ShadingRuleSettings& settings);
 
 /// Six times the mean square of an error over a triangle, where the error is a, b and c at the corners and linear
 /// between them.

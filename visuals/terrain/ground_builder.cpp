@@ -2,7 +2,7 @@
 // imported into a mapped file instead (ground_import.cpp), by the same GroundAssembler.
 #include "visuals/terrain/ground_builder.h"
 
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 
 #include <algorithm>
 #include <array>

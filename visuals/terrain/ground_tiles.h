@@ -120,6 +120,21 @@ public:
         std::array<std::size_t, 2> east_errors{}; ///< Their errors by MorphMargin: bytes by row.
         /// The offset of the HeightRanges of all nodes, row after row; only for edges >= 32 and level 0.
         std::size_t ranges = 0;
+
+        std::size_t tile_count() const {
+            return static_cast<std::size_t>(tiles_across) * static_cast<std::size_t>(tiles_up);
+        }
+
+        /// The number of a node's tile as the level's tiles lie in memory.
+        std::size_t tile_of(int column, int row) const {
+            return static_cast<std::size_t>((row >> tile_shift) * tiles_across + (column >> tile_shift));
+        }
+
+        /// The number of a node in its tile.
+        std::size_t node_in_tile(int column, int row) const {
+            const int mask = (1 << tile_shift) - 1;
+            return static_cast<std::size_t>(((row & mask) << tile_shift) + (column & mask));
+        }
     };
 
     /// The layout of a field of so many samples; for `has_both_margins` see GroundShape.
@@ -178,7 +193,7 @@ protected:
         for (int level = 0; level < layout.levels(); ++level) {
             const GroundLayout::Level& at = layout.level(level);
             first_.push_back(tiles);
-            tiles += static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+            tiles += at.tile_count();
         }
         ready_ = std::make_unique<std::atomic<std::uint8_t>[]>(tiles);
         for (std::size_t tile = 0; tile < tiles; ++tile) {
@@ -317,12 +332,9 @@ private:
 
     NodeOffset place_of(int level, int column, int row) const {
         const GroundLayout::Level& at = layout_.level(level);
-        const int mask = (1 << at.tile_shift) - 1;
-        const auto tile =
-            static_cast<std::size_t>((row >> at.tile_shift) * at.tiles_across + (column >> at.tile_shift));
+        const std::size_t tile = at.tile_of(column, row);
         validator_->ensure_valid(level, tile);
-        return {at.first_tile + tile * at.tile_bytes,
-            static_cast<std::size_t>(((row & mask) << at.tile_shift) + (column & mask))};
+        return {at.first_tile + tile * at.tile_bytes, at.node_in_tile(column, row)};
     }
 
     const std::uint8_t* stored_error(int level, NodePart part, int column, int row, MorphMargin morph_margin) const {

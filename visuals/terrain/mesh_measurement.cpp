@@ -2,9 +2,9 @@
 // conformity, the mesh's surface, and popping. No flight uses them.
 #include "visuals/terrain/mesh_measurement.h"
 
-#include "sim/base/geometry2d.h"
 #include "sim/base/nearest_rank.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/plane.h"
+#include "sim/base/thread_pool.h"
 #include "visuals/terrain/frustum.h"
 
 #include <glm/common.hpp>

@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,145 +23,71 @@ namespace octant::visuals::verify {
 
 namespace {
 
-/// The words of one line of a file after another. Whatever is not as expected is refused by an Error "file:line:
-/// expected ..., got ...".
-class TokenReader {
-public:
-    explicit TokenReader(std::filesystem::path path) : path_(std::move(path)) {}
-
-    /// Goes on to the next line, of which what follows a # does not count; false if it is empty.
-    bool set_line(std::string_view line);
-
-    /// The number of the line at hand, from 1.
-    int line() const { return line_; }
-
-    bool done() const { return at_ == words_.size(); }
-
-    /// Throws Error about the word at hand.
-    [[noreturn]] void refuse(const std::string& expected) const;
-
-    /// Throws Error about the word before it.
-    [[noreturn]] void fail_at_last(const std::string& expected);
-
-    /// Takes a word if it is the one at hand.
-    bool skip(std::string_view word);
-
-    std::string_view word(std::string_view what);
-    double number(std::string_view what, double least, double most);
-    /// A whole number from 0 to below `end`.
-    std::uint32_t index(std::string_view what, std::size_t end);
-    void end_of_line() const;
-
-private:
-    std::filesystem::path path_;
-    std::vector<std::string_view> words_;
-    std::size_t at_ = 0;
-    int line_ = 0;
-};
-
 /// The most entries of any kind that a certificate may have.
 constexpr std::size_t max_entries = 50'000'000;
 /// The largest number that may stand in a certificate.
 constexpr double largest_number = 1e12;
 
-/// The words of a certificate's lines, read as README.md describes them. Wrong words are refused as by TokenReader.
-class CertificateTokens : public TokenReader {
-public:
-    using TokenReader::TokenReader;
+constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
+constexpr double longest_normal = 1.5;
 
-    Vector vector(const char* what);
+/// Reads what stands in a certificate's lines, as README.md describes them.
+class CertificateTokens : public TextScanner {
+public:
+    CertificateTokens(const std::filesystem::path& path, std::string_view text)
+        : TextScanner(path, text, {.comment = '#'}) {}
+
+    bool is_at_end_of_line() { return peek().empty(); }
+
+    double number(std::string_view what, double min, double max) {
+        const auto value = finite_number(peek());
+        if (!value || *value < min || *value > max) {
+            refuse_next(fmt::format("{} (a number from {:g} to {:g})", what, min, max));
+        }
+        word_or_end();
+        return *value;
+    }
+
+    /// An integer from 0 to below `end`.
+    std::uint32_t index(std::string_view what, std::size_t end) {
+        const auto value = take_integer(0, static_cast<long>(end) - 1);
+        if (!value) {
+            refuse_next(end == 0 ? fmt::format("{}, of which there are none", what)
+                                 : fmt::format("{} (0 to {})", what, end - 1));
+        }
+        return static_cast<std::uint32_t>(*value);
+    }
+
+    Vector vector(const char* what) {
+        const double x = coordinate(what);
+        const double y = coordinate(what);
+        const double z = coordinate(what);
+        return {x, y, z};
+    }
+
     /// A vector of a length of about 1.
-    Vector unit_vector(const char* what);
-    WrittenPlane plane();
+    Vector unit_vector(const char* what) {
+        const Vector v = vector(what);
+        const double longest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+        if (longest < min_normal || longest > longest_normal) { refuse_last(fmt::format("{} of length 1", what)); }
+        return v;
+    }
+
+    WrittenPlane plane() {
+        const Vector normal = unit_vector("a normal");
+        return {normal, coordinate("an offset")};
+    }
 
     /// Appends an entry and refuses the line if there are too many.
     template <typename Entry>
-    void add(std::vector<Entry>& entries, Entry entry) const {
-        if (entries.size() >= max_entries) { fail_too_many(); }
+    void add(std::vector<Entry>& entries, Entry entry) {
+        if (entries.size() >= max_entries) { refuse_next(fmt::format("at most {} such lines", max_entries)); }
         entries.push_back(std::move(entry));
     }
 
 private:
-    double coordinate(const char* what);
-    [[noreturn]] void fail_too_many() const;
+    double coordinate(const char* what) { return number(what, -largest_number, largest_number); }
 };
-
-bool TokenReader::set_line(std::string_view line) {
-    ++line_;
-    words_ = split_words(line.substr(0, line.find('#')));
-    at_ = 0;
-    return !words_.empty();
-}
-
-void TokenReader::refuse(const std::string& expected) const {
-    const std::string got = done() ? "none" : fmt::format("'{}'", printable(std::string(words_[at_])));
-    throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
-}
-
-void TokenReader::fail_at_last(const std::string& expected) {
-    --at_;
-    refuse(expected);
-}
-
-bool TokenReader::skip(std::string_view word) {
-    const bool there = !done() && words_[at_] == word;
-    at_ += there ? 1 : 0;
-    return there;
-}
-
-std::string_view TokenReader::word(std::string_view what) {
-    if (done()) { refuse(std::string(what)); }
-    return words_[at_++];
-}
-
-double TokenReader::number(std::string_view what, double least, double most) {
-    const auto value = done() ? std::nullopt : finite_number(words_[at_]);
-    if (!value || *value < least || *value > most) {
-        refuse(fmt::format("{} (a number from {:g} to {:g})", what, least, most));
-    }
-    ++at_;
-    return *value;
-}
-
-std::uint32_t TokenReader::index(std::string_view what, std::size_t end) {
-    const auto value = done() ? std::nullopt : whole_number(words_[at_]);
-    if (!value || *value < 0 || static_cast<std::size_t>(*value) >= end) {
-        refuse(
-            end == 0 ? fmt::format("{}, of which there are none", what) : fmt::format("{} (0 to {})", what, end - 1));
-    }
-    ++at_;
-    return static_cast<std::uint32_t>(*value);
-}
-
-void TokenReader::end_of_line() const {
-    if (!done()) { refuse("the end of the line"); }
-}
-
-constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
-constexpr double longest_normal = 1.5;
-
-double CertificateTokens::coordinate(const char* what) { return number(what, -largest_number, largest_number); }
-
-Vector CertificateTokens::vector(const char* what) {
-    const double x = coordinate(what);
-    const double y = coordinate(what);
-    const double z = coordinate(what);
-    return {x, y, z};
-}
-
-Vector CertificateTokens::unit_vector(const char* what) {
-    const Vector v = vector(what);
-    const double longest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    if (longest < min_normal || longest > longest_normal) { fail_at_last(fmt::format("{} of length 1", what)); }
-    return v;
-}
-
-WrittenPlane CertificateTokens::plane() {
-    const Vector normal = unit_vector("a normal");
-    return {normal, coordinate("an offset")};
-}
-
-void CertificateTokens::fail_too_many() const { refuse(fmt::format("at most {} such lines", max_entries)); }
 
 /// Reads the lines of a certificate about the model and its order: tolerance, vertex, axis, polygon, turning, list and
 /// node.
@@ -198,14 +125,14 @@ bool StructureReader::take() {
 }
 
 bool StructureReader::read_tolerance() {
-    if (made_.tolerance > 0.0) { words_.refuse("one tolerance"); }
+    if (made_.tolerance > 0.0) { words_.refuse_next("one tolerance"); }
     made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
     return true;
 }
 
 /// The reference point changes nothing in the proof, so it is only checked.
 bool StructureReader::read_reference() {
-    if (!made_.vertices.empty() || !made_.axes.empty()) { words_.refuse("'about' before all places"); }
+    if (!made_.vertices.empty() || !made_.axes.empty()) { words_.refuse_next("'about' before all places"); }
     words_.vector("a coordinate");
     return true;
 }
@@ -223,11 +150,11 @@ bool StructureReader::read_axis() {
 
 bool StructureReader::read_polygon(bool turning) {
     CertificatePolygon polygon;
-    polygon.line = words_.line();
+    polygon.line = words_.line_number();
     if (turning) { polygon.axis = words_.index("an axis", made_.axes.size()); }
     polygon.source = words_.index("a polygon of the model's file", max_entries);
     polygon.plane = words_.plane();
-    while (!words_.done() || polygon.corners.size() < 3) {
+    while (!words_.is_at_end_of_line() || polygon.corners.size() < 3) {
         polygon.corners.push_back(words_.index("a vertex", made_.vertices.size()));
     }
     words_.add(made_.polygons, std::move(polygon));
@@ -236,12 +163,12 @@ bool StructureReader::read_polygon(bool turning) {
 
 bool StructureReader::read_list() {
     OrderList list;
-    list.line = words_.line();
+    list.line = words_.line_number();
     std::vector<bool>& used = used_;
     used.resize(made_.polygons.size());
-    while (!words_.done()) {
+    while (!words_.is_at_end_of_line()) {
         const std::uint32_t polygon = words_.index("a polygon", made_.polygons.size());
-        if (used[polygon]) { words_.fail_at_last("each polygon once"); }
+        if (used[polygon]) { words_.refuse_last("each polygon once"); }
         used[polygon] = true;
         list.polygons.push_back(polygon);
     }
@@ -252,10 +179,10 @@ bool StructureReader::read_list() {
 
 bool StructureReader::read_node() {
     OrderNode node;
-    node.line = words_.line();
+    node.line = words_.line_number();
     const bool sequence = words_.skip("sequence");
     const bool parting = !sequence && words_.skip("parting");
-    if (!sequence && !parting && !words_.skip("choice")) { words_.refuse("choice, parting or sequence"); }
+    if (!sequence && !parting && !words_.skip("choice")) { words_.refuse_next("choice, parting or sequence"); }
     node.kind = sequence  ? OrderNode::Kind::Sequence
                 : parting ? OrderNode::Kind::PolygonSplit
                           : OrderNode::Kind::ViewSplit;
@@ -280,10 +207,10 @@ int StructureReader::child(bool may_be_nothing, bool may_be_node) {
     if (may_be_nothing && words_.skip("nothing")) { return OrderNode::nothing; }
     if (words_.skip("list")) { return ~static_cast<int>(words_.index("a list", max_entries)); }
     if (!may_be_node || !words_.skip("node")) {
-        words_.refuse(fmt::format("{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
+        words_.refuse_next(fmt::format("{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
     }
     const std::uint32_t number = words_.index("a node", max_entries);
-    if (number <= made_.nodes.size()) { words_.fail_at_last("a later node"); }
+    if (number <= made_.nodes.size()) { words_.refuse_last("a later node"); }
     return static_cast<int>(number);
 }
 
@@ -415,7 +342,7 @@ void StatementReader::take(StatementKind kind) {
 /// The statements of the list or node that the line names next.
 Statements& StatementReader::current_statements() {
     const bool of_list = words_.skip("list");
-    if (!of_list && !words_.skip("node")) { words_.refuse("list or node"); }
+    if (!of_list && !words_.skip("node")) { words_.refuse_next("list or node"); }
     const std::uint32_t number =
         of_list ? words_.index("a list", made_.lists.size()) : words_.index("a node", made_.nodes.size());
     current_region_plane_count_ = of_list ? region_plane_counts_.by_list[number] : region_plane_counts_.by_node[number];
@@ -428,7 +355,7 @@ void StatementReader::read_factors(Statements& statements, PairStatement::Kind k
     PairStatement statement;
     statement.kind = kind;
     statement.pair = {polygon, this->polygon()};
-    statement.line = words_.line();
+    statement.line = words_.line_number();
     statement.factors.earlier = factor();
     statement.factors.later = factor();
     read_region_planes(statement.factors);
@@ -445,28 +372,29 @@ void StatementReader::read_region_planes(StatedFactors& factors) {
 
 void StatementReader::read_back_facing(Statements& statements, std::uint32_t polygon) {
     BackFacingStatement statement;
-    statement.line = words_.line();
+    statement.line = words_.line_number();
     statement.factors.earlier = 1.0;
     read_region_planes(statement.factors);
-    if (!statements.away.emplace(polygon, std::move(statement)).second) { words_.fail_at_last("each polygon once"); }
+    if (!statements.away.emplace(polygon, std::move(statement)).second) { words_.refuse_last("each polygon once"); }
 }
 
 /// A polygon or a pair without a proof.
 void StatementReader::read_unproved(Statements& statements, std::uint32_t polygon) {
     ++made_.unproved;
-    made_.first_unproved = made_.first_unproved.value_or(words_.line());
-    if (words_.done()) {
-        statements.unproved.emplace(polygon, words_.line());
+    made_.first_unproved = made_.first_unproved.value_or(words_.line_number());
+    if (words_.is_at_end_of_line()) {
+        statements.unproved.emplace(polygon, words_.line_number());
     } else {
-        words_.add(statements.pairs, {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line()});
+        words_.add(
+            statements.pairs, {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line_number()});
     }
 }
 
 void StatementReader::read_row(Statements& statements, std::uint32_t later) {
     PairRow row;
     row.later = later;
-    row.line = words_.line();
-    while (!words_.done()) { row.runs.push_back(run()); }
+    row.line = words_.line_number();
+    while (!words_.is_at_end_of_line()) { row.runs.push_back(run()); }
     words_.add(statements.rows, std::move(row));
 }
 
@@ -477,7 +405,7 @@ DeciderRun StatementReader::run() {
     const char letter = word.back();
     const bool known = letter == 'e' || letter == 'l' || letter == '-';
     if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > max_entries) {
-        words_.fail_at_last("a count with e, l or -");
+        words_.refuse_last("a count with e, l or -");
     }
     return {letter == 'e'   ? DeciderRun::By::Earlier
             : letter == 'l' ? DeciderRun::By::Later
@@ -489,11 +417,13 @@ constexpr std::size_t largest_bytes = std::size_t{2} << 30;
 
 class CertificateParser {
 public:
-    explicit CertificateParser(const std::filesystem::path& path) : words_(path) { made_.path = path; }
+    CertificateParser(const std::filesystem::path& path, std::string_view text) : words_(path, text) {
+        made_.path = path;
+    }
 
-    Certificate read(std::string_view text) {
-        for (const std::string_view line : split_lines(text)) {
-            if (words_.set_line(line)) { take(); }
+    Certificate read() {
+        while (words_.next_line()) {
+            if (!words_.is_at_end_of_line()) { take(); }
         }
         if (!has_header_) { throw_error_in(made_.path, "expected 'octant-certificate 1' first, got an empty file"); }
         finish_structure();
@@ -504,7 +434,7 @@ private:
     void take() {
         if (!has_header_) {
             if (!words_.skip("octant-certificate") || !words_.skip("1")) {
-                words_.refuse("'octant-certificate 1' first");
+                words_.refuse_next("'octant-certificate 1' first");
             }
             has_header_ = true;
         } else if (const auto statement = read_statement_kind(words_)) {
@@ -513,16 +443,16 @@ private:
         } else {
             take_structure();
         }
-        words_.end_of_line();
+        if (!words_.is_at_end_of_line()) { words_.refuse_next("the end of the line"); }
     }
 
     void take_structure() {
         if (!structure_.take()) {
-            words_.refuse("tolerance, about, vertex, axis, polygon, turning, list, node, pairs, "
-                          "sum, never, away or unproved");
+            words_.refuse_next("tolerance, about, vertex, axis, polygon, turning, list, node, pairs, "
+                               "sum, never, away or unproved");
         }
         if (statements_) {
-            throw_error_at(made_.path, words_.line(),
+            throw_error_at(made_.path, words_.line_number(),
                 "expected pairs, sum, never, away or unproved after the first of them, got "
                 "something else");
         }
@@ -551,7 +481,7 @@ Certificate read_certificate(const std::filesystem::path& path) {
 }
 
 Certificate certificate_of(std::string_view text, const std::filesystem::path& name) {
-    return CertificateParser(name).read(text);
+    return CertificateParser(name, text).read();
 }
 
 } // namespace octant::visuals::verify

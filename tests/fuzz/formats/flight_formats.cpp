@@ -29,11 +29,11 @@ namespace {
 namespace acmi {
 
 void use(const std::filesystem::path& file) {
-    const flightpaths::AcmiRecording tape = flightpaths::parse_acmi(read_text_file(file), file);
-    expect(!tape.aircraft.empty(), "an aircraft");
-    expect(tape.aircraft.size() <= flightpaths::max_taped_aircraft, "no more than so many");
-    expect(std::isfinite(tape.origin.latitude_deg), "an origin");
-    for (const flightpaths::RecordedAircraft& aircraft : tape.aircraft) {
+    const flightpaths::AcmiRecording recording = flightpaths::parse_acmi(read_text_file(file), file);
+    expect(!recording.aircraft.empty(), "an aircraft");
+    expect(recording.aircraft.size() <= flightpaths::max_recorded_aircraft, "no more than so many");
+    expect(std::isfinite(recording.origin.latitude_deg), "an origin");
+    for (const flightpaths::RecordedAircraft& aircraft : recording.aircraft) {
         const auto samples = aircraft.trajectory.samples();
         expect(samples.size() >= 2, "two samples");
         for (const sim::AircraftState& state : samples) {

@@ -8,6 +8,7 @@
 #include "sim/base/hash.h"
 #include "tests/fuzz/formats/samples.h"
 #include "tests/fuzz/formats/target.h"
+#include "tests/sample_meshes.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 
@@ -37,7 +38,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "ac3d",
     .file = "input.ac",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = seeds,
     .words = {"OBJECT ", "poly\n", "group\n", "kids ", "numvert ", "numsurf ", "SURF 0x", "mat ", "refs ", "data ",
         "rot ", "loc ", "MATERIAL "},
@@ -56,9 +57,9 @@ std::string chain_bytes(const LevelChain& chain) {
 std::vector<std::string> seeds() {
     LevelChain chain;
     chain.name = "cube and less";
-    chain.levels.push_back({sample_cube(), 0.0});
+    chain.levels.push_back({coloured_cube(), 0.0});
     std::vector<std::string> all{chain_bytes(chain)};
-    chain.levels.push_back({sample_tetrahedron(), 0.125});
+    chain.levels.push_back({tetrahedron(), 0.125});
     models::polygons::PolygonModel square;
     square.name = "square";
     square.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
@@ -96,6 +97,31 @@ const Registered target({.name = "chain", .file = "input.chain", .use = use, .se
 
 } // namespace chain
 
+namespace flightgear {
+
+const Registered target({
+    .name = "flightgear",
+    .file = "input.xml",
+    .use =
+        [](const auto& file) {
+            models::meshfile::write_mesh(file.parent_path() / "part.ac", coloured_cube());
+            use_mesh_file(file);
+        },
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                "<?xml version=\"1.0\"?>\n<!-- a --><PropertyList>\n<path>part.ac</path>\n<model><path>part.ac</path>"
+                "<offsets><x-m>1.5</x-m><pitch-deg>30</pitch-deg></offsets></model><animation><type>select</type>"
+                "<object-name>cube</object-name><condition><not><property>a</property></not></condition></animation>\n"
+                "</PropertyList>\n"};
+        },
+    .words = {"<path>", "</path>", "<model>", "<animation>", "<type>", "<object-name>", "<offsets>", "include=\"",
+        "<!--", "-->", "&lt;", "</PropertyList>"},
+    .mutations = 1000,
+});
+
+} // namespace flightgear
+
 namespace glb {
 
 /// The length in the head and those of both chunks, the first as the file has it where it fits.
@@ -121,7 +147,7 @@ void seal(std::string& bytes) {
 const Registered target({
     .name = "glb",
     .file = "input.glb",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = [] { return mesh_seeds(".glb"); },
     .words = {"\"mode\":5", "\"count\":", "\"componentType\":5121", "\"byteStride\":", "\"byteOffset\":", "BIN",
         "JSON"},
@@ -149,7 +175,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "gltf",
     .file = "input.gltf",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = seeds,
     .words = {"\"nodes\":[", "\"mesh\":0", "\"children\":[0]", "\"matrix\":[", "\"mode\":5", "\"mode\":6",
         "\"count\":", "\"componentType\":5121", "\"byteStride\":", "\"byteOffset\":", "\"normalized\":true",
@@ -161,7 +187,7 @@ const Registered target({
 namespace mtl {
 
 void use(const std::filesystem::path& file) {
-    for (const models::Material& material : models::polygons::read_mtl(file)) {
+    for (const models::Material& material : models::polygons::read_mtl(file).materials) {
         expect(!material.name.empty(), "a name");
         for (int part = 0; part < 3; ++part) {
             expect(material.colour[part] >= 0.0F && material.colour[part] <= 1.0F, "0 to 1");
@@ -196,7 +222,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "obj_mesh",
     .file = "input.obj",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = seeds,
     .words = {"v ", "vn ", "f ", "usemtl ", "mtllib ", "\\\n", "1/2/3", "1//1", "-4", "nan"},
 });
@@ -278,7 +304,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "ply",
     .file = "input.ply",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = seeds,
     .words = {"element ", "vertex ", "face ", "property ", "list ", "uchar ", "float ", "double ", "int ", "ushort ",
         "vertex_indices\n", "end_header\n", "binary_big_endian", "comment "},
@@ -314,7 +340,7 @@ std::string progressive_bytes(const models::TriangleMesh& mesh) {
     return bytes_written("seed.pm", [&](const auto& file) { refine::write_progressive(file, made); });
 }
 
-std::vector<std::string> seeds() { return {progressive_bytes(sample_cube()), progressive_bytes(hills())}; }
+std::vector<std::string> seeds() { return {progressive_bytes(coloured_cube()), progressive_bytes(hills())}; }
 
 /// The checksum of each block that fits, and the file's length in the first one.
 void seal(std::string& bytes) {
@@ -365,7 +391,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "stl",
     .file = "input.stl",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = seeds,
     .words = {"solid ", "facet normal ", "outer loop\n", "vertex ", "endloop\n", "endfacet\n", "endsolid"},
 });
@@ -392,7 +418,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "vrml",
     .file = "input.wrl",
-    .use = [](const auto& file) { use_mesh(models::meshfile::read_mesh(file)); },
+    .use = use_mesh_file,
     .seeds = seeds,
     .words = {"Transform { ", "Shape { ", "IndexedFaceSet { ", "DEF ", "USE ", "coordIndex [ ", "-1 ", "[ ", "] ", "{ ",
         "} ", "children [ ", "PROTO ", "#", "TRUE ", "Switch { "},

@@ -19,10 +19,8 @@ namespace certificate {
 
 std::vector<std::string> seeds() {
     std::vector<std::string> all;
-    for (const auto method : {visuals::draworder::OrderMethod::Tree, visuals::draworder::OrderMethod::Bsp}) {
-        visuals::draworder::OrderOptions options;
-        options.method = method;
-        const auto ordered = visuals::draworder::ordered(small_model(), options);
+    for (const double search_s : {20.0, 0.0}) {
+        const auto ordered = visuals::draworder::ordered(small_model(), {.seconds = search_s});
         all.push_back(visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
     }
     return all;
@@ -65,17 +63,14 @@ void use(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> seeds() {
-    draworder::OrderOptions tree;
-    draworder::OrderOptions bsp;
-    bsp.method = draworder::OrderMethod::Bsp;
     return {
         "draworder 1\ncenter 1 2 3\nmetric l1\nfaces 7\ntwosided 0 1\nparents 0 0 1 2 3 4 5\n"
         "cell +-+/0/3 min 2 order 0 1 2\ncell cone 3 1 0 0 0 1 0 0 0 1 max 9 order 6 5 4\n"
         "cell half 2 1 0 0 0 0 1 0 -3 min 1 max 4 order\ncell half 0 order 0 1 2 3 4 5 6\n",
         "draworder 1\nfaces 7\nlist 0 1 2\nlist\nlist 3 4\nnode choice 0 0 1 0 node 1 node 2\n"
         "node parting 0 1 0 -1 list 0 nothing list 1 list 2\nnode sequence list 2 list 0 # c\n",
-        orderfile::order_text(orderfile::cell_orders(draworder::ordered(small_model(), tree))),
-        orderfile::order_text(orderfile::cell_orders(draworder::ordered(small_model(), bsp))),
+        orderfile::order_text(orderfile::cell_orders(draworder::ordered(small_model()))),
+        orderfile::order_text(orderfile::cell_orders(draworder::ordered(small_model(), {.seconds = 0.0}))),
     };
 }
 
@@ -97,10 +92,9 @@ namespace ordercache = visuals::ordercache;
 
 std::vector<std::string> seeds() {
     std::vector<std::string> all;
-    for (const auto method :
-        {draworder::OrderMethod::Tree, draworder::OrderMethod::Bsp, draworder::OrderMethod::Paper}) {
-        draworder::OrderOptions options;
-        options.method = method;
+    const draworder::OrderOptions split_at_once{.seconds = 0.0};
+    const draworder::OrderOptions paper{.method = draworder::OrderMethod::Paper};
+    for (const draworder::OrderOptions& options : {draworder::OrderOptions(), split_at_once, paper}) {
         all.push_back(ordercache::encode_order(draworder::ordered(small_model(), options)));
     }
     return all;

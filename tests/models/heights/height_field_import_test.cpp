@@ -4,6 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/models/heights/height_files.h"
+#include "tests/real_files.h"
 
 #include <catch2/catch.hpp>
 
@@ -57,10 +58,7 @@ TEST_CASE("a 16-bit PNG is read with the spacing and height scale that are given
     raster.values.back() = 40000;
     const auto path = scratch_file("heights.png");
     write_raster(path, "PNG", raster);
-    ImportOptions options;
-    options.spacing_m = 12.5;
-    options.height_scale = 0.1;
-    const HeightField field = read_height_field(path, options);
+    const HeightField field = read_height_field(path, {.spacing_m = 12.5, .height_scale = 0.1});
     CHECK(field.columns() == 4);
     CHECK(field.rows() == 3);
     CHECK(field.spacing_m() == 12.5);
@@ -87,10 +85,7 @@ TEST_CASE("binary PGM of 8 and of 16 bits and plain PGM are read") {
     check("plain.pgm", "P2 # made by hand\n3 2\n65535\n0 1 2\r\n3 4 # two to come\n5\n");
     const auto path = scratch_file("scaled.pgm");
     write_file(path, "P2 2 2 65535 0 40000 1 2");
-    ImportOptions options;
-    options.spacing_m = 5.0;
-    options.height_scale = 0.05;
-    const HeightField field = read_height_field(path, options);
+    const HeightField field = read_height_field(path, {.spacing_m = 5.0, .height_scale = 0.05});
     CHECK(field.height_m(1, 1) == Approx(2000.0));
     CHECK(field.spacing_m() == 5.0);
 }
@@ -275,7 +270,8 @@ TEST_CASE("reading leaves no file behind and reads the same heights twice") {
     raster.type = GDT_UInt16;
     const auto path = scratch_file("alone.png");
     std::filesystem::remove_all(path.parent_path());
-    write_raster(scratch_file("alone.png"), "PNG", raster);
+    std::filesystem::create_directories(path.parent_path());
+    write_raster(path, "PNG", raster);
     const HeightField first = read_height_field(path);
     const HeightField second = read_height_field(path);
     for (int i = 0; i < 12; ++i) { CHECK(first.height_m(i % 4, i / 4) == second.height_m(i % 4, i / 4)); }
@@ -375,7 +371,7 @@ struct Expected {
 
 /// Nothing when the file is not on this computer.
 std::optional<HeightField> read_and_check(const std::string& name, const Expected& expected) {
-    const auto path = real_terrain_file(name);
+    const auto path = tests::real_file("terrain/" + std::string(name));
     if (!path) { return std::nullopt; }
     HeightField field = read_height_field(*path);
     CHECK(field.columns() == expected.columns);

@@ -1,22 +1,12 @@
 #include "tests/models/heights/height_files.h"
 
-#include "tests/scratch.h"
-
 #include <catch2/catch.hpp>
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
-#include <cstdlib>
-#include <iostream>
 #include <ogr_srs_api.h>
 
 namespace octant::models::heights::test {
-
-std::filesystem::path scratch_file(const std::string& name) {
-    std::filesystem::create_directories(tests::scratch_folder());
-    std::filesystem::remove_all(tests::scratch_folder() / name);
-    return tests::scratch_folder() / name;
-}
 
 void write_raster(const std::filesystem::path& path, const char* driver, const RasterFile& raster) {
     CPLSetConfigOption("GDAL_PAM_ENABLED", "NO"); // writes no sidecar
@@ -74,15 +64,6 @@ void write_raster(const std::filesystem::path& path, const char* driver, const R
 void truncate_file(const std::filesystem::path& path, std::uintmax_t bytes) {
     REQUIRE(std::filesystem::file_size(path) > bytes);
     std::filesystem::resize_file(path, bytes);
-}
-
-std::optional<std::filesystem::path> real_terrain_file(const std::string& name) {
-    const char* given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
-    if (std::filesystem::exists(folder / "terrain" / name)) { return folder / "terrain" / name; }
-    std::cout << "SKIPPED: no terrain/" << name << " in " << folder << '\n';
-    return std::nullopt;
 }
 
 } // namespace octant::models::heights::test

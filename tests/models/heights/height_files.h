@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/scratch.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <gdal.h>
@@ -26,17 +28,12 @@ struct RasterFile {
     bool has_palette = false;
 };
 
-/// A path in a scratch folder of this test program; a file of that name is removed first.
-std::filesystem::path scratch_file(const std::string& name);
+using tests::scratch_file;
 
 /// Writes with the GDAL driver of that name ("GTiff", "PNG", ...) and fails the test if it cannot.
 void write_raster(const std::filesystem::path& path, const char* driver, const RasterFile& raster);
 
 /// The first `bytes` of a file stay.
 void truncate_file(const std::filesystem::path& path, std::uintmax_t bytes);
-
-/// The folder of large real files, if this computer has it: OCTANT_SHARED_DATA, else beside the source. Prints
-/// "SKIPPED: why" when it has not.
-std::optional<std::filesystem::path> real_terrain_file(const std::string& name);
 
 } // namespace octant::models::heights::test

@@ -3,8 +3,8 @@
 #include "models/heights/height_field_import.h"
 #include "models/heights/local_frame.h"
 #include "sim/base/axes.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 #include "tests/models/heights/sample_maps.h"
 
@@ -117,8 +117,8 @@ TEST_CASE("degrees of Mars are as long as its ellipsoid has them") {
     RasterFile raster = flat(-2400.0);
     raster.transform = {-134.0, 1.0 / 128.0, 0.0, 18.0, 0.0, -1.0 / 128.0};
     const HeightField field = read_with_system(raster,
-        "GEOGCS[\"GCS_Mars_2000\",DATUM[\"D_Mars_2000\",SPHEROID[\"Mars_2000_IAU_IAG\",3396190,"
-        "169.894447223612]],PRIMEM[\"Reference_Meridian\",0],UNIT[\"degree\",0.0174532925199433]]");
+        "GEOGCS[\"GCS_Mars_2000\",DATUM[\"D_Mars_2000\",SPHEROID[\"Mars_2000_IAU_IAG\",3396190,169."
+        "894447223612]],PRIMEM[\"Reference_Meridian\",0],UNIT[\"degree\",0.0174532925199433]]");
     REQUIRE(field.place);
     CHECK(field.place->latitude_deg == Approx(17.765625).margin(0.01));
     // Radii of curvature by hand: 3,398,048 m across and 3,361,839 m along the meridian.

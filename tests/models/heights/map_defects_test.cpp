@@ -3,6 +3,7 @@
 #include "models/heights/height_source.h"
 #include "sim/base/error.h"
 #include "tests/models/heights/sample_maps.h"
+#include "tests/real_files.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
@@ -281,9 +282,7 @@ TEST_CASE("ground that is too steep everywhere has another width of cells, and o
     REQUIRE(notes.size() == 1);
     CHECK(has(notes.front().text, "steep.tif: 36 places are steeper than any ground on earth if cells are 30 m wide: "
                                   "--terrain-spacing says how wide they are"));
-    ImportOptions options;
-    options.spacing_m = 2000.0;
-    CHECK(read_height_field(path, options).notes.empty());
+    CHECK(read_height_field(path, {.spacing_m = 2000.0}).notes.empty());
 }
 
 TEST_CASE("a step along a seam is told with both tiles and its height") {
@@ -335,7 +334,7 @@ TEST_CASE("a step of a few metres in rugged ground is told, and none where there
 
 TEST_CASE("real rugged maps in two tiles: a step of 7 m is told, and none where there is none") {
     for (const char* const name : {"gcanyon_1025.tif", "pugetsound_1025.tif"}) {
-        const auto path = real_terrain_file(name);
+        const auto path = tests::real_file("terrain/" + std::string(name));
         if (!path) { continue; }
         const RasterFile whole = raster_from(*path);
         for (const double raised_m : {0.0, 7.0}) {
@@ -430,7 +429,7 @@ TEST_CASE("pictures and containers that are cut short are refused in the same wo
 TEST_CASE("good maps get no warnings") {
     for (const char* const name :
         {"vancouver_2049.tif", "pugetsound_1025.tif", "gcanyon_1025.tif", "srtm3_N49W123.tif", "N51E000.hgt"}) {
-        if (const auto path = real_terrain_file(name)) {
+        if (const auto path = tests::real_file("terrain/" + std::string(name))) {
             for (const MapNote& note : read_height_field(*path).notes) { FAIL_CHECK(note.text); }
         }
     }

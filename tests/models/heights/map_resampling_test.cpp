@@ -3,6 +3,7 @@
 #include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
 #include "tests/models/heights/sample_maps.h"
+#include "tests/real_files.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
@@ -354,7 +355,7 @@ TEST_CASE("tiles at 70 degrees north and over the antimeridian are one ground as
 }
 
 TEST_CASE("two by three degrees of SRTM tiles are one ground within the deviation that it states") {
-    const auto real = real_terrain_file("srtm3_N49W123.tif");
+    const auto real = tests::real_file("terrain/srtm3_N49W123.tif");
     if (!real) { return; }
     RasterFile tile = raster_read(*real);
     REQUIRE((tile.columns == 1201 && tile.rows == 1201));
@@ -374,5 +375,5 @@ TEST_CASE("a made map that needs no resampling has its own heights between its s
 }
 
 TEST_CASE("a map that needs no resampling has its own heights between its samples") {
-    if (const auto real = real_terrain_file("vancouver_2049.tif")) { check_own_heights(*real); }
+    if (const auto real = tests::real_file("terrain/vancouver_2049.tif")) { check_own_heights(*real); }
 }

@@ -204,9 +204,7 @@ TEST_CASE("true heights are no voids, whatever their numbers") {
         centimetres.values[i] = 40000.0 + 500.0 * static_cast<double>(i);
     }
     CHECK_THROWS_WITH(read_small(centimetres), Contains("--height-scale says how many metres"));
-    ImportOptions options;
-    options.height_scale = 0.01;
-    CHECK(read_small(centimetres, options).highest_m() == Approx(635.0));
+    CHECK(read_small(centimetres, {.height_scale = 0.01}).highest_m() == Approx(635.0));
 }
 
 TEST_CASE("common voids are found beside the file's own and the option's, unless it says none") {
@@ -349,8 +347,8 @@ TEST_CASE("words without data at every other sample are found, and extra numbers
     CHECK(read_height_field(file).filled_voids == 5000);
     write_text(file, header + heights + "8 9\n");
     CHECK_THAT(notes_text(read_height_field(file)),
-        Contains("2 extra numbers after the last height ignored; a row may be too long, which "
-                 "shifts all rows below it"));
+        Contains(
+            "2 extra numbers after the last height ignored; a row may be too long, which shifts all rows below it"));
 }
 
 TEST_CASE("words without data in a text grid are voids, counted in a note") {
@@ -420,8 +418,8 @@ TEST_CASE("coordinates in metres are refused where a system says that they are d
     ImportOptions options;
     options.system = "EPSG:4326";
     CHECK_THROWS_WITH(read_small(raster, options),
-        Contains("small.tif: expected longitudes and latitudes, as --terrain-system says, got "
-                 "coordinates up to 5000000: --terrain-system takes a system in metres"));
+        Contains("small.tif: expected longitudes and latitudes, as --terrain-system says, got coordinates up to "
+                 "5000000: --terrain-system takes a system in metres"));
     raster.system = "EPSG:4326";
     CHECK_THROWS_WITH(read_small(raster), Contains("as the system of the file says, got coordinates up to"));
     options.system = "EPSG:32632";
@@ -433,8 +431,8 @@ TEST_CASE("coordinates in metres are refused where a system says that they are d
 TEST_CASE("degrees on a datum without a name are taken as WGS 84, with a note") {
     RasterFile raster = small_map();
     raster.transform = {8.0, 0.01, 0.0, 47.0, 0.0, -0.01};
-    raster.system = "GEOGCS[\"unnamed\",DATUM[\"unknown\",SPHEROID[\"GRS 1980\",6378137,298.257222101]],"
-                    "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
+    raster.system = "GEOGCS[\"unnamed\",DATUM[\"unknown\",SPHEROID[\"GRS "
+                    "1980\",6378137,298.257222101]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
     const HeightField field = read_small(raster);
     REQUIRE(field.place);
     CHECK(field.place->latitude_deg == Approx(46.97).margin(1e-6));
@@ -473,9 +471,7 @@ TEST_CASE("a system in feet whose heights name no unit gets a note") {
     const HeightField field = read_height_field(kept_map("stateplane-feet.tif"));
     CHECK(height_at(field, 20, 30) == Approx(1590.88806152344));
     CHECK_THAT(notes_text(field), Contains("in feet (US survey foot)") && Contains("--height-scale 0.30480061"));
-    ImportOptions options;
-    options.height_scale = 0.30480061;
-    CHECK(read_height_field(kept_map("stateplane-feet.tif"), options).notes.empty());
+    CHECK(read_height_field(kept_map("stateplane-feet.tif"), {.height_scale = 0.30480061}).notes.empty());
 }
 
 TEST_CASE("the band whose name says elevation is taken, and an option takes any") {
@@ -500,9 +496,7 @@ TEST_CASE("the band whose name says elevation is taken, and an option takes any"
 TEST_CASE("three bands of bytes are a picture, one of them is heights if an option says so") {
     const path file = kept_map("rgb-undefined.tif");
     CHECK_THROWS_WITH(read_height_field(file), Contains("expected one band of heights, got 3 of 8 bits, which make a"));
-    ImportOptions options;
-    options.band = "2";
-    CHECK(read_height_field(file, options).columns() == 60);
+    CHECK(read_height_field(file, {.band = "2"}).columns() == 60);
 }
 
 TEST_CASE("Terrarium and Mapbox tiles are decoded and placed by their number") {
@@ -566,9 +560,7 @@ TEST_CASE("a band that tells the error of heights or the like is not taken for h
     CHECK_THAT(notes_text(field_of({"dem_first", "dem_last"})),
         Contains("band 1 (dem_first) of 1 (dem_first), 2 (dem_last) is taken for heights"));
     RasterFile one = small_map();
-    ImportOptions options;
-    options.band = "7";
-    CHECK_THROWS_WITH(read_small(one, options), Contains("small.tif: --band 7: the file has one band, 1"));
+    CHECK_THROWS_WITH(read_small(one, {.band = "7"}), Contains("small.tif: --band 7: the file has one band, 1"));
 }
 
 TEST_CASE("the sea of a Mapbox tile is at 0 m") {

@@ -1,5 +1,5 @@
 #include "models/measure/triangle_bvh.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "tests/models/measure/made_meshes.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "models/material.h"
-#include "models/meshfile/binary_file.h"
 #include "models/meshfile/mesh_file.h"
+#include "sim/base/binary_file.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -10,6 +10,7 @@
 #include <bit>
 
 using namespace octant::models;
+using octant::base64_of;
 using namespace octant::models::meshfile;
 using namespace octant::models::meshfile::test;
 using namespace octant::tests;
@@ -34,7 +35,7 @@ struct Parts {
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
     std::string views = R"([{"buffer":0,"byteLength":48},
                {"buffer":0,"byteOffset":48,"byteLength":4}])";
-    std::string uri = "data:application/octet-stream;base64," + base64_text(square_bytes());
+    std::string uri = "data:application/octet-stream;base64," + base64_of(square_bytes());
     std::string more;
 };
 
@@ -54,15 +55,6 @@ TriangleMesh read_gltf(const Parts& parts) {
 std::string refused_gltf(const Parts& parts) { return error_of("part.gltf", gltf(parts)); }
 
 } // namespace
-
-TEST_CASE("base64 comes back, and what is none is refused") {
-    for (const std::string text : {"", "a", "ab", "abc", "abcd"}) { CHECK(base64_bytes(base64_text(text)) == text); }
-    CHECK(base64_text("Man") == "TWFu");
-    CHECK(base64_text("Ma") == "TWE=");
-    CHECK(base64_bytes("TWE") == "Ma");
-    CHECK_FALSE(base64_bytes("T").has_value());
-    CHECK_FALSE(base64_bytes("TW*u").has_value());
-}
 
 TEST_CASE("strips, fans and lists of glTF give the triangles that they stand for") {
     CHECK(read_gltf({}).triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
@@ -84,8 +76,8 @@ TEST_CASE("places of glTF may be short numbers, which their node makes as large 
         bytes += '\0';
     }
     Parts parts;
-    parts.uri = "data:application/octet-stream;base64," +
-                base64_text(bytes + std::string(16, '\0') + std::string("\0\1\2\3", 4));
+    parts.uri =
+        "data:application/octet-stream;base64," + base64_of(bytes + std::string(16, '\0') + std::string("\0\1\2\3", 4));
     parts.accessors = R"([{"bufferView":0,"componentType":5122,"count":4,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
     parts.views = R"([{"buffer":0,"byteLength":32,"byteStride":8},
@@ -152,9 +144,8 @@ TEST_CASE("data of glTF may lie in files beside it, but not outside its folder")
     for (const std::string uri :
         {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "file:///x", "..\\\\x", ""}) {
         parts.uri = uri;
-        CHECK_THAT(
-            refused_gltf(parts), Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this "
-                                                   "one, got '"));
+        CHECK_THAT(refused_gltf(parts),
+            Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this one, got '"));
     }
     parts.uri = "none.bin";
     CHECK(
@@ -177,8 +168,8 @@ TEST_CASE("a faulty glTF file is refused in one line that says what") {
     parts.accessors =
         R"([{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
-    CHECK(refused_gltf(parts) == "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 "
-                                 "bytes of the view, got 5 from byte 0, 12 apart");
+    CHECK(refused_gltf(parts) == "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 bytes of the "
+                                 "view, got 5 from byte 0, 12 apart");
     parts.accessors =
         R"([{"sparse":{},"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
@@ -189,8 +180,8 @@ TEST_CASE("a faulty glTF file is refused in one line that says what") {
     CHECK(refused_gltf(parts) == "part.gltf: meshes[0].primitives: expected indices below 3, got 3");
     parts = {};
     parts.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
-    CHECK(refused_gltf(parts) == "part.gltf: extensionsRequired: expected plain accessors, got "
-                                 "KHR_draco_mesh_compression");
+    CHECK(refused_gltf(parts) ==
+          "part.gltf: extensionsRequired: expected plain accessors, got KHR_draco_mesh_compression");
     CHECK(error_of("part.glb", std::string("glTF\2\0\0\0\77\0\0\0", 12)) ==
           "part.glb: at byte 8: expected a length of 12, got 63");
 }

@@ -3,20 +3,10 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
-#include <cstdlib>
-#include <iostream>
-
 namespace octant::models::meshfile::test {
-
-std::filesystem::path scratch_file(const std::string& name) {
-    std::filesystem::create_directories(tests::scratch_folder());
-    std::filesystem::remove_all(tests::scratch_folder() / name);
-    return tests::scratch_folder() / name;
-}
 
 std::filesystem::path file_with(const std::string& name, std::string_view content) {
     const std::filesystem::path path = scratch_file(name);
@@ -57,15 +47,6 @@ void check_same(const TriangleMesh& a, const TriangleMesh& b) {
         CHECK(a.materials[m].name == b.materials[m].name);
         CHECK(a.materials[m].colour == b.materials[m].colour);
     }
-}
-
-std::optional<std::filesystem::path> real_mesh_file(const std::string& name) {
-    const char* given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
-    if (std::filesystem::exists(folder / "meshes" / name)) { return folder / "meshes" / name; }
-    std::cout << "SKIPPED: no meshes/" << name << " in " << folder << '\n';
-    return std::nullopt;
 }
 
 } // namespace octant::models::meshfile::test

@@ -2,16 +2,15 @@
 
 #include "models/triangle_mesh.h"
 #include "tests/sample_meshes.h"
+#include "tests/scratch.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace octant::models::meshfile::test {
 
-/// A path in the scratch folder of this test program; a file of that name is removed first.
-std::filesystem::path scratch_file(const std::string& name);
+using tests::scratch_file;
 
 /// scratch_file with this content.
 std::filesystem::path file_with(const std::string& name, std::string_view content);
@@ -24,8 +23,5 @@ std::string error_of(const std::string& name, std::string_view content);
 
 /// Checks that everything two meshes hold is the same.
 void check_same(const TriangleMesh& a, const TriangleMesh& b);
-
-/// A large real file, if this computer has it. Prints "SKIPPED: why" when it has not.
-std::optional<std::filesystem::path> real_mesh_file(const std::string& name);
 
 } // namespace octant::models::meshfile::test

@@ -91,8 +91,8 @@ TEST_CASE("what an MTL file calls clear is apart from the body of an OBJ file") 
 TEST_CASE("a missing MTL file is noted") {
     const TriangleMesh mesh = read_obj_text("mtllib none.mtl\n" + std::string(three) + "usemtl a\nf 1 2 3");
     REQUIRE(mesh.notes.size() == 1);
-    CHECK_THAT(mesh.notes[0], Catch::EndsWith("part.obj:1: material file none.mtl is missing, its "
-                                              "materials are drawn grey"));
+    CHECK_THAT(
+        mesh.notes[0], Catch::EndsWith("part.obj:1: material file none.mtl is missing, its materials are drawn grey"));
     CHECK(mesh.materials.at(0).name == "a");
 }
 

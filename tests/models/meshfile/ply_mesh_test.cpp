@@ -115,8 +115,7 @@ TEST_CASE("a faulty PLY header is refused in one line that says where") {
     CHECK(refused_ply(start + "element vertex 3\nproperty real x\n") ==
           "part.ply:4: expected a type such as uchar, int or float, got 'real'");
     CHECK(refused_ply(start + "element vertex 3\nproperty list float int x\n") ==
-          "part.ply:4: expected a whole number as the count of a list, got 'property list float "
-          "int x'");
+          "part.ply:4: expected a whole number as the count of a list, got 'property list float int x'");
     CHECK(refused_ply(start + "hello\n") ==
           "part.ply:3: expected format, element, property, comment or end_header, got 'hello'");
     CHECK(refused_ply("ply\nend_header\n") == "part.ply:2: expected a format line in the header, got none");
@@ -126,8 +125,8 @@ TEST_CASE("a PLY header that promises more than the file holds is refused by its
     CHECK(refused_ply(start + "element vertex 2147483648\n" + places + "end_header\n0 0 0\n") ==
           "part.ply:3: expected at most 1 of 'vertex' in a file of this size, got 2147483648");
     CHECK(refused_ply("ply\nformat binary_little_endian 1.0\nelement face 9000000000000000000\n" + ply_corners +
-                      "end_header\nabc") == "part.ply:3: expected at most 3 of 'face' in a file of this size, got "
-                                            "9000000000000000000");
+                      "end_header\nabc") ==
+          "part.ply:3: expected at most 3 of 'face' in a file of this size, got 9000000000000000000");
     // An element of nothing takes no room, but no time either.
     CHECK(refused_ply(start + "element nothing 9000000000000000000\nend_header\n") ==
           "part.ply: expected at least one triangle, got none");

@@ -1,6 +1,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/repair/repair.h"
 #include "tests/models/meshfile/mesh_samples.h"
+#include "tests/real_files.h"
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +14,7 @@ using namespace octant::models::meshfile::test;
 using namespace octant::tests;
 
 TEST_CASE("the scanned bunny is read and mended as published") {
-    const auto path = real_mesh_file("bun_zipper.ply");
+    const auto path = octant::tests::real_file("meshes/bun_zipper.ply");
     if (!path) { return; }
     const TriangleMesh mesh = read_mesh(*path);
     CHECK(mesh.vertices_m.size() == 35947);
@@ -26,7 +27,7 @@ TEST_CASE("the scanned bunny is read and mended as published") {
 }
 
 TEST_CASE("the bunny goes through every format") {
-    const auto path = real_mesh_file("bun_zipper.ply");
+    const auto path = octant::tests::real_file("meshes/bun_zipper.ply");
     if (!path) { return; }
     const TriangleMesh mesh = read_mesh(*path);
     for (const std::string ending : {".obj", ".ply", ".ac", ".wrl", ".gltf", ".glb"}) {
@@ -53,7 +54,7 @@ TEST_CASE("the bunny goes through every format") {
 }
 
 TEST_CASE("the cow has one vertex where two fans meet") {
-    const auto path = real_mesh_file("cow.obj");
+    const auto path = octant::tests::real_file("meshes/cow.obj");
     if (!path) { return; }
     const TriangleMesh mesh = read_mesh(*path);
     const RepairedMesh after = repaired(mesh);
@@ -65,7 +66,7 @@ TEST_CASE("the cow has one vertex where two fans meet") {
 }
 
 TEST_CASE("the spotted cow is a clean closed mesh") {
-    const auto path = real_mesh_file("spot.obj");
+    const auto path = octant::tests::real_file("meshes/spot.obj");
     if (!path) { return; }
     const RepairedMesh after = repaired(read_mesh(*path));
     CHECK(after.counts == RepairCounts{.shells = 1});

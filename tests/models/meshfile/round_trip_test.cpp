@@ -167,9 +167,9 @@ TEST_CASE("what a format does not hold is told") {
     CHECK(write_warnings("a.glb", mesh).empty());
     mesh.texture_coordinates = {{0.0F, 0.0F}};
     mesh.corner_texture_coordinates.assign(12, {0, 0, 0});
-    CHECK(write_warnings("a.stl", mesh) == std::vector<std::string>{
-                                               "a.stl: the format holds no normals, colours of vertices, "
-                                               "materials, texture coordinates; they are left out"});
+    CHECK(write_warnings("a.stl", mesh) ==
+          std::vector<std::string>{"a.stl: the format holds no normals, colours of vertices, materials, texture "
+                                   "coordinates; they are left out"});
     CHECK(write_warnings("a.wrl", mesh) ==
           std::vector<std::string>{"a.wrl: the format holds no texture coordinates; they are left out"});
     CHECK(write_warnings("a.stl", cube()).empty());

@@ -1,6 +1,6 @@
 #include "sim/base/units.h"
 #include "sim/links/dis_entity.h"
-#include "sim/links/earth.h"
+#include "sim/links/fix.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -50,8 +50,8 @@ TEST_CASE("places on the ellipsoid and around the earth's centre agree") {
 TEST_CASE("a DIS entity state gives back what was written") {
     DisEntity read;
     const auto bytes = encode_dis(some_entity(), 12.5);
-    const DecodeResult verdict = decode_dis(bytes, read);
-    REQUIRE(verdict.fault == PacketError::None);
+    const DecodeResult result = decode_dis(bytes, read);
+    REQUIRE(result.fault == PacketError::None);
     const DisEntity expected = some_entity();
     CHECK(read.entity == 3);
     CHECK(read.type == expected.type);

@@ -4,7 +4,6 @@
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/links/cigi_host.h"
-#include "sim/links/cigi_responses.h"
 #include "sim/links/dis_entity.h"
 #include "tests/scratch.h"
 #include "tests/sim/links/cigi_samples.h"

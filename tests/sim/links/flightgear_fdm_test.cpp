@@ -43,9 +43,9 @@ std::vector<std::byte> packet_25() {
 TEST_CASE("an FDM packet of either version gives back what was written") {
     for (const auto& bytes : {packet(), packet_25()}) {
         Fix fix;
-        const DecodeResult verdict = decode_fdm(bytes, fix);
+        const DecodeResult result = decode_fdm(bytes, fix);
         const Fix expected = some_fix();
-        REQUIRE(verdict.fault == PacketError::None);
+        REQUIRE(result.fault == PacketError::None);
         CHECK(fix.latitude_deg == Approx(expected.latitude_deg).epsilon(1e-15));
         CHECK(fix.longitude_deg == Approx(expected.longitude_deg).epsilon(1e-15));
         CHECK(fix.altitude_m == expected.altitude_m);

@@ -59,7 +59,7 @@ MavLinkFrame hil_state() {
 TEST_CASE("the heartbeat that ArduPilot's pages show is read") {
     const auto bytes = bytes_of({0xFE, 9, 0x4E, 1, 1, 0, 0, 0, 0, 0, 2, 3, 0x51, 4, 3, 0x1C, 0x7F});
     const MavLinkParse parse = parse_mavlink(bytes);
-    REQUIRE(parse.verdict.fault == PacketError::None);
+    REQUIRE(parse.result.fault == PacketError::None);
     CHECK(parse.length == bytes.size());
     CHECK(parse.frame->kind == MavLinkKind::Heartbeat);
     CHECK(parse.frame->system == 1);
@@ -73,7 +73,7 @@ TEST_CASE("a MAVLink frame with a wrong bit anywhere is refused") {
     for (std::size_t i = 1; i < packed.size(); ++i) {
         auto wrong = packed;
         wrong[i] ^= std::byte{0x10};
-        CHECK(parse_mavlink(wrong).verdict.fault != PacketError::None);
+        CHECK(parse_mavlink(wrong).result.fault != PacketError::None);
     }
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("bytes that are no MAVLink are passed over up to the next frame") {
     const auto packed = encode_mavlink(attitude(1, 0.1F, 0.2F, 0.3F), 9);
     bytes.insert(bytes.end(), packed.begin(), packed.end());
     const MavLinkParse first = parse_mavlink(bytes);
-    CHECK(first.verdict.fault == PacketError::NotOurs);
+    CHECK(first.result.fault == PacketError::NotOurs);
     REQUIRE(first.length == 3);
     CHECK(parse_mavlink(Bytes(bytes).subspan(3)).frame.has_value());
     for (std::size_t length = 0; length < packed.size(); ++length) {

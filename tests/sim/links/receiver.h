@@ -1,7 +1,6 @@
 #pragma once
 
 #include "sim/links/live_traffic.h"
-#include "sim/links/source_limit.h"
 #include "sim/links/udp_port.h"
 
 #include <chrono>

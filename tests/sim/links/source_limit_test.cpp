@@ -1,4 +1,4 @@
-#include "sim/links/source_limit.h"
+#include "sim/links/udp_port.h"
 
 #include <catch2/catch.hpp>
 

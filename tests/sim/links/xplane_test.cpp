@@ -153,9 +153,9 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
     }
     XPlanePose pose;
     std::optional<Fix> fix;
-    const DecodeResult verdict = pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix);
-    CHECK(verdict.fault == PacketError::Unused);
-    CHECK(xplane_text(verdict) ==
+    const DecodeResult result = pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix);
+    CHECK(result.fault == PacketError::Unused);
+    CHECK(xplane_text(result) ==
           "X-Plane RREF lacks latitude, longitude and elevation under our request numbers; start "
           "listen with --xplane HOST");
 }

@@ -1,5 +1,5 @@
 #include "sim/base/text_file.h"
-#include "sim/links/cigi_responses.h"
+#include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
 #include "sim/links/wire_bytes.h"
 #include "tests/scratch.h"

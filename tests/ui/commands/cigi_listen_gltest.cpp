@@ -3,7 +3,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/units.h"
 #include "sim/links/cigi_host.h"
-#include "sim/links/cigi_packet_header.h"
+#include "sim/links/cigi_packets.h"
 #include "sim/links/udp_port.h"
 #include "tests/scratch.h"
 #include "tests/ui/commands/cigi_bench.h"

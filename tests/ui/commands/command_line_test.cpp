@@ -1,11 +1,11 @@
-#include "ui/commands/command_line.h"
+#include "ui/command_line/command_line.h"
 
 #include <catch2/catch.hpp>
 
 #include <string>
 #include <vector>
 
-using namespace octant::ui::commands;
+using namespace octant::ui::command_line;
 
 namespace {
 
@@ -20,7 +20,8 @@ Program small_program() {
     const Option vsync{.name = "--vsync,!--no-vsync", .arity = Arity::None, .read = read};
     const Option input{.name = "in", .form = "FILE", .read = read, .required = true};
     const auto run = [] {};
-    return {.about = "small",
+    return {.name = "octant",
+        .about = "small",
         .version = "1",
         .footer = {},
         .commands = {{.name = "fly", .summary = "flies", .options = {frames, quiet, vsync, region}, .run = run},
@@ -73,7 +74,8 @@ TEST_CASE("a flag is set and unset by its value as by its names") {
     const auto value_after = [](bool before, const char* word) {
         bool value = before;
         const auto run = [] {};
-        const Program program{.about = "small",
+        const Program program{.name = "octant",
+            .about = "small",
             .version = "1",
             .footer = {},
             .commands = {{.name = "fly",

@@ -2,9 +2,9 @@
 #include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/documented_lines.h"
-#include "ui/commands/command_line.h"
+#include "ui/command_line/command_line.h"
 #include "ui/commands/commands.h"
-#include "ui/window/window_commands.h"
+#include "ui/studies/program/study_program.h"
 
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ using octant::tests::CommandLine;
 namespace {
 
 namespace fs = std::filesystem;
-namespace commands = octant::ui::commands;
+namespace command_line = octant::ui::command_line;
 
 /// A scratch folder that is the working folder as long as this lives.
 class WorkingFolder {
@@ -45,12 +45,14 @@ private:
 
 /// What is wrong with a command line; empty when it can be read, with the files that it names.
 std::string fault_of(const CommandLine& line) {
+    const bool is_study = line.front() == "study" || line.front() == "bench";
     std::vector<const char*> words = {"octant"};
     for (const std::string& word : line) { words.push_back(word.c_str()); }
-    const commands::Program program =
-        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
+    if (line.front() == "study") { words.erase(words.begin() + 1); }
+    const command_line::Program program =
+        is_study ? ui::studies::program::study_program() : ui::commands::octant_program();
     try {
-        commands::parse_command_line(program, static_cast<int>(words.size()), words.data());
+        command_line::parse_command_line(program, static_cast<int>(words.size()), words.data());
     } catch (const Error& fault) { return fault.what(); }
     return "";
 }
@@ -72,18 +74,17 @@ void check_lines(const std::vector<CommandLine>& lines) {
 }
 
 /// Checks the examples of a command's help, and of those below it.
-void check_examples(const commands::Command& command) {
+void check_examples(const command_line::Command& command) {
     const std::vector<CommandLine> lines = tests::command_lines(command.footer);
     INFO(command.name);
-    CHECK_FALSE(lines.empty());
+    CHECK(lines.empty() == !command.program.empty());
     check_lines(lines);
-    for (const commands::Command& below : command.commands) { check_examples(below); }
+    for (const command_line::Command& below : command.commands) { check_examples(below); }
 }
 
-commands::Command command_named(std::string_view name) {
-    const commands::Program program =
-        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
-    return *std::ranges::find(program.commands, name, &commands::Command::name);
+command_line::Command command_named(std::string_view name) {
+    const command_line::Program program = ui::commands::octant_program();
+    return *std::ranges::find(program.commands, name, &command_line::Command::name);
 }
 
 } // namespace
@@ -114,8 +115,7 @@ TEST_CASE("every command line of the README files can be read and, where it is q
 
 TEST_CASE("the examples of octant --help and of fly --help run") {
     const WorkingFolder folder("documented-fly");
-    const commands::Program program =
-        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
+    const command_line::Program program = ui::commands::octant_program();
     check_lines(tests::command_lines(program.footer));
     check_examples(command_named("fly"));
 }
@@ -127,9 +127,11 @@ TEST_CASE("the examples of terrain --help run") {
 
 TEST_CASE("the examples of every other command's --help can be read and, where quick, run") {
     const WorkingFolder folder("documented-others");
-    const commands::Program program =
-        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
-    for (const commands::Command& command : program.commands) {
+    const command_line::Program program = ui::commands::octant_program();
+    for (const command_line::Command& command : program.commands) {
         if (command.name != "fly" && command.name != "terrain") { check_examples(command); }
+    }
+    for (const command_line::Command& command : ui::studies::program::study_program().commands) {
+        if (command.name != "manual") { check_examples(command); }
     }
 }

@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 using namespace octant;
@@ -86,7 +88,7 @@ TEST_CASE("a check that says no ends with exit code 1 and names the polygons") {
 TEST_CASE("exported orders and the exported model pass the check, split polygons too") {
     write_file(order_file("plates.obj"), crossing_plates);
     for (const char* axes : {"right,up,back", "forward,left,up"}) {
-        for (const char* method : {"cells", "tree"}) {
+        for (const char* method : {"cells", "exact"}) {
             const auto out = draw_order({order_file("plates.obj"), "--axes", axes, "--method", method, "--export",
                 order_file("orders.txt"), "--export-model", order_file("split.obj"), "--json"});
             CHECK(out.exit_code == 0);
@@ -115,6 +117,43 @@ TEST_CASE("an order of another model's, or with two polygons exchanged, does not
     CHECK(draw_order({"concave", "--check", order_file("swapped.txt")}).exit_code == 1);
 }
 
+TEST_CASE("a certificate is checked by octant-verify, under its old name too, and a changed one is refused") {
+    const std::string proof = order_file("proof.txt");
+    CHECK(draw_order({"concave", "--certificate", proof, "--quiet"}).exit_code == 0);
+    const auto run = run_octant({"verify", proof, "--json"});
+    CHECK(run.exit_code == 0);
+    CHECK(order_figures(run)["proved"] == true);
+    CHECK(order_figures(run)["pairs"] > 0);
+    const auto by_old_name = draw_order({"--verify", proof, "--json"});
+    CHECK(by_old_name.exit_code == 0);
+    CHECK(by_old_name.out == run.out);
+    CHECK(by_old_name.err.find("octant verify") != std::string::npos);
+    std::string text = read_file(proof);
+    text.erase(text.rfind("\npairs ") + 1);
+    write_file(proof, text);
+    CHECK(run_octant({"verify", proof}).exit_code == 1);
+    CHECK(run_octant({"verify", "/nowhere/proof.txt"}).exit_code == 2);
+    CHECK(run_octant({"verify"}).exit_code == 2);
+}
+
+TEST_CASE("a program that octant starts is looked for beside it and in PATH") {
+    const auto folder = tests::empty_folder("other-programs");
+    const std::string octant = (folder / "octant").string();
+    std::filesystem::copy_file(OCTANT_PROGRAM, octant);
+    const auto code_of = [&](const std::string& line) { return std::system(line.c_str()) / 256; };
+    const std::string message = (folder / "message").string();
+    CHECK(code_of(octant + " verify x 2>" + message) == 2);
+    CHECK(read_file(message) ==
+          "octant: expected the program octant-verify in the folder of this one or in PATH, got none\n");
+    write_file(folder / "octant-hello", "#!/bin/sh\necho \"$@\"\nexit 7\n");
+    CHECK(code_of(octant + " hello you 2>" + message) == 2);
+    std::filesystem::permissions(folder / "octant-hello", std::filesystem::perms::owner_all);
+    CHECK(code_of(octant + " hello you >" + message) == 7);
+    CHECK(read_file(message) == "you\n");
+    CHECK(code_of("PATH=" + (std::filesystem::path(OCTANT_PROGRAM).parent_path()).string() + ":$PATH " + octant +
+                  " verify --version >" + message) == 0);
+}
+
 TEST_CASE("rays alone find the file order of a missing cell") {
     write_file(order_file("half.txt"), "draworder 1\nfaces 10\ncell half 1 0 1 0 0 order 0\n");
     const auto run = draw_order({"concave", "--check", order_file("half.txt"), "--json"});
@@ -131,7 +170,7 @@ TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_order_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
     write_file(order_file("empty.obj"), "");
     check_order_refused({order_file("empty.obj")}, "empty.obj");
-    check_order_refused({"f15", "--method", "magic"}, "--method: expected one of paper, cells, tree");
+    check_order_refused({"f15", "--method", "magic"}, "--method: expected one of paper, exact");
     check_order_refused({"f15", "--min-distance", "nan"}, "--min-distance");
     check_order_refused({"f15", "--rays", "-1"}, "--rays");
     check_order_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");

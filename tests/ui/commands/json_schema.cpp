@@ -1,8 +1,13 @@
 #include "tests/ui/commands/json_schema.h"
 
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "ui/base/json_value.h"
+
+#include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -110,6 +115,27 @@ std::vector<std::string> schema_faults(const std::string& json_text, const std::
     Checker checker(schema);
     checker.check(schema, value, "");
     return checker.faults;
+}
+
+void check_row_schema(
+    const std::filesystem::path& schema_file, const std::string& pointer, const ui::base::JsonValue& row_schema) {
+    Json schema = Json::parse(read_file(schema_file));
+    Json& object = schema.at(Json::json_pointer(pointer));
+    const Json row = Json::parse(ui::base::json_of_results(row_schema));
+    if (std::getenv("OCTANT_WRITE_SCHEMAS") != nullptr) {
+        object["properties"].update(row["properties"]);
+        for (const Json& name : row["required"]) {
+            if (std::ranges::find(object["required"], Json(name)) == object["required"].end()) {
+                object["required"].push_back(name);
+            }
+        }
+        write_file(schema_file, schema.dump(1) + "\n");
+    }
+    for (const auto& [name, property] : row["properties"].items()) {
+        INFO(schema_file.filename() << pointer << " " << name);
+        CHECK(object["properties"].value(name, Json()) == property);
+        CHECK(std::ranges::find(object["required"], Json(name)) != object["required"].end());
+    }
 }
 
 } // namespace octant::tests

@@ -5,8 +5,13 @@
 #include "tests/ui/commands/json_schema.h"
 #include "tests/ui/flight/small_ground.h"
 #include "ui/commands/commands.h"
-#include "ui/report/html_text.h"
-#include "ui/window/window_commands.h"
+#include "ui/report/frame_csv.h"
+#include "ui/report/statistics.h"
+#include "ui/report/table.h"
+#include "ui/studies/program/bench.h"
+#include "ui/studies/program/study_program.h"
+#include "ui/sweep/sweep_folder.h"
+#include "ui/terrain/terrain_query.h"
 
 #include <catch2/catch.hpp>
 
@@ -33,19 +38,24 @@ void check(const std::string& name, std::vector<std::string> line) {
     CHECK(tests::schema_faults(run.out, schema(name)) == std::vector<std::string>());
 }
 
-bool prints_json(const ui::commands::Command& command) {
+bool prints_json(const ui::command_line::Command& command) {
     return std::ranges::any_of(command.options, [](const auto& option) { return option.name == "--json"; });
 }
 
 /// Names of all commands that do something, with --json or without, as "terrain info".
 std::set<std::string> commands_with_json(bool with) {
     std::set<std::string> names;
-    const auto visit = [&](const auto& self, const ui::commands::Command& command, const std::string& before) -> void {
+    const auto visit = [&](const auto& self, const ui::command_line::Command& command,
+                           const std::string& before) -> void {
         if (command.commands.empty() && prints_json(command) == with) { names.insert(before + command.name); }
         for (const auto& inner : command.commands) { self(self, inner, before + command.name + " "); }
     };
-    const auto program = ui::commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
-    for (const auto& command : program.commands) { visit(visit, command, ""); }
+    for (const auto& command : ui::commands::octant_program().commands) {
+        if (command.program.empty()) { visit(visit, command, ""); }
+    }
+    for (const auto& command : ui::studies::program::study_program().commands) {
+        visit(visit, command, command.name == "bench" || command.name == "manual" ? "" : "study ");
+    }
     return names;
 }
 
@@ -104,6 +114,20 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
                        "3", "--quiet"});
 }
 
+TEST_CASE("schemas of rows say what the columns in the program say") {
+    using ui::report::schema_of;
+    tests::check_row_schema(schema("frames"), "", ui::report::frame_schema());
+    const auto statistics = schema_of(ui::report::all_statistics());
+    tests::check_row_schema(schema("fly"), "", statistics);
+    tests::check_row_schema(schema("report"), "/properties/recordings/items/properties/summary", statistics);
+    tests::check_row_schema(schema("run"), "/properties/summary", statistics);
+    tests::check_row_schema(
+        schema("bench"), "/properties/scenes/items", schema_of(ui::studies::program::bench_columns()));
+    tests::check_row_schema(schema("sweep"), "/properties/runs/items", schema_of(ui::sweep::result_columns()));
+    tests::check_row_schema(
+        schema("terrain-query"), "/properties/points/items", schema_of(ui::terrain::query_columns()));
+}
+
 TEST_CASE("every command has --json but manual, which prints a page and completions") {
     CHECK(commands_with_json(false) == std::set<std::string>{"manual"});
 }
@@ -123,7 +147,9 @@ TEST_CASE("every command that prints JSON has a schema, and all tables have one 
         if (found != schemas.end()) { CHECK(fs::is_regular_file(schema(found->second))); }
     }
     CHECK(commands_with_json(true).size() >= schemas.size() + 8);
-    const std::vector<ui::report::HtmlTable> tables{{"T", {"a", "b"}, {{"x", "1.5"}, {"y"}}, "note"}, {}};
+    std::vector<ui::report::ResultTable> tables(2);
+    tables[0] = {.title = "T", .note = "note"};
+    tables[0].add({{"a", "x"}, {"b", 1.5}});
     CHECK(tests::schema_faults(ui::report::json_of(tables), schema("tables")).empty());
     CHECK_FALSE(tests::schema_faults("[{\"title\": 3}]", schema("tables")).empty());
     CHECK_FALSE(tests::schema_faults("[", schema("tables")).empty());

@@ -1,8 +1,8 @@
 // How near to the truth octant listen shows what comes by real UDP: what its recording says was in each picture against
 // where the sender's aircraft was then.
 
+#include "sim/base/earth_frame.h"
 #include "sim/base/random_generator.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
 #include "tests/scratch.h"

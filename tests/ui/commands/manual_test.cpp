@@ -1,6 +1,5 @@
+#include "ui/command_line/manual.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/manual.h"
-#include "ui/window/window_commands.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,10 +7,10 @@ using namespace octant::ui;
 using Catch::Contains;
 
 TEST_CASE("the manual page has every command and option, and no line that man takes for a request") {
-    const commands::Program program = commands::octant_program({window::view_command(), window::listen_command()});
-    const std::string page = commands::man_page(program);
+    const command_line::Program program = commands::octant_program();
+    const std::string page = command_line::man_page(program);
     CHECK_THAT(page, Catch::StartsWith(".TH OCTANT 1 "));
-    for (const commands::Command& command : program.commands) {
+    for (const command_line::Command& command : program.commands) {
         CAPTURE(command.name);
         const std::size_t at = page.find(".SS \"octant " + command.name.substr(0, 4));
         CHECK(at != std::string::npos);
@@ -22,18 +21,20 @@ TEST_CASE("the manual page has every command and option, and no line that man ta
 }
 
 TEST_CASE("completions offer the options of the command that stands there") {
-    const commands::Program program = commands::octant_program({window::view_command(), window::listen_command()});
-    const std::string text = commands::bash_completion(program);
+    const command_line::Program program = commands::octant_program();
+    const std::string text = command_line::bash_completion(program);
     const std::size_t report = text.find("    'report') words=\"");
     REQUIRE(report != std::string::npos);
     const std::string line = text.substr(report, text.find('\n', report) - report);
     CHECK_THAT(line, Contains(" --gate") && Contains(" --out") && !Contains("--order-method"));
     CHECK_THAT(text, Contains("    'terrain query') words=\"--help"));
-    for (const commands::Command& command : program.commands) {
+    for (const command_line::Command& command : program.commands) {
         CAPTURE(command.name);
         const bool is_followed = text.find("'" + command.name + " '*") != std::string::npos;
         CHECK(is_followed == !command.commands.empty());
+        const bool by_other = text.find("      " + command.name + ") _octant_other octant-") != std::string::npos;
+        CHECK(by_other == !command.program.empty());
     }
     CHECK_THAT(text, Contains(" --vsync --no-vsync"));
-    CHECK_THAT(commands::zsh_completion(program), Catch::StartsWith("#compdef octant\n"));
+    CHECK_THAT(command_line::zsh_completion(program), Catch::StartsWith("#compdef octant\n"));
 }

@@ -72,7 +72,7 @@ TEST_CASE("a damaged order cache costs a line, is mended, and changes no picture
     words.insert(words.begin(), "fly");
     const tests::ProgramRun run = run_octant(words);
     CHECK(run.exit_code == 0);
-    CHECK_THAT(run.err, Contains("note: order cache " + file.string() + ": expected "));
+    CHECK_THAT(run.err, Contains("note: order cache " + file.string() + ": at byte 16: expected "));
     CHECK_THAT(run.err, Contains(": computed anew\n"));
     CHECK(recorded_hashes_in(tests::PrintedJson(run.out)) == before);
     CHECK(read_file(file) == bytes);

@@ -182,7 +182,7 @@ TEST_CASE("refine refuses wrong input in one line with exit code 2") {
     check_refine_refused({"/nowhere/a.obj"}, "/nowhere/a.obj");
     check_refine_refused({"/nowhere/a.pm"}, "/nowhere/a.pm: expected a file, found none");
     write_file(refine_file("bad.pm"), "nothing");
-    check_refine_refused({refine_file("bad.pm")}, "bad.pm: expected a progressive mesh");
+    check_refine_refused({refine_file("bad.pm")}, "bad.pm: at byte 0: expected a progressive mesh");
     check_refine_refused({refine_file("sheet.obj"), "--rule", "magic"}, "--rule");
     check_refine_refused({refine_file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
     check_refine_refused({refine_file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");

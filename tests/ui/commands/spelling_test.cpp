@@ -1,12 +1,12 @@
-#include "ui/commands/command_line.h"
+#include "ui/command_line/command_line.h"
 
 #include <catch2/catch.hpp>
 
 #include <string>
 #include <vector>
 
-using octant::ui::commands::did_you_mean;
-using octant::ui::commands::nearest_spelling;
+using octant::ui::command_line::did_you_mean;
+using octant::ui::command_line::nearest_spelling;
 
 TEST_CASE("a slip of the fingers finds the word that was meant, another word none") {
     const std::vector<std::string> known{"--frames", "--frame-per-sample", "--seconds", "--size", "--start", "--rate"};

@@ -1,6 +1,6 @@
 #include "models/heights/local_frame.h"
 #include "sim/base/axes.h"
-#include "sim/links/cigi_responses.h"
+#include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
 #include "ui/flight/live_flight.h"
 #include "ui/flight/sender.h"

@@ -88,22 +88,12 @@ TEST_CASE("what is written is read back as it was written") {
     REQUIRE(file.records.size() == 1);
     CHECK_FALSE(file.is_truncated);
     const FrameRecord& got = file.records[0];
-    const FrameRecord expected = rounded_as_csv(record);
-    CHECK(frame_csv_line(got) == frame_csv_line(record));
-    CHECK(got.draw_ms == expected.draw_ms);
+    CHECK(frame_csv_line(got) == frame_csv_line(record)); // which the case before compares column by column
+    CHECK(got.draw_ms == rounded_as_csv(record).draw_ms);
     CHECK(got.draw_ms == 12.3457);
     CHECK(got.warm_up);
     CHECK(got.triangle_change == -5);
     CHECK(got.eye_m.z == 3e6);
-    CHECK(got.aircraft_agl_m == 61.25);
-    CHECK(got.triangle_target == 1200);
-    CHECK(got.error_px == 0.75);
-    CHECK(got.latency_ms == 21.5);
-    CHECK(got.missed == 1);
-    CHECK(got.smooth_target == 31);
-    CHECK(got.refine_ms == 0.4375);
-    CHECK(got.mesh_wait_ms == 0.25);
-    CHECK(got.draw_wait_ms == 1.5);
     CHECK(got.state_hash == 0xab);
     CHECK_FALSE(got.picture_hash);
 }

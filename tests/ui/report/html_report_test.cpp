@@ -2,6 +2,7 @@
 #include "tests/ui/report/scratch.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_report.h"
+#include "ui/report/html_text.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 using namespace octant;
 using namespace octant::ui::report;
@@ -21,10 +23,12 @@ LoadedRecording made_up_recording(const std::filesystem::path& folder, const std
     info.title = title;
     info.settings_json = R"({"note":"<script>&","rate":60})";
     info.machine.cores = 2;
-    RecordingWriter recording(folder, info);
-    for (int frame = 0; frame < 30; ++frame) { recording.add(made_up_frame(frame, frame == 20 ? 30.0 : draw_ms)); }
-    for (int frame = 0; frame < 14; ++frame) { recording.add_picture(frame, made_up_picture(8, 4, 3).view()); }
-    recording.finish({0xaaa, 0xbbb, {}});
+    std::vector<FrameRecord> frames = made_up_frames(30, draw_ms);
+    frames[20] = made_up_frame(20, 30.0);
+    record_frames(folder, frames, {0xaaa, 0xbbb, {}}, info);
+    for (int frame = 0; frame < 14; ++frame) {
+        write_png(folder / fmt::format("picture-{:05}.png", frame), made_up_picture(8, 4, 3).view());
+    }
     return load_recording(folder);
 }
 
@@ -50,27 +54,21 @@ TEST_CASE("text is escaped for elements and attributes, and broken UTF-8 mended"
     CHECK(escaped("\xED\xA0\x80x") == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBDx");
 }
 
-TEST_CASE("base64 of every remainder is as RFC 4648 has it") {
-    CHECK(base64("") == "");
-    CHECK(base64("f") == "Zg==");
-    CHECK(base64("fo") == "Zm8=");
-    CHECK(base64("foo") == "Zm9v");
-    CHECK(base64("foobar") == "Zm9vYmFy");
-    CHECK(base64("\xFF\xFE") == "//4=");
-}
-
 TEST_CASE("a table sets numbers right and escapes the rest") {
-    CHECK(html_of({"T<", {"a", "b"}, {{"x&y", "1.5"}, {"z"}}, "n>"}) ==
-          "<h3>T&lt;</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>a</th>"
-          "<th class=\"number\">b</th></tr></thead>\n<tbody>\n"
-          "<tr><td>x&amp;y</td><td class=\"number\">1.5</td></tr>\n"
-          "<tr><td>z</td><td></td></tr>\n</tbody></table></div>\n<p class=\"note\">n&gt;</p>\n");
+    ResultTable table{.title = "T<", .note = "n>"};
+    table.add({{"a", "x&y"}, {"b", 1.5}});
+    table.add({{"a", "z"}, {"b", ""}});
+    CHECK(html_of(table) == "<h3>T&lt;</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>a</th>"
+                            "<th class=\"number\">b</th></tr></thead>\n<tbody>\n"
+                            "<tr><td>x&amp;y</td><td class=\"number\">1.5</td></tr>\n"
+                            "<tr><td>z</td><td></td></tr>\n</tbody></table></div>\n<p class=\"note\">n&gt;</p>\n");
 }
 
 TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through as markup") {
     const ScratchFolder scratch;
     const std::vector recordings{made_up_recording(scratch / "one", "<b>flight</b>", 5.0)};
-    const std::vector<HtmlTable> first_tables{{"Study", {"x"}, {{"<i>"}}, ""}};
+    std::vector<ResultTable> first_tables(1);
+    first_tables[0].add({{"x", "<i>"}});
     const std::string page = html_report(recordings, first_tables);
     CHECK_THAT(page, Catch::StartsWith("<!DOCTYPE html>"));
     CHECK_THAT(page, Contains("<h1>&lt;b&gt;flight&lt;/b&gt;</h1>"));
@@ -118,13 +116,13 @@ TEST_CASE("several flights stand in a table, and those of the same flight are co
     std::string page = html_report(recordings);
     CHECK_THAT(page, Contains("2 flights compared"));
     CHECK_THAT(page, Contains("<th>note</th>"));
-    CHECK_THAT(page, !Contains("<th>rate</th>"));
-    CHECK_THAT(page, Contains("<td class=\"\">+23.5 %</td>")); // 8.5 to 10.5; too few runs to judge
+    CHECK_THAT(page, !Contains("rate</th>"));
+    CHECK_THAT(page, Contains("<td>+23.5 %</td>")); // 8.5 to 10.5; too few runs to judge
     CHECK(count_of(page, "data:image/png;base64,") == 2);
     CHECK(count_of(page, "class=\"plot small\"") == 2);
     recordings[1].run.settings[1].second = "20";
     page = html_report(recordings);
-    CHECK_THAT(page, Contains("<th>rate</th>"));
+    CHECK_THAT(page, Contains("rate</th>"));
     CHECK_THAT(page, Contains("No two of these recordings are of the same flight"));
     CHECK_THAT(page, !Contains("%</td>"));
     recordings[1].name = "one";
@@ -155,7 +153,7 @@ TEST_CASE("a change that repeats bear out is marked, and a long study stays smal
     CHECK(count_of(page, "data:image/png;base64,") == 24);
     recordings[1].run.noise = {"Other programs used 50 % of the processor time."};
     const std::string noisy = html_report(recordings);
-    CHECK_THAT(noisy, Contains("<td class=\"\">+11.7 % (") && Contains("Beside noisy runs"));
+    CHECK_THAT(noisy, Contains("<td>+11.7 % (") && Contains("noisy runs is called"));
     CHECK(page.size() < 3'000'000);
 }
 
@@ -177,18 +175,6 @@ TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture 
     CHECK_THAT(page, Contains("no frames"));
     CHECK_THAT(page, !Contains("nan"));
     CHECK_THAT(html_report({}), Contains("</html>"));
-}
-
-TEST_CASE("a plot in a page has its numbers, and no text of it ends its element") {
-    Plot plot{"a < b", "x", "y", {}, {}, 0.0, {}};
-    plot.series = {{"</script>", "#fff", PlotSeries::Style::Line, {0.0, 1.0}, {2.5, std::nan("")}, {}}};
-    plot.marks = {{"leg \"1\"", 0.5}};
-    const std::string html = page_plot(plot, PlotWidth::FullWidth);
-    CHECK_THAT(html, Contains("<h3>a &lt; b</h3>"));
-    CHECK_THAT(html, Contains("\"n\":\"\\u003c/script>\""));
-    CHECK_THAT(html, Contains("\"x\":[0,1],\"y\":[2.5,null]"));
-    CHECK_THAT(html, Contains("\"marks\":[[\"leg \\u00221\\u0022\",0.5]]"));
-    CHECK(count_of(html, "</script>") == 1);
 }
 
 TEST_CASE("a flight whose triangle target moved shows its course and its stress") {
@@ -233,29 +219,27 @@ TEST_CASE("a long flight is thinned without losing its peak") {
     CHECK(counted == 49'998.0);
 }
 
-TEST_CASE("one stray frame does not flatten a flight's plots") {
+TEST_CASE("a plot of frame times ends above nearly all frames and, unless they are far below it, above 16.67 ms") {
     std::vector<FrameRecord> records;
     for (int frame = 0; frame < 1000; ++frame) { records.push_back(made_up_frame(frame, frame == 500 ? 996.5 : 16.5)); }
     CHECK(plot_ceiling_ms(statistics_of(records)) == Approx(1.05 * 2.5 * 20.0));
     CHECK(plot_ceiling_ms({}) == Approx(1.05 * 18.0));
-}
-
-TEST_CASE("frames far below 16.67 ms fill their plots, others leave room for its line") {
-    Statistics statistics;
-    statistics.p99_ms = 0.4;
-    statistics.max_ms = 0.5;
-    CHECK(plot_ceiling_ms(statistics) == Approx(1.05 * 0.5));
-    statistics.max_ms = 30.0;
-    CHECK(plot_ceiling_ms(statistics) == Approx(1.05 * 1.0));
-    statistics.p99_ms = 2.0;
-    CHECK(plot_ceiling_ms(statistics) == Approx(1.05 * 18.0));
+    const auto ceiling_ms = [](double p99_ms, double max_ms) {
+        Statistics statistics;
+        statistics.p99_ms = p99_ms;
+        statistics.max_ms = max_ms;
+        return plot_ceiling_ms(statistics);
+    };
+    CHECK(ceiling_ms(0.4, 0.5) == Approx(1.05 * 0.5));
+    CHECK(ceiling_ms(0.4, 30.0) == Approx(1.05 * 1.0));
+    CHECK(ceiling_ms(2.0, 30.0) == Approx(1.05 * 18.0));
 }
 
 TEST_CASE("a curve keeps every peak in the memory of a plot") {
     Curve curve;
     for (int i = 0; i < 1'000'000; ++i) { curve.add(i, i == 777'777 ? 9.0 : i == 3 ? -9.0 : i % 2); }
     const PlotSeries whole = curve.series();
-    CHECK(whole.x.size() <= 2 * Curve::max_pieces);
+    CHECK(whole.x.size() <= 2 * 900);
     CHECK(std::ranges::is_sorted(whole.x));
     CHECK(*std::ranges::max_element(whole.y) == 9.0);
     CHECK(*std::ranges::min_element(whole.y) == -9.0);
@@ -274,8 +258,8 @@ TEST_CASE("settings that are not set are not shown, and counters are where there
     LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
     CHECK(recording.has_counters);
     recording.run.settings.emplace_back("frames", unset_value);
-    CHECK_THAT(html_report(std::vector{recording}), !Contains("null</code>"));
-    CHECK_THAT(html_report(std::vector{recording, recording}), !Contains("null</code>"));
+    CHECK_THAT(html_report(std::vector{recording}), !Contains("null</td>"));
+    CHECK_THAT(html_report(std::vector{recording, recording}), !Contains("null</td>"));
     std::filesystem::remove(scratch / "one/counters.csv");
     const LoadedRecording older = load_recording(scratch / "one");
     CHECK_FALSE(older.has_counters);

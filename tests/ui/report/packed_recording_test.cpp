@@ -31,17 +31,8 @@ void record(const fs::path& folder) {
     info.title = "a flight";
     info.settings_json = R"({"path":"inputs/p.toml","terrain":"../map.bil"})";
     info.files = {{"inputs/p.toml", "legs"}};
-    RecordingWriter recording(folder, info);
-    for (int frame = 0; frame < 20; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
-    recording.add_picture(3, made_up_picture(20, 10, 3).view());
-    recording.finish({1, 2, {}});
-}
-
-void zip_of(const fs::path& zip, const std::string& name) {
-    ZipWriter writer(zip);
-    writer.add("run.json", R"({"format":"octant recording"})");
-    writer.add(name, "bytes");
-    writer.finish();
+    record_frames(folder, made_up_frames(20, 10.0), {1, 2, {}}, info);
+    write_png(folder / "picture-00003.png", made_up_picture(20, 10, 3).view());
 }
 
 } // namespace
@@ -102,34 +93,30 @@ TEST_CASE("files that are no packed recordings are refused and write nothing") {
     const ScratchFolder scratch;
     record(scratch / "rec");
     int files = 0; // each under a name of its own: the library keeps what it knows of a name
-    const auto another = [&] { return scratch / fmt::format("{}.zip", files++); };
-    fs::path zip;
-    zip = another();
-    zip_of(zip, "evil.txt");
-    CHECK_THROWS_WITH(recording_folder(zip), Contains("expected only the files of a recording"));
-    for (const std::string name : {"../evil", "inputs/../../evil"}) { // the library leaves them out
-        zip = another();
-        zip_of(zip, name);
-        CHECK_FALSE(fs::exists(recording_folder(zip).parent_path() / "evil"));
-    }
-    zip = another();
-    {
+    const auto zip_with = [&](const auto&... bytes) {
+        const fs::path zip = scratch / fmt::format("{}.zip", files++);
+        (write_file(zip, bytes), ...);
+        return zip;
+    };
+    const auto recording_with = [&](const std::string& name) {
+        const fs::path zip = zip_with();
         ZipWriter writer(zip);
-        writer.add("frames.csv", "");
+        if (name != "frames.csv") { writer.add("run.json", R"({"format":"octant recording"})"); }
+        writer.add(name, "bytes");
         writer.finish();
+        return zip;
+    };
+    CHECK_THROWS_WITH(recording_folder(recording_with("evil.txt")), Contains("expected only the files of a recording"));
+    for (const std::string name : {"../evil", "inputs/../../evil"}) { // the library leaves them out
+        CHECK_FALSE(fs::exists(recording_folder(recording_with(name)).parent_path() / "evil"));
     }
-    CHECK_THROWS_WITH(recording_folder(zip), Contains("got one without run.json"));
-    zip = another();
-    write_file(zip, "PK is how they begin");
-    CHECK_THROWS_WITH(recording_folder(zip), Contains("expected a zip file"));
+    CHECK_THROWS_WITH(recording_folder(recording_with("frames.csv")), Contains("got one without run.json"));
+    CHECK_THROWS_WITH(recording_folder(zip_with("PK is how they begin")), Contains("expected a zip file"));
     pack_recording(scratch / "rec", scratch / "whole.zip", false);
     std::string bytes = read_file(scratch / "whole.zip");
-    zip = another();
-    write_file(zip, std::string_view(bytes).substr(0, bytes.size() / 2));
-    CHECK_THROWS_AS(recording_folder(zip), Error);
-    zip = another();
+    CHECK_THROWS_AS(recording_folder(zip_with(bytes.substr(0, bytes.size() / 2))), Error);
     bytes[bytes.size() / 3] = static_cast<char>(bytes[bytes.size() / 3] ^ 0x55);
-    write_file(zip, bytes);
+    const fs::path zip = zip_with(bytes);
     CHECK_THROWS_AS(recording_folder(zip), Error);
     CHECK_THROWS_AS(pack_recording(scratch / "nothing", zip, false), Error);
     const FolderLock lock(scratch / "rec");

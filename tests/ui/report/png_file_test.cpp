@@ -2,8 +2,8 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/report/scratch.h"
-#include "ui/report/slow_pictures.h"
 #include "ui/report/png_file.h"
+#include "ui/report/slow_pictures.h"
 
 #include <catch2/catch.hpp>
 

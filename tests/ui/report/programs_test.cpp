@@ -3,13 +3,11 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/report/scratch.h"
 #include "ui/report/child_program.h"
-#include "ui/report/plots.h"
 #include "ui/report/video_pipe.h"
 
 #include <catch2/catch.hpp>
 
 #include <iostream>
-#include <limits>
 
 using namespace octant;
 using namespace octant::ui::report;
@@ -21,15 +19,6 @@ void make_program(const std::filesystem::path& folder, const std::string& name, 
     make_folder(folder);
     write_file(folder / name, "#!/bin/sh\n" + script + "\n");
     std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
-}
-
-Plot small_plot() {
-    Plot plot{"Title", "x", "it's y", {}, {{"limit", 2.5}}, 0.0, {}};
-    PlotSeries line{"a < b", "#102030", PlotSeries::Style::Line, {1, 2, 3}, {4, 0, 6}, {}};
-    line.y[1] = std::numeric_limits<double>::quiet_NaN();
-    PlotSeries area{"", "#405060", PlotSeries::Style::Area, {1, 2}, {3, 4}, {1, 2}};
-    plot.series = {line, area};
-    return plot;
 }
 
 } // namespace
@@ -161,39 +150,4 @@ TEST_CASE("ffmpeg makes a fragmented video of odd size and odd name") {
     std::size_t fragments = 0;
     for (std::size_t at = 0; (at = bytes.find("moof", at)) != std::string::npos; ++at) { ++fragments; }
     CHECK(fragments == 3); // 25 frames, one fragment every 10
-}
-
-TEST_CASE("a plot is told to gnuplot with its data, gaps and quotes") {
-    const std::string script = gnuplot_script(small_plot());
-    CHECK_THAT(script, Catch::Contains("set ylabel 'it''s y'\n"));
-    CHECK_THAT(script, Catch::Contains("set yrange [0:*]\n"));
-    CHECK_THAT(script, Catch::Contains("$series0 << EOD\n1 4\n\n3 6\nEOD\n"));
-    CHECK_THAT(script, Catch::Contains("$series1 << EOD\n1 1 3\n2 2 4\nEOD\n"));
-    CHECK_THAT(script, Catch::EndsWith("plot $series0 using 1:2 with lines lw 1.2 lc rgb '#102030' title 'a < b', "
-                                       "$series1 using 1:2:3 with filledcurves lc rgb '#405060' notitle, "
-                                       "2.5 with lines dt 2 lw 1 lc rgb '#ef4444' title 'limit'\n"));
-}
-
-TEST_CASE("without gnuplot or without points there is no plot") {
-    const ScratchFolder scratch;
-    CHECK_FALSE(plot_svg(Plot{}));
-    const SearchPath nothing(scratch.path().string());
-    CHECK_FALSE(plot_svg(small_plot()));
-}
-
-TEST_CASE("a gnuplot that fails is an error with its last line") {
-    const ScratchFolder scratch;
-    make_program(scratch / "bin", "gnuplot", "echo 'no terminal svg' >&2; exit 1");
-    const SearchPath only((scratch / "bin").string());
-    CHECK_THROWS_WITH(plot_svg(small_plot()), "gnuplot: no terminal svg");
-}
-
-TEST_CASE("gnuplot draws the same plot as the same bytes") {
-    const auto svg = plot_svg(small_plot());
-    if (!svg) {
-        std::cout << "SKIPPED: gnuplot is not installed\n";
-        return;
-    }
-    CHECK(plot_svg(small_plot()) == svg);
-    CHECK_THAT(*svg, Catch::Contains("a &lt; b"));
 }

@@ -2,6 +2,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/report/scratch.h"
 #include "ui/report/frame_csv.h"
+#include "ui/report/kernel_counters.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/statistics.h"
@@ -10,7 +11,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -128,32 +132,20 @@ TEST_CASE("nobody records into a folder that is being recorded into, and a kille
     CHECK_NOTHROW(RecordingWriter(folder, made_up_info()));
 }
 
-TEST_CASE("a summary of other rows is told") {
+TEST_CASE("a summary of other rows and a lost row of the warm-up are reported") {
     const ScratchFolder scratch;
-    {
-        RecordingWriter recording(scratch / "rec", made_up_info());
-        for (int frame = 0; frame < 6; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
-        recording.finish({1, 2, {}, {}, "SIGINT after 6 of 9 frames"});
-    }
+    const std::string stopped = "SIGINT after 6 of 9 frames";
+    record_frames(scratch / "rec", made_up_frames(6, 10.0), {1, 2, {}, {}, stopped});
     CHECK(load_recording(scratch / "rec").disagreement.empty());
-    CHECK(load_recording(scratch / "rec").run.stopped == "SIGINT after 6 of 9 frames");
-    std::string rows = frame_csv_header();
-    for (int frame = 0; frame < 4; ++frame) { rows += frame_csv_line(made_up_frame(frame, 10.0)); }
-    write_file(scratch / "rec/frames.csv", rows);
-    CHECK(load_recording(scratch / "rec").disagreement == "frames: 4 in run.json, 2 by the rows");
-}
-
-TEST_CASE("a lost row of the warm-up is told") {
-    const ScratchFolder scratch;
-    {
-        RecordingWriter recording(scratch / "rec", made_up_info());
-        for (int frame = 0; frame < 6; ++frame) { recording.add(made_up_frame(frame, 10.0)); }
-        recording.finish({1, 2, {}, {}, {}});
-    }
-    std::string rows = frame_csv_header();
-    for (const int frame : {0, 2, 3, 4, 5}) { rows += frame_csv_line(made_up_frame(frame, 10.0)); }
-    write_file(scratch / "rec/frames.csv", rows);
-    CHECK(load_recording(scratch / "rec").disagreement == "line 3 of frames.csv: expected frame 1, got 2");
+    CHECK(load_recording(scratch / "rec").run.stopped == stopped);
+    const auto disagreement = [&](const std::vector<int>& numbers) {
+        std::string rows = frame_csv_header();
+        for (const int frame : numbers) { rows += frame_csv_line(made_up_frame(frame, 10.0)); }
+        write_file(scratch / "rec/frames.csv", rows);
+        return load_recording(scratch / "rec").disagreement;
+    };
+    CHECK(disagreement({0, 1, 2, 3}) == "frames: 4 in run.json, 2 by the rows");
+    CHECK(disagreement({0, 2, 3, 4, 5}) == "line 3 of frames.csv: expected frame 1, got 2");
 }
 
 TEST_CASE("an older recording gives way with all its files and nothing else") {
@@ -218,9 +210,9 @@ TEST_CASE("a killed recording loads with the figures of what is left") {
 
 TEST_CASE("the figures read back are those of the summary bit for bit") {
     const ScratchFolder scratch;
-    RecordingWriter recording(scratch / "rec", made_up_info());
-    for (int frame = 0; frame < 200; ++frame) { recording.add(made_up_frame(frame, 3.0 + 1.0 / (1.0 + frame % 7))); }
-    const Statistics at_end = recording.finish({1, 2, {}});
+    std::vector<FrameRecord> frames;
+    for (int frame = 0; frame < 200; ++frame) { frames.push_back(made_up_frame(frame, 3.0 + 1.0 / (1.0 + frame % 7))); }
+    const Statistics at_end = record_frames(scratch / "rec", frames);
     const LoadedRecording loaded = load_recording(scratch / "rec");
     CHECK(loaded.statistics == at_end);
     CHECK_FALSE(loaded.ended_early);
@@ -252,4 +244,70 @@ TEST_CASE("numbers of a machine that no machine has count as not told") {
         CHECK(run.machine_info.memory_kb == 0);
         CHECK(run.machine_info.load_average_1min == 0.0);
     }
+}
+
+TEST_CASE("the MangoHud log has its exact headers and leaves out the warm-up") {
+    const ScratchFolder scratch;
+    record_frames(scratch / "rec", made_up_frames(3, 4.5));
+    CHECK(read_file(scratch / "rec/mangohud.csv") ==
+          "os,cpu,gpu,ram,kernel,driver,cpuscheduler\n"
+          "system,cpu  fast,some  renderer,1024,kernel 1,,\n"
+          "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,gpu_mem_clock,"
+          "gpu_vram_used,gpu_power,ram_used,swap_used,process_rss,cpu_mhz,elapsed\n"
+          "125.000,8.0000,0,0,0,0,0,0,0,0,0,0,0,0,0,48000000\n");
+}
+
+TEST_CASE("the trace holds every frame with its stages one after the other") {
+    const ScratchFolder scratch;
+    record_frames(scratch / "rec", {made_up_frame(0, 4.5), made_up_frame(1, 4.5), made_up_frame(2, 14.5)});
+    const auto trace = nlohmann::json::parse(read_file(scratch / "rec/trace.json"));
+    std::map<std::string, std::vector<nlohmann::json>> events;
+    for (const auto& event : trace) {
+        events[event["ph"].get<std::string>() + " " + event["name"].get<std::string>()].push_back(event);
+    }
+    for (const char* name : {"X frame", "X sim", "X plan", "X draw", "X read"}) { CHECK(events[name].size() == 3); }
+    CHECK(events["X plan"][1]["ts"] == 21000.0);
+    CHECK(events["X draw"][1]["ts"] == 23000.0);
+    CHECK(events["X draw"][1]["dur"] == 4500.0);
+    CHECK(events["X frame"][1]["args"]["warm_up"] == true);
+    CHECK(events["C terrain triangles"][2]["args"]["value"] == 1002);
+    CHECK(events["C resolution C"].size() == 3);
+    CHECK(events["i overrun"].size() == 1);
+}
+
+TEST_CASE("what the kernel counted stands beside the slowest frames") {
+    const ScratchFolder scratch;
+    std::vector<FrameRecord> frames;
+    for (int frame = 0; frame < 40; ++frame) {
+        frames.push_back(made_up_frame(frame, frame == 30 ? 50.0 : 5.0));
+        frames.back().counters = {100 + frame, frame, 10.0 * frame};
+    }
+    record_frames(scratch / "rec", frames);
+    const LoadedRecording loaded = load_recording(scratch / "rec");
+    REQUIRE(loaded.has_counters);
+    REQUIRE(loaded.slowest.size() == SlowFrameList::max_kept);
+    CHECK(loaded.slowest[0].record.frame == 30);
+    CHECK(loaded.slowest[0].record.counters.page_faults == 130);
+    CHECK(loaded.slowest[0].record.counters.switches == 30);
+    CHECK(loaded.slowest[0].record.counters.stolen_ms == 300.0);
+    KernelCounters counters;
+    counters.begin();
+    constexpr std::size_t bytes = std::size_t{4} << 20;
+    void* const fresh = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(fresh != MAP_FAILED);
+    std::memset(fresh, 'x', bytes);
+    CHECK(counters.lap().page_faults > 0);
+    ::munmap(fresh, bytes);
+}
+
+TEST_CASE("the trace of a long flight ends with its slow frames") {
+    const ScratchFolder scratch;
+    std::vector<FrameRecord> frames = made_up_frames(80'000, 5.0);
+    frames.back() = made_up_frame(79'999, 50.0);
+    record_frames(scratch / "rec", frames);
+    CHECK(std::filesystem::file_size(scratch / "rec/trace.json") < (std::size_t{50} << 20));
+    const std::string trace = read_file(scratch / "rec/trace.json");
+    CHECK(trace.find("\"frame\":1000,") != std::string::npos);
+    CHECK(trace.find("\"frame\":79998,") == std::string::npos);
+    CHECK(trace.find("\"frame\":79999,") != std::string::npos);
 }

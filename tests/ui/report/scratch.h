@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/scratch.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/png_file.h"
 #include "ui/report/recording_writer.h"
@@ -7,36 +8,19 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace octant::ui::report {
 
-/// A folder of this test program's own, empty at first and removed at the end.
+/// An empty folder of one test.
 class ScratchFolder {
 public:
-    ScratchFolder()
-        : path_(std::filesystem::temp_directory_path() / ("octant-report-test-" + std::to_string(getpid()))) {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ScratchFolder(ScratchFolder&&) = delete;
-    ScratchFolder& operator=(ScratchFolder&&) = delete;
+    const std::filesystem::path& path() const { return path_; }
 
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    const std::filesystem::path& path() const { return path_; }
-
 private:
-    std::filesystem::path path_;
+    std::filesystem::path path_ = tests::empty_folder("report");
 };
 
 /// While it lives, programs are looked for in `path` only.
@@ -101,6 +85,21 @@ inline Picture made_up_picture(int width_px, int height_px, int channels) {
         picture.bytes.push_back(static_cast<std::byte>((i * 37 + i / 7) & 255));
     }
     return picture;
+}
+
+/// Writes a finished recording of such frames.
+inline Statistics record_frames(const std::filesystem::path& folder, const std::vector<FrameRecord>& frames,
+    const RunSummary& end = {1, 2, {}}, const RunInfo& info = made_up_info()) {
+    RecordingWriter recording(folder, info);
+    for (const FrameRecord& frame : frames) { recording.add(frame); }
+    return recording.finish(end);
+}
+
+/// Frames 0, 1, ... that draw for so long.
+inline std::vector<FrameRecord> made_up_frames(int count, double draw_ms) {
+    std::vector<FrameRecord> frames;
+    for (int frame = 0; frame < count; ++frame) { frames.push_back(made_up_frame(frame, draw_ms)); }
+    return frames;
 }
 
 } // namespace octant::ui::report

@@ -1,20 +1,85 @@
-#include "ui/report/html_text.h"
+#include "ui/base/json_value.h"
+#include "ui/report/plots.h"
+#include "ui/report/table.h"
 
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <limits>
+
 using namespace octant;
+using namespace octant::ui::report;
+using Catch::Contains;
 
 namespace {
 
-const ui::report::HtmlTable table{"Speed", {"name", "ms, median"}, {{"a", "1.5"}, {"b, c", ""}}, "measured"};
+struct Run {
+    std::string name;
+    int faces = 0;
+    double time_ms = 0.0;
+    std::optional<double> ratio;
+    bool done = false;
+    std::uint64_t hash = 0;
+};
+
+constexpr std::array columns{column<&Run::name>("name", "run"), column<&Run::faces>("faces", "faces"),
+    column<&Run::time_ms>("time_ms", "time, ms", 2, "Median."), column<&Run::ratio>("ratio", "ratio", -3),
+    column<&Run::done>("done", "done"), hash_column<&Run::hash>("hash", "hash")};
+
+const Run first{"a, b", 12, 1.239, 0.12345, true, 0xabc};
+const Run second{"c", 3, 20.0, {}, false, 1};
 
 } // namespace
 
-TEST_CASE("a table is written as CSV, Markdown and JSON") {
-    CHECK(ui::report::csv_of(table) == "name,\"ms, median\"\na,1.5\n\"b, c\",\n");
-    CHECK(ui::report::markdown_of(table) ==
-          "# Speed\n\n| name | ms, median |\n| --- | --- |\n| a | 1.5 |\n| b, c |  |\n\nmeasured\n");
-    const std::string json = ui::report::json_of(std::span(&table, 1));
-    CHECK(json.find("\"ms, median\": 1.5") != std::string::npos);
-    CHECK(json.find("\"name\": \"b, c\"") != std::string::npos);
+TEST_CASE("a table is written as CSV, Markdown, JSON and text") {
+    ResultTable table{.title = "Speed", .note = "measured"};
+    table.add({{"name", "a"}, {"ms, median", "{:.1f}", 1.5}});
+    table.add({{"name", "b, \"c\""}, {"ms, median", ""}});
+    CHECK(csv_of(table) == "name,\"ms, median\"\na,1.5\n\"b, \"\"c\"\"\",\n");
+    CHECK(markdown_of(std::span(&table, 1)) ==
+          "# Speed\n\n| name | ms, median |\n| --- | --- |\n| a | 1.5 |\n| b, \"c\" |  |\n\nmeasured\n");
+    const std::string json = json_of(std::span<const ResultTable>(&table, 1));
+    CHECK_THAT(json, Contains("\"ms, median\": 1.5") && Contains(R"("name": "b, \"c\"")"));
+    CHECK(text_of(table) == "name    ms, median\na       1.5\nb, \"c\"  \n");
+}
+
+TEST_CASE("a row is written as CSV, JSON, cells and schema from one list of columns") {
+    CHECK(csv_header(columns) == "name,faces,time_ms,ratio,done,hash\n");
+    CHECK(csv_line(columns, first) == "\"a, b\",12,1.24,0.123,1,0000000000000abc\n");
+    CHECK(csv_line(columns, second) == "c,3,20.00,,0,0000000000000001\n");
+    CHECK(ui::base::json_of_results(json_of(columns, first)) ==
+          "{\n  \"name\": \"a, b\",\n  \"faces\": 12,\n  \"time_ms\": 1.239,\n  \"ratio\": 0.12345,\n"
+          "  \"done\": true,\n  \"hash\": \"0000000000000abc\"\n}\n");
+    CHECK_THAT(ui::base::json_of_results(json_of(columns, second)), Contains("\"ratio\": null"));
+    ResultTable table;
+    table.add(cells_of(columns, first));
+    table.add(cells_of(columns, second));
+    CHECK(text_of(table) == "run   faces  time, ms  ratio  done  hash\n"
+                            "a, b     12      1.24  0.123     1  0000000000000abc\n"
+                            "c         3     20.00            0  0000000000000001\n");
+    const std::string schema = ui::base::json_of_results(schema_of(columns));
+    CHECK_THAT(schema, Contains("\"time_ms\": {\n      \"type\": \"number\",\n      \"minimum\": 0,\n"
+                                "      \"description\": \"Median.\"\n    }"));
+    CHECK_THAT(schema, Contains("\"number\",\n        \"null\"") && Contains("\"pattern\": \"^[0-9a-f]{16}$\""));
+}
+
+TEST_CASE("a plot stands in a page with its data, gaps, axes and quotes") {
+    Plot plot{"<Title>", "x", "it's \"y\"", {}, {{"limit", 2.5}}, 0.0};
+    plot.x_logarithmic = true;
+    plot.marks = {{"leg", 1.5}};
+    plot.series = {{"a < b", "#102030", PlotSeries::Style::Points, {1, 2, 3}, {4, 0, 6}},
+        {"", "#405060", PlotSeries::Style::Area, {1, 2}, {3, 4}, {1, 2}}};
+    plot.series[0].y[1] = std::numeric_limits<double>::quiet_NaN();
+    const std::string html = page_plot(plot, PlotWidth::FullWidth);
+    CHECK_THAT(html, Contains("<h3>&lt;Title&gt;</h3>") && Contains("a &lt; b</span>"));
+    CHECK_THAT(
+        html, Contains(R"("y":"it's \u0022y\u0022","x0":null,"x1":null,"y0":0,"y1":null,"xlog":true,"log":false)"));
+    CHECK_THAT(html, Contains(R"("levels":[["limit",2.5]],"marks":[["leg",1.5]])"));
+    CHECK_THAT(html, Contains(R"({"n":"a \u003c b","c":"#102030","s":"points","x":[1,2,3],"y":[4,null,6]})"));
+    CHECK_THAT(html, Contains(R"({"n":"","c":"#405060","s":"area","x":[1,2],"y":[3,4],"l":[1,2]})"));
+    CHECK(page_plot(plot, PlotWidth::FullWidth) == html);
+    plot.series[0].name = "</script>";
+    const std::string attack = page_plot(plot, PlotWidth::Small);
+    CHECK_THAT(attack, Contains("\"n\":\"\\u003c/script>\"") && Contains("[[\"leg\",1.5]]"));
+    CHECK(attack.find("</script>") == attack.rfind("</script>"));
 }

@@ -1,10 +1,12 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/settings/settings_file.h"
+#include "ui/settings/settings_text.h"
 
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using namespace octant;
@@ -52,6 +54,15 @@ TEST_CASE("stored numbers that mean no data are a list, with none in front the o
     for (const char* const wrong : {"\"nothing\"", "\"0,\"", "\"\"", "\"nan\"", "\"common,0\""}) {
         CHECK_THROWS_WITH(
             voids_of(wrong), Catch::Contains("void: expected numbers with commas between them, or none, got '"));
+    }
+}
+
+TEST_CASE("old names of the painting order's methods are read as the exact one, which is written") {
+    for (const char* method : {"tree", "cells", "bsp", "exact"}) {
+        const auto read =
+            ui::settings::read_settings(settings_file(fmt::format("{{\"order-method\": \"{}\"}}", method)));
+        CHECK(read.surface.order_method == visuals::draworder::OrderMethod::Exact);
+        CHECK(ui::settings::text_of(read.surface.order_method) == "exact");
     }
 }
 

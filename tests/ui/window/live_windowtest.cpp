@@ -1,8 +1,8 @@
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
 #include "tests/ui/window/virtual_display.h"
-#include "ui/commands/packet_replay.h"
 #include "ui/flight/flight_recorder.h"
+#include "ui/flight/packet_replay.h"
 #include "ui/settings/settings_file.h"
 #include "ui/window/viewer.h"
 
@@ -74,7 +74,7 @@ ui::flight::ReplayComparison replayed(const fs::path& folder) {
     const ui::settings::RunSettings settings = ui::settings::read_settings(folder / "run.json");
     ui::flight::Session session(settings);
     ui::flight::FlightRecorder recorder({}, settings, session);
-    const auto packets = ui::commands::replay_packets(replay, session, recorder, true);
+    const auto packets = ui::flight::replay_packets(replay, session, recorder, true);
     const ui::flight::FlightResult end = recorder.finish(session);
     return ui::flight::compare_with_recording(replay, end.state_hash, end.picture_hash);
 }

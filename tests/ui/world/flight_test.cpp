@@ -1,7 +1,7 @@
 #include "models/heights/height_field_export.h"
 #include "models/heights/runway_strip.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
-#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 #include "tests/scratch.h"
 #include "ui/world/flight.h"

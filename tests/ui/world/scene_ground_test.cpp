@@ -46,7 +46,7 @@ TEST_CASE("built-in ground is the same made, read from the cache, and where the 
     std::string damaged = kept;
     damaged[kept.size() / 2] = static_cast<char>(damaged[kept.size() / 2] ^ 1);
     std::string long_side = kept; // its checksum is wrong as well
-    long_side[15] = '\x7f';
+    long_side[48] = '\x7f';
     for (const std::string& bytes : {damaged, long_side, kept.substr(0, kept.size() - 1)}) {
         write_file(file, bytes);
         CHECK(is_same(*built_in_ground("hills"), made));

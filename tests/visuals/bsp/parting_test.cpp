@@ -88,47 +88,6 @@ PolygonModel scattered(int count) {
 
 } // namespace
 
-TEST_CASE("a table of pieces says where they reach, as each of them does") {
-    const PolygonPieces pieces(scattered(200));
-    const auto all = all_of(pieces);
-    for (const std::size_t count : {1U, 7U, 8U, 63U, 64U, 65U, 200U}) {
-        for (const std::size_t step : {1U, 3U}) {
-            const PieceTable table(pieces, std::span(all).first(count), step);
-            REQUIRE(table.count() == (count + step - 1) / step);
-            for (std::size_t i = 0; i < table.count(); ++i) {
-                for (std::uint32_t by = 0; by < pieces.count(); ++by) {
-                    const std::size_t block = i / PieceTable::pieces_per_block;
-                    const PlaneSideBits bits = table.sides_reached(block, *pieces[by].plane);
-                    const PlaneSideFlags own = pieces.sides_reached(all[i * step], *pieces[by].plane);
-                    REQUIRE(((bits.before >> (i % 64)) & 1U) == (own.before ? 1U : 0U));
-                    REQUIRE(((bits.behind >> (i % 64)) & 1U) == (own.behind ? 1U : 0U));
-                    const std::size_t there = table.count_in(block);
-                    REQUIRE((there == 64 || (bits.before | bits.behind) >> there == 0));
-                }
-            }
-        }
-    }
-}
-
-TEST_CASE("rows of bits become columns") {
-    for (const std::size_t count : {1U, 64U, 65U, 150U}) {
-        BitMatrix matrix(count);
-        const auto is_in = [](std::size_t row, std::size_t column) { return (row * 7 + column * 13) % 5 == 0; };
-        for (std::size_t row = 0; row < count; ++row) {
-            for (std::size_t column = 0; column < count; ++column) {
-                if (is_in(row, column)) { matrix.add(row, column); }
-            }
-        }
-        matrix.transpose();
-        for (std::size_t row = 0; row < count; ++row) {
-            for (std::size_t column = 0; column < count; ++column) {
-                const auto bit = (matrix.word(row, column / 64) >> (column % 64)) & 1U;
-                REQUIRE(bit == (is_in(column, row) ? 1U : 0U));
-            }
-        }
-    }
-}
-
 TEST_CASE("clusters in painting order never hide one painted later, pair by pair") {
     std::size_t max_clusters = 0;
     for (const int count : {8, 12, 20, 70, 150}) {

@@ -99,19 +99,6 @@ TEST_CASE("polygons that share an edge are free when nothing else crosses") {
     CHECK(paint_first(left, right) == PaintFirst::Either);
 }
 
-TEST_CASE("screen depth grows towards the eye, and planes stay planes in perspective") {
-    for (const ScreenProjection screen : {ScreenProjection::Parallel, ScreenProjection::Perspective}) {
-        const ScreenView view({30, 30, 30}, screen, 10.0);
-        CHECK(view.screen_from_body({1, 1, 1}).z > view.screen_from_body({0, 0, 0}).z);
-        CHECK(view.screen_from_body({0, 0, 0}) == glm::dvec3(0.0));
-        const glm::dvec3 a = view.screen_from_body({0, 0, 0});
-        const glm::dvec3 b = view.screen_from_body({7, 0, 1});
-        const glm::dvec3 c = view.screen_from_body({0, 7, 2});
-        const glm::dvec3 in_plane = view.screen_from_body({3.5, 1.75, 1.0});
-        CHECK(glm::dot(glm::cross(b - a, c - a), in_plane - a) == Approx(0.0).margin(1e-12));
-    }
-}
-
 TEST_CASE("without precedences the order is that of the numbers") {
     const TopologicalOrder sequence = topological_order(3, {});
     CHECK(sequence.order == Order{0, 1, 2});
@@ -131,8 +118,6 @@ TEST_CASE("a cycle is broken at the polygon that waits for the fewest, and count
 }
 
 namespace {
-
-using Order = std::vector<std::uint32_t>;
 
 /// What the paper's table 4 lists in an octant, numbers from 1, and what must precede what.
 struct TableRow {
@@ -170,16 +155,6 @@ Order sorted(Order list) {
     return list;
 }
 
-std::vector<PaperOrderOptions> all_readings() {
-    std::vector<PaperOrderOptions> readings;
-    for (const ScreenProjection screen : {ScreenProjection::Parallel, ScreenProjection::Perspective}) {
-        for (const ListingRule listed : {ListingRule::FromOctant, ListingRule::FromPoint}) {
-            readings.push_back({.screen = screen, .listed = listed});
-        }
-    }
-    return readings;
-}
-
 /// The octant by which the paper's orders choose their list.
 int octant_of(const glm::dvec3& eye_in_body_m) {
     static const DrawOrder order(paper_orders(paper_example()));
@@ -209,37 +184,28 @@ TEST_CASE("octants have the names and signs of the paper") {
 }
 
 TEST_CASE("each octant lists the polygons of the paper's table 4, each once") {
-    for (const PaperOrderOptions& options : all_readings()) {
-        const OctantOrders orders = paper_orders(paper_example(), options);
-        for (const TableRow& row : table_4) { CHECK(sorted(list_of(orders, row.octant)) == sorted(row.polygons)); }
-        CHECK(orders.broken_cycles == 0);
-    }
+    const OctantOrders orders = paper_orders(paper_example());
+    for (const TableRow& row : table_4) { CHECK(sorted(list_of(orders, row.octant)) == sorted(row.polygons)); }
+    CHECK(orders.broken_cycles == 0);
 }
 
 TEST_CASE("the 12 precedences that the example needs are kept") {
-    for (const PaperOrderOptions& options : all_readings()) {
-        const OctantOrders orders = paper_orders(paper_example(), options);
-        int checked = 0;
-        for (const TableRow& row : table_4) {
-            const Order list = list_of(orders, row.octant);
-            for (const std::uint32_t later : row.later) {
-                CHECK(std::ranges::find(list, row.first) < std::ranges::find(list, later));
-                ++checked;
-            }
+    const OctantOrders orders = paper_orders(paper_example());
+    for (const TableRow& row : table_4) {
+        const Order list = list_of(orders, row.octant);
+        for (const std::uint32_t later : row.later) {
+            CHECK(std::ranges::find(list, row.first) < std::ranges::find(list, later));
         }
-        CHECK(checked == 12);
     }
 }
 
 TEST_CASE("no ray from any octant of the example sees a wrong polygon") {
-    for (const PaperOrderOptions& options : all_readings()) {
-        const DrawOrder order(paper_orders(paper_example(), options));
-        for (int octant = 0; octant < 8; ++octant) {
-            const auto count =
-                count_wrong_rays(paper_example(), order, {.eyes = 150, .rays_per_eye = 20, .octant = octant});
-            CHECK(count.hits > 900);
-            CHECK(count.wrong == 0);
-        }
+    const DrawOrder order(paper_orders(paper_example()));
+    for (int octant = 0; octant < 8; ++octant) {
+        const auto count =
+            count_wrong_rays(paper_example(), order, {.eyes = 150, .rays_per_eye = 20, .octant = octant});
+        CHECK(count.hits > 900);
+        CHECK(count.wrong == 0);
     }
 }
 
@@ -269,9 +235,9 @@ TEST_CASE("a polygon is listed where it faces some eye, also where the viewpoint
     plate.polygons[0].corner_count = 3;
     plate.vertices_m = {{0, 0, 0}, {0, 0, 1}, {0.1, 1, 0}};
     REQUIRE(octant::models::polygons::normal_of(plate, 0).x < -0.9);
-    const auto listed = [&](ListingRule how) { return paper_orders(plate, {.listed = how}).lists[0].size(); };
-    CHECK(listed(ListingRule::FromOctant) == 1);
-    CHECK(listed(ListingRule::FromPoint) == 0);
+    const glm::dvec3 viewpoint_m(3.0 * octant::models::polygons::radius_m(plate));
+    REQUIRE(octant::distance_m(octant::models::polygons::plane_of(plate, 0), viewpoint_m) < 0.0);
+    CHECK(paper_orders(plate).lists[0].size() == 1);
 }
 
 TEST_CASE("whatever a random eye outside the radius sees is in its octant's list once") {
@@ -308,7 +274,7 @@ TEST_CASE("three bars, each over the next, cannot be ordered, and the result say
     }
     bars.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
     REQUIRE(glm::dot(octant::models::polygons::normal_of(bars, 0), towards_eye) > 0.9);
-    const OctantOrders orders = paper_orders(bars, {.listed = ListingRule::FromPoint});
+    const OctantOrders orders = paper_orders(bars);
     CHECK(orders.lists[0].size() == 3);
     CHECK(orders.broken_cycles >= 1);
     CHECK(count_wrong_rays(bars, DrawOrder(orders), {.octant = 0}).wrong > 0);

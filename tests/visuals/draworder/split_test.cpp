@@ -246,10 +246,7 @@ TEST_CASE("the test shapes have the polygons they promise, convex, planar and fa
 }
 
 TEST_CASE("the three bars overlap in a circle from both sides") {
-    const OctantOrders orders = paper_orders(three_bars(), {.listed = ListingRule::FromPoint});
-    CHECK(orders.lists[0].size() == 3);
-    CHECK(orders.lists[7].size() == 3);
-    CHECK(orders.broken_cycles >= 2);
+    CHECK(paper_orders(three_bars()).broken_cycles >= 2);
 }
 
 TEST_CASE("the bodies of a pile face outward, lie close together and are the same every time") {

@@ -1,4 +1,5 @@
 #include "visuals/nature/detailed_ground.h"
+#include "visuals/nature/scenery.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -50,9 +51,21 @@ struct Field {
     }
 };
 
-Scenery scenery_of(const SceneryDensity& scenery_density) {
-    return {glm::dvec2(0.0), glm::ivec2(cells + 1), spacing_m, [scenery_density](int, int) { return scenery_density; }};
-}
+/// Detail for the field, on which so much stands.
+struct FieldDetail {
+    GroundDecorations decorations;
+    DetailedGround ground;
+
+    explicit FieldDetail(const SceneryDensity& density) {
+        decorations.push_back(scenery_decoration(
+            glm::dvec2(0.0), glm::ivec2(cells + 1), spacing_m, Daylight({}), [density](int, int) { return density; }));
+    }
+
+    DetailedGround::Triangles detailed_mesh(
+        const visuals::terrain::GroundMesh& mesh, const NearDetailView& view, const NearDetailOptions& detail) {
+        return ground.detailed_mesh(mesh, view, detail, decorations);
+    }
+};
 
 NearDetailView view_from(const glm::dvec3& eye_m) {
     return {eye_m, spacing_m, visuals::terrain::PaintOrder::BackToFront,
@@ -71,7 +84,7 @@ float signed_area2(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 
 TEST_CASE("detail gives no cracks: every inner edge belongs to two triangles") {
     const Field field(low_eye_m, 1, 6.0);
-    DetailedGround near(scenery_of({}));
+    FieldDetail near({});
     const auto detailed_mesh = near.detailed_mesh(field.mesh(), view_from(low_eye_m), fine_only);
     CHECK(detailed_mesh.indices.size() > 2 * field.indices.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -94,7 +107,7 @@ TEST_CASE("detail gives no cracks: every inner edge belongs to two triangles") {
 
 TEST_CASE("detail keeps samples, turns no triangle over and covers the same ground") {
     const Field field(low_eye_m, 1, 6.0);
-    DetailedGround near(scenery_of({}));
+    FieldDetail near({});
     const auto detailed_mesh = near.detailed_mesh(field.mesh(), view_from(low_eye_m), fine_only);
     for (std::size_t i = 0; i < field.vertices.size(); ++i) {
         REQUIRE(detailed_mesh.vertices[i].position_m == field.vertices[i].position_m);
@@ -118,7 +131,7 @@ TEST_CASE("the parts of a triangle come from far to near, or the reverse") {
         mesh.indices = mesh.indices.first(3); // the triangle below the diagonal, which holds the eye
         NearDetailView view = view_from(low_eye_m);
         view.order = order;
-        DetailedGround near(scenery_of({}));
+        FieldDetail near({});
         const auto detailed_mesh = near.detailed_mesh(mesh, view, fine_only);
         const auto triangle_at = [&](const glm::vec3& at) {
             for (std::size_t i = 0; i < detailed_mesh.indices.size(); i += 3) {
@@ -150,7 +163,7 @@ TEST_CASE("the parts of a triangle come from far to near, or the reverse") {
 TEST_CASE("from afar, and on level ground, nothing is moved") {
     const glm::dvec3 high_m(120.0, 120.0, 3000.0);
     const Field field(high_m, 1, 6.0);
-    DetailedGround near(scenery_of({}));
+    FieldDetail near({});
     CHECK(near.detailed_mesh(field.mesh(), view_from(high_m), fine_only).indices.size() == field.indices.size());
     const Field level(low_eye_m, 1, 0.0);
     const auto detailed_mesh = near.detailed_mesh(level.mesh(), view_from(low_eye_m), fine_only);
@@ -163,7 +176,7 @@ TEST_CASE("from afar, and on level ground, nothing is moved") {
 TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex far") {
     const auto heights_from = [](const glm::dvec3& eye_m) {
         const Field field(eye_m, 1, 6.0);
-        DetailedGround near(scenery_of({}));
+        FieldDetail near({});
         std::map<std::pair<long, long>, double> heights;
         for (const ColourVertex& vertex : near.detailed_mesh(field.mesh(), view_from(eye_m), fine_only).vertices) {
             const glm::dvec3 at_m = glm::dvec3(vertex.position_m) + eye_m;
@@ -193,7 +206,7 @@ TEST_CASE("a number of halvings is held by longer edges, and none is cut off") {
     const Field field(low_eye_m, 1, 20.0);
     NearDetailView view = view_from(low_eye_m);
     const auto triangles_of = [&](const NearDetailView& own) {
-        DetailedGround near(scenery_of({}));
+        FieldDetail near({});
         return near.detailed_mesh(field.mesh(), own, fine_only).indices.size() / 3;
     };
     const std::size_t given = field.indices.size() / 3;
@@ -206,21 +219,20 @@ TEST_CASE("a number of halvings is held by longer edges, and none is cut off") {
         CHECK(detailed_mesh > 0.7 * static_cast<double>(view.max_splits));
         NearDetailView free = view;
         free.max_splits = asked;
-        NearDetailHistogram survey;
-        free.min_edge_rad = survey.min_edge_rad_for_budget(field.mesh(), view);
+        free.min_edge_rad = FieldDetail({}).detailed_mesh(field.mesh(), view, fine_only).min_edge_rad;
         CHECK(static_cast<double>(triangles_of(free) - given) == detailed_mesh);
     }
 }
 
 TEST_CASE("what must look long to be halved changes steadily as the eye moves") {
-    NearDetailHistogram survey;
+    FieldDetail near({});
     double last_rad = 0.0;
     for (int step = 0; step < 200; ++step) {
         const glm::dvec3 eye_m = low_eye_m + glm::dvec3(0.2, 0.1, 0.05) * static_cast<double>(step);
         NearDetailView view = view_from(eye_m);
         view.max_splits = 600;
         const Field field(eye_m, 1, 20.0);
-        const auto min_edge_rad = static_cast<double>(survey.min_edge_rad_for_budget(field.mesh(), view));
+        const auto min_edge_rad = static_cast<double>(near.detailed_mesh(field.mesh(), view, fine_only).min_edge_rad);
         CHECK(min_edge_rad > static_cast<double>(view.min_edge_rad));
         if (step > 0) { CHECK(std::abs(min_edge_rad / last_rad - 1.0) < 0.02); }
         last_rad = min_edge_rad;
@@ -246,7 +258,7 @@ TEST_CASE("what stands on the ground stands within its triangle, whichever mesh 
     const SceneryDensity forest{0.5F, 0.3F, 0.0F, 0.05F, 1.0F};
     const auto places_of = [&](int block) {
         const Field field(low_eye_m, block, 0.0);
-        DetailedGround near(scenery_of(forest));
+        FieldDetail near(forest);
         const auto detailed_mesh = near.detailed_mesh(field.mesh(), view_from(low_eye_m), scenery_only);
         std::multiset<std::pair<long, long>> places;
         for (std::size_t i = field.vertices.size(); i < detailed_mesh.vertices.size(); ++i) {
@@ -257,7 +269,7 @@ TEST_CASE("what stands on the ground stands within its triangle, whichever mesh 
         for (std::uint32_t i = 0; i < all.size(); ++i) { all[i] = i; }
         for (const std::uint32_t triangle : all) {
             std::vector<std::uint32_t> own{triangle};
-            near.replace(own, 0);
+            near.ground.replace(own, 0);
             const auto corner = [&](std::size_t k) {
                 return field.vertices[field.indices[3 * triangle + k]].position_m;
             };
@@ -280,10 +292,10 @@ TEST_CASE("what stands on the ground stands within its triangle, whichever mesh 
 
 TEST_CASE("things are painted from far to near and face outwards") {
     const Field field(low_eye_m, cells, 0.0);
-    DetailedGround near(scenery_of({0.3F, 0.3F, 0.2F, 0.1F, 1.0F}));
+    FieldDetail near({0.3F, 0.3F, 0.2F, 0.1F, 1.0F});
     const auto detailed_mesh = near.detailed_mesh(field.mesh(), view_from(low_eye_m), scenery_only);
     std::vector<std::uint32_t> own{0};
-    near.replace(own, 0);
+    near.ground.replace(own, 0);
     REQUIRE(own.size() > 100);
     double last_m = 1e9;
     glm::vec3 last_at(0.0F);
@@ -304,7 +316,7 @@ TEST_CASE("things are painted from far to near and face outwards") {
 TEST_CASE("triangles that detail adds and those of what stands there are counted apart") {
     const Field field(low_eye_m, 1, 6.0);
     const std::size_t given = field.indices.size() / 3;
-    DetailedGround near(scenery_of({0.3F, 0.3F, 0.2F, 0.1F, 1.0F}));
+    FieldDetail near({0.3F, 0.3F, 0.2F, 0.1F, 1.0F});
     for (const NearDetailOptions& detail : {fine_only, scenery_only, NearDetailOptions{true, true}}) {
         const auto detailed_mesh = near.detailed_mesh(field.mesh(), view_from(low_eye_m), detail);
         CHECK((detailed_mesh.detail_triangles > 0) == detail.has_subdivision);
@@ -315,6 +327,6 @@ TEST_CASE("triangles that detail adds and those of what stands there are counted
     const auto bare = near.detailed_mesh(field.mesh(), view_from(low_eye_m), {false, true});
     std::vector<std::uint32_t> all(given);
     std::iota(all.begin(), all.end(), 0U);
-    near.replace(all, 0);
+    near.ground.replace(all, 0);
     CHECK(all.size() == given + bare.scenery_triangles);
 }

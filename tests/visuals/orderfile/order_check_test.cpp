@@ -114,7 +114,7 @@ TEST_CASE("a polygon may be left out only where no eye sees its front") {
 
 TEST_CASE("the paper's table is certified beyond the model's radius, and no other order is") {
     const auto model = tests::paper_example();
-    const CellOrders orders = cell_orders(ordered(model, {.method = OrderMethod::Paper, .paper = {}}));
+    const CellOrders orders = cell_orders(ordered(model, {.method = OrderMethod::Paper}));
     const OrderCheck check = check_order(model, orders);
     CHECK(check.good());
     CHECK(check.pairs == 4 * 10 + 2 * 15 + 2 * 6);
@@ -133,7 +133,7 @@ TEST_CASE("the paper's table is certified beyond the model's radius, and no othe
 
 TEST_CASE("rays find eyes that no cell has") {
     const auto model = tests::paper_example();
-    CellOrders orders = cell_orders(ordered(model, {.method = OrderMethod::Paper, .paper = {}}));
+    CellOrders orders = cell_orders(ordered(model, {.method = OrderMethod::Paper}));
     CHECK(count_wrong_rays(model, orders, {.eyes = 200}).eyes_without_cell == 0);
     orders.cells.erase(orders.cells.begin());
     const RayTestCounts count = count_wrong_rays(model, orders, {.eyes = 200});
@@ -176,18 +176,16 @@ TEST_CASE("orders found for all kinds of shapes are certified, and come back fro
     const auto path = tests::scratch_folder() / "shapes.txt";
     for (const auto& model : {tests::u_channel(), tests::plate_between_boxes(), tests::three_bars(),
              tests::fig_14(true), tests::pile(3, 4)}) {
-        for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree}) {
-            const OrderedModel found = ordered(model, {.method = method, .paper = {}});
-            const CellOrders orders = cell_orders(found);
-            INFO(model.name << " " << static_cast<int>(method));
-            CHECK(check_order(found.model, orders).good());
-            write_file(path, order_text(orders));
-            const CellOrders read = read_order_file(path, found.model.polygons.size());
-            CHECK(check_order(found.model, read).good());
-            const RayTestCounts rays = count_wrong_rays(found.model, read, {.eyes = 300, .min_distance_radii = 0.1});
-            CHECK(rays.hits > 100);
-            CHECK(rays.wrong == 0);
-            CHECK(rays.eyes_without_cell == 0);
-        }
+        const OrderedModel found = ordered(model);
+        const CellOrders orders = cell_orders(found);
+        INFO(model.name);
+        CHECK(check_order(found.model, orders).good());
+        write_file(path, order_text(orders));
+        const CellOrders read = read_order_file(path, found.model.polygons.size());
+        CHECK(check_order(found.model, read).good());
+        const RayTestCounts rays = count_wrong_rays(found.model, read, {.eyes = 300, .min_distance_radii = 0.1});
+        CHECK(rays.hits > 100);
+        CHECK(rays.wrong == 0);
+        CHECK(rays.eyes_without_cell == 0);
     }
 }

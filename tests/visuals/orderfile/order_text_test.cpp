@@ -75,7 +75,7 @@ TEST_CASE("a file is read into cells, planes, distances and lists") {
 }
 
 TEST_CASE("the octant orders of a model and its exported file choose the same lists") {
-    const auto ordered_example = ordered(tests::paper_example(), {.method = OrderMethod::Paper, .paper = {}});
+    const auto ordered_example = ordered(tests::paper_example(), {.method = OrderMethod::Paper});
     const models::polygons::FileAxes axes;
     const auto path = file_with(order_text(cell_orders(ordered_example), axes));
     const CellOrders orders = read_order_file(path, 10, axes);
@@ -158,8 +158,7 @@ TEST_CASE("whatever is wrong with a file of orders is told with its line") {
 
 TEST_CASE("orders are shown in the form of the paper's table 4") {
     const auto model = tests::paper_example();
-    const auto rows =
-        order_table(model, cell_orders(ordered(model, {.method = OrderMethod::Paper, .paper = {}})), plain_axes);
+    const auto rows = order_table(model, cell_orders(ordered(model, {.method = OrderMethod::Paper})), plain_axes);
     REQUIRE(rows.size() == 8);
     CHECK(rows[0].cell == "+++");
     CHECK(rows[1].cell == "++-");

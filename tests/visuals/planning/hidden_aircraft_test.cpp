@@ -1,5 +1,3 @@
-#include "sim/hidden_height.h"
-
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -16,7 +14,8 @@ TEST_CASE("aircraft that are not there are in no plan, wherever the eye looks") 
     scene.ground = cell_ground(8, 60.0, [](double, double) { return 0.0; });
     scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
     scene.aircraft.assign(16, 0);
-    std::vector<sim::AircraftState> states(16, state_at({0.0, 0.0, sim::absent_height_m}));
+    std::vector<sim::AircraftState> states(16, state_at({0.0, 0.0, 100.0}));
+    for (sim::AircraftState& state : states) { state.is_present = false; }
     states[3] = state_at({0.0, 0.0, 100.0});
     const Camera camera = camera_looking_at({0.0, -1.0, 300.0}, states[3].position_m);
 

@@ -1,8 +1,7 @@
 #include "sim/base/random_generator.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_palette.h"
-#include "visuals/planning/ground_frame.h"
-#include "visuals/planning/planner.h"
+#include "visuals/planning/ground_pieces.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -57,8 +56,8 @@ scene::Camera over_a_road(double height_m, std::size_t number = 3) {
 struct PaintedRoads {
     scene::Camera camera;
     std::unique_ptr<landscape::GroundMesher> mesher;
-    RoadPainter painter;
-    DecalClipper cutter;
+    GroundPieces pieces;
+    std::vector<models::ColourVertex> vertices;
     FrameView view;
     scene::TriangleDraw ground;
 
@@ -66,19 +65,15 @@ struct PaintedRoads {
         landscape::MeshSettings settings;
         settings.ground.near_detail = things;
         settings.ground.scenery = things;
-        settings.ground.roads = things;
         mesher = shared_ground()->mesher(settings);
         landscape::GroundCounts counts;
         view = frame_view(camera, {640, 480}, 0.0);
         ground = mesher->triangles({camera, view.aspect, 20000}, counts);
-        painter.follow(*shared_ground(), landscape::daylight_of(scene::AirSettings()));
-        cutter.begin(ground, view);
-        painter.paint(*mesher, view, false, most, cutter);
+        pieces.begin({view, *mesher, ground}, vertices);
+        pieces.lay(roads(), most);
     }
 
-    std::span<const glm::dvec3> corners(const GroundDecal& paint) const {
-        return cutter.decals().corners.subspan(paint.first, paint.count);
-    }
+    nature::GroundDecoration& roads() const { return *mesher->decorations().front(); }
 };
 
 /// Whether the eye sees a place through a polygon that faces it.
@@ -94,15 +89,15 @@ bool is_before(std::span<const glm::dvec3> corners, const glm::dvec3& sight) {
 
 TEST_CASE("each piece of a road lies in the plane of a triangle of the ground") {
     const PaintedRoads world(over_a_road(60.0), true);
-    REQUIRE(world.cutter.decals().decals.size() > 30);
+    REQUIRE(world.pieces.decals().size() > 30);
     ViewPolygon placed;
-    for (const GroundDecal& paint : world.cutter.decals().decals) {
+    for (const GroundDecal& paint : world.pieces.decals()) {
         place_triangle(world.ground, paint.triangle, placed);
         const std::vector<glm::dvec3> under{placed[0].at_m, placed[1].at_m, placed[2].at_m};
         const glm::dvec3 up = glm::normalize(glm::cross(under[1] - under[0], under[2] - under[0]));
         CHECK(paint.layer == GroundLayer::Surface);
         CHECK(paint.colour >> 24U == 0);
-        for (const glm::dvec3& corner : world.corners(paint)) {
+        for (const glm::dvec3& corner : world.pieces.corners_of(paint)) {
             REQUIRE(std::abs(glm::dot(up, corner - under[0])) < 1e-3);
         }
     }
@@ -139,8 +134,8 @@ TEST_CASE("a road near the eye is painted wherever the ground below it is in vie
                 std::ranges::all_of(world.view.frustum, [&](const glm::dvec3& in) { return glm::dot(in, at_m) > 0.0; });
             if (!in_view || glm::dot(normal, a) >= 0.0) { continue; }
             ++seen;
-            REQUIRE(std::ranges::any_of(world.cutter.decals().decals, [&](const GroundDecal& paint) {
-                return paint.triangle == t && is_before(world.corners(paint), at_m);
+            REQUIRE(std::ranges::any_of(world.pieces.decals(), [&](const GroundDecal& paint) {
+                return paint.triangle == t && is_before(world.pieces.corners_of(paint), at_m);
             }));
         }
     }
@@ -155,7 +150,7 @@ TEST_CASE("no road is painted on trees and houses, and none of them stands on on
             [&](std::uint32_t v) { return world.ground.vertices[v].colour >> 24U == 0; });
         if (!is_scenery) { continue; }
         ++things;
-        for (const GroundDecal& paint : world.cutter.decals().decals) { REQUIRE(paint.triangle != t); }
+        for (const GroundDecal& paint : world.pieces.decals()) { REQUIRE(paint.triangle != t); }
         const glm::dvec2 foot_m =
             glm::dvec2(world.camera.eye_m) + glm::dvec2(world.ground.vertices[world.ground.indices[3 * t]].position_m);
         REQUIRE_FALSE(shared_ground()->road_network()->is_near(foot_m, roads::half_width_m));
@@ -168,26 +163,26 @@ TEST_CASE("roads take no more triangles than they may, and leave out the farthes
     const PaintedRoads all(camera);
     constexpr int most = 60;
     const PaintedRoads few(camera, false, most);
-    REQUIRE(all.cutter.triangles() > 2 * most);
-    CHECK(few.cutter.triangles() <= most);
-    CHECK(few.cutter.triangles() > most - 12);
+    REQUIRE(all.pieces.decal_triangles() > 2 * most);
+    CHECK(few.pieces.decal_triangles() <= most);
+    CHECK(few.pieces.decal_triangles() > most - 12);
     const auto farthest_m = [](const PaintedRoads& world) {
         double farthest = 0.0;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
-            farthest = std::max(farthest, glm::length(world.corners(paint)[0]));
+        for (const GroundDecal& paint : world.pieces.decals()) {
+            farthest = std::max(farthest, glm::length(world.pieces.corners_of(paint)[0]));
         }
         return farthest;
     };
     CHECK(farthest_m(few) < 0.7 * farthest_m(all));
-    CHECK(PaintedRoads(camera, false, 0).cutter.decals().decals.empty());
-    CHECK(all.painter.max_triangles(all.view, 20000) > 0);
-    FrameView elsewhere = all.view;
-    elsewhere.camera.eye_m = {1e6, 1e6, 500.0};
-    CHECK(all.painter.max_triangles(elsewhere, 20000) == 0);
-    elsewhere.camera.eye_m = all.view.camera.eye_m + glm::dvec3(0.0, 0.0, 15000.0);
-    CHECK(all.painter.max_triangles(elsewhere, 20000) == 0);
-    elsewhere.pixel_rad *= 0.2; // through a long lens
-    CHECK(all.painter.max_triangles(elsewhere, 20000) > 0);
+    CHECK(PaintedRoads(camera, false, 0).pieces.decals().empty());
+    const auto max_triangles = [&](const glm::dvec3& eye_m, double pixel_share) {
+        return all.roads().max_patch_triangles(eye_m, pixel_share * all.view.pixel_rad, 20000);
+    };
+    CHECK(max_triangles(camera.eye_m, 1.0) > 0);
+    CHECK(max_triangles({1e6, 1e6, 500.0}, 1.0) == 0);
+    const glm::dvec3 high_m = camera.eye_m + glm::dvec3(0.0, 0.0, 15000.0);
+    CHECK(max_triangles(high_m, 1.0) == 0);
+    CHECK(max_triangles(high_m, 0.2) > 0); // through a long lens
 }
 
 TEST_CASE("a road fades into the ground before it is too narrow to be painted") {
@@ -195,14 +190,14 @@ TEST_CASE("a road fades into the ground before it is too narrow to be painted") 
     scene::Camera high = over_a_road(5000.0);
     const PaintedRoads far(high);
     high.eye_m.z += 30000.0;
-    CHECK(PaintedRoads(high).cutter.decals().decals.empty());
-    REQUIRE_FALSE(far.cutter.decals().decals.empty());
+    CHECK(PaintedRoads(high).pieces.decals().empty());
+    REQUIRE_FALSE(far.pieces.decals().empty());
     // Asphalt is grey, what grows is not.
     const auto greenness = [](const PaintedRoads& world, double nearer_m) {
         double sum = 0.0;
         int count = 0;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
-            if (glm::length(world.corners(paint)[0]) < nearer_m) {
+        for (const GroundDecal& paint : world.pieces.decals()) {
+            if (glm::length(world.pieces.corners_of(paint)[0]) < nearer_m) {
                 const auto red = static_cast<double>(paint.colour & 0xffU);
                 sum += static_cast<double>(paint.colour >> 8U & 0xffU) - red;
                 ++count;

@@ -1,6 +1,6 @@
 #include "sim/base/units.h"
-#include "visuals/planning/ground_frame.h"
-#include "visuals/planning/planner.h"
+#include "visuals/nature/runway.h"
+#include "visuals/planning/ground_pieces.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -39,8 +39,10 @@ struct PaintedRunway {
     scene::Camera camera;
     std::shared_ptr<const models::heights::RunwayStrip> strip = askew();
     std::unique_ptr<landscape::GroundMesher> mesher = cell_ground(60, 40.0, rolling)->mesher({});
-    RunwayPainter painter{strip};
-    DecalClipper cutter;
+    std::unique_ptr<nature::GroundDecoration> runway =
+        nature::runway_decoration(strip, nature::Daylight({rad_from_deg(225.0), rad_from_deg(35.0)}));
+    GroundPieces pieces;
+    std::vector<models::ColourVertex> vertices;
     scene::TriangleDraw ground;
 
     explicit PaintedRunway(const glm::dvec3& eye_m, int most = plenty)
@@ -51,8 +53,8 @@ struct PaintedRunway {
     }
 
     void paint(const FrameView& seen, int most) {
-        cutter.begin(ground, seen);
-        painter.paint(*mesher, seen, false, most, cutter);
+        pieces.begin({seen, *mesher, ground}, vertices);
+        pieces.lay(*runway, most);
     }
 
     FrameView narrow_view() const { return frame_view(camera, {640, 480}, 0.0); }
@@ -62,10 +64,6 @@ struct PaintedRunway {
         FrameView all = narrow_view();
         all.frustum = {};
         return all;
-    }
-
-    std::span<const glm::dvec3> corners(const GroundDecal& paint) const {
-        return cutter.decals().corners.subspan(paint.first, paint.count);
     }
 };
 
@@ -107,15 +105,15 @@ double area_m2(std::span<const glm::dvec3> corners) {
 TEST_CASE("each piece of a runway lies on its triangle, within it but for rounding, and faces up") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     const double pixel_rad = world.view().pixel_rad;
-    REQUIRE(world.cutter.decals().decals.size() > 500);
+    REQUIRE(world.pieces.decals().size() > 500);
     ViewPolygon placed;
-    for (const GroundDecal& paint : world.cutter.decals().decals) {
+    for (const GroundDecal& paint : world.pieces.decals()) {
         place_triangle(world.ground, paint.triangle, placed);
         const std::vector<glm::dvec3> under{placed[0].at_m, placed[1].at_m, placed[2].at_m};
         const glm::dvec3 up = glm::normalize(glm::cross(under[1] - under[0], under[2] - under[0]));
         REQUIRE(paint.count >= 3);
-        REQUIRE(area_m2(world.corners(paint)) > 0.0);
-        for (const glm::dvec3& corner : world.corners(paint)) {
+        REQUIRE(area_m2(world.pieces.corners_of(paint)) > 0.0);
+        for (const glm::dvec3& corner : world.pieces.corners_of(paint)) {
             REQUIRE(inside_rad(under, corner) > -0.0201 * pixel_rad);
             REQUIRE(std::abs(glm::dot(up, corner - under[0])) < 1e-4);
         }
@@ -132,13 +130,13 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
                glm::all(glm::lessThan(on_m, glm::dvec2(patch.max_m) - 0.5));
     };
     const auto covers = [&](std::uint32_t triangle, bool marking, const glm::dvec3& sight) {
-        return std::ranges::any_of(world.cutter.decals().decals, [&](const GroundDecal& paint) {
+        return std::ranges::any_of(world.pieces.decals(), [&](const GroundDecal& paint) {
             return paint.triangle == triangle && (paint.layer == GroundLayer::Marking) == marking &&
-                   inside_rad(world.corners(paint), sight) > 0.0;
+                   inside_rad(world.pieces.corners_of(paint), sight) > 0.0;
         });
     };
     std::set<std::uint32_t> triangles;
-    for (const GroundDecal& paint : world.cutter.decals().decals) { triangles.insert(paint.triangle); }
+    for (const GroundDecal& paint : world.pieces.decals()) { triangles.insert(paint.triangle); }
     int on_surface = 0;
     int on_marking = 0;
     ViewPolygon placed;
@@ -166,8 +164,8 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     double surface_m2 = 0.0;
     double marked_m2 = 0.0;
-    for (const GroundDecal& paint : world.cutter.decals().decals) {
-        (paint.layer == GroundLayer::Surface ? surface_m2 : marked_m2) += area_m2(world.corners(paint));
+    for (const GroundDecal& paint : world.pieces.decals()) {
+        (paint.layer == GroundLayer::Surface ? surface_m2 : marked_m2) += area_m2(world.pieces.corners_of(paint));
     }
     CHECK(surface_m2 > 1800.0 * 45.0);
     CHECK(surface_m2 < 1.005 * 1800.0 * 45.0);
@@ -183,9 +181,9 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
         const glm::dvec2 at_m(dice.between(0.5, 1799.5), dice.between(-22.0, 22.0));
         const glm::dvec3 place = glm::dvec3(world.strip->place(at_m), 0.0) - world.camera.eye_m;
         const auto covers = [&](const GroundDecal& paint) {
-            return paint.layer == GroundLayer::Surface && inside_m(world.corners(paint), place) > -1e-6;
+            return paint.layer == GroundLayer::Surface && inside_m(world.pieces.corners_of(paint), place) > -1e-6;
         };
-        REQUIRE(std::ranges::any_of(world.cutter.decals().decals, covers));
+        REQUIRE(std::ranges::any_of(world.pieces.decals(), covers));
     }
 }
 
@@ -196,16 +194,16 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     const PaintedRunway few(eye_m, most);
     const auto surface_m2 = [](const PaintedRunway& world) {
         double sum_m2 = 0.0;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
-            sum_m2 += paint.layer == GroundLayer::Surface ? area_m2(world.corners(paint)) : 0.0;
+        for (const GroundDecal& paint : world.pieces.decals()) {
+            sum_m2 += paint.layer == GroundLayer::Surface ? area_m2(world.pieces.corners_of(paint)) : 0.0;
         }
         return sum_m2;
     };
     const auto farthest_marking_m = [](const PaintedRunway& world) {
         double farthest_m = 0.0;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
+        for (const GroundDecal& paint : world.pieces.decals()) {
             if (paint.layer == GroundLayer::Marking) {
-                farthest_m = std::max(farthest_m, glm::length(world.corners(paint)[0]));
+                farthest_m = std::max(farthest_m, glm::length(world.pieces.corners_of(paint)[0]));
             }
         }
         return farthest_m;
@@ -214,16 +212,17 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     CHECK(farthest_marking_m(few) < 0.7 * farthest_marking_m(all));
     CHECK(surface_m2(few) == surface_m2(all));
     CHECK(surface_m2(few) > 0.8 * 1800.0 * 45.0); // slopes that face away are not painted
-    CHECK(few.cutter.triangles() < all.cutter.triangles());
-    CHECK(few.painter.max_triangles(eye_m, 20000) >= most);
-    CHECK(few.painter.max_triangles({0.0, 0.0, 20000.0}, 20000) < most);
+    CHECK(few.pieces.decal_triangles() < all.pieces.decal_triangles());
+    const double pixel_rad = few.view().pixel_rad;
+    CHECK(few.runway->max_patch_triangles(eye_m, pixel_rad, 20000) >= most);
+    CHECK(few.runway->max_patch_triangles({0.0, 0.0, 20000.0}, pixel_rad, 20000) < most);
 }
 
 TEST_CASE("a runway is painted on triangles that may be in view and on no others") {
     PaintedRunway world({-900.0, -300.0, 60.0});
     const auto painted = [&] {
         std::set<std::uint32_t> triangles;
-        for (const GroundDecal& paint : world.cutter.decals().decals) { triangles.insert(paint.triangle); }
+        for (const GroundDecal& paint : world.pieces.decals()) { triangles.insert(paint.triangle); }
         return triangles;
     };
     const std::set<std::uint32_t> all = painted();
@@ -247,9 +246,9 @@ TEST_CASE("what looks narrow takes the surface's colour before it is left out") 
     // Of pieces that begin nearer than this.
     const auto colours_of = [](const PaintedRunway& world, double nearer_m) {
         std::set<std::uint32_t> colours;
-        for (const GroundDecal& paint : world.cutter.decals().decals) {
+        for (const GroundDecal& paint : world.pieces.decals()) {
             CHECK(paint.colour >> 24U == 0); // neither pattern nor texture
-            if (glm::length(world.corners(paint)[0]) < nearer_m) { colours.insert(paint.colour); }
+            if (glm::length(world.pieces.corners_of(paint)[0]) < nearer_m) { colours.insert(paint.colour); }
         }
         return colours;
     };

@@ -45,7 +45,7 @@ public:
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
 private:
-    std::unique_ptr<landscape::GroundMesher> make_mesher(const landscape::MeshSettings& settings) const override;
+    std::unique_ptr<landscape::GroundMesher> make_mesher() const override;
 
     int cells_;
     double cell_m_;
@@ -120,7 +120,7 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
-std::unique_ptr<landscape::GroundMesher> CellGround::make_mesher(const landscape::MeshSettings& /*settings*/) const {
+std::unique_ptr<landscape::GroundMesher> CellGround::make_mesher() const {
     return std::make_unique<CellMesher>(std::static_pointer_cast<const CellGround>(shared_from_this()));
 }
 
@@ -139,7 +139,7 @@ public:
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
 private:
-    std::unique_ptr<landscape::GroundMesher> make_mesher(const landscape::MeshSettings& settings) const override;
+    std::unique_ptr<landscape::GroundMesher> make_mesher() const override;
 
     std::vector<GroundTriangle> triangles_;
 };
@@ -173,8 +173,7 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
-std::unique_ptr<landscape::GroundMesher> TriangleGround::make_mesher(
-    const landscape::MeshSettings& /*settings*/) const {
+std::unique_ptr<landscape::GroundMesher> TriangleGround::make_mesher() const {
     return std::make_unique<TriangleMesher>(std::static_pointer_cast<const TriangleGround>(shared_from_this()));
 }
 

@@ -43,7 +43,7 @@ scene::DetailTexture strong_detail() {
 
 scene::Picture drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads,
     const scene::GroundTexture* texture) {
-    Renderer renderer(std::make_shared<Workers>(threads), size_px, samples);
+    Renderer renderer(std::make_shared<ThreadPool>(threads), size_px, samples);
     if (texture != nullptr) { renderer.load_ground_texture(*texture); }
     scene::Picture picture;
     renderer.draw(plan);

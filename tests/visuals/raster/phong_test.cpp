@@ -49,7 +49,7 @@ struct LeaningNormals {
     }
 
     scene::Picture picture(int samples, int threads = 1) const {
-        Renderer renderer(std::make_shared<Workers>(threads), size_px, samples);
+        Renderer renderer(std::make_shared<ThreadPool>(threads), size_px, samples);
         renderer.load_models({&model, 1});
         scene::Picture result;
         renderer.draw(plan);

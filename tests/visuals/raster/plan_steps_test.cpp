@@ -51,7 +51,7 @@ void paint_triangle(scene::FramePlan& frame, std::uint32_t first_index) {
 }
 
 scene::Picture drawn_with(const scene::ModelBuffers& model, const scene::FramePlan& frame, int samples) {
-    Renderer renderer(std::make_shared<Workers>(1), size_px, samples);
+    Renderer renderer(std::make_shared<ThreadPool>(1), size_px, samples);
     renderer.load_models(std::span(&model, 1));
     renderer.draw(frame);
     scene::Picture picture;
@@ -263,7 +263,7 @@ TEST_CASE("an inset is a picture of its own within a thin frame") {
     triangle.at_px = {glm::vec2(-50, -50), glm::vec2(200, -50), glm::vec2(-50, 200)};
     triangle.colour.fill(green);
     inset.paint({triangle});
-    Renderer renderer(std::make_shared<Workers>(2), size_px, 16);
+    Renderer renderer(std::make_shared<ThreadPool>(2), size_px, 16);
     renderer.draw(plan.plan());
     renderer.draw_inset(inset.plan(), {30, 40, 20, 10});
     scene::Picture picture;

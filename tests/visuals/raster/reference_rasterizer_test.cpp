@@ -72,7 +72,7 @@ TEST_CASE("from far to near, each over what is there, the picture is the same") 
     for (const bool has_detail_texture : {false, true}) {
         if (has_detail_texture) { plan.plan().detail_texture = strong_detail(); }
         const scene::Picture near_to_far = drawn(plan.plan(), size_px, 1);
-        Renderer renderer(std::make_shared<Workers>(2), size_px, 1);
+        Renderer renderer(std::make_shared<ThreadPool>(2), size_px, 1);
         renderer.set_paint_direction(Renderer::PaintDirection::FarToNear);
         scene::Picture far_to_near;
         renderer.draw(plan.plan());

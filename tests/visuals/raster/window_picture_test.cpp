@@ -82,7 +82,7 @@ TEST_CASE("a picture in a window's memory is the one that is read, blue first") 
     const std::vector<std::uint32_t> indices{0, 1, 2};
     plan.plan().overlay = {words, indices};
     const auto window = std::make_shared<KeptPicture>();
-    Renderer renderer(std::make_shared<Workers>(1), window_px, 16, window);
+    Renderer renderer(std::make_shared<ThreadPool>(1), window_px, 16, window);
     const scene::ModelBuffers model = pane();
     renderer.load_models(std::span(&model, 1));
     const auto draw = [&] {

@@ -1,5 +1,6 @@
 #include "tests/visuals/refine/front_check.h"
 #include "tests/visuals/refine/made_sequence.h"
+#include "visuals/refine/classic_split_rules.h"
 #include "visuals/refine/selective_refiner.h"
 
 #include <catch2/catch.hpp>
@@ -193,7 +194,7 @@ TEST_CASE("the earlier rules give the same meshes for more splits") {
     const auto mesh = hierarchy(sequence);
     std::array<std::size_t, 3> splits{};
     for (const SplitRule rule : {SplitRule::Selective, SplitRule::Hoppe, SplitRule::Xia}) {
-        SelectiveRefiner refiner(mesh, {.rule = rule, .repair = false});
+        SelectiveRefiner refiner(mesh, {.required_split = required_split_of(rule, *mesh), .repair = false});
         for (std::uint32_t leaf = 0; leaf < 20; ++leaf) {
             for (std::uint32_t node = mesh->parent(leaf); node != none; node = mesh->parent(node)) {
                 refiner.split(node);

@@ -1,4 +1,5 @@
 #include "models/heights/height_field_import.h"
+#include "tests/real_files.h"
 #include "tests/visuals/terrain/both_meshes.h"
 #include "tests/visuals/terrain/ground_check.h"
 #include "visuals/terrain/quadtree_mesher.h"
@@ -155,15 +156,10 @@ TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
 }
 
 TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent") {
-    const char* const given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path data = given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
     for (const char* const name : {"gcanyon_1025.tif", "pugetsound_1025.tif"}) {
-        const std::filesystem::path file = data / "terrain" / name;
-        if (!std::filesystem::exists(file)) {
-            std::cout << "SKIPPED: no " << file << '\n';
-            return;
-        }
-        Ground ground(octant::models::heights::read_height_field(file, {30.0, 1.0}));
+        const auto file = octant::tests::real_file("terrain/" + std::string(name));
+        if (!file) { return; }
+        Ground ground(octant::models::heights::read_height_field(*file, {30.0, 1.0}));
         for (const int triangles : {20000, 32000}) {
             double missing = 0.0;
             int least = triangles;

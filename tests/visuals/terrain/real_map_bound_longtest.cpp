@@ -1,4 +1,5 @@
 #include "models/heights/height_field_import.h"
+#include "tests/real_files.h"
 #include "tests/visuals/terrain/pixel_errors.h"
 #include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/ground_builder.h"
@@ -61,16 +62,11 @@ void check_map(const models::heights::HeightField& map) {
 } // namespace
 
 TEST_CASE("over real maps no sample in the picture is farther off than the error asked for") {
-    const char* const given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path data = given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
     for (const char* const name : {"gcanyon_1025.tif", "gcanyon_1025_smooth.tif", "pugetsound_1025.tif",
              "vancouver_2049.tif", "N51E000.hgt", "srtm3_N49W123.tif"}) {
-        const std::filesystem::path file = data / "terrain" / name;
-        if (!std::filesystem::exists(file)) {
-            std::cout << "SKIPPED: no " << file << '\n';
-            return;
-        }
-        check_map(models::heights::read_height_field(file, {30.0, 1.0}));
+        const auto file = tests::real_file("terrain/" + std::string(name));
+        if (!file) { return; }
+        check_map(models::heights::read_height_field(*file, {30.0, 1.0}));
     }
 }
 

@@ -1,6 +1,5 @@
 #include "ui/studies/draw_order/study_draw_order.h"
 
-#include "sim/base/output_file.h"
 #include "sim/base/random_generator.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
@@ -10,16 +9,16 @@
 #include "ui/world/order_model.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/orderfile/bsp_tree.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_text.h"
 #include "visuals/orderfile/random_ray_test.h"
+#include "visuals/orderstudy/bsp_tree.h"
+#include "visuals/orderstudy/divided_octants.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <fmt/format.h>
 #include <span>
 #include <string>
@@ -40,9 +39,9 @@ struct OrderedByEachMethod {
 
 namespace draworder = visuals::draworder;
 namespace orderfile = visuals::orderfile;
+namespace orderstudy = visuals::orderstudy;
 
-constexpr std::array methods = {
-    draworder::OrderMethod::Paper, draworder::OrderMethod::Cells, draworder::OrderMethod::Tree};
+constexpr std::array methods = {"paper", "cells", "tree"};
 constexpr std::size_t tree_method = 2;
 
 using List = std::vector<std::uint32_t>;
@@ -112,10 +111,6 @@ orderfile::RayTestCounts ray_count_of(
     return count;
 }
 
-std::string percent(const orderfile::RayTestCounts& count) {
-    return fmt::format("{:.3f}", 100.0 * count.wrong_share());
-}
-
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -131,7 +126,7 @@ struct FrameCost {
 };
 
 /// Medians over batches of eyes, the two in turn, so that both see the same machine.
-FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedModel& ordered) {
+FrameCost frame_cost(const orderstudy::BspTree& bsp, const draworder::OrderedModel& ordered) {
     constexpr int batches = 401;
     constexpr int eyes = 500;
     RandomGenerator dice(1989);
@@ -149,7 +144,7 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
         base::Stopwatch watch;
         for (const glm::dvec3& eye_m : eyes_m) {
             painted.clear();
-            orderfile::append_painted(bsp, eye_m, painted, to_do);
+            orderstudy::append_painted(bsp, eye_m, painted, to_do);
             by_bsp += painted.size();
         }
         bsp_ns.push_back(watch.lap_ms() * 1e6 / eyes);
@@ -164,37 +159,34 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
 
 OrderedByEachMethod order_by_each_method(const std::string& name) {
     const world::OrderModel input = world::load_order_model(name, "right,up,back");
-    const auto by = [&](std::size_t i, double& build_ms) {
-        const base::Stopwatch watch;
-        draworder::OrderOptions options;
-        options.method = methods[i];
-        auto ordered = draworder::ordered(input.model, options);
-        build_ms = watch.ms();
-        return ordered;
-    };
     std::array<double, 3> build_ms{};
-    return {name, input.model.polygons.size(), {by(0, build_ms[0]), by(1, build_ms[1]), by(2, build_ms[2])}, build_ms};
+    base::Stopwatch watch;
+    draworder::OrderedModel paper = draworder::ordered(input.model, {.method = draworder::OrderMethod::Paper});
+    build_ms[0] = watch.lap_ms();
+    draworder::OrderedModel cells = orderstudy::ordered_by_cells(input.model);
+    build_ms[1] = watch.lap_ms();
+    draworder::OrderedModel tree = draworder::ordered(input.model);
+    build_ms[2] = watch.lap_ms();
+    return {name, input.model.polygons.size(), {std::move(paper), std::move(cells), std::move(tree)}, build_ms};
 }
 
 /// The eight orders that the paper prints for its example object, ours beside, and whether the
 /// polygons are the same and those that must come first do.
-report::HtmlTable paper_order_table() {
+report::ResultTable paper_order_table() {
     const world::OrderModel input = world::load_order_model("concave", "right,up,back");
-    draworder::OrderOptions options;
-    options.method = draworder::OrderMethod::Paper;
-    const auto orders = orderfile::cell_orders(draworder::ordered(input.model, options));
-    report::HtmlTable table;
-    table.title = "Table 4: painting orders of the paper's example object";
-    table.header = {"viewing direction", "paper", "ours", "same polygons", "precedences that the object needs",
-        "ours keeps them", "paper keeps them"};
+    const auto orders =
+        orderfile::cell_orders(draworder::ordered(input.model, {.method = draworder::OrderMethod::Paper}));
+    report::ResultTable table{"Table 4: painting orders of the paper's example object"};
     for (const PrintedRow& row : printed_rows) {
         for (const orderfile::ListedCell& cell : orders.cells) {
             if (draworder::path_in_file(cell.path, input.axes) != row.octant) { continue; }
             const List printed = zero_based(row.list);
-            table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{}", row.octant, orderfile::list_description(printed),
-                orderfile::list_description(cell.list), yes_or_no(same_polygons(cell.list, printed)),
-                precedences_in_words(row), yes_or_no(keeps_precedences(cell.list, row)),
-                yes_or_no(keeps_precedences(printed, row)));
+            table.add({{"viewing direction", row.octant}, {"paper", orderfile::list_description(printed)},
+                {"ours", orderfile::list_description(cell.list)},
+                {"same polygons", yes_or_no(same_polygons(cell.list, printed))},
+                {"precedences that the object needs", precedences_in_words(row)},
+                {"ours keeps them", yes_or_no(keeps_precedences(cell.list, row))},
+                {"paper keeps them", yes_or_no(keeps_precedences(printed, row))}});
         }
     }
     table.note = "Ours by the paper's steps as printed. Where no precedence is needed any sequence "
@@ -205,48 +197,47 @@ report::HtmlTable paper_order_table() {
 
 /// Cells, lists, splits, plane tests and building time of each method, and whether the certificate
 /// (order_check.h) holds.
-report::HtmlTable method_table(std::span<const OrderedByEachMethod> models) {
-    report::HtmlTable table;
-    table.title = "What each way of ordering needs";
-    table.header = {"model", "method", "polygons", "splits", "cells", "lists", "plane tests a frame, most",
-        "plane tests a frame, mean", "building, ms", "pairs", "pairs not certified"};
+report::ResultTable method_table(std::span<const OrderedByEachMethod> models) {
+    report::ResultTable table{"What each way of ordering needs"};
     for (const OrderedByEachMethod& model : models) {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
             const auto check = orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
-            table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}", model.name,
-                settings::text_of(methods[i]), ordered.model.polygons.size(), ordered.splits,
-                ordered.order.cell_count(), ordered.order.list_count(), tests.most, tests.mean, model.build_ms[i],
-                check.pairs, check.pairs_unproved + check.unlisted_unproved);
+            table.add({{"model", model.name}, {"method", methods[i]},
+                {"polygons", ordered.model.polygons.size()}, {"splits", ordered.splits},
+                {"cells", ordered.order.cell_count()}, {"lists", ordered.order.list_count()},
+                {"plane tests a frame, most", tests.most}, {"plane tests a frame, mean", "{:.2f}", tests.mean},
+                {"building, ms", "{:.1f}", model.build_ms[i]}, {"pairs", check.pairs},
+                {"pairs not certified", check.pairs_unproved + check.unlisted_unproved}});
         }
     }
-    table.note = "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
-                 "|y| + |z| of at least 2 R. tree: planes over eye space, for every eye. R is the "
-                 "model's radius. A pair is certified when a plane proves that no eye of the cell "
-                 "sees the one painted first before the other; turning parts at every angle.";
+    table.note =
+        "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
+        "|y| + |z| of at least 2 R. tree: planes over eye space, for every eye (--order-method exact). R is the "
+        "model's radius. A pair is certified when a plane proves that no eye of the cell "
+        "sees the one painted first before the other; turning parts at every angle.";
     return table;
 }
 
 /// Shares of rays that see a wrong polygon, in percent, by method and distance; file order without
 /// back faces beside them.
-report::HtmlTable wrong_pixel_table(std::span<const OrderedByEachMethod> models) {
-    report::HtmlTable table;
-    table.title = "Pixels painted wrongly, in percent of the pixels that show the model";
-    table.header = {"model", "eyes", "rays", "paper", "cells", "tree", "back faces removed only"};
+report::ResultTable wrong_pixel_table(std::span<const OrderedByEachMethod> models) {
+    report::ResultTable table{"Pixels painted wrongly, in percent of the pixels that show the model"};
     for (const OrderedByEachMethod& model : models) {
         for (const Distances& range : distances) {
-            std::vector<std::string> shares;
-            long rays = 0;
-            for (const draworder::OrderedModel& ordered : model.by_method) {
-                const auto count = ray_count_of(ordered.model, ordered.order, range);
-                rays = count.hits;
-                shares.push_back(percent(count));
-            }
+            const auto count_of = [&](std::size_t method) {
+                const draworder::OrderedModel& ordered = model.by_method[method];
+                return ray_count_of(ordered.model, ordered.order, range);
+            };
             const models::polygons::PolygonModel& whole = model.by_method[0].model;
-            shares.push_back(percent(ray_count_of(whole, draworder::file_order(whole), range)));
-            table.add_row("{}\t{}\t{}", model.name, range.name, rays);
-            table.rows.back().insert(table.rows.back().end(), shares.begin(), shares.end());
+            const auto tree = count_of(tree_method);
+            const auto percent = [](const orderfile::RayTestCounts& count) { return 100.0 * count.wrong_share(); };
+            table.add({{"model", model.name}, {"eyes", range.name}, {"rays", tree.hits},
+                {"paper", "{:.3f}", percent(count_of(0))}, {"cells", "{:.3f}", percent(count_of(1))},
+                {"tree", "{:.3f}", percent(tree)},
+                {"back faces removed only", "{:.3f}",
+                    percent(ray_count_of(whole, draworder::file_order(whole), range))}});
         }
     }
     table.note = "Rays from random eyes in perspective, turning parts at four angles. Orders by "
@@ -256,20 +247,20 @@ report::HtmlTable wrong_pixel_table(std::span<const OrderedByEachMethod> models)
 }
 
 /// Splits, nodes and time a frame of a BSP tree against finding a cell of the tree of planes.
-report::HtmlTable bsp_table(std::span<const OrderedByEachMethod> models) {
-    report::HtmlTable table;
-    table.title = "A BSP tree against the tree of planes over eye space";
-    table.header = {"model", "polygons", "BSP splits", "polygons after splitting", "BSP nodes = plane tests a frame",
-        "BSP depth", "tree plane tests a frame, mean", "tree splits", "BSP walk, ns", "cell lookup, ns", "BSP / lookup",
-        "BSP polygons painted", "tree polygons listed"};
+report::ResultTable bsp_table(std::span<const OrderedByEachMethod> models) {
+    report::ResultTable table{"A BSP tree against the tree of planes over eye space"};
     for (const OrderedByEachMethod& model : models) {
         const draworder::OrderedModel& ordered = model.by_method[tree_method];
-        const orderfile::BspTree bsp = orderfile::bsp_tree(model.by_method[0].model);
+        const orderstudy::BspTree bsp = orderstudy::bsp_tree(model.by_method[0].model);
         const FrameCost cost = frame_cost(bsp, ordered);
-        table.add_row("{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{}\t{:.0f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}", model.name,
-            model.polygons, bsp.splits, bsp.model.polygons.size(), bsp.nodes.size(), bsp.depth,
-            world::plane_tests(ordered).mean, ordered.splits, cost.bsp_ns, cost.cell_ns, cost.bsp_ns / cost.cell_ns,
-            cost.bsp_painted, cost.cell_painted);
+        table.add({{"model", model.name}, {"polygons", model.polygons}, {"BSP splits", bsp.splits},
+            {"polygons after splitting", bsp.model.polygons.size()},
+            {"BSP nodes = plane tests a frame", bsp.nodes.size()}, {"BSP depth", bsp.depth},
+            {"tree plane tests a frame, mean", "{:.2f}", world::plane_tests(ordered).mean},
+            {"tree splits", ordered.splits}, {"BSP walk, ns", "{:.0f}", cost.bsp_ns},
+            {"cell lookup, ns", "{:.1f}", cost.cell_ns}, {"BSP / lookup", "{:.1f}", cost.bsp_ns / cost.cell_ns},
+            {"BSP polygons painted", "{:.1f}", cost.bsp_painted},
+            {"tree polygons listed", "{:.1f}", cost.cell_painted}});
     }
     table.note = "The BSP tree takes the planes of the polygons, those first that split fewest; it "
                  "holds turning parts at one angle only and leaves out back faces on its walk. The "
@@ -293,7 +284,7 @@ struct PaperRow {
 constexpr std::array paper_rows = {PaperRow{"f15", 30.0, 5.0, 100.0 / 3.3}, PaperRow{"500md", 29.0, 4.0, 100.0 / 3.5}};
 
 /// An aircraft on an orbit around it, without sky and ground.
-Race race_alone(const char* aircraft, bool quiet) {
+TimedFlight race_alone(const char* aircraft, bool quiet) {
     constexpr int frames = 200;
     settings::RunSettings settings;
     settings.path.aircraft = {aircraft};
@@ -304,19 +295,17 @@ Race race_alone(const char* aircraft, bool quiet) {
     return race(settings, frames, quiet);
 }
 
-report::HtmlTable speed_table(bool quiet) {
-    report::HtmlTable table;
-    table.title = "Table 1: frames a second, the aircraft alone";
-    table.header = {"aircraft", "paper: back faces only", "paper: z-buffer", "paper: octant order",
-        "ours: back faces only", "ours: depth buffer", "ours: octant order", "octant / back faces",
-        "octant / depth buffer"};
+report::ResultTable speed_table(bool quiet) {
+    report::ResultTable table{"Table 1: frames a second, the aircraft alone"};
     for (const PaperRow& row : paper_rows) {
-        const Race raced = race_alone(row.aircraft, quiet);
-        const auto fps = [&](std::size_t mode) {
-            return fmt::format("{:.0f}", 1000.0 / raced.gl_times[mode].median_ms);
-        };
-        table.add_row("{}\t{:.0f}\t{:.0f}\t{:.0f}\t{}\t{}\t{}\t{:.2f}\t{:.2f}", row.aircraft, row.back_face_fps,
-            row.depth_buffer_fps, row.octant_fps, fps(1), fps(2), fps(0), raced.against(1), raced.against(2));
+        const TimedFlight raced = race_alone(row.aircraft, quiet);
+        table.add({{"aircraft", row.aircraft}, {"paper: back faces only", "{:.0f}", row.back_face_fps},
+            {"paper: z-buffer", "{:.0f}", row.depth_buffer_fps}, {"paper: octant order", "{:.0f}", row.octant_fps},
+            {"ours: back faces only", "{:.0f}", 1000.0 / raced.median_ms(gl_back_faces)},
+            {"ours: depth buffer", "{:.0f}", 1000.0 / raced.median_ms(gl_depth_buffer)},
+            {"ours: octant order", "{:.0f}", 1000.0 / raced.median_ms(gl_octant)},
+            {"octant / back faces", "{:.2f}", raced.over_octant(gl_back_faces)},
+            {"octant / depth buffer", "{:.2f}", raced.over_octant(gl_depth_buffer)}});
     }
     table.note = "Ours: an orbit at 1280x720, medians of whole frames; the three ways draw every "
                  "frame in turn. More aircraft and ground: octant study hidden-surface.";
@@ -326,23 +315,22 @@ report::HtmlTable speed_table(bool quiet) {
 } // namespace
 
 void study_draw_order(const DrawOrderStudyOptions& options) {
-    report::StudyTables tables(options);
+    Study study(options);
     std::vector<OrderedByEachMethod> models;
     for (const char* name : {"f15", "500md", "concave"}) {
         base::print_note(options.quiet, fmt::format("ordering {} by octants, cells and tree", name));
         models.push_back(order_by_each_method(name));
     }
-    const auto add = [&](const char* file, report::HtmlTable table) {
+    const auto add = [&](const char* file, report::ResultTable table) {
         base::print_note(options.quiet, fmt::format("{}: {}", file, table.title));
-        tables.add(file, std::move(table));
+        study.add(file, std::move(table));
     };
     add("table-1", speed_table(options.quiet));
     add("table-4", paper_order_table());
     add("methods", method_table(models));
     add("wrong-pixels", wrong_pixel_table(models));
     add("bsp", bsp_table(models));
-    tables.finish("draw-order", tables.markdown());
-    base::print_note(options.quiet, fmt::format("tables: {0}/draw-order.md and one .csv each", options.out.string()));
+    study.finish("draw-order");
 }
 
 } // namespace octant::ui::studies::draw_order

@@ -1,35 +1,32 @@
 #include "ui/studies/draw_order/study_hidden_surface.h"
 
-#include "sim/base/output_file.h"
+#include "sim/base/thread_pool.h"
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
-#include "ui/flight/id_comparison.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
-#include "ui/report/html_text.h"
+#include "ui/studies/draw_order/ray_renderer.h"
 #include "ui/studies/draw_order/surface_race.h"
-#include "ui/world/world.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::studies::draw_order {
+
+namespace scene = visuals::scene;
+using flight::PictureContent;
+using flight::Session;
 
 namespace {
 
@@ -90,329 +87,81 @@ glm::dvec3 ridge_tower(const world::World& world) {
     return best_m;
 }
 
-namespace scene = visuals::scene;
-
 namespace {
 
-constexpr std::uint32_t without_alpha = 0xffffffU;
-constexpr double nearer_share = 1e-6; ///< by which one of two depths must be nearer to count
+/// How far a pixel's middle may lie from what it shows, pixels. Corners are rounded to 1/256 pixel and what is painted
+/// again is cut 1/100 pixel too wide where only that rounding could tell.
+constexpr double rounding_reach_px = 1.0 / 256.0 + 0.01;
 
-std::size_t index_of(const glm::ivec2& pixel, const glm::ivec2& size_px) {
-    return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size_px.x) + static_cast<std::size_t>(pixel.x);
-}
-
-std::uint32_t number_radius(const scene::Picture& picture, std::size_t pixel) {
-    std::uint32_t number = 0;
-    std::memcpy(&number, picture.rgba.data() + 4 * pixel, sizeof number);
-    return number & without_alpha;
-}
-
-double distance_to_segment(const glm::dvec2& at, const glm::dvec2& from, const glm::dvec2& to) {
-    const glm::dvec2 mode = to - from;
-    const double length2 = glm::dot(mode, mode);
-    const double share = length2 > 0.0 ? std::clamp(glm::dot(at - from, mode) / length2, 0.0, 1.0) : 0.0;
-    return glm::distance(at, from + share * mode);
-}
-
-/// Places within reach of a pixel's middle, itself among them: a square grid.
-std::array<glm::dvec3, 25> places_around(const glm::ivec2& pixel, double reach_px) {
-    std::array<glm::dvec3, 25> places;
-    for (int i = 0; i < 25; ++i) {
-        const glm::dvec2 steps(i % 5 - 2, i / 5 - 2);
-        places[static_cast<std::size_t>(i)] = {glm::dvec2(pixel) + steps * (reach_px / 2.0), 1.0};
-    }
-    return places;
-}
-
-/// The box of what of a triangle lies before the near plane, from homogeneous places in pixels.
-std::array<glm::dvec2, 2> box_of(const glm::dmat3& corners, double near_m) {
-    std::array<glm::dvec2, 2> box{glm::dvec2(1e9), glm::dvec2(-1e9)};
-    const auto add = [&](const glm::dvec3& at) {
-        box[0] = glm::min(box[0], glm::dvec2(at) / at.z);
-        box[1] = glm::max(box[1], glm::dvec2(at) / at.z);
-    };
-    for (glm::length_t i = 0; i < 3; ++i) {
-        const glm::dvec3& here = corners[i];
-        const glm::dvec3& next = corners[(i + 1) % 3];
-        if (here.z >= near_m) { add(here); }
-        if ((here.z >= near_m) != (next.z >= near_m)) {
-            add(glm::mix(here, next, (near_m - here.z) / (next.z - here.z)));
+/// In place of a session's renderer: draws each plan, of polygon numbers painted in their order, by every renderer that
+/// is compared with rays, and compares the pictures with what rays have found of the same frame. The session's own
+/// picture is that of the first one.
+class RendererComparer final : public StudyRenderer {
+public:
+    /// `rays` must have drawn the frame, hidden by depth, before this draws it, and must outlive this. Throws Error.
+    RendererComparer(const settings::RunSettings& settings, const RayRenderer& rays)
+        : settings_(settings), rays_(rays), unrounded_(settings.view.size_px) {
+        for (std::size_t i = 0; i < renderers_.size(); ++i) {
+            settings::RunSettings own = settings;
+            own.drawing.renderer = compared_renderers[i];
+            renderers_[i] = flight::make_renderer(own);
         }
     }
-    return box;
-}
 
-} // namespace
+    /// How the pictures of the last plan differ from the rays; wrong is what no rounding explains.
+    const std::array<RayRenderer::Difference, compared_renderers.size()>& differences() const { return differences_; }
 
-double RayRenderer::Target::inside_px(const glm::dvec3& at) const {
-    return std::min({glm::dot(inwards[0], at), glm::dot(inwards[1], at), glm::dot(inwards[2], at)});
-}
+    const scene::RendererInfo& info() const override { return renderers_.front()->info(); }
 
-double RayRenderer::Target::distance_px(const glm::dvec2& at) const {
-    const double inside = inside_px({at, 1.0});
-    if (inside >= 0.0) { return 0.0; }
-    return is_placed ? std::min({distance_to_segment(at, corners_px[0], corners_px[1]),
-                           distance_to_segment(at, corners_px[1], corners_px[2]),
-                           distance_to_segment(at, corners_px[2], corners_px[0])})
-                     : -inside;
-}
+    std::unique_ptr<scene::Renderer> sibling(const glm::ivec2& size_px, int /*samples*/) const override {
+        settings::RunSettings own = settings_;
+        own.view.size_px = size_px;
+        return std::make_unique<RendererComparer>(own, rays_);
+    }
 
-RayRenderer::RayRenderer(const glm::ivec2& size_px) : size_px_(size_px) {
-    info_.description = "rays";
-    info_.device = "processor";
-    info_.is_software = true;
-    resize(size_px, 1);
-}
+    void resize(const glm::ivec2& size_px, std::optional<int> samples) override {
+        settings_.view.size_px = size_px;
+        for (const auto& renderer : renderers_) { renderer->resize(size_px, samples); }
+        unrounded_.resize(size_px, samples);
+    }
 
-std::unique_ptr<scene::Renderer> RayRenderer::sibling(const glm::ivec2& size_px, int) const {
-    return std::make_unique<RayRenderer>(size_px);
-}
+    void load_models(std::span<const scene::ModelBuffers> models) override {
+        for (const auto& renderer : renderers_) { renderer->load_models(models); }
+        unrounded_.load_models(models);
+    }
 
-void RayRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
-    size_px_ = size_px;
-    picture_.width = size_px.x;
-    picture_.height = size_px.y;
-    const std::size_t pixels = static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
-    picture_.rgba.assign(4 * pixels, 0);
-    inverse_depths_.assign(pixels, 0.0);
-}
+    void load_ground_texture(const scene::GroundTexture& texture) override {
+        for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
+    }
 
-void RayRenderer::load_models(std::span<const scene::ModelBuffers> models) {
-    models_.assign(models.begin(), models.end());
-}
+    void warm_up() override {
+        for (const auto& renderer : renderers_) { renderer->warm_up(); }
+    }
 
-void RayRenderer::draw(const scene::FramePlan& plan) {
-    world_to_clip_ = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
-    near_m_ = static_cast<double>(plan.view_to_clip[3][2]);
-    targets_.clear();
-    pieces_ = 0;
-    add_ground(plan);
-    for (const scene::PaintStep& step : plan.steps) {
-        for (std::uint32_t i = step.first;
-             step.content == scene::PaintStep::Content::Aircraft && i < step.first + step.count; ++i) {
-            add_aircraft(plan, plan.aircraft[i]);
+    void draw(const scene::FramePlan& plan) override {
+        bool is_unrounded_drawn = false;
+        for (std::size_t i = renderers_.size(); i-- > 0;) {
+            renderers_[i]->draw(plan);
+            renderers_[i]->finish_and_read(picture_);
+            differences_[i] = rays_.compare(picture_, rounding_reach_px);
+            std::vector<RayRenderer::WrongPixel>& wrong = differences_[i].wrong;
+            if (!wrong.empty() && !std::exchange(is_unrounded_drawn, true)) { unrounded_.draw(plan); }
+            std::erase_if(wrong, [&](const RayRenderer::WrongPixel& pixel) {
+                return unrounded_.is_rounding(pixel.at, pixel.number, rays_.number_of(pixel.at), rounding_reach_px);
+            });
         }
     }
-    std::ranges::fill(picture_.rgba, std::uint8_t{0});
-    std::ranges::fill(inverse_depths_, 0.0);
-    for (const Target& target : targets_) { draw_target(target); }
-}
 
-void RayRenderer::add_ground(const scene::FramePlan& plan) {
-    const auto& indices = plan.ground.indices;
-    const auto& vertices = plan.ground.vertices;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        ++pieces_;
-        add({vertices[indices[i]].position_m, vertices[indices[i + 1]].position_m, vertices[indices[i + 2]].position_m},
-            vertices[indices[i]].colour, false);
-    }
-}
+    void finish_and_read(scene::Picture& picture) override { picture = picture_; }
 
-void RayRenderer::add_aircraft(const scene::FramePlan& plan, const scene::AircraftDraw& draw) {
-    const scene::ModelBuffers& model = models_[draw.model];
-    const auto add_range = [&](std::size_t first, std::size_t count) {
-        std::optional<std::uint32_t> polygon;
-        for (std::size_t i = first; i + 2 < first + count; i += 3) {
-            const std::uint32_t next = model.vertices[model.indices[i]].polygon;
-            if (polygon != next) { ++pieces_; }
-            polygon = next;
-            std::array<glm::vec3, 3> corners_m;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const scene::ModelVertex& vertex = model.vertices[model.indices[i + k]];
-                const glm::dmat4 turn(plan.parts[draw.first_part + vertex.part]);
-                corners_m[k] = glm::vec3(turn * glm::dvec4(glm::dvec3(vertex.position_m), 1.0));
-            }
-            add(corners_m, model.vertices[model.indices[i]].face_colour, true);
-        }
-    };
-    if (draw.ranges.empty()) { add_range(draw.first_index, draw.index_count); }
-    for (const scene::IndexRange& range : draw.ranges) { add_range(range.first_index, range.index_count); }
-}
-
-void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t number, bool culls) {
-    glm::dmat3 corners; // homogeneous places, pixels from the middle of the upper left one
-    for (glm::length_t k = 0; k < 3; ++k) {
-        const glm::dvec4 clip = world_to_clip_ * glm::dvec4(glm::dvec3(corners_m[static_cast<std::size_t>(k)]), 1.0);
-        corners[k] = {(clip.x + clip.w) * 0.5 * size_px_.x - 0.5 * clip.w,
-            (clip.w - clip.y) * 0.5 * size_px_.y - 0.5 * clip.w, clip.w};
-    }
-    const double doubled_area = glm::determinant(corners);
-    if (doubled_area == 0.0 || (culls && doubled_area > 0.0)) { return; }
-    const auto [least, most] = box_of(corners, near_m_);
-    Target target;
-    target.least = glm::max(glm::ivec2(glm::max(glm::floor(least) - 1.0, glm::dvec2(-1.0))), glm::ivec2(0));
-    target.most = glm::min(glm::ivec2(glm::min(glm::ceil(most) + 1.0, glm::dvec2(size_px_))), size_px_ - 1);
-    if (target.least.x > target.most.x || target.least.y > target.most.y) { return; }
-    const glm::dmat3 rows = glm::transpose(glm::inverse(corners));
-    for (glm::length_t k = 0; k < 3; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        target.inwards[i] = rows[k] / std::max(glm::length(glm::dvec2(rows[k])), 1e-300);
-        target.inverse_depth += rows[k];
-        target.max_over_w = std::max(target.max_over_w, 1.0 / std::max(corners[k].z, near_m_));
-        target.corners_px[i] = glm::dvec2(corners[k]) / corners[k].z;
-    }
-    target.is_placed = corners[0].z >= near_m_ && corners[1].z >= near_m_ && corners[2].z >= near_m_;
-    target.number = number & without_alpha;
-    target.piece = pieces_;
-    targets_.push_back(target);
-}
-
-void RayRenderer::draw_target(const Target& target) {
-    for (int row = target.least.y; row <= target.most.y; ++row) {
-        for (int column = target.least.x; column <= target.most.x; ++column) {
-            const glm::dvec3 at(column, row, 1.0);
-            if (target.inside_px(at) < 0.0) { continue; }
-            const double inverse_depth = glm::dot(target.inverse_depth, at);
-            const std::size_t pixel = index_of({column, row}, size_px_);
-            if (inverse_depth > inverse_depths_[pixel] && inverse_depth * near_m_ <= 1.0) {
-                inverse_depths_[pixel] = inverse_depth;
-                std::memcpy(picture_.rgba.data() + 4 * pixel, &target.number, sizeof target.number);
-            }
-        }
-    }
-}
-
-std::uint32_t RayRenderer::number_of(const glm::ivec2& pixel) const {
-    return number_radius(picture_, index_of(pixel, size_px_));
-}
-
-RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, double reach_px) const {
-    assert(picture.width == size_px_.x && picture.height == size_px_.y);
-    Difference difference;
-    for (int row = 0; row < size_px_.y; ++row) {
-        for (int column = 0; column < size_px_.x; ++column) {
-            const std::size_t pixel = index_of({column, row}, size_px_);
-            const std::uint32_t number = number_radius(picture, pixel);
-            if (number == number_radius(picture_, pixel)) { continue; }
-            ++difference.differing;
-            if (const auto fault = wrong_pixel_at({column, row}, number, reach_px)) {
-                difference.wrong.push_back(*fault);
-            }
-        }
-    }
-    return difference;
-}
-
-bool RayRenderer::may_reach(const Target& target, const glm::ivec2& pixel, double reach_px) {
-    return pixel.x >= target.least.x && pixel.x <= target.most.x && pixel.y >= target.least.y &&
-           pixel.y <= target.most.y && target.inside_px({pixel, 1.0}) >= -reach_px;
-}
-
-std::optional<RayRenderer::WrongPixel> RayRenderer::wrong_pixel_at(
-    const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
-    const glm::dvec2 middle(pixel);
-    const glm::dvec3 at(middle, 1.0);
-    std::vector<const Target*> others;
-    double shown_by_w = number == 0 ? 0.0 : -1.0; // 0: nothing, infinitely far
-    for (const Target& target : targets_) {
-        if (!may_reach(target, pixel, reach_px)) { continue; }
-        if (target.number != number) {
-            others.push_back(&target);
-        } else if (target.distance_px(middle) <= reach_px) {
-            const double inverse_depth =
-                glm::dot(target.inverse_depth, at) + reach_px * glm::length(glm::dvec2(target.inverse_depth));
-            shown_by_w = std::max(shown_by_w, std::min(inverse_depth, target.max_over_w));
-        }
-    }
-    if (shown_by_w < 0.0) { return WrongPixel{pixel, number, std::nullopt}; }
-    const auto hides = [&](const glm::dvec3& place) {
-        return std::ranges::any_of(others, [&](const Target* other) {
-            const double inverse_depth = glm::dot(other->inverse_depth, place);
-            return other->inside_px(place) >= 0.0 && inverse_depth * near_m_ <= 1.0 &&
-                   inverse_depth > shown_by_w * (1.0 + nearer_share);
-        });
-    };
-    if (!std::ranges::all_of(places_around(pixel, reach_px), hides)) { return std::nullopt; }
-    const double found_by_w = inverse_depths_[index_of(pixel, size_px_)];
-    return WrongPixel{pixel, number, found_by_w / shown_by_w - 1.0};
-}
-
-bool RayRenderer::is_rounding(
-    const glm::ivec2& pixel, std::uint32_t number, std::uint32_t seen, double reach_px) const {
-    const glm::dvec2 middle(pixel);
-    const auto places = places_around(pixel, reach_px);
-    std::uint32_t last = 0; // painted without rounding
-    bool may_be_shown = false;
-    for (auto first = targets_.begin(); first != targets_.end();) {
-        const auto end =
-            std::find_if(first, targets_.end(), [&](const Target& one) { return one.piece != first->piece; });
-        const std::span piece(first, end);
-        first = end;
-        if (std::ranges::none_of(piece, [&](const Target& one) {
-                return may_reach(one, pixel, reach_px) && one.distance_px(middle) <= reach_px;
-            })) {
-            continue;
-        }
-        const auto covers = [&](const glm::dvec3& place) {
-            return std::ranges::any_of(piece, [&](const Target& one) { return one.inside_px(place) >= 0.0; });
-        };
-        const bool is_certain = std::ranges::all_of(places, covers);
-        last = covers({middle, 1.0}) ? piece.front().number : last;
-        may_be_shown = !is_certain && (may_be_shown || piece.front().number == number);
-    }
-    return may_be_shown && last == seen;
-}
-
-namespace scene = visuals::scene;
-
-RendererComparer::RendererComparer(const settings::RunSettings& settings, const RayRenderer& rays)
-    : settings_(settings), rays_(rays), unrounded_(settings.view.size_px) {
-    for (std::size_t i = 0; i < renderers_.size(); ++i) {
-        settings::RunSettings own = settings;
-        own.drawing.renderer = compared_renderers[i];
-        renderers_[i] = flight::make_renderer(own);
-    }
-}
-
-std::unique_ptr<scene::Renderer> RendererComparer::sibling(const glm::ivec2& size_px, int) const {
-    settings::RunSettings own = settings_;
-    own.view.size_px = size_px;
-    return std::make_unique<RendererComparer>(own, rays_);
-}
-
-void RendererComparer::resize(const glm::ivec2& size_px, std::optional<int> samples) {
-    settings_.view.size_px = size_px;
-    for (const auto& renderer : renderers_) { renderer->resize(size_px, samples); }
-    unrounded_.resize(size_px, samples);
-}
-
-void RendererComparer::load_models(std::span<const scene::ModelBuffers> models) {
-    for (const auto& renderer : renderers_) { renderer->load_models(models); }
-    unrounded_.load_models(models);
-}
-
-void RendererComparer::load_ground_texture(const scene::GroundTexture& texture) {
-    for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
-}
-
-void RendererComparer::warm_up() {
-    for (const auto& renderer : renderers_) { renderer->warm_up(); }
-}
-
-void RendererComparer::draw(const scene::FramePlan& plan) {
-    is_unrounded_drawn_ = false;
-    for (std::size_t i = renderers_.size(); i-- > 0;) {
-        renderers_[i]->draw(plan);
-        renderers_[i]->finish_and_read(picture_);
-        differences_[i] = difference_to_rays(plan, picture_);
-    }
-}
-
-RayRenderer::Difference RendererComparer::difference_to_rays(
-    const scene::FramePlan& plan, const scene::Picture& picture) {
-    RayRenderer::Difference difference = rays_.compare(picture, rounding_reach_px);
-    if (!difference.wrong.empty() && !std::exchange(is_unrounded_drawn_, true)) { unrounded_.draw(plan); }
-    std::erase_if(difference.wrong, [&](const RayRenderer::WrongPixel& pixel) {
-        return unrounded_.is_rounding(pixel.at, pixel.number, rays_.number_of(pixel.at), rounding_reach_px);
-    });
-    return difference;
-}
-
-namespace scene = visuals::scene;
-using flight::PictureContent;
-using flight::Session;
-
-namespace {
+private:
+    settings::RunSettings settings_;
+    const RayRenderer& rays_;
+    std::array<std::unique_ptr<scene::Renderer>, compared_renderers.size()> renderers_;
+    RayRenderer unrounded_; ///< the plan painted in its order, but without rounding
+    scene::Picture picture_;
+    std::array<RayRenderer::Difference, compared_renderers.size()> differences_;
+};
 
 std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
     return fmt::format("frame {} at {},{}: {}", frame, wrong.at.x, wrong.at.y,
@@ -465,144 +214,163 @@ RayComparison compare_with_rays(const settings::RunSettings& settings, const fli
     return sum;
 }
 
-namespace scene = visuals::scene;
-
 namespace {
 
-constexpr std::array views = {StudiedView{scene::View::Chase, "chase"}, StudiedView{scene::View::Tower, "tower"},
-    StudiedView{scene::View::Tower, "behind ridges", true}, StudiedView{scene::View::Orbit, "orbit"}};
-constexpr StudiedView cockpit{scene::View::Cockpit, "cockpit"};
+struct StudiedView {
+    scene::View kind;
+    const char* name;
+    bool behind_ridges = false; ///< from a tower from which ridges hide the aircraft now and then
+};
 
-ComparisonFlights aircraft_shown_by(const HiddenSurfaceStudyOptions& study) {
-    return {study.settings,
-        study.aircraft.empty() ? std::vector<std::string>{"f15", "500md"} : std::vector<std::string>{study.aircraft},
-        study.every, study.jobs, study.quiet};
+/// Rays are compared in all of them, the depth buffer in all but the last.
+constexpr std::array views = {StudiedView{scene::View::Chase, "chase"}, StudiedView{scene::View::Tower, "tower"},
+    StudiedView{scene::View::Tower, "behind ridges", true}, StudiedView{scene::View::Orbit, "orbit"},
+    StudiedView{scene::View::Cockpit, "cockpit"}};
+
+/// The name of a terrain or an aircraft in a table: of a file without its folder.
+std::string short_name(const std::string& given) { return std::filesystem::path(given).stem().string(); }
+
+/// A comparison of one flight in one view.
+template <class Result>
+struct Compared {
+    std::vector<report::Cell> name; ///< path, aircraft, view
+    Result result;
+};
+
+/// Compares every path by each aircraft in every view, over worlds that are loaded once for each flight. `compare`
+/// takes settings, worlds, every how many frames, and a function that it calls after each picture.
+template <class Result, class Compare>
+std::vector<Compared<Result>> run_comparisons(
+    const HiddenSurfaceStudyOptions& options, std::span<const StudiedView> studied_views, const Compare& compare) {
+    std::vector<Compared<Result>> compared;
+    const std::vector<std::string> all_aircraft =
+        options.aircraft.empty() ? std::vector<std::string>{"f15", "500md"} : std::vector{options.aircraft};
+    for (const char* path : {"straight", "jinking", "pop-up", "turn"}) {
+        for (const std::string& aircraft : all_aircraft) {
+            settings::RunSettings flown = options.settings;
+            flown.path.name = path;
+            flown.path.aircraft = {aircraft};
+            const flight::ComparisonWorlds worlds = flight::load_comparison_worlds(flown);
+            const auto frames = static_cast<int>(world::picture_times_of(flown, worlds.painted.flight).times_s.size());
+            const int pictures = (frames + options.every - 1) / options.every * static_cast<int>(studied_views.size());
+            base::Progress progress(
+                fmt::format("{} {}", path, short_name(aircraft)), pictures, options.quiet, "pictures");
+            const std::size_t first = compared.size();
+            for (const StudiedView& view : studied_views) {
+                compared.push_back({{{"path", path}, {"aircraft", short_name(aircraft)}, {"view", view.name}}, {}});
+            }
+            parallel_for(studied_views.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+                const StudiedView& view = studied_views[i];
+                settings::RunSettings settings = flown;
+                settings.view.kind = view.kind;
+                if (view.behind_ridges) { settings.view.eye_m = ridge_tower(worlds.painted); }
+                compared[first + i].result =
+                    compare(settings, worlds, options.every, [&](int, int) { progress.tick(view.name); });
+            });
+        }
+    }
+    return compared;
 }
 
-std::vector<Race> run_races(const HiddenSurfaceStudyOptions& study) {
-    std::vector<Race> races;
+const std::vector<report::Cell> sum_name = {{"path", "all"}, {"aircraft", ""}, {"view", ""}};
+
+std::vector<NamedFlight> run_races(const HiddenSurfaceStudyOptions& options) {
+    std::vector<NamedFlight> races;
     for (const glm::ivec2 size_px : {glm::ivec2(640, 480), glm::ivec2(1280, 720)}) {
-        for (const std::string& terrain : {std::string("background60"), study.settings.path.terrain}) {
+        for (const std::string& terrain : {std::string("background60"), options.settings.path.terrain}) {
             for (const std::size_t aircraft : {1U, 16U, 100U, 1000U}) {
-                settings::RunSettings settings = study.settings;
+                settings::RunSettings settings = options.settings;
                 settings.path.name = "straight";
                 settings.path.terrain = terrain;
                 settings.path.aircraft.assign(aircraft, "f15");
                 settings.view.size_px = size_px;
-                races.push_back(race(settings, study.race_frames, study.quiet));
+                races.push_back(
+                    {{{"scene", short_name(terrain)}, {"aircraft", aircraft}, {"size", "{}x{}", size_px.x, size_px.y}},
+                        race(settings, options.race_frames, options.quiet)});
             }
         }
     }
     return races;
 }
 
-report::HtmlTable race_table(const std::vector<Race>& races) {
-    report::HtmlTable table;
-    table.title = "Frames a second by OpenGL: octant order, removal of back faces only, depth buffer";
-    table.header = {"scene", "aircraft", "size", "octant, frames/s", "back faces, frames/s", "depth buffer, frames/s",
-        "octant / back faces", "octant / depth buffer", "p99 ms octant", "p99 ms back faces", "p99 ms depth buffer",
-        "draw calls octant", "draw calls back faces", "draw calls depth buffer"};
-    for (const Race& r : races) {
-        std::vector<std::string> cells =
-            report::cells("{}\t{}\t{}x{}", short_name(r.scene), r.aircraft, r.width_px, r.height_px);
-        for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{:.0f}", 1000.0 / mode.median_ms)); }
-        report::append_cells(cells, "{:.2f}\t{:.2f}", r.against(1), r.against(2));
-        for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{:.2f}", mode.p99_ms)); }
-        for (const RaceTimes& mode : r.gl_times) { cells.push_back(fmt::format("{}", mode.draw_calls)); }
-        table.rows.push_back(std::move(cells));
+report::ResultTable race_table(std::span<const NamedFlight> races) {
+    report::ResultTable table{"Frames a second by OpenGL: octant order, removal of back faces only, depth buffer"};
+    constexpr std::array names = {"octant", "back faces", "depth buffer"}; // of the first of timed_modes
+    for (const auto& [name, flight] : races) {
+        std::vector<report::Cell> row = name;
+        for (std::size_t mode = 0; mode < names.size(); ++mode) {
+            row.push_back({fmt::format("{}, frames/s", names[mode]), "{:.0f}", 1000.0 / flight.median_ms(mode)});
+        }
+        row.push_back({"octant / back faces", "{:.2f}", flight.over_octant(gl_back_faces)});
+        row.push_back({"octant / depth buffer", "{:.2f}", flight.over_octant(gl_depth_buffer)});
+        for (std::size_t mode = 0; mode < names.size(); ++mode) {
+            const auto times_ms = values_of(flight.records[mode], &report::FrameRecord::frame_ms, flight.left_out);
+            row.push_back(
+                {fmt::format("p99 ms {}", names[mode]), "{:.2f}", report::statistics_of_times(times_ms).p99_ms});
+        }
+        for (std::size_t mode = 0; mode < names.size(); ++mode) {
+            row.push_back({fmt::format("draw calls {}", names[mode]), "{:.0f}",
+                median_of(flight.records[mode], &report::FrameRecord::draw_calls, flight.left_out)});
+        }
+        table.add(std::move(row));
     }
-    table.note = "Whole frames from simulation to pixels read, medians; the three ways draw every "
-                 "frame in turn. Same culling, vertex format and shaders.";
+    table.note = "Whole frames from simulation to pixels read, medians; the three ways draw every frame in turn. Same "
+                 "culling, vertex format and shaders.";
     return table;
 }
 
-report::HtmlTable raster_times(const std::vector<Race>& races) {
-    std::vector<std::vector<std::string>> names;
-    std::vector<RasterTimes> times;
-    for (const Race& r : races) {
-        names.push_back(
-            {short_name(r.scene), fmt::format("{}", r.aircraft), fmt::format("{}x{}", r.width_px, r.height_px)});
-        times.push_back(r.raster);
-    }
-    return raster_table({"scene", "aircraft", "size"}, names, times);
-}
-
-std::vector<std::string> cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
-    report::append_cells(name, "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", result.frames, result.frames_with_cuts, result.cuts,
-        result.unordered, result.pixels, result.differing, result.unmatched, result.wrong);
-    return name;
-}
-
-report::HtmlTable picture_table(
-    const std::vector<NamedResult<flight::IdComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
-    report::HtmlTable table;
-    table.title = "Polygon numbers: octant order against the depth buffer";
-    table.header = {"path", "aircraft", "view", "frames", "frames with cuts", "cuts", "unordered", "pixels",
-        "differing", "apart", "wrong"};
+report::ResultTable picture_table(
+    std::vector<Compared<flight::IdComparison>> compared, const HiddenSurfaceStudyOptions& options) {
+    report::ResultTable table{"Polygon numbers: octant order against the depth buffer"};
     flight::IdComparison sum;
-    for (const NamedResult<flight::IdComparison>& run : compared) {
-        table.rows.push_back(cells_of(run.name, run.result));
-        sum.frames += run.result.frames;
-        sum.frames_with_cuts += run.result.frames_with_cuts;
-        sum.cuts += run.result.cuts;
-        sum.unordered += run.result.unordered;
-        sum.pixels += run.result.pixels;
-        sum.differing += run.result.differing;
-        sum.unmatched += run.result.unmatched;
-        sum.wrong += run.result.wrong;
+    for (const auto& [name, result] : compared) {
+        sum.frames += result.frames;
+        sum.frames_with_cuts += result.frames_with_cuts;
+        sum.cuts += result.cuts;
+        sum.unordered += result.unordered;
+        sum.pixels += result.pixels;
+        sum.differing += result.differing;
+        sum.unmatched += result.unmatched;
+        sum.wrong += result.wrong;
     }
-    table.rows.push_back(cells_of({"all", "", ""}, sum));
-    table.note = fmt::format("Every frame number {} of each flight over {}, {}x{}. Apart: the pixel's polygon does not "
-                             "occur in the 3 x 3 pixels around it in the picture by depth buffer. Wrong: nor in the "
-                             "same "
-                             "place of one three times as large, which shows what the rounding of corners to 1/256 "
-                             "pixel "
-                             "lost in the first. Cuts: ground triangles and aircraft polygons painted once more in "
-                             "front of an aircraft, cut to its outline.",
-        study.every, short_name(study.settings.path.terrain), study.settings.view.size_px.x,
-        study.settings.view.size_px.y);
+    compared.push_back({sum_name, sum});
+    for (auto& [row, result] : compared) {
+        row.insert(
+            row.end(), {{"frames", result.frames}, {"frames with cuts", result.frames_with_cuts}, {"cuts", result.cuts},
+                           {"unordered", result.unordered}, {"pixels", result.pixels}, {"differing", result.differing},
+                           {"apart", result.unmatched}, {"wrong", result.wrong}});
+        table.add(std::move(row));
+    }
+    table.note =
+        fmt::format("Every frame number {} of each flight over {}, {}x{}. Apart: the pixel's polygon does not "
+                    "occur in the 3 x 3 pixels around it in the picture by depth buffer. Wrong: nor in the same "
+                    "place of one three times as large, which shows what the rounding of corners to 1/256 pixel "
+                    "lost in the first. Cuts: ground triangles and aircraft polygons painted once more in "
+                    "front of an aircraft, cut to its outline.",
+            options.every, short_name(options.settings.path.terrain), options.settings.view.size_px.x,
+            options.settings.view.size_px.y);
     return table;
 }
 
-std::vector<NamedResult<RayComparison>> run_ray_comparisons(const HiddenSurfaceStudyOptions& study) {
-    std::vector<StudiedView> all(views.begin(), views.end());
-    all.push_back(cockpit);
-    return run_comparisons(aircraft_shown_by(study), all,
-        [&](const settings::RunSettings& settings, const flight::ComparisonWorlds& worlds, int every,
-            const auto& on_frame) {
-            RayComparison result = compare_with_rays(settings, worlds, every, on_frame);
-            for (const RayComparison::OfRenderer& one : result.renderers) {
-                if (one.wrong > 0) {
-                    base::print_note(
-                        study.quiet, fmt::format("{} wrong pixels, the first: {}", one.wrong, one.first_wrong));
-                }
-            }
-            return result;
-        });
-}
-
-report::HtmlTable ray_table(
-    const std::vector<NamedResult<RayComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
-    report::HtmlTable table;
-    table.title = "Polygon numbers: octant order against a ray through each pixel's middle";
-    table.header = {"path", "aircraft", "view", "pictures", "pixels of a renderer", "raster: differing",
-        "raster: wrong", "OpenGL: differing", "OpenGL: wrong", "first wrong"};
-    const auto add_row = [&](std::vector<std::string> cells, const RayComparison& result) {
-        report::append_cells(cells, "{}\t{}", result.frames, result.pixels);
+report::ResultTable ray_table(std::vector<Compared<RayComparison>> compared, const HiddenSurfaceStudyOptions& options) {
+    report::ResultTable table{"Polygon numbers: octant order against a ray through each pixel's middle"};
+    constexpr std::array names = {"raster", "OpenGL"}; // of compared_renderers
+    RayComparison sum;
+    for (const auto& each : compared) { sum.add(each.result); }
+    compared.push_back({sum_name, sum});
+    for (auto& [row, result] : compared) {
+        row.emplace_back("pictures", result.frames);
+        row.emplace_back("pixels of a renderer", result.pixels);
         std::string first_wrong;
-        for (const RayComparison::OfRenderer& one : result.renderers) {
-            report::append_cells(cells, "{}\t{}", one.differing, one.wrong);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const RayComparison::OfRenderer& one = result.renderers[i];
+            row.emplace_back(fmt::format("{}: differing", names[i]), one.differing);
+            row.emplace_back(fmt::format("{}: wrong", names[i]), one.wrong);
             first_wrong = first_wrong.empty() ? one.first_wrong : first_wrong;
         }
-        cells.push_back(first_wrong);
-        table.rows.push_back(std::move(cells));
-    };
-    RayComparison sum;
-    for (const NamedResult<RayComparison>& run : compared) {
-        add_row(run.name, run.result);
-        sum.add(run.result);
+        row.emplace_back("first wrong", first_wrong);
+        table.add(std::move(row));
     }
-    add_row({"all", "", ""}, sum);
     table.note =
         fmt::format("Every frame number {} of each flight over {}, {}x{}, one sample a pixel. Rays meet all "
                     "triangles in double precision, without order. Wrong: no rounding explains what is shown: "
@@ -610,34 +378,40 @@ report::HtmlTable ray_table(
                     "neighbourhood lies behind nearer triangles. Rounding is also what it is where the pieces, "
                     "painted in their order without it, show what the ray finds, and sides of the piece shown "
                     "and of all painted over it there pass within that distance.",
-            study.every, short_name(study.settings.path.terrain), study.settings.view.size_px.x,
-            study.settings.view.size_px.y, rounding_reach_px);
+            options.every, short_name(options.settings.path.terrain), options.settings.view.size_px.x,
+            options.settings.view.size_px.y, rounding_reach_px);
     return table;
 }
 
 } // namespace
 
-bool study_hidden_surface(const HiddenSurfaceStudyOptions& study) {
-    world::load_world(study.settings); // reports wrong settings before a folder is made
-    report::StudyTables tables(study);
+bool study_hidden_surface(const HiddenSurfaceStudyOptions& options) {
+    world::load_world(options.settings); // reports wrong settings before a folder is made
+    Study study(options);
     bool is_right = true;
-    if (study.race) {
-        const std::vector<Race> races = run_races(study);
-        tables.add("frames-per-second", race_table(races));
-        tables.add("raster", raster_times(races));
+    if (options.race) {
+        const std::vector<NamedFlight> races = run_races(options);
+        study.add("frames-per-second", race_table(races));
+        study.add("raster", raster_table(races));
     }
-    if (study.pictures) {
-        const auto compared = run_comparisons(aircraft_shown_by(study), views, flight::compare_with_depth_buffer);
+    if (options.pictures) {
+        const auto compared = run_comparisons<flight::IdComparison>(
+            options, std::span(views).first(views.size() - 1), flight::compare_with_depth_buffer);
         for (const auto& run : compared) { is_right = is_right && run.result.wrong == 0; }
-        tables.add("pictures", picture_table(compared, study));
+        study.add("pictures", picture_table(compared, options));
     }
-    if (study.rays) {
-        const auto compared = run_ray_comparisons(study);
-        for (const auto& run : compared) { is_right = is_right && run.result.wrong() == 0; }
-        tables.add("rays", ray_table(compared, study));
+    if (options.rays) {
+        const auto compared = run_comparisons<RayComparison>(options, views, compare_with_rays);
+        for (const auto& run : compared) {
+            is_right = is_right && run.result.wrong() == 0;
+            for (const RayComparison::OfRenderer& one : run.result.renderers) {
+                base::print_note(options.quiet || one.wrong == 0,
+                    fmt::format("{} wrong pixels, the first: {}", one.wrong, one.first_wrong));
+            }
+        }
+        study.add("rays", ray_table(compared, options));
     }
-    tables.finish("hidden-surface", tables.markdown());
-    base::print_note(study.quiet, fmt::format("tables: {}/hidden-surface.md", study.out.string()));
+    study.finish("hidden-surface");
     return is_right;
 }
 

@@ -1,16 +1,14 @@
 #include "ui/studies/draw_order/study_pictures.h"
 
-#include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
-#include "ui/report/html_text.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/settings.h"
 #include "ui/studies/draw_order/study_renderer.h"
+#include "ui/studies/study.h"
 #include "visuals/raster/mask_picture.h"
-#include "visuals/raster/workers.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
@@ -22,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -37,116 +34,10 @@ namespace octant::ui::studies::draw_order {
 
 namespace {
 
-/// A copy of a plan whose picture, of `size_px` pixels, lies `by_px` further right and down, and has nothing drawn over
-/// it.
-visuals::scene::FramePlan shifted_plan(
-    const visuals::scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px);
-
-/// A picture of 8 x 8 samples a pixel: drawn eight times as large in both directions, in 64 parts, so that textures are
-/// filtered for the small pixels, too. The sum of all 64, red, green and blue of each pixel, rows from the top. For
-/// plans that use no depth.
-class Supersampled {
-public:
-    static constexpr int side = 8;
-    static constexpr int samples_per_pixel = side * side;
-
-    /// `renderer` draws one sample a pixel at pictures of that size.
-    void draw(visuals::scene::Renderer& renderer, const visuals::scene::FramePlan& plan, const glm::dvec2& by_px,
-        const glm::ivec2& size_px);
-
-    /// A part of a pixel's colour in levels; `part` counts on from three for each pixel.
-    double level(std::size_t part) const { return static_cast<double>(sums_[part]) / samples_per_pixel; }
-
-    std::size_t parts() const { return sums_.size(); }
-
-private:
-    std::vector<std::uint16_t> sums_;
-    visuals::scene::Picture picture_;
-};
-
-/// A renderer with a number of samples a pixel.
-struct RenderMode {
-    std::string_view name;
-    std::string_view file_part;
-    settings::RendererKind renderer;
-    int samples;
-};
-
-/// Whose pictures are measured, in this order everywhere.
-constexpr std::array render_modes{RenderMode{"OpenGL, 1 sample", "gl-1", settings::RendererKind::Gl, 1},
-    RenderMode{"OpenGL, 4 samples", "gl-4", settings::RendererKind::Gl, 4},
-    RenderMode{"raster, 1 sample", "raster-1", settings::RendererKind::Raster, 1},
-    RenderMode{"raster, 4 samples", "raster-4", settings::RendererKind::Raster, 4},
-    RenderMode{"raster, 16 samples", "raster-16", settings::RendererKind::Raster, 16}};
-constexpr std::size_t gl_one_sample = 0; ///< indices into render_modes
-constexpr std::size_t gl_four_samples = 1;
-constexpr std::size_t raster_one_sample = 2;
-constexpr std::size_t raster_sixteen_samples = 4;
-
-/// How far the pictures of one way are from what 8 x 8 samples a pixel show. Sums over pictures.
-struct PictureQuality {
-    /// From supersampled pictures by OpenGL, and by the way's own renderer.
-    double squares_to_gl = 0.0;
-    double squares_to_own = 0.0;
-    double parts = 0.0;         ///< red, green and blue of each pixel
-    double largest_error = 0.0; ///< levels, from its own
-    /// Pixels that change by more than 16 levels too much or too little when the picture moves by half a pixel, once
-    /// right and once down.
-    long false_changes = 0;
-
-    double db_to_gl() const;
-    double db_to_own() const;
-    void add(const PictureQuality& other);
-};
-
-/// In place of a session's renderer: draws each plan in all ways and measures their pictures; the session's own picture
-/// is that of the last way. Whatever is drawn over the picture is left out.
-class QualityRenderer final : public StudyRenderer {
-public:
-    /// Throws Error.
-    explicit QualityRenderer(const settings::RunSettings& settings);
-
-    /// Of all plans drawn so far.
-    const std::array<PictureQuality, render_modes.size()>& quality() const { return quality_; }
-
-    /// Of the last plan.
-    const visuals::scene::Picture& picture(std::size_t mode) const { return pictures_[mode]; }
-
-    /// visuals::raster::mask_picture() of the last plan without a ground texture.
-    const visuals::scene::Picture& masks() const { return masks_; }
-
-    const visuals::scene::RendererInfo& info() const override { return info_; }
-
-    std::unique_ptr<visuals::scene::Renderer> sibling(const glm::ivec2& size_px, int samples) const override;
-    void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
-    void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
-    void load_ground_texture(const visuals::scene::GroundTexture& texture) override;
-    void warm_up() override;
-    void draw(const visuals::scene::FramePlan& plan) override;
-
-    void finish_and_read(visuals::scene::Picture& picture) override { picture = pictures_.back(); }
-
-private:
-    static constexpr std::size_t positions = 3; ///< in place, half a pixel right, half a pixel down
-    using References = std::array<Supersampled, positions>;
-
-    void measure(std::size_t mode, const visuals::scene::FramePlan& plan);
-    const References& own_references(std::size_t mode) const;
-
-    settings::RunSettings settings_;
-    visuals::scene::RendererInfo info_;
-    std::array<std::unique_ptr<visuals::scene::Renderer>, render_modes.size()> renderers_;
-    std::array<PictureQuality, render_modes.size()> quality_;
-    std::array<visuals::scene::Picture, render_modes.size()> pictures_;
-    std::vector<visuals::scene::ModelBuffers> models_;
-    visuals::raster::Workers workers_{1};
-    visuals::scene::Picture masks_;
-    References by_gl_;
-    References by_raster_;
-};
-
 namespace scene = visuals::scene;
 
+/// A copy of a plan whose picture, of `size_px` pixels, lies `by_px` further right and down, and has nothing drawn over
+/// it.
 scene::FramePlan shifted_plan(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
     scene::FramePlan result = plan;
     const glm::vec2 by(2.0 * by_px / glm::dvec2(size_px));
@@ -173,30 +64,66 @@ scene::FramePlan part_of(const scene::FramePlan& plan, const glm::ivec2& part, i
     return result;
 }
 
-void Supersampled::draw(
-    scene::Renderer& renderer, const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
-    const auto width = static_cast<std::size_t>(size_px.x);
-    const auto height = static_cast<std::size_t>(size_px.y);
-    sums_.assign(3 * width * height, 0);
-    const scene::FramePlan whole = shifted_plan(plan, by_px, size_px);
-    for (int part = 0; part < samples_per_pixel; ++part) {
-        const glm::ivec2 at(part % side, part / side);
-        renderer.draw(part_of(whole, at, side));
-        renderer.finish_and_read(picture_);
-        const auto first_column = static_cast<std::size_t>(at.x) * width;
-        const auto first_row = static_cast<std::size_t>(at.y) * height;
-        for (std::size_t i = 0; i < width * height; ++i) {
-            const std::size_t column = (first_column + i % width) / side;
-            const std::size_t row = (first_row + i / width) / side;
-            std::uint16_t* const sum = sums_.data() + 3 * (row * width + column);
-            for (std::size_t k = 0; k < 3; ++k) {
-                sum[k] = static_cast<std::uint16_t>(sum[k] + picture_.rgba[4 * i + k]);
+/// A picture of 8 x 8 samples a pixel: drawn eight times as large in both directions, in 64 parts, so that textures are
+/// filtered for the small pixels, too. The sum of all 64, red, green and blue of each pixel, rows from the top. For
+/// plans that use no depth.
+class Supersampled {
+public:
+    static constexpr int side = 8;
+    static constexpr int samples_per_pixel = side * side;
+
+    /// `renderer` draws one sample a pixel at pictures of that size.
+    void draw(
+        scene::Renderer& renderer, const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
+        const auto width = static_cast<std::size_t>(size_px.x);
+        const auto height = static_cast<std::size_t>(size_px.y);
+        sums_.assign(3 * width * height, 0);
+        const scene::FramePlan whole = shifted_plan(plan, by_px, size_px);
+        for (int part = 0; part < samples_per_pixel; ++part) {
+            const glm::ivec2 at(part % side, part / side);
+            renderer.draw(part_of(whole, at, side));
+            renderer.finish_and_read(picture_);
+            const auto first_column = static_cast<std::size_t>(at.x) * width;
+            const auto first_row = static_cast<std::size_t>(at.y) * height;
+            for (std::size_t i = 0; i < width * height; ++i) {
+                const std::size_t column = (first_column + i % width) / side;
+                const std::size_t row = (first_row + i / width) / side;
+                std::uint16_t* const sum = sums_.data() + 3 * (row * width + column);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    sum[k] = static_cast<std::uint16_t>(sum[k] + picture_.rgba[4 * i + k]);
+                }
             }
         }
     }
-}
 
-namespace scene = visuals::scene;
+    /// A part of a pixel's colour in levels; `part` counts on from three for each pixel.
+    double level(std::size_t part) const { return static_cast<double>(sums_[part]) / samples_per_pixel; }
+
+    std::size_t parts() const { return sums_.size(); }
+
+private:
+    std::vector<std::uint16_t> sums_;
+    scene::Picture picture_;
+};
+
+/// A renderer with a number of samples a pixel.
+struct RenderMode {
+    std::string_view name;
+    std::string_view file_part;
+    settings::RendererKind renderer;
+    int samples;
+};
+
+/// Whose pictures are measured, in this order everywhere.
+constexpr std::array render_modes{RenderMode{"OpenGL, 1 sample", "gl-1", settings::RendererKind::Gl, 1},
+    RenderMode{"OpenGL, 4 samples", "gl-4", settings::RendererKind::Gl, 4},
+    RenderMode{"raster, 1 sample", "raster-1", settings::RendererKind::Raster, 1},
+    RenderMode{"raster, 4 samples", "raster-4", settings::RendererKind::Raster, 4},
+    RenderMode{"raster, 16 samples", "raster-16", settings::RendererKind::Raster, 16}};
+constexpr std::size_t gl_one_sample = 0; ///< indices into render_modes
+constexpr std::size_t gl_four_samples = 1;
+constexpr std::size_t raster_one_sample = 2;
+constexpr std::size_t raster_sixteen_samples = 4;
 
 constexpr double white_level = 255.0;
 constexpr double false_change = 16.0; ///< levels
@@ -206,6 +133,30 @@ double decibels(double squares, double parts) {
     return squares > 0.0 ? 10.0 * std::log10(white_level * white_level * parts / squares)
                          : std::numeric_limits<double>::infinity();
 }
+
+/// How far the pictures of one way are from what 8 x 8 samples a pixel show. Sums over pictures.
+struct PictureQuality {
+    /// From supersampled pictures by OpenGL, and by the way's own renderer.
+    double squares_to_gl = 0.0;
+    double squares_to_own = 0.0;
+    double parts = 0.0;         ///< red, green and blue of each pixel
+    double largest_error = 0.0; ///< levels, from its own
+    /// Pixels that change by more than 16 levels too much or too little when the picture moves by half a pixel, once
+    /// right and once down.
+    long false_changes = 0;
+
+    double db_to_gl() const { return decibels(squares_to_gl, parts); }
+
+    double db_to_own() const { return decibels(squares_to_own, parts); }
+
+    void add(const PictureQuality& other) {
+        squares_to_gl += other.squares_to_gl;
+        squares_to_own += other.squares_to_own;
+        parts += other.parts;
+        largest_error = std::max(largest_error, other.largest_error);
+        false_changes += other.false_changes;
+    }
+};
 
 double level(const scene::Picture& picture, std::size_t part) { return picture.rgba[4 * (part / 3) + part % 3]; }
 
@@ -225,97 +176,113 @@ long false_changes(const scene::Picture& before, const scene::Picture& after, co
     return count;
 }
 
-double PictureQuality::db_to_gl() const { return decibels(squares_to_gl, parts); }
-
-double PictureQuality::db_to_own() const { return decibels(squares_to_own, parts); }
-
-void PictureQuality::add(const PictureQuality& other) {
-    squares_to_gl += other.squares_to_gl;
-    squares_to_own += other.squares_to_own;
-    parts += other.parts;
-    largest_error = std::max(largest_error, other.largest_error);
-    false_changes += other.false_changes;
-}
-
-QualityRenderer::QualityRenderer(const settings::RunSettings& settings) : settings_(settings) {
-    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
-        settings::RunSettings own = settings;
-        own.drawing.renderer = render_modes[mode].renderer;
-        own.view.samples = render_modes[mode].samples;
-        renderers_[mode] = flight::make_renderer(own);
+/// In place of a session's renderer: draws each plan in all ways and measures their pictures; the session's own picture
+/// is that of the last way. Whatever is drawn over the picture is left out.
+class QualityRenderer final : public StudyRenderer {
+public:
+    /// Throws Error.
+    explicit QualityRenderer(const settings::RunSettings& settings) : settings_(settings) {
+        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+            settings::RunSettings own = settings;
+            own.drawing.renderer = render_modes[mode].renderer;
+            own.view.samples = render_modes[mode].samples;
+            renderers_[mode] = flight::make_renderer(own);
+        }
+        info_ = renderers_.back()->info();
     }
-    info_ = renderers_.back()->info();
-}
 
-std::unique_ptr<scene::Renderer> QualityRenderer::sibling(const glm::ivec2& size_px, int) const {
-    settings::RunSettings own = settings_;
-    own.view.size_px = size_px;
-    return std::make_unique<QualityRenderer>(own);
-}
+    /// Of all plans drawn so far.
+    const std::array<PictureQuality, render_modes.size()>& quality() const { return quality_; }
 
-void QualityRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
-    settings_.view.size_px = size_px;
-    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
-        renderers_[mode]->resize(size_px, render_modes[mode].samples);
+    /// Of the last plan.
+    const scene::Picture& picture(std::size_t mode) const { return pictures_[mode]; }
+
+    /// visuals::raster::mask_picture() of the last plan without a ground texture.
+    const scene::Picture& masks() const { return masks_; }
+
+    const scene::RendererInfo& info() const override { return info_; }
+
+    std::unique_ptr<scene::Renderer> sibling(const glm::ivec2& size_px, int) const override {
+        settings::RunSettings own = settings_;
+        own.view.size_px = size_px;
+        return std::make_unique<QualityRenderer>(own);
     }
-}
 
-void QualityRenderer::load_models(std::span<const scene::ModelBuffers> models) {
-    models_.assign(models.begin(), models.end());
-    for (const auto& renderer : renderers_) { renderer->load_models(models); }
-}
-
-void QualityRenderer::load_ground_texture(const scene::GroundTexture& texture) {
-    for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
-}
-
-void QualityRenderer::warm_up() {
-    for (const auto& renderer : renderers_) { renderer->warm_up(); }
-}
-
-void QualityRenderer::draw(const scene::FramePlan& plan) {
-    const glm::ivec2& size_px = settings_.view.size_px;
-    for (std::size_t position = 0; position < positions; ++position) {
-        by_gl_[position].draw(*renderers_[gl_one_sample], plan, shifts_px[position], size_px);
-        by_raster_[position].draw(*renderers_[raster_one_sample], plan, shifts_px[position], size_px);
+    void resize(const glm::ivec2& size_px, std::optional<int>) override {
+        settings_.view.size_px = size_px;
+        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+            renderers_[mode]->resize(size_px, render_modes[mode].samples);
+        }
     }
-    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) { measure(mode, plan); }
-    if (!plan.ground_texture) { masks_ = visuals::raster::mask_picture(plan, models_, size_px, workers_); }
-}
 
-const QualityRenderer::References& QualityRenderer::own_references(std::size_t mode) const {
-    return render_modes[mode].renderer == settings::RendererKind::Gl ? by_gl_ : by_raster_;
-}
-
-void QualityRenderer::measure(std::size_t mode, const scene::FramePlan& plan) {
-    std::array<scene::Picture, positions> drawn;
-    for (std::size_t position = 0; position < positions; ++position) {
-        renderers_[mode]->draw(shifted_plan(plan, shifts_px[position], settings_.view.size_px));
-        renderers_[mode]->finish_and_read(drawn[position]);
+    void load_models(std::span<const scene::ModelBuffers> models) override {
+        models_.assign(models.begin(), models.end());
+        for (const auto& renderer : renderers_) { renderer->load_models(models); }
     }
-    const References& own = own_references(mode);
-    PictureQuality quality;
-    for (std::size_t part = 0; part < own[0].parts(); ++part) {
-        const double here = level(drawn[0], part);
-        const double to_own = here - own[0].level(part);
-        const double to_gl = here - by_gl_[0].level(part);
-        quality.squares_to_own += to_own * to_own;
-        quality.squares_to_gl += to_gl * to_gl;
-        quality.largest_error = std::max(quality.largest_error, std::abs(to_own));
+
+    void load_ground_texture(const scene::GroundTexture& texture) override {
+        for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
     }
-    quality.parts = static_cast<double>(own[0].parts());
-    for (std::size_t position = 1; position < positions; ++position) {
-        quality.false_changes += false_changes(drawn[0], drawn[position], own[0], own[position]);
+
+    void warm_up() override {
+        for (const auto& renderer : renderers_) { renderer->warm_up(); }
     }
-    quality_[mode].add(quality);
-    pictures_[mode] = std::move(drawn[0]);
-}
 
-} // namespace
+    void draw(const scene::FramePlan& plan) override {
+        const glm::ivec2& size_px = settings_.view.size_px;
+        for (std::size_t position = 0; position < positions; ++position) {
+            by_gl_[position].draw(*renderers_[gl_one_sample], plan, shifts_px[position], size_px);
+            by_raster_[position].draw(*renderers_[raster_one_sample], plan, shifts_px[position], size_px);
+        }
+        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) { measure(mode, plan); }
+        if (!plan.ground_texture) { masks_ = visuals::raster::mask_picture(plan, models_, size_px, workers_); }
+    }
 
-namespace scene = visuals::scene;
+    void finish_and_read(scene::Picture& picture) override { picture = pictures_.back(); }
 
-namespace {
+private:
+    static constexpr std::size_t positions = 3; ///< in place, half a pixel right, half a pixel down
+    using References = std::array<Supersampled, positions>;
+
+    const References& own_references(std::size_t mode) const {
+        return render_modes[mode].renderer == settings::RendererKind::Gl ? by_gl_ : by_raster_;
+    }
+
+    void measure(std::size_t mode, const scene::FramePlan& plan) {
+        std::array<scene::Picture, positions> drawn;
+        for (std::size_t position = 0; position < positions; ++position) {
+            renderers_[mode]->draw(shifted_plan(plan, shifts_px[position], settings_.view.size_px));
+            renderers_[mode]->finish_and_read(drawn[position]);
+        }
+        const References& own = own_references(mode);
+        PictureQuality quality;
+        for (std::size_t part = 0; part < own[0].parts(); ++part) {
+            const double here = level(drawn[0], part);
+            const double to_own = here - own[0].level(part);
+            const double to_gl = here - by_gl_[0].level(part);
+            quality.squares_to_own += to_own * to_own;
+            quality.squares_to_gl += to_gl * to_gl;
+            quality.largest_error = std::max(quality.largest_error, std::abs(to_own));
+        }
+        quality.parts = static_cast<double>(own[0].parts());
+        for (std::size_t position = 1; position < positions; ++position) {
+            quality.false_changes += false_changes(drawn[0], drawn[position], own[0], own[position]);
+        }
+        quality_[mode].add(quality);
+        pictures_[mode] = std::move(drawn[0]);
+    }
+
+    settings::RunSettings settings_;
+    scene::RendererInfo info_;
+    std::array<std::unique_ptr<scene::Renderer>, render_modes.size()> renderers_;
+    std::array<PictureQuality, render_modes.size()> quality_;
+    std::array<scene::Picture, render_modes.size()> pictures_;
+    std::vector<scene::ModelBuffers> models_;
+    ThreadPool workers_{1};
+    scene::Picture masks_;
+    References by_gl_;
+    References by_raster_;
+};
 
 struct StudiedScene {
     const char* path;
@@ -377,22 +344,17 @@ Qualities measured(const StudiedScene& studied, const PictureStudyOptions& optio
     return renderer.quality();
 }
 
-std::vector<std::string> noise_cells(const std::string& name, const Qualities& qualities) {
-    std::vector<std::string> cells{name};
-    for (const PictureQuality& one : qualities) { cells.push_back(fmt::format("{:.1f}", one.db_to_own())); }
-    cells.push_back(
-        fmt::format("{:+.1f}", qualities[raster_sixteen_samples].db_to_own() - qualities[gl_four_samples].db_to_own()));
-    return cells;
-}
-
-report::HtmlTable scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& options) {
-    report::HtmlTable table;
-    table.title = "Peak signal to noise against 8 x 8 samples a pixel, dB";
-    table.header = {"scene"};
-    for (const RenderMode& mode : render_modes) { table.header.emplace_back(mode.name); }
-    table.header.emplace_back("raster 16 over OpenGL 4");
+report::ResultTable scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& options) {
+    report::ResultTable table{"Peak signal to noise against 8 x 8 samples a pixel, dB"};
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
-        table.rows.push_back(noise_cells(name_of(studied_scenes[i]), of_scenes[i]));
+        const Qualities& qualities = of_scenes[i];
+        std::vector<report::Cell> row = {{"scene", name_of(studied_scenes[i])}};
+        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+            row.push_back({std::string(render_modes[mode].name), "{:.1f}", qualities[mode].db_to_own()});
+        }
+        row.push_back({"raster 16 over OpenGL 4", "{:+.1f}",
+            qualities[raster_sixteen_samples].db_to_own() - qualities[gl_four_samples].db_to_own()});
+        table.add(std::move(row));
     }
     table.note = fmt::format("{} frames of each path, {}x{}. Against a picture by the same renderer with one sample a "
                              "pixel, eight times as large in both directions. Head-up displays are left out.",
@@ -401,22 +363,21 @@ report::HtmlTable scene_table(const std::vector<Qualities>& of_scenes, const Pic
 }
 
 /// Of all scenes without a texture.
-report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
+report::ResultTable mode_table(const std::vector<Qualities>& of_scenes) {
     Qualities sums;
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
         for (std::size_t mode = 0; mode < render_modes.size() && !studied_scenes[i].textured; ++mode) {
             sums[mode].add(of_scenes[i][mode]);
         }
     }
-    report::HtmlTable table;
-    table.title = "All scenes without a texture";
-    table.header = {"way", "PSNR to its own 8 x 8, dB", "PSNR to OpenGL's 8 x 8, dB", "largest error, levels",
-        "pixels that change falsely", "against OpenGL 4"};
+    report::ResultTable table{"All scenes without a texture"};
     const auto of_four = static_cast<double>(sums[gl_four_samples].false_changes);
     for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         const PictureQuality& one = sums[mode];
-        table.add_row("{}\t{:.1f}\t{:.1f}\t{:.0f}\t{}\t{:.3f}", std::string(render_modes[mode].name), one.db_to_own(),
-            one.db_to_gl(), one.largest_error, one.false_changes, static_cast<double>(one.false_changes) / of_four);
+        table.add({{"way", render_modes[mode].name}, {"PSNR to its own 8 x 8, dB", "{:.1f}", one.db_to_own()},
+            {"PSNR to OpenGL's 8 x 8, dB", "{:.1f}", one.db_to_gl()},
+            {"largest error, levels", "{:.0f}", one.largest_error}, {"pixels that change falsely", one.false_changes},
+            {"against OpenGL 4", "{:.3f}", static_cast<double>(one.false_changes) / of_four}});
     }
     table.note = "Falsely: by more than 16 levels more or less than 8 x 8 samples change, when the "
                  "picture moves half a pixel to the right, and when it moves half a pixel down.";
@@ -426,16 +387,16 @@ report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
 } // namespace
 
 void study_pictures(const PictureStudyOptions& options) {
-    report::StudyTables tables(options);
+    Study study(options);
     std::vector<Qualities> of_scenes(studied_scenes.size());
     PictureStudyOptions of_scene = options;
     of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     parallel_for(of_scenes.size(), options.jobs,
         [&](std::size_t i, std::size_t /*worker*/) { of_scenes[i] = measured(studied_scenes[i], of_scene); });
-    tables.add("scenes", scene_table(of_scenes, options));
-    tables.add("ways", mode_table(of_scenes));
-    tables.finish("pictures", tables.markdown());
-    base::print_note(options.quiet, fmt::format("tables: {0}/pictures.md; pictures: {0}/*.png", options.out.string()));
+    study.add("scenes", scene_table(of_scenes, options));
+    study.add("ways", mode_table(of_scenes));
+    study.finish("pictures");
+    base::print_note(options.quiet, fmt::format("pictures: {}/*.png", options.out.string()));
 }
 
 } // namespace octant::ui::studies::draw_order

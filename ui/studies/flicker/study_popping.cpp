@@ -1,13 +1,10 @@
 #include "ui/studies/flicker/study_popping.h"
 
-#include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
-#include "ui/flight/session.h"
-#include "ui/report/html_text.h"
-#include "ui/report/statistics.h"
+#include "ui/studies/study.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/scene_ground.h"
@@ -23,11 +20,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -126,7 +121,6 @@ double mean_change(const visuals::scene::Picture& earlier, const visuals::scene:
 }
 
 namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
 
 namespace {
 
@@ -144,16 +138,18 @@ struct Change {
     std::size_t pixels = 0;
 };
 
-void add_change(report::HtmlTable& table, const std::string& path, const Change& change) {
-    std::vector<std::string> row = report::cells("{}\t{}\t{}", path, change.pairs, change.pixels);
-    for (const double sum : change.sum) {
-        report::append_cells(row, "{:.3f}", sum / static_cast<double>(change.pairs));
+void add_change(report::ResultTable& table, const std::string& path, const Change& change) {
+    std::vector<report::Cell> row = {{"path", path}, {"pairs of frames", change.pairs}, {"pixels", change.pixels}};
+    for (std::size_t k = 0; k < samplings.size(); ++k) {
+        row.push_back({fmt::format("{} sample{}, {}geomorphs", samplings[k].samples,
+                           samplings[k].samples == 1 ? "" : "s", samplings[k].geomorphs ? "" : "no "),
+            "{:.3f}", change.sum[k] / static_cast<double>(change.pairs)});
     }
-    table.rows.push_back(row);
+    table.add(std::move(row));
 }
 
 Change shimmer_along(
-    const ShimmerOptions& options, const settings::RunSettings& flown, const ui::terrain::LoadedGround& ground) {
+    const PoppingStudyOptions& options, const settings::RunSettings& flown, const ui::terrain::LoadedGround& ground) {
     const terrain::GroundSamples samples = ground.samples();
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
     std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
@@ -186,16 +182,13 @@ Change shimmer_along(
 
 } // namespace
 
-report::HtmlTable shimmer_table(const ShimmerOptions& options) {
+report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground =
         ui::terrain::load_ground(options.settings.path.terrain, world::import_options(options.settings.path),
-            true); // popping said the notes
-    report::HtmlTable table;
-    table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
-    table.header = {"path", "pairs of frames", "pixels", "1 sample, no geomorphs", "1 sample, geomorphs",
-        "4 samples, no geomorphs", "4 samples, geomorphs"};
+            true); // the popping table has printed the notes
+    report::ResultTable table{"Shimmer: mean change of luminance (0 to 255) after the motion is taken out"};
     std::vector<Change> changes(base::built_in_paths.size());
-    ShimmerOptions of_path = options;
+    PoppingStudyOptions of_path = options;
     of_path.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     parallel_for(changes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         settings::RunSettings settings = options.settings;
@@ -217,9 +210,6 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
                  "read between its pixels. Not near the aircraft; no shadows.";
     return table;
 }
-
-namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
 
 namespace {
 
@@ -313,9 +303,11 @@ double percentile_px(std::vector<double> jumps_px, int permille) {
     return report::nearest_rank(jumps_px, permille);
 }
 
-void add_popping(report::HtmlTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
-    table.add_row("{}\t{}\t{}\t{:.3f}\t{}\t{:.3f}\t{:.3f}", path, way.name, found.jumps_px.size(), found.largest_px,
-        found.largest_frame, percentile_px(found.jumps_px, 999), percentile_px(found.jumps_px, 500));
+void add_popping(report::ResultTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
+    table.add({{"path", path}, {"mesh", way.name}, {"frames", found.jumps_px.size()},
+        {"maximum px", "{:.3f}", found.largest_px}, {"in frame", found.largest_frame},
+        {"99.9 % px", "{:.3f}", percentile_px(found.jumps_px, 999)},
+        {"median px", "{:.3f}", percentile_px(found.jumps_px, 500)}});
 }
 
 using JumpsByMeshing = std::array<Jumps, meshings.size()>;
@@ -338,25 +330,20 @@ std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
     const std::size_t ways = meshings_of(options.settings).size();
     std::vector<JumpsByMeshing> found(cameras.size());
     base::Progress progress("popping", static_cast<int>(found.size() * ways), options.quiet, "flights");
-    int done = 0;
-    std::mutex telling;
     parallel_for(found.size() * ways, options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         const std::size_t path = i / ways;
         const Meshing& way = meshings[i % ways];
         found[path][i % ways] =
             jumps_along(way.near_detail ? ground_with_detail(flown[path]) : given_ground(ground, options.settings, way),
                 options.settings, cameras[path]);
-        const std::scoped_lock lock(telling);
-        progress.show(++done, std::string(base::built_in_paths[path]));
+        progress.tick(std::string(base::built_in_paths[path]));
     });
     progress.finish();
     return found;
 }
 
-report::HtmlTable popping_table(const PoppingStudyOptions& options) {
-    report::HtmlTable table;
-    table.title = "Largest jump of a vertex from frame to frame";
-    table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
+report::ResultTable popping_table(const PoppingStudyOptions& options) {
+    report::ResultTable table{"Largest jump of a vertex from frame to frame"};
     const std::vector<JumpsByMeshing> found = jumps_of_paths(options);
     const std::size_t ways = meshings_of(options.settings).size();
     JumpsByMeshing all;
@@ -384,12 +371,10 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
 } // namespace
 
 void study_popping(const PoppingStudyOptions& options) {
-    report::StudyTables tables(options);
-    tables.add("popping", popping_table(options));
-    if (options.shimmer) {
-        tables.add("shimmer", shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
-    }
-    tables.finish("popping", tables.markdown());
+    Study study(options);
+    study.add("popping", popping_table(options));
+    if (options.shimmer) { study.add("shimmer", shimmer_table(options)); }
+    study.finish("popping");
 }
 
 } // namespace octant::ui::studies::flicker

@@ -2,7 +2,6 @@
 
 #include "ui/base/study_output.h"
 #include "ui/flight/session.h"
-#include "ui/report/html_text.h"
 #include "ui/settings/settings.h"
 #include "visuals/scene/picture.h"
 #include "visuals/terrain/ground_query.h"
@@ -27,19 +26,6 @@ std::vector<ReprojectedPixel> reprojected_pixels(const visuals::terrain::GroundS
 /// Mean absolute change of luminance (0 to 255) over the pixels; 0 if there are none.
 double mean_change(const visuals::scene::Picture& earlier, const visuals::scene::Picture& later,
     const std::vector<ReprojectedPixel>& matches);
-
-/// How shimmer is measured.
-struct ShimmerOptions {
-    settings::RunSettings settings =
-        settings::measurement_settings(); ///< terrain, size, triangles, error_px, rate, frames, ...
-    int every = 60;                       ///< a pair of consecutive frames in so many
-    int jobs = 1;                         ///< paths at once
-    bool quiet = false;
-};
-
-/// A row a path and one for all: mean change of reprojected pixels for one and four samples a pixel, geomorphs off and
-/// on. Draws. Throws Error.
-report::HtmlTable shimmer_table(const ShimmerOptions& options);
 
 struct PoppingStudyOptions : base::StudyOutput {
     settings::RunSettings settings =

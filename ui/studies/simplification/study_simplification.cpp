@@ -5,20 +5,17 @@
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
-#include "sim/base/output_file.h"
-#include "sim/base/parallel_for.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/child_program.h"
-#include "ui/report/html_text.h"
-#include "ui/report/plots.h"
+#include "ui/studies/study.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
@@ -36,6 +33,184 @@ namespace octant::ui::studies::simplification {
 namespace {
 
 namespace fs = std::filesystem;
+namespace measure = models::measure;
+namespace simplify = models::simplify;
+using models::TriangleMesh;
+using simplify::PaperMeasure;
+
+// The meshes.
+
+StudyMesh study_mesh(std::string name, TriangleMesh original) {
+    StudyMesh mesh;
+    mesh.name = std::move(name);
+    mesh.diagonal_m = models::diagonal_m(original);
+    TriangleMesh shape;
+    shape.vertices_m = original.vertices_m;
+    shape.colours = original.colours;
+    shape.triangles = original.triangles;
+    mesh.original = shape;
+    mesh.clean = models::repair::repaired(std::move(shape)).mesh;
+    return mesh;
+}
+
+TriangleMesh torus_mesh() {
+    const models::polygons::PolygonModel model = models::procedural::torus(256, 64);
+    TriangleMesh mesh;
+    mesh.vertices_m = model.vertices_m;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const auto corners = model.corners(i);
+        mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+        mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+    }
+    return mesh;
+}
+
+/// Every triangle cut in four at the middles of its sides.
+TriangleMesh cut_in_four(const TriangleMesh& coarse) {
+    TriangleMesh fine;
+    fine.vertices_m = coarse.vertices_m;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [found, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.vertices_m.size()));
+        if (is_new) { fine.vertices_m.push_back(0.5 * (coarse.vertices_m[a] + coarse.vertices_m[b])); }
+        return found->second;
+    };
+    for (const auto& [a, b, c] : coarse.triangles) {
+        const std::uint32_t ab = middle(a, b);
+        const std::uint32_t bc = middle(b, c);
+        const std::uint32_t ca = middle(c, a);
+        fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    return fine;
+}
+
+TriangleMesh fine_aircraft(const char* name) {
+    constexpr std::size_t wanted = 40'000;
+    TriangleMesh mesh = models::repair::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
+    while (mesh.triangles.size() < wanted) { mesh = cut_in_four(mesh); }
+    return mesh;
+}
+
+StudyMesh study_mesh_from(const fs::path& file) {
+    StudyMesh mesh = study_mesh(file.stem().string(), models::meshfile::read_mesh(file));
+    if (mesh.clean.triangles.empty()) { throw_error_in(file, "expected a mesh with triangles, got none"); }
+    return mesh;
+}
+
+/// The coloured globe, a torus of 32,768 triangles, and what has sharp edges: a machined part, and the F-15 with every
+/// triangle cut in four until there are 40,000.
+std::vector<StudyMesh> built_in_meshes() {
+    std::vector<StudyMesh> meshes;
+    meshes.push_back(study_mesh("globe", models::procedural::globe()));
+    meshes.push_back(study_mesh("torus", torus_mesh()));
+    meshes.push_back(study_mesh("machined part", models::procedural::machined_part()));
+    meshes.push_back(study_mesh("F-15, fine", fine_aircraft("f15")));
+    return meshes;
+}
+
+} // namespace
+
+StudyMesh bunny_from(const std::filesystem::path& file) {
+    StudyMesh mesh = study_mesh_from(file);
+    constexpr std::size_t vertices = 35947;
+    constexpr std::size_t faces = 69451;
+    if (mesh.original.vertices_m.size() != vertices || mesh.original.triangles.size() != faces) {
+        throw_error_in(file, fmt::format("expected the Stanford bunny of {} vertices and {} faces, got {} and {}",
+                                 vertices, faces, mesh.original.vertices_m.size(), mesh.original.triangles.size()));
+    }
+    mesh.name = "bunny";
+    return mesh;
+}
+
+namespace {
+
+struct StudyMeshes {
+    std::vector<StudyMesh> meshes;
+    std::string left_out; ///< in words; empty = nothing
+};
+
+StudyMeshes meshes_of(const SimplificationStudyOptions& options) {
+    StudyMeshes all;
+    if (options.bunny) {
+        all.meshes.push_back(bunny_from(*options.bunny));
+    } else {
+        all.left_out = "Left out: the bunny, which is not ours to ship; give the Stanford "
+                       "repository's bun_zipper.ply by --bunny.\n\n";
+    }
+    std::vector<StudyMesh> built_in = built_in_meshes();
+    std::move(built_in.begin(), built_in.end(), std::back_inserter(all.meshes));
+    for (const std::filesystem::path& file : options.meshes) { all.meshes.push_back(study_mesh_from(file)); }
+    return all;
+}
+
+// The paper's simplifier.
+
+/// Counted vertices that the paper stops at.
+constexpr std::size_t paper_globe_vertices = 5000;
+
+/// w of the globe's distances in (position, w rgb), metres on a globe of 1 m radius: nearest to the paper's table 2
+/// within 0.01.
+constexpr double globe_colour_weight_m = 0.12;
+
+/// The paper's goal, or as far as the bunny goes.
+std::size_t paper_goal(const StudyMesh& mesh) {
+    constexpr double bunny_share = 2000.0 / 35947.0;
+    if (mesh.name == "bunny") { return paper_bunny_vertices; }
+    if (mesh.name == "globe") { return paper_globe_vertices; }
+    return static_cast<std::size_t>(bunny_share * static_cast<double>(mesh.original.vertices_m.size()));
+}
+
+std::vector<ColourReading> colour_readings(const StudyMesh& mesh) {
+    if (mesh.original.colours.empty()) { return {ColourReading::None}; }
+    return {ColourReading::None, ColourReading::Distance, ColourReading::DistanceAndLength};
+}
+
+measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMesh& result) {
+    measure::DistanceOptions options;
+    options.tightness = 1.02;
+    options.samples = 100'000;
+    options.threads = core_count();
+    return measure::distance(original, result, options);
+}
+
+} // namespace
+
+std::vector<PaperRun> paper_runs(
+    const StudyMesh& mesh, std::size_t vertices, ColourReading colour, base::Progress& progress) {
+    std::vector<PaperRun> runs;
+    for (const PaperMeasure by : {PaperMeasure::Plane, PaperMeasure::Triangle, PaperMeasure::Bidirectional}) {
+        simplify::PaperOptions options;
+        options.measure = by;
+        options.goal.vertices = vertices;
+        options.colour_weight = colour == ColourReading::None ? 0.0 : globe_colour_weight_m;
+        options.colour_in_edge_length = colour == ColourReading::DistanceAndLength;
+        PaperRun& run = runs.emplace_back();
+        run.mesh = mesh.name;
+        run.colour = colour;
+        run.measure = by;
+        run.diagonal_m = mesh.diagonal_m;
+        const base::Stopwatch watch;
+        run.result = simplify::paper_simplified(mesh.original, options);
+        run.time_ms = watch.ms();
+        run.distance = distance_to(mesh.original, run.result.mesh);
+        run.defects = measure::defects(run.result.mesh);
+        progress.tick(mesh.name);
+    }
+    return runs;
+}
+
+namespace {
+
+// Other libraries.
+
+/// A way to simplify of another library.
+struct PeerMethod {
+    const char* name;  ///< as the program octant-peers knows it
+    const char* shown; ///< in tables
+};
+
+constexpr const char* lindstrom_turk_name = "cgal-lindstrom-turk";
 
 constexpr const char* repeats = "3";
 
@@ -66,8 +241,8 @@ double time_in(const fs::path& program, const std::string& output) {
 }
 
 /// Positions and triangles only.
-models::TriangleMesh bare(const models::TriangleMesh& mesh) {
-    models::TriangleMesh shape;
+TriangleMesh bare(const TriangleMesh& mesh) {
+    TriangleMesh shape;
     shape.vertices_m = mesh.vertices_m;
     shape.triangles = mesh.triangles;
     return shape;
@@ -77,38 +252,25 @@ constexpr std::array peer_methods = {PeerMethod{"meshoptimizer", "meshoptimizer"
     PeerMethod{lindstrom_turk_name, "CGAL Lindstrom-Turk"},
     PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"}, PeerMethod{"openmesh-quadric", "OpenMesh quadric"}};
 
-models::TriangleMesh octahedron() {
-    models::TriangleMesh mesh;
-    mesh.vertices_m = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        mesh.triangles.push_back({i, (i + 1) % 4, 4});
-        mesh.triangles.push_back({(i + 1) % 4, i, 5});
-    }
-    return mesh;
-}
+/// The program octant-peers, which simplifies by other libraries.
+struct PeerProgram {
+    fs::path program;
+    fs::path folder;                 ///< for files that are removed again
+    std::vector<PeerMethod> methods; ///< that it was built with
+};
 
-} // namespace
+struct PeerResult {
+    TriangleMesh mesh;
+    double time_ms = 0.0; ///< median, without reading and writing
+};
 
-std::vector<PeerMethod> methods_of_peer(const fs::path& program, const fs::path& folder) {
-    std::vector<PeerMethod> there;
-    for (const PeerMethod& method : peer_methods) {
-        if (simplified_by_peer(program, method.name, octahedron(), 6, folder)) { there.push_back(method); }
-    }
-    return there;
-}
-
-std::optional<fs::path> find_peer_program() {
-    std::error_code failed;
-    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-    const fs::path peers = program.parent_path() / "octant-peers";
-    if (failed || !fs::is_regular_file(peers, failed)) { return std::nullopt; }
-    return peers;
-}
-
-std::optional<PeerResult> simplified_by_peer(const fs::path& program, const std::string& method,
-    const models::TriangleMesh& mesh, std::size_t faces, const fs::path& folder) {
-    const TemporaryFile input(folder / "peer-input.obj");
-    const TemporaryFile output(folder / "peer-output.obj");
+/// Simplifies by another library. Nothing when the program was built without it. Throws Error when it cannot be run or
+/// fails.
+std::optional<PeerResult> simplified_by_peer(
+    const PeerProgram& peers, const std::string& method, const TriangleMesh& mesh, std::size_t faces) {
+    const fs::path& program = peers.program;
+    const TemporaryFile input(peers.folder / "peer-input.obj");
+    const TemporaryFile output(peers.folder / "peer-output.obj");
     models::meshfile::write_mesh(input.path, bare(mesh));
     auto child = report::ChildProgram::start({fs::absolute(program).string(), method, input.path.string(),
         fmt::format("{}", faces), output.path.string(), "--repeat", repeats});
@@ -124,117 +286,50 @@ std::optional<PeerResult> simplified_by_peer(const fs::path& program, const std:
     return result;
 }
 
-namespace {
-
-StudyMesh study_mesh(std::string name, models::TriangleMesh original) {
-    StudyMesh mesh;
-    mesh.name = std::move(name);
-    mesh.diagonal_m = models::diagonal_m(original);
-    models::TriangleMesh shape;
-    shape.vertices_m = original.vertices_m;
-    shape.colours = original.colours;
-    shape.triangles = original.triangles;
-    mesh.original = shape;
-    mesh.clean = models::repair::repaired(std::move(shape)).mesh;
-    return mesh;
-}
-
-models::TriangleMesh torus_mesh() {
-    const models::polygons::PolygonModel model = models::procedural::torus(256, 64);
-    models::TriangleMesh mesh;
-    mesh.vertices_m = model.vertices_m;
-    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const auto corners = model.corners(i);
-        mesh.triangles.push_back({corners[0], corners[1], corners[2]});
-        mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+TriangleMesh octahedron() {
+    TriangleMesh mesh;
+    mesh.vertices_m = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        mesh.triangles.push_back({i, (i + 1) % 4, 4});
+        mesh.triangles.push_back({(i + 1) % 4, i, 5});
     }
     return mesh;
 }
 
-/// Every triangle cut in four at the middles of its sides.
-models::TriangleMesh cut_in_four(const models::TriangleMesh& coarse) {
-    models::TriangleMesh fine;
-    fine.vertices_m = coarse.vertices_m;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-        const auto [found, is_new] =
-            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.vertices_m.size()));
-        if (is_new) { fine.vertices_m.push_back(0.5 * (coarse.vertices_m[a] + coarse.vertices_m[b])); }
-        return found->second;
-    };
-    for (const auto& [a, b, c] : coarse.triangles) {
-        const std::uint32_t ab = middle(a, b);
-        const std::uint32_t bc = middle(b, c);
-        const std::uint32_t ca = middle(c, a);
-        fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+/// The one that the options name or that lies in the folder of this program, with the methods that it was built with,
+/// tried on a small mesh; none where there is no such program.
+PeerProgram peer_program(const SimplificationStudyOptions& options) {
+    std::error_code failed;
+    const fs::path neighbour = fs::read_symlink("/proc/self/exe", failed).parent_path() / "octant-peers";
+    if (!options.peers && !fs::is_regular_file(neighbour, failed)) { return {}; }
+    PeerProgram peers{options.peers.value_or(neighbour), options.out, {}};
+    for (const PeerMethod& method : peer_methods) {
+        if (simplified_by_peer(peers, method.name, octahedron(), 6)) { peers.methods.push_back(method); }
     }
-    return fine;
+    return peers;
 }
 
-models::TriangleMesh fine_aircraft(const char* name) {
-    constexpr std::size_t wanted = 40'000;
-    models::TriangleMesh mesh = models::repair::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
-    while (mesh.triangles.size() < wanted) { mesh = cut_in_four(mesh); }
-    return mesh;
-}
+// All methods.
 
-} // namespace
-
-StudyMesh bunny_from(const std::filesystem::path& file) {
-    StudyMesh mesh = study_mesh_from(file);
-    constexpr std::size_t vertices = 35947;
-    constexpr std::size_t faces = 69451;
-    if (mesh.original.vertices_m.size() != vertices || mesh.original.triangles.size() != faces) {
-        throw_error_in(file, fmt::format("expected the Stanford bunny of {} vertices and {} faces, got {} and {}",
-                                 vertices, faces, mesh.original.vertices_m.size(), mesh.original.triangles.size()));
-    }
-    mesh.name = "bunny";
-    return mesh;
-}
-
-StudyMesh study_mesh_from(const std::filesystem::path& file) {
-    StudyMesh mesh = study_mesh(file.stem().string(), models::meshfile::read_mesh(file));
-    if (mesh.clean.triangles.empty()) { throw_error_in(file, "expected a mesh with triangles, got none"); }
-    return mesh;
-}
-
-std::vector<StudyMesh> built_in_mesh_names() {
-    std::vector<StudyMesh> meshes;
-    meshes.push_back(study_mesh("globe", models::procedural::globe()));
-    meshes.push_back(study_mesh("torus", torus_mesh()));
-    meshes.push_back(study_mesh("machined part", models::procedural::machined_part()));
-    meshes.push_back(study_mesh("F-15, fine", fine_aircraft("f15")));
-    return meshes;
-}
-
-StudyMesh uncoloured(StudyMesh mesh) {
-    mesh.original.colours.clear();
-    mesh.clean.colours.clear();
-    return mesh;
-}
-
-namespace {
-
-namespace measure = models::measure;
-namespace simplify = models::simplify;
-using models::TriangleMesh;
-using simplify::PaperMeasure;
-
-constexpr std::size_t own_methods = 3;
-
-measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMesh& result) {
-    measure::DistanceOptions options;
-    options.tightness = 1.02;
-    options.samples = 100'000;
-    options.threads = core_count();
-    return measure::distance(original, result, options);
-}
+/// One result of any method, lengths as fractions of the original's diagonal.
+struct QualityRun {
+    std::string mesh;
+    std::string method;
+    std::size_t target_faces = 0;
+    std::size_t faces = 0;
+    double hausdorff = 0.0; ///< certified upper bound
+    double rms = 0.0;
+    std::optional<double> colour_rms;
+    double time_ms = 0.0;
+    bool is_peer = false;
+    bool is_lindstrom_turk = false;
+};
 
 /// The methods on one mesh and one number of faces.
 class QualityRow {
 public:
-    QualityRow(const StudyMesh& mesh, std::size_t faces, const OnResult& tick)
-        : mesh_(mesh), faces_(faces), tick_(tick) {}
+    QualityRow(const StudyMesh& mesh, std::size_t faces, base::Progress& progress)
+        : mesh_(mesh), faces_(faces), progress_(progress) {}
 
     void add(const char* method, const TriangleMesh& result, double time_ms) {
         QualityRun& run = runs.emplace_back();
@@ -251,7 +346,7 @@ public:
             run.rms = found.rms_m() / mesh_.diagonal_m;
             if (!mesh_.clean.colours.empty() && !result.colours.empty()) { run.colour_rms = found.colour_rms(); }
         }
-        tick_();
+        progress_.tick(mesh_.name);
     }
 
     void add_ours(const char* method, int effort) {
@@ -271,13 +366,13 @@ public:
         add(method, result.mesh, watch.ms());
     }
 
-    void add_peers(const QualityOptions& options) {
-        for (const PeerMethod& peer : options.peers) {
-            const auto result = simplified_by_peer(options.program, peer.name, mesh_.clean, faces_, options.folder);
+    void add_peers(const PeerProgram& peers) {
+        for (const PeerMethod& peer : peers.methods) {
+            const auto result = simplified_by_peer(peers, peer.name, mesh_.clean, faces_);
             if (!result) { continue; }
             add(peer.shown, result->mesh, result->time_ms);
-            runs.back().peer = true;
-            runs.back().lindstrom_turk_name = std::string(peer.name) == lindstrom_turk_name;
+            runs.back().is_peer = true;
+            runs.back().is_lindstrom_turk = std::string(peer.name) == lindstrom_turk_name;
         }
     }
 
@@ -286,58 +381,12 @@ public:
 private:
     const StudyMesh& mesh_;
     std::size_t faces_;
-    const OnResult& tick_;
+    base::Progress& progress_;
 };
-
-} // namespace
-
-std::vector<PaperRun> paper_runs(
-    const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick) {
-    std::vector<PaperRun> runs;
-    for (const PaperMeasure by : {PaperMeasure::Plane, PaperMeasure::Triangle, PaperMeasure::Bidirectional}) {
-        simplify::PaperOptions options;
-        options.measure = by;
-        options.goal.vertices = vertices;
-        options.colour_weight = colour == ColourReading::None ? 0.0 : globe_colour_weight_m;
-        options.colour_in_edge_length = colour == ColourReading::DistanceAndLength;
-        PaperRun& run = runs.emplace_back();
-        run.mesh = mesh.name;
-        run.colour = colour;
-        run.measure = by;
-        run.diagonal_m = mesh.diagonal_m;
-        const base::Stopwatch watch;
-        run.result = simplify::paper_simplified(mesh.original, options);
-        run.time_ms = watch.ms();
-        run.distance = distance_to(mesh.original, run.result.mesh);
-        run.defects = measure::defects(run.result.mesh);
-        tick();
-    }
-    return runs;
-}
-
-int quality_methods(const QualityOptions& options) { return static_cast<int>(own_methods + options.peers.size()); }
-
-std::vector<QualityRun> quality_runs(
-    const StudyMesh& mesh, const std::vector<std::size_t>& faces, const QualityOptions& options, const OnResult& tick) {
-    std::vector<QualityRun> runs;
-    for (const std::size_t wanted : faces) {
-        QualityRow row(mesh, wanted, tick);
-        row.add_ours("Octant, surface", simplify::surface_effort);
-        row.add_ours("Octant, fast", simplify::fast_effort);
-        row.add_paper("2005, both directions");
-        row.add_peers(options);
-        runs.insert(runs.end(), row.runs.begin(), row.runs.end());
-    }
-    return runs;
-}
-
-namespace {
 
 // The tables of the simplification paper with ours beside.
 //
 // Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, tables 1 and 2, figures 5 and 6.
-
-using models::simplify::PaperMeasure;
 
 /// What the paper prints of one model.
 struct Printed {
@@ -387,20 +436,24 @@ std::string share_text(std::size_t part, std::size_t all) {
         100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)));
 }
 
-std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous) {
+std::vector<report::Cell> error_row(const PaperRun& run, const PaperRun& previous) {
     const Printed* paper = printed_of(run);
     const auto index = static_cast<std::size_t>(run.measure);
     const auto& sums = run.result.sums;
     const auto& before = previous.result.sums;
-    return report::cells(
-        "{}\t{}\t{}\t{}\t{}\t{:.4e}\t{:.3f}\t{:.4e}\t{:.3f}\t{}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.0f}", run.mesh,
-        name_of(run.colour), name_of(run.measure), paper == nullptr ? "" : fmt::format("{:.2e}", paper->errors[index]),
-        paper == nullptr ? "" : fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]), sums.triangle_m2,
-        sums.triangle_m2 / before.triangle_m2, sums.bidirectional_m2, sums.bidirectional_m2 / before.bidirectional_m2,
-        paper == nullptr ? "" : fmt::format("{}", paper->faces[index]), run.result.mesh.triangles.size(),
-        run.result.mesh.vertices_m.size(), run.defects.duplicate_faces, run.defects.non_manifold_edges,
-        1e3 * run.distance.max_hausdorff_m() / run.diagonal_m, 1e4 * run.distance.rms_m() / run.diagonal_m,
-        run.time_ms);
+    const bool is_printed = paper != nullptr;
+    return {{"mesh", run.mesh}, {"colour in", name_of(run.colour)}, {"measure", name_of(run.measure)},
+        {"paper: error", is_printed ? fmt::format("{:.2e}", paper->errors[index]) : ""},
+        {"paper: of previous", is_printed ? fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]) : ""},
+        {"one-way sum, m2", "{:.4e}", sums.triangle_m2},
+        {"of previous", "{:.3f}", sums.triangle_m2 / before.triangle_m2},
+        {"two-way sum, m2", "{:.4e}", sums.bidirectional_m2},
+        {"of previous", "{:.3f}", sums.bidirectional_m2 / before.bidirectional_m2},
+        {"paper: faces", is_printed ? fmt::format("{}", paper->faces[index]) : ""},
+        {"faces", run.result.mesh.triangles.size()}, {"vertices used", run.result.mesh.vertices_m.size()},
+        {"duplicate faces", run.defects.duplicate_faces}, {"edges of 3+ faces", run.defects.non_manifold_edges},
+        {"Hausdorff, 1e-3", "{:.3f}", 1e3 * run.distance.max_hausdorff_m() / run.diagonal_m},
+        {"RMS, 1e-4", "{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m}, {"ms", "{:.0f}", run.time_ms}};
 }
 
 /// Whether a result has the faces asked for, and not many more.
@@ -414,7 +467,8 @@ std::optional<double> best_peer_value(
     std::span<const QualityRun> runs, const QualityRun& reference, const Value& value) {
     std::optional<double> best;
     for (const QualityRun& run : runs) {
-        if (run.peer && is_at_goal(run) && run.mesh == reference.mesh && run.target_faces == reference.target_faces) {
+        if (run.is_peer && is_at_goal(run) && run.mesh == reference.mesh &&
+            run.target_faces == reference.target_faces) {
             best = std::min(best.value_or(std::numeric_limits<double>::infinity()), value(run));
         }
     }
@@ -423,7 +477,7 @@ std::optional<double> best_peer_value(
 
 std::optional<double> time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& reference) {
     for (const QualityRun& run : runs) {
-        if (run.lindstrom_turk_name && run.mesh == reference.mesh && run.target_faces == reference.target_faces) {
+        if (run.is_lindstrom_turk && run.mesh == reference.mesh && run.target_faces == reference.target_faces) {
             return run.time_ms;
         }
     }
@@ -485,16 +539,15 @@ std::string paper_reading_text() {
 }
 
 /// Table 1: how many perpendiculars end outside their triangle.
-report::HtmlTable feet_table(std::span<const PaperRun> runs) {
-    report::HtmlTable table;
-    table.title = "Table 1: perpendiculars whose foot lies outside the triangle";
-    table.header = {"mesh", "colour in", "paper: outside", "ours: outside"};
+report::ResultTable feet_table(std::span<const PaperRun> runs) {
+    report::ResultTable table{"Table 1: perpendiculars whose foot lies outside the triangle"};
     for (const PaperRun& run : runs) {
         if (run.measure != PaperMeasure::Bidirectional) { continue; }
         const Printed* paper = printed_of(run);
-        table.add_row("{}\t{}\t{}\t{}", run.mesh, name_of(run.colour),
-            paper == nullptr ? "" : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside),
-            share_text(run.result.feet_outside, run.result.feet));
+        table.add({{"mesh", run.mesh}, {"colour in", name_of(run.colour)},
+            {"paper: outside",
+                paper == nullptr ? "" : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside)},
+            {"ours: outside", share_text(run.result.feet_outside, run.result.feet)}});
     }
     table.note = "Of the runs by both directions: three candidates for each edge, three points for "
                  "each face. The paper's numbers of perpendiculars can be divided by nine too.";
@@ -502,16 +555,12 @@ report::HtmlTable feet_table(std::span<const PaperRun> runs) {
 }
 
 /// Table 2: sums of errors, and what an independent measure says of the results.
-report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
-    report::HtmlTable table;
-    table.title = "Table 2: error summed over all contractions";
-    table.header = {"mesh", "colour in", "measure", "paper: error", "paper: of previous", "one-way sum, m2",
-        "of previous", "two-way sum, m2", "of previous", "paper: faces", "faces", "vertices used", "duplicate faces",
-        "edges of 3+ faces", "Hausdorff, 1e-3", "RMS, 1e-4", "ms"};
+report::ResultTable paper_error_table(std::span<const PaperRun> runs) {
+    report::ResultTable table{"Table 2: error summed over all contractions"};
     const PaperRun* previous = nullptr;
     for (const PaperRun& run : runs) {
         previous = run.measure == PaperMeasure::Plane ? &run : previous;
-        table.rows.push_back(error_row(run, *previous));
+        table.add(error_row(run, *previous));
     }
     table.note = "The sums are taken of every run by the same two rulers, whichever measure chose: squared "
                  "distances of new vertices to the triangles they replace, and the larger sum of both ways. "
@@ -523,18 +572,17 @@ report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
 }
 
 /// Every method on every mesh: distance to the original and time.
-report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peers) {
-    report::HtmlTable table;
-    table.title = "Distance to the original, and time";
-    table.header = {"mesh", "method", "wanted faces", "faces", "Hausdorff, 1e-3", "RMS, 1e-4", "colour RMS",
-        "Hausdorff / best library", "RMS / best library", "time, ms", "time / Lindstrom-Turk"};
+report::ResultTable quality_table(std::span<const QualityRun> runs, bool with_peers) {
+    report::ResultTable table{"Distance to the original, and time"};
     for (const QualityRun& run : runs) {
         const auto hausdorff = best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
         const auto rms = best_peer_value(runs, run, [](const QualityRun& r) { return r.rms; });
-        table.add_row("{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{}\t{}\t{}\t{:.1f}\t{}", run.mesh, run.method, run.target_faces,
-            run.faces, 1e3 * run.hausdorff, 1e4 * run.rms, run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "",
-            distance_ratio_text(run.hausdorff, hausdorff), distance_ratio_text(run.rms, rms), run.time_ms,
-            ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run)));
+        table.add({{"mesh", run.mesh}, {"method", run.method}, {"wanted faces", run.target_faces}, {"faces", run.faces},
+            {"Hausdorff, 1e-3", "{:.3f}", 1e3 * run.hausdorff}, {"RMS, 1e-4", "{:.3f}", 1e4 * run.rms},
+            {"colour RMS", run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : ""},
+            {"Hausdorff / best library", distance_ratio_text(run.hausdorff, hausdorff)},
+            {"RMS / best library", distance_ratio_text(run.rms, rms)}, {"time, ms", "{:.1f}", run.time_ms},
+            {"time / Lindstrom-Turk", ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))}});
     }
     table.note = "Both ways between result and repaired original, the larger one, as fractions of the "
                  "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
@@ -547,72 +595,35 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
     return table;
 }
 
-/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty for one number of faces and when gnuplot
-/// is not installed. Throws Error when gnuplot fails.
-std::string quality_figure(std::span<const QualityRun> runs) {
+/// RMS distance over faces, a plot a mesh; none for one number of faces.
+std::vector<report::Plot> quality_plots(std::span<const QualityRun> runs) {
     constexpr std::array colours = {"#d62728", "#ff7f0e", "#777777", "#2ca02c", "#1f77b4", "#17becf", "#9467bd"};
     const std::vector<std::string> methods = names_in_order(runs, &QualityRun::method);
-    std::vector<report::Plot> panels;
+    std::vector<report::Plot> plots;
     for (const std::string& mesh : names_in_order(runs, &QualityRun::mesh)) {
-        report::Plot plot;
-        plot.title = mesh;
-        plot.x_label = "faces";
-        plot.y_label = "RMS / diagonal";
+        report::Plot plot{mesh, "faces", "RMS / diagonal"};
+        plot.x_logarithmic = true;
         plot.y_logarithmic = true;
         for (std::size_t i = 0; i < methods.size(); ++i) {
             report::PlotSeries series = series_of(runs, mesh, methods[i]);
             series.colour = colours[i % colours.size()];
             if (series.x.size() > 1) { plot.series.push_back(std::move(series)); }
         }
-        if (!plot.series.empty()) { panels.push_back(std::move(plot)); }
+        if (!plot.series.empty()) { plots.push_back(std::move(plot)); }
     }
-    return panels.empty() ? "" : report::plots_png(panels).value_or("");
+    return plots;
 }
 
-struct StudyMeshes {
-    std::vector<StudyMesh> meshes;
-    std::string left_out; ///< in words; empty = nothing
-};
-
-StudyMeshes meshes_of(const SimplificationStudyOptions& options) {
-    StudyMeshes all;
-    if (options.bunny) {
-        all.meshes.push_back(bunny_from(*options.bunny));
-    } else {
-        all.left_out = "Left out: the bunny, which is not ours to ship; give the Stanford "
-                       "repository's bun_zipper.ply by --bunny.\n\n";
-    }
-    std::vector<StudyMesh> built_in = built_in_mesh_names();
-    std::move(built_in.begin(), built_in.end(), std::back_inserter(all.meshes));
-    for (const std::filesystem::path& file : options.meshes) { all.meshes.push_back(study_mesh_from(file)); }
-    return all;
-}
-
-/// The paper's goal, or as far as the bunny goes.
-std::size_t paper_goal(const StudyMesh& mesh) {
-    constexpr double bunny_share = 2000.0 / 35947.0;
-    if (mesh.name == "bunny") { return paper_bunny_vertices; }
-    if (mesh.name == "globe") { return paper_globe_vertices; }
-    return static_cast<std::size_t>(bunny_share * static_cast<double>(mesh.original.vertices_m.size()));
-}
-
-std::vector<ColourReading> colour_readings(const StudyMesh& mesh) {
-    if (mesh.original.colours.empty()) { return {ColourReading::None}; }
-    return {ColourReading::None, ColourReading::Distance, ColourReading::DistanceAndLength};
-}
-
+/// The paper's runs of all meshes.
 std::vector<PaperRun> all_paper_runs(const std::vector<StudyMesh>& meshes, bool quiet) {
     constexpr int measures = 3;
     int total = 0;
     for (const StudyMesh& mesh : meshes) { total += measures * static_cast<int>(colour_readings(mesh).size()); }
     base::Progress progress("the paper's simplifier", total, quiet, "results");
-    int done = 0;
     std::vector<PaperRun> runs;
     for (const StudyMesh& mesh : meshes) {
-        const OnResult tick = [&] { progress.show(++done, mesh.name); };
         for (const ColourReading colour : colour_readings(mesh)) {
-            auto of_mesh = paper_runs(mesh, paper_goal(mesh), colour, tick);
-            std::move(of_mesh.begin(), of_mesh.end(), std::back_inserter(runs));
+            std::ranges::move(paper_runs(mesh, paper_goal(mesh), colour, progress), std::back_inserter(runs));
         }
     }
     return runs;
@@ -627,35 +638,33 @@ std::vector<std::size_t> goals_for(const StudyMesh& mesh, const std::vector<std:
     return goals;
 }
 
-QualityOptions quality_options(const SimplificationStudyOptions& options) {
-    QualityOptions quality;
-    if (const auto program = options.peers ? options.peers : find_peer_program()) {
-        quality.program = *program;
-        quality.folder = options.out;
-        quality.peers = methods_of_peer(*program, options.out);
-    }
-    return quality;
-}
-
-/// Coloured meshes twice: for their shape alone by every method, with colour by those that know it.
+/// Every method on every mesh, for each number of faces. Coloured meshes twice: for their shape alone by every method,
+/// with colour by those that know it.
 std::vector<QualityRun> all_quality_runs(
-    const std::vector<StudyMesh>& meshes, const SimplificationStudyOptions& options, const QualityOptions& quality) {
+    const std::vector<StudyMesh>& meshes, const SimplificationStudyOptions& options, const PeerProgram& peers) {
+    constexpr int own_methods = 3;
     int total = 0;
     for (const StudyMesh& mesh : meshes) {
-        const int goals = static_cast<int>(goals_for(mesh, options.faces).size());
-        const bool coloured = !mesh.clean.colours.empty();
-        total += goals * (quality_methods(quality) + (coloured ? quality_methods({}) : 0));
+        const int methods = own_methods * (mesh.clean.colours.empty() ? 1 : 2) + static_cast<int>(peers.methods.size());
+        total += methods * static_cast<int>(goals_for(mesh, options.faces).size());
     }
     base::Progress progress("every method", total, options.quiet, "results");
-    int done = 0;
     std::vector<QualityRun> runs;
-    const auto add = [&](const StudyMesh& mesh, const QualityOptions& with) {
-        const OnResult tick = [&] { progress.show(++done, mesh.name); };
-        auto of_mesh = quality_runs(mesh, goals_for(mesh, options.faces), with, tick);
-        std::move(of_mesh.begin(), of_mesh.end(), std::back_inserter(runs));
+    const auto add = [&](const StudyMesh& mesh, const PeerProgram& with) {
+        for (const std::size_t faces : goals_for(mesh, options.faces)) {
+            QualityRow row(mesh, faces, progress);
+            row.add_ours("Octant, surface", simplify::surface_effort);
+            row.add_ours("Octant, fast", simplify::fast_effort);
+            row.add_paper("2005, both directions");
+            row.add_peers(with);
+            std::ranges::move(row.runs, std::back_inserter(runs));
+        }
     };
     for (const StudyMesh& mesh : meshes) {
-        add(uncoloured(mesh), quality);
+        StudyMesh shape = mesh;
+        shape.original.colours.clear();
+        shape.clean.colours.clear();
+        add(shape, peers);
         if (!mesh.clean.colours.empty()) {
             StudyMesh coloured = mesh;
             coloured.name += ", coloured";
@@ -669,26 +678,17 @@ std::vector<QualityRun> all_quality_runs(
 
 void study_simplification(const SimplificationStudyOptions& options) {
     const StudyMeshes given = meshes_of(options);
-    report::StudyTables tables(options);
-    const QualityOptions quality = options.paper_only ? QualityOptions() : quality_options(options);
+    Study study(options);
+    const PeerProgram peers = options.paper_only ? PeerProgram() : peer_program(options);
     const std::vector<PaperRun> paper = all_paper_runs(given.meshes, options.quiet);
-    tables.add("table-1", feet_table(paper));
-    tables.add("table-2", paper_error_table(paper));
-    std::string figure;
+    study.add("table-1", feet_table(paper));
+    study.add("table-2", paper_error_table(paper));
     if (!options.paper_only) {
-        const std::vector<QualityRun> runs = all_quality_runs(given.meshes, options, quality);
-        tables.add("quality", quality_table(runs, !quality.peers.empty()));
-        const std::string png = quality_figure(runs);
-        if (png.empty()) {
-            base::print_note(options.quiet, "rms.png not made: it takes gnuplot and more than one number of faces");
-        } else {
-            write_file(options.out / "rms.png", png);
-            figure = "![rms.png](rms.png)\n\nRMS distance to the original over the number of faces.\n";
-        }
+        const std::vector<QualityRun> runs = all_quality_runs(given.meshes, options, peers);
+        study.add("quality", quality_table(runs, !peers.methods.empty()));
+        study.add(quality_plots(runs), "RMS distance to the original over the number of faces.");
     }
-    tables.finish("simplification", paper_reading_text() + given.left_out + tables.markdown() + "\n", figure);
-    base::print_note(
-        options.quiet, fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
+    study.finish("simplification", paper_reading_text() + given.left_out);
 }
 
 } // namespace octant::ui::studies::simplification

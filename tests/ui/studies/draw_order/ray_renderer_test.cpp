@@ -1,3 +1,4 @@
+#include "ui/studies/draw_order/ray_renderer.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
 #include "visuals/scene/camera.h"
 

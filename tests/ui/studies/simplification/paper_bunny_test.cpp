@@ -1,3 +1,4 @@
+#include "tests/real_files.h"
 #include "ui/studies/simplification/study_simplification.h"
 
 #include <catch2/catch.hpp>
@@ -9,24 +10,11 @@
 
 using namespace octant::ui::studies::simplification;
 
-namespace {
-
-std::optional<std::filesystem::path> real_bunny() {
-    const char* given = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
-    const auto file = folder / "meshes" / "bun_zipper.ply";
-    if (std::filesystem::exists(file)) { return file; }
-    std::cout << "SKIPPED: no meshes/bun_zipper.ply in " << folder << '\n';
-    return std::nullopt;
-}
-
-} // namespace
-
 TEST_CASE("the bunny of 2000 counted vertices is as the 2005 paper has it") {
-    const auto file = real_bunny();
+    const auto file = octant::tests::real_file("meshes/bun_zipper.ply");
     if (!file) { return; }
-    const auto runs = paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, [] {});
+    octant::ui::base::Progress progress("bunny", 3, true);
+    const auto runs = paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, progress);
     REQUIRE(runs.size() == 3);
     for (const PaperRun& run : runs) {
         CHECK(run.result.counted_vertices == 2000);

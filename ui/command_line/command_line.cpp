@@ -1,0 +1,445 @@
+#include "ui/command_line/command_line.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/base/data_files.h"
+#include "ui/base/stop_signals.h"
+#include "ui/report/packed_recording.h"
+#include "visuals/groundfile/ground_file.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::command_line {
+
+// Distance of words: F. J. Damerau, "A technique for computer detection and correction of spelling errors", Comm. ACM
+// 7(3), 1964; swaps of neighbours only.
+
+namespace {
+
+constexpr std::size_t longest_word = 64;
+
+std::size_t distance_of(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before(b.size() + 1);
+    std::vector<std::size_t> last(b.size() + 1);
+    std::vector<std::size_t> now(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) { last[j] = j; }
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        now[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t changed = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            now[j] = std::min({last[j] + 1, now[j - 1] + 1, changed});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                now[j] = std::min(now[j], before[j - 2] + 1);
+            }
+        }
+        before.swap(last);
+        last.swap(now);
+    }
+    return last[b.size()];
+}
+
+std::string_view without_dashes(std::string_view word) {
+    return word.substr(std::min(word.find_first_not_of('-'), word.size()));
+}
+
+} // namespace
+
+std::optional<std::string> nearest_spelling(std::string_view word, std::span<const std::string> known) {
+    const std::string_view bare = without_dashes(word);
+    if (bare.empty() || bare.size() > longest_word) { return std::nullopt; }
+    // One fault in three letters is a slip, more is another word.
+    std::size_t least = 1 + bare.size() / 3;
+    const std::string* nearest = nullptr;
+    for (const std::string& each : known) {
+        const std::string_view other = without_dashes(each);
+        const bool begins = bare.size() >= 3 && other.starts_with(bare);
+        const std::size_t apart = distance_of(bare, other);
+        const std::size_t distance = begins ? std::min<std::size_t>(apart, 1) : apart;
+        if (distance < least) {
+            least = distance;
+            nearest = &each;
+        } else if (distance == least) {
+            nearest = nullptr;
+        }
+    }
+    return nearest == nullptr ? std::nullopt : std::optional(*nearest);
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> known) {
+    const auto nearest = nearest_spelling(word, known);
+    return nearest ? fmt::format("; perhaps {} is meant", *nearest) : std::string();
+}
+
+namespace {
+
+constexpr int column_width = 34;
+constexpr int unlimited_words = CLI::detail::expected_max_vector_size;
+
+void count_words(CLI::Option& option, const Option& row) {
+    switch (row.arity) {
+    case Arity::None:
+    case Arity::One:
+        break;
+    case Arity::Optional:
+        option.expected(0, 1);
+        break;
+    case Arity::Repeatable:
+    case Arity::OneOrMore:
+        option.type_size(row.words_per_use)->expected(unlimited_words)->allow_extra_args(row.arity == Arity::OneOrMore);
+        break;
+    }
+}
+
+CLI::Option* add_option(CLI::App& app, const Option& row) {
+    if (row.arity == Arity::None) {
+        const std::string meaning =
+            row.shown_default.empty() ? row.meaning : fmt::format("{} [{}]", row.meaning, row.shown_default);
+        return app.add_flag(row.name, meaning)->group(row.heading);
+    }
+    CLI::Option* const option = app.add_option(row.name, CLI::callback_t(), row.meaning);
+    option->type_name(row.form)->required(row.required);
+    count_words(*option, row);
+    return option->default_str(row.shown_default)->group(row.heading);
+}
+
+/// Help without the library's mark of names that unset a flag, as in "--no-sky{false}": it reads as if a word followed
+/// them.
+class HelpFormatter final : public CLI::Formatter {
+public:
+    std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+        return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
+    }
+};
+
+bool is_truth(std::string_view word) { return word == "true" || word == "false"; }
+
+/// The words given for an option.
+Words words_of(const CLI::Option& option, const Option& row) {
+    if (row.arity == Arity::None) { return {option.as<bool>() ? "true" : "false"}; }
+    return option.reduced_results();
+}
+
+/// The parser that the tables of a program make.
+class Parser {
+public:
+    explicit Parser(const Program& program) : program_(program), app_(program.about) {
+        app_.set_version_flag("--version", program.version);
+        app_.formatter(std::make_shared<HelpFormatter>());
+        app_.get_formatter()->column_width(column_width);
+        app_.footer(program.footer);
+        add_commands(app_, program.commands, program.name);
+        app_.set_help_all_flag("--help-all", "Print the help of all commands and exit");
+    }
+
+    /// Throws CLI::ParseError where the line is wrong or asks for help.
+    void parse(int argument_count, const char* const* arguments) { app_.parse(argument_count, arguments); }
+
+    std::string help() const { return with_single_gaps(app_.help()); }
+
+    std::string help_of_all() const {
+        std::string text = app_.help();
+        for (const Parsed& parsed : parsed_) {
+            if (parsed.command->program.empty()) { text += fmt::format("\n\n{}", parsed.app->help(parsed.before)); }
+        }
+        return with_single_gaps(text);
+    }
+
+    /// What is wrong with the line, where parse() found `fault`.
+    std::string parse_error_text(const CLI::ParseError& fault, const Words& line) const {
+        const Parsed* const parsed = named();
+        const std::vector<Command>& commands = parsed == nullptr ? program_.commands : parsed->command->commands;
+        if (!commands.empty()) {
+            const std::string name = parsed == nullptr ? "" : full_name(*parsed) + ": ";
+            return name + option_of_other_command_error(commands, first_extra(line));
+        }
+        if (is(fault, CLI::ExitCodes::ExtrasError)) {
+            return fmt::format("{}: {}", full_name(*parsed), unexpected_word_error(*parsed, line));
+        }
+        if (is(fault, CLI::ExitCodes::RequiredError)) {
+            for (std::size_t i = 0; i < parsed->options.size(); ++i) {
+                if (parsed->options[i]->get_required() && parsed->options[i]->count() == 0) {
+                    return missing_words_error(parsed->command->options[i], {});
+                }
+            }
+        }
+        const std::string text = fault.what();
+        for (std::size_t i = 0; i < parsed->options.size(); ++i) {
+            if (is_about(text, parsed->options[i]->get_name())) {
+                return missing_words_error(parsed->command->options[i], parsed->options[i]->results());
+            }
+        }
+        return text;
+    }
+
+    /// Options of the command that the line names, read; then what is to be done.
+    std::function<void()> chosen_action(const Words& line) const {
+        const Parsed& parsed = *named();
+        check_flag_values(parsed, line);
+        std::vector<std::pair<const Option*, Words>> readings;
+        for (std::size_t i = 0; i < parsed.options.size(); ++i) {
+            if (parsed.options[i]->count() > 0) {
+                const Option& row = parsed.command->options[i];
+                readings.emplace_back(&row, words_of(*parsed.options[i], row));
+                check_no_empty_words(row, readings.back().second);
+            }
+        }
+        for (const auto& [row, words] : readings) { row->read(words); }
+        return parsed.command->run;
+    }
+
+private:
+    /// The library leaves two lines empty between headings.
+    static std::string with_single_gaps(std::string help) {
+        return CLI::detail::find_and_replace(std::move(help), "\n\n\n", "\n\n");
+    }
+
+    /// A command and what the library knows of it.
+    struct Parsed {
+        const Command* command = nullptr;
+        CLI::App* app = nullptr;
+        std::vector<CLI::Option*> options; ///< as in the command's table
+        std::string before;                ///< the words before its name
+    };
+
+    void add_commands(CLI::App& app, const std::vector<Command>& commands, const std::string& before) {
+        app.require_subcommand(1);
+        for (const Command& command : commands) {
+            Parsed parsed{&command, app.add_subcommand(command.name, command.summary), {}, before};
+            parsed.app->footer(command.footer);
+            for (const Option& row : command.options) { parsed.options.push_back(add_option(*parsed.app, row)); }
+            parsed_.push_back(parsed);
+            if (!command.commands.empty()) { add_commands(*parsed.app, command.commands, before + " " + command.name); }
+        }
+    }
+
+    /// The innermost command that the line names; null where it names none.
+    const Parsed* named() const {
+        const CLI::App* app = &app_;
+        while (!app->get_subcommands().empty()) { app = app->get_subcommands().front(); }
+        const auto found = std::ranges::find(parsed_, app, &Parsed::app);
+        return found == parsed_.end() ? nullptr : &*found;
+    }
+
+    /// As a person types it after the program's name.
+    std::string full_name(const Parsed& parsed) const {
+        const std::string before = parsed.before.substr(program_.name.size());
+        return before.empty() ? parsed.command->name : fmt::format("{} {}", before.substr(1), parsed.command->name);
+    }
+
+    static bool is(const CLI::ParseError& fault, CLI::ExitCodes code) {
+        return fault.get_exit_code() == static_cast<int>(code);
+    }
+
+    /// Whether a text of the library's is about the option of that name.
+    static bool is_about(const std::string& text, const std::string& name) {
+        return text.starts_with(name + ":") || text.find(": " + name + " =") != std::string::npos;
+    }
+
+    /// The first word of the line that no option or command took; empty where there is none.
+    std::string first_extra(const Words& line) const {
+        const Words extra = app_.remaining(true);
+        const auto found = std::ranges::find_first_of(line, extra);
+        return found == line.end() ? std::string() : *found;
+    }
+
+    static std::string option_of_other_command_error(const std::vector<Command>& commands, const std::string& got) {
+        Words names;
+        for (const Command& command : commands) { names.push_back(command.name); }
+        return fmt::format("expected a command ({}), got {}{}", fmt::join(names, ", "),
+            got.empty() ? "none" : printable(got), did_you_mean(got, names));
+    }
+
+    std::string unexpected_word_error(const Parsed& parsed, const Words& line) const {
+        const std::string got = first_extra(line);
+        if (!got.starts_with('-')) { return fmt::format("expected no further argument, got '{}'", printable(got)); }
+        Words names{"--help"};
+        for (const CLI::Option* const option : parsed.options) {
+            for (const std::string& name : option->get_lnames()) { names.push_back("--" + name); }
+        }
+        const std::string name = got.substr(0, got.find('='));
+        return fmt::format("expected one of its options, got {}{}", printable(got), did_you_mean(name, names));
+    }
+
+    /// Throws Error for a flag with another value than true or false, and for a name that unsets a flag with any: what
+    /// --no-near-detail=0 should mean nobody can say.
+    static void check_flag_values(const Parsed& parsed, const Words& line) {
+        for (const std::string& word : line) {
+            const std::size_t equals = word.find('=');
+            if (!word.starts_with("--") || equals == std::string::npos) { continue; }
+            const std::string name = word.substr(0, equals);
+            for (std::size_t i = 0; i < parsed.options.size(); ++i) {
+                const Option& row = parsed.command->options[i];
+                if (row.arity != Arity::None || !parsed.options[i]->check_name(name)) { continue; }
+                const std::string value = word.substr(equals + 1);
+                if (row.name.find("!" + name) != std::string::npos) {
+                    throw Error(fmt::format("{}: expected nothing after it, got {}; {}=true or {}=false is taken", name,
+                        printable(value), first_name(row), first_name(row)));
+                }
+                if (!is_truth(value)) { throw Error(missing_words_error(row, {value})); }
+            }
+        }
+    }
+
+    /// Throws Error for a word of no letters, as a shell gives for a variable that is not set.
+    static void check_no_empty_words(const Option& row, const Words& words) {
+        const bool may_be_empty = row.arity == Arity::None || row.arity == Arity::Optional;
+        if (!may_be_empty && std::ranges::find(words, "") != words.end()) { throw Error(missing_words_error(row, {})); }
+    }
+
+    static std::string first_name(const Option& row) { return row.name.substr(0, row.name.find(',')); }
+
+    /// The option's words are too few or too many.
+    static std::string missing_words_error(const Option& row, const Words& got) {
+        std::string name = first_name(row);
+        if (!name.starts_with('-')) {
+            std::ranges::transform(
+                name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+        }
+        const std::string form = row.arity == Arity::None               ? "nothing, =true or =false after it"
+                                 : row.form.empty() || row.form == name ? "a word"
+                                                                        : row.form;
+        return fmt::format("{}: expected {}{}, got {}", name, form,
+            row.arity == Arity::One && got.size() > 1 ? " once" : "",
+            got.empty() ? "none" : printable(fmt::format("{}", fmt::join(got, " "))));
+    }
+
+    const Program& program_;
+    CLI::App app_;
+    std::vector<Parsed> parsed_; ///< all commands, each before those below it
+};
+
+std::function<void()> printing(std::string text) {
+    return [text = std::move(text)] { std::fputs(text.c_str(), stdout); };
+}
+
+/// The program of that name in the folder of this program, else in PATH; empty if there is none.
+std::filesystem::path find_program(const std::string& name) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> folders{std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path()};
+    const char* const path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
+    for (const std::string_view folder : split_fields(path == nullptr ? "" : path, ':')) {
+        folders.emplace_back(folder);
+    }
+    for (const std::filesystem::path& folder : folders) {
+        const std::filesystem::path file = folder / name;
+        if (std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0) { return file; }
+    }
+    return {};
+}
+
+/// The command line of another program that does the work of this one; nothing where this program does it: of a command
+/// with a program, or of any NAME that is no command if there is a program octant-NAME.
+std::optional<Words> other_command_line(const Program& program, const Words& line) {
+    if (line.empty() || line[0].starts_with('-')) { return std::nullopt; }
+    const auto command = std::ranges::find(program.commands, line[0], &Command::name);
+    Words words;
+    if (command != program.commands.end()) {
+        words = command->program;
+    } else if (line[0].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos) {
+        const std::string name = fmt::format("{}-{}", program.name, line[0]);
+        if (!find_program(name).empty()) { words = {name}; }
+    }
+    if (words.empty()) { return std::nullopt; }
+    words.insert(words.end(), line.begin() + 1, line.end());
+    return words;
+}
+
+} // namespace
+
+void replace_by_program(Words words) {
+    const std::filesystem::path file = find_program(words.front());
+    if (file.empty()) {
+        throw Error(
+            fmt::format("expected the program {} in the folder of this one or in PATH, got none", words.front()));
+    }
+    words.front() = file.string();
+    std::vector<char*> arguments;
+    for (std::string& word : words) { arguments.push_back(word.data()); }
+    arguments.push_back(nullptr);
+    execv(file.c_str(), arguments.data());
+    throw Error(fmt::format("{}: cannot be started: {}", file.string(), std::strerror(errno)));
+}
+
+std::function<void()> parse_command_line(const Program& program, int argument_count, const char* const* arguments) {
+    const Words line(arguments + 1, arguments + argument_count);
+    if (auto words = other_command_line(program, line)) {
+        return [words = std::move(*words)] { replace_by_program(words); };
+    }
+    Parser parser(program);
+    try {
+        parser.parse(argument_count, arguments);
+        return parser.chosen_action(line);
+    } catch (const CLI::CallForHelp&) { return printing(parser.help()); } catch (const CLI::CallForAllHelp&) {
+        return printing(parser.help_of_all());
+    } catch (const CLI::CallForVersion& version) {
+        return printing(fmt::format("{}\n", version.what()));
+    } catch (const CLI::ParseError& fault) { throw Error(parser.parse_error_text(fault, line)); }
+}
+
+namespace {
+
+constexpr int exit_check_failed = 1;
+constexpr int exit_invalid_input = 2;
+
+int print_error(const std::string& program, const std::string& line) {
+    const std::string named = base::with_path_aliases(line);
+    std::fputs(fmt::format("{}: {}\n", program, one_line(named)).c_str(), stderr);
+    return exit_invalid_input;
+}
+
+/// Does what the command line asks for; the exit code.
+int run_command(const Program& program, int argument_count, const char* const* arguments) {
+    int code = 0;
+    try {
+        parse_command_line(program, argument_count, arguments)();
+    } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
+        return code; // which the signal replaces
+    }
+    for (const std::string& line : visuals::groundfile::tile_damage_messages()) {
+        std::fputs(fmt::format("{}: {}\n", program.name, line).c_str(), stderr);
+        code = exit_check_failed;
+    }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw Error(fmt::format("results cannot be written to standard output: {}", std::strerror(errno)));
+    }
+    return code;
+}
+
+} // namespace
+
+int run_program(const Program& program, int argument_count, const char* const* arguments) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
+    std::signal(SIGCHLD, SIG_DFL); // child programs are waited for
+    try {
+        const int code = run_command(program, argument_count, arguments);
+        report::remove_unpacked();
+        base::exit_by_received_signal();
+        return code;
+    } catch (const std::bad_alloc&) {
+        std::fputs(fmt::format("{}: expected enough memory for this input, got none\n", program.name).c_str(), stderr);
+        return exit_invalid_input;
+    } catch (const std::filesystem::filesystem_error& fault) {
+        return print_error(program.name, fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
+    } catch (const std::exception& fault) { return print_error(program.name, fault.what()); }
+}
+
+} // namespace octant::ui::command_line

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ui/command_line/command.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace octant::ui::command_line {
+
+/// Returns the known word that a person meant who wrote `word`: the one that the fewest letters, left out, added,
+/// changed or swapped with their neighbours, make of it, or that begins with it. Nothing where no known word is near,
+/// or where two are equally near.
+std::optional<std::string> nearest_spelling(std::string_view word, std::span<const std::string> known);
+
+/// Returns "; perhaps WORD is meant", or nothing where no known word is near.
+std::string did_you_mean(std::string_view word, std::span<const std::string> known);
+
+/// What a command line asks for, ready to be done: the command that it names, with its options read already, or help.
+/// `arguments` begin with the program's own name, as in main(). Throws Error with one line for a wrong command line.
+std::function<void()> parse_command_line(const Program& program, int argument_count, const char* const* arguments);
+
+/// Replaces this process by the program that the first word names, from the folder of this program or from PATH.
+/// Throws Error if it is not found or cannot be started.
+[[noreturn]] void replace_by_program(Words words);
+
+/// The body of main(): does what the command line asks for and returns the exit code. 0: success. 1: a check failed.
+/// 2: invalid input or environment; the error is one line on stderr. A received stop signal ends the process instead.
+int run_program(const Program& program, int argument_count, const char* const* arguments);
+
+} // namespace octant::ui::command_line

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::command_line {
+
+using Words = std::vector<std::string>;
+
+/// How many words follow an option.
+enum class Arity {
+    None,       ///< a flag: reads "true"; its negation and `=false` read "false"
+    One,        ///< one word; the option can be given once
+    Optional,   ///< one word or none; none reads as an empty word
+    Repeatable, ///< one word; the option can be given several times
+    OneOrMore,  ///< one or more words, each time that the option is given
+};
+
+/// One row of a command's table: an option, a flag or an argument without dashes.
+struct Option {
+    /// "--out", a flag's "--vsync,!--no-vsync", an argument's "terrain".
+    std::string name = {};
+    std::string form = {}; ///< placeholder of the words in help: "METRES"
+    std::string meaning = {};
+    Arity arity = Arity::One;
+    /// Called once with all words of the option, if it is given; options are read in the order of the table. Throws
+    /// Error.
+    std::function<void(const Words&)> read = {};
+    std::string shown_default = {}; ///< in help; empty = none
+    bool required = false;
+    int words_per_use = 1;           ///< number of words that must be given together
+    std::string heading = "Options"; ///< above the option in help; empty = the option is not shown
+};
+
+/// The option with this default in help.
+Option with_shown_default(std::string shown_default, Option option);
+
+/// The option as a required one.
+Option required(Option option);
+
+/// The option left out of help, manual page and completions.
+Option hidden(Option option);
+
+/// A flag that sets `value` to true; names that begin with ! set it to false.
+Option flag(std::string names, std::string meaning, bool& value);
+
+/// An option that assigns its word to a std::string, a path or an optional of these. A string that is not empty is
+/// shown as the default.
+template <class Text>
+Option text_option(std::string name, std::string form, std::string meaning, Text& value) {
+    Option option{.name = std::move(name),
+        .form = std::move(form),
+        .meaning = std::move(meaning),
+        .read = [&value](const Words& words) { value = words.front(); }};
+    if constexpr (std::is_same_v<Text, std::string>) { option.shown_default = value; }
+    return option;
+}
+
+/// An option that assigns its words to `values`; given options replace the defaults.
+template <class Text>
+Option list_option(std::string name, std::string form, std::string meaning, Arity arity, std::vector<Text>& values) {
+    return {.name = std::move(name),
+        .form = std::move(form),
+        .meaning = std::move(meaning),
+        .arity = arity,
+        .read = [&values](const Words& words) { values.assign(words.begin(), words.end()); }};
+}
+
+/// One of several words; `value` is the default.
+Option choice_option(
+    std::string name, std::string form, std::string meaning, std::vector<std::string_view> choices, std::string& value);
+
+} // namespace octant::ui::command_line

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "ui/command_line/option.h"
+#include "ui/settings/settings.h"
+#include "ui/settings/settings_text.h"
+
+#include <fmt/format.h>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::command_line {
+
+template <class Value>
+std::string default_text(const Value& value) {
+    return settings::text_of(value);
+}
+
+template <class Value>
+std::string default_text(const std::optional<Value>& value) {
+    return value ? settings::text_of(*value) : "";
+}
+
+/// An option that reads its word as a setting of this type, within the bounds of `info`. Its name is that of `info`
+/// after `dashes`. Help shows the default unless `info.meaning` ends with one in brackets.
+template <class Value>
+Option value_option(const settings::FieldInfo& info, Value& value, std::string_view dashes = "--") {
+    const std::string name = fmt::format("{}{}", dashes, info.name);
+    return {.name = name,
+        .form = std::string(info.form),
+        .meaning = std::string(info.meaning),
+        .read =
+            [name, info, &value](const Words& words) {
+                settings::FieldInfo named = info;
+                named.name = name; // in errors
+                settings::read_setting(named, words.front(), value);
+            },
+        .shown_default = info.meaning.ends_with(']') ? "" : default_text(value)};
+}
+
+/// Adds --settings FILE and then one option for every setting, each under the heading of its group. The file is read
+/// first, so that the others override it. The path is the argument without dashes. The names of given options are
+/// appended to `given` unless it is null.
+void add_setting_options(
+    std::vector<Option>& options, settings::RunSettings& settings, std::vector<std::string>* given = nullptr);
+
+/// What map files do not say: --terrain-spacing, --height-scale, --terrain-system, --void and
+/// --band. Every command that reads maps has them.
+void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files);
+void add_file_options(std::vector<Option>& table, settings::PathSettings& path);
+
+} // namespace octant::ui::command_line

@@ -1,0 +1,178 @@
+#include "ui/report/table.h"
+
+#include "sim/base/text_file.h"
+#include "ui/report/html_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <nlohmann/json.hpp>
+
+namespace octant::ui::report {
+
+namespace {
+
+bool is_number(const Cell& cell) { return finite_number(cell.text).has_value(); }
+
+/// "<td class="number soft">"; `element`: td or th.
+std::string opened(std::string_view element, bool is_number, std::string_view css_class) {
+    std::string classes = is_number ? "number" : "";
+    if (!css_class.empty()) { classes += (classes.empty() ? "" : " ") + std::string(css_class); }
+    return classes.empty() ? fmt::format("<{}>", element) : fmt::format("<{} class=\"{}\">", element, classes);
+}
+
+std::string cell_html(const Cell& cell) {
+    const std::string text = escaped(cell.text);
+    const std::string linked =
+        cell.link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escaped(cell.link), text);
+    return opened("td", is_number(cell), cell.css_class) + linked + "</td>";
+}
+
+std::string head_html(const ResultTable& table) {
+    std::string html = "<thead><tr>";
+    for (std::size_t i = 0; i < table.header.size(); ++i) {
+        html +=
+            opened("th", !table.rows.empty() && is_number(table.rows[0][i]), "") + escaped(table.header[i]) + "</th>";
+    }
+    return html + "</tr></thead>\n";
+}
+
+std::string line_of_markdown(const std::vector<std::string>& fields) {
+    std::string line = "|";
+    for (const std::string& field : fields) { line += fmt::format(" {} |", field); }
+    return line + "\n";
+}
+
+std::vector<std::string> texts_of(const std::vector<Cell>& row) {
+    std::vector<std::string> texts;
+    for (const Cell& cell : row) { texts.push_back(cell.text); }
+    return texts;
+}
+
+} // namespace
+
+void ResultTable::add(std::vector<Cell> row) {
+    if (rows.empty()) {
+        header.clear();
+        for (const Cell& cell : row) { header.push_back(cell.column); }
+    }
+    assert(std::ranges::equal(row, header, {}, &Cell::column));
+    rows.push_back(std::move(row));
+}
+
+std::string html_of(const ResultTable& table, std::string_view table_class) {
+    std::string html;
+    if (!table.title.empty()) { html += "<h3>" + escaped(table.title) + "</h3>\n"; }
+    html += "<div class=\"scroll\">" + opened("table", false, table_class) + "\n";
+    const bool is_named = std::ranges::any_of(table.header, [](const std::string& name) { return !name.empty(); });
+    if (is_named) { html += head_html(table); }
+    html += "<tbody>\n";
+    for (const auto& row : table.rows) {
+        html += "<tr>";
+        for (const Cell& cell : row) { html += cell_html(cell); }
+        html += "</tr>\n";
+    }
+    html += "</tbody></table></div>\n";
+    if (!table.note.empty()) { html += "<p class=\"note\">" + escaped(table.note) + "</p>\n"; }
+    return html;
+}
+
+std::string csv_of(const ResultTable& table) {
+    std::string text;
+    const auto add = [&](const std::vector<std::string>& fields) {
+        for (const std::string& field : fields) {
+            text += (&field == &fields.front() ? "" : ",") + detail::csv_field(field);
+        }
+        text += "\n";
+    };
+    add(table.header);
+    for (const auto& row : table.rows) { add(texts_of(row)); }
+    return text;
+}
+
+std::string markdown_of(std::span<const ResultTable> tables) {
+    std::string text;
+    for (const ResultTable& table : tables) {
+        text += fmt::format("{}# {}\n\n", text.empty() ? "" : "\n", table.title) + line_of_markdown(table.header) +
+                line_of_markdown(std::vector<std::string>(table.header.size(), "---"));
+        for (const auto& row : table.rows) { text += line_of_markdown(texts_of(row)); }
+        text += "\n" + table.note + "\n";
+    }
+    return text;
+}
+
+std::string json_of(std::span<const ResultTable> tables) {
+    auto list = nlohmann::ordered_json::array();
+    for (const ResultTable& table : tables) {
+        auto rows = nlohmann::ordered_json::array();
+        for (const auto& cells : table.rows) {
+            auto row = nlohmann::ordered_json::object();
+            for (const Cell& cell : cells) {
+                const auto number = finite_number(cell.text);
+                row[cell.column] = number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(cell.text);
+            }
+            rows.push_back(row);
+        }
+        list.push_back({{"title", table.title}, {"rows", rows}, {"note", table.note}});
+    }
+    return list.dump(2) + "\n";
+}
+
+std::string text_of(const ResultTable& table) {
+    std::vector<std::size_t> widths;
+    for (std::size_t i = 0; i < table.header.size(); ++i) {
+        widths.push_back(table.header[i].size());
+        for (const auto& row : table.rows) { widths[i] = std::max(widths[i], row[i].text.size()); }
+    }
+    const auto line = [&](const std::vector<std::string>& fields) {
+        std::string text;
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            if (i == 0) {
+                text += fmt::format("{:<{}}", fields[i], widths[i]);
+            } else {
+                text += i + 1 == fields.size() ? "  " + fields[i] : fmt::format("  {:>{}}", fields[i], widths[i]);
+            }
+        }
+        return text + "\n";
+    };
+    std::string text = line(table.header);
+    for (const auto& row : table.rows) { text += line(texts_of(row)); }
+    return text;
+}
+
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+namespace detail {
+
+std::string csv_field(std::string text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) { return text; }
+    for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) { text.insert(at, 1, '"'); }
+    return "\"" + text + "\"";
+}
+
+std::string cell_text(const ColumnHead& head, double value) {
+    if (!std::isfinite(value)) { return {}; }
+    return head.decimals < 0 ? fmt::format("{:.{}g}", value, -head.decimals)
+                             : fmt::format("{:.{}f}", value, head.decimals);
+}
+
+base::JsonValue cell_json(const ColumnHead& head, double value) {
+    if (!std::isfinite(value)) { return {}; }
+    if (head.kind == ColumnKind::Truth) { return value != 0.0; }
+    return head.kind == ColumnKind::Whole ? base::JsonValue(static_cast<std::int64_t>(value)) : base::JsonValue(value);
+}
+
+base::JsonValue schema_of_column(const ColumnHead& head) {
+    static constexpr std::array names{"string", "string", "boolean", "integer", "number"};
+    const std::string type = names[static_cast<std::size_t>(head.kind)];
+    base::JsonValue schema;
+    schema["type"] = head.is_optional ? base::JsonValue::list({type, "null"}) : base::JsonValue(type);
+    if (head.kind == ColumnKind::Hash) { schema["pattern"] = "^[0-9a-f]{16}$"; }
+    if (head.kind >= ColumnKind::Whole && !head.is_signed) { schema["minimum"] = 0; }
+    if (!head.definition.empty()) { schema["description"] = std::string(head.definition); }
+    return schema;
+}
+
+} // namespace detail
+
+} // namespace octant::ui::report

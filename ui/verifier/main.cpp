@@ -1,0 +1,138 @@
+// octant-verify FILE: checks a certificate of a painting order with exact arithmetic (visuals/verify). It shares no
+// code with what finds orders and writes certificates.
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "visuals/verify/certificate.h"
+#include "visuals/verify/verify.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace verify = octant::visuals::verify;
+
+constexpr const char* help =
+    R"(Checks a certificate of a painting order with exact arithmetic.
+Usage: octant-verify [OPTIONS] FILE
+
+  FILE        certificate that octant draw-order --certificate wrote
+  --json      print the results as JSON
+  --quiet     print no progress; this program prints none
+  --version   print the version
+  --help      print this help
+
+Exit code 0: every pair of polygons is proved. 1: a statement is false, missing or not proved. 2: not a certificate.
+Example:
+  octant draw-order f15 --certificate f15-proof.txt
+  octant verify f15-proof.txt
+)";
+
+struct Arguments {
+    std::string file;
+    bool json = false;
+    bool help = false;
+    bool version = false;
+};
+
+/// Throws Error for an unknown option and for another number of files than one.
+Arguments arguments_from(const std::vector<std::string>& words) {
+    Arguments arguments;
+    for (const std::string& word : words) {
+        if (word == "--json") {
+            arguments.json = true;
+        } else if (word == "--help" || word == "-h") {
+            arguments.help = true;
+        } else if (word == "--version") {
+            arguments.version = true;
+        } else if (word.starts_with('-') && word != "--quiet") {
+            throw octant::Error(
+                fmt::format("expected --json, --quiet, --version or --help, got '{}'", octant::printable(word)));
+        } else if (word != "--quiet" && !std::exchange(arguments.file, word).empty()) {
+            throw octant::Error(
+                fmt::format("expected one certificate, got a second one '{}'", octant::printable(word)));
+        }
+    }
+    if (arguments.file.empty() && !arguments.help && !arguments.version) {
+        throw octant::Error("FILE: expected a certificate, got none");
+    }
+    return arguments;
+}
+
+/// One result; `is_text` says that its value stands in quotation marks in JSON.
+struct Result {
+    std::string name;
+    std::string value;
+    bool is_text = false;
+};
+
+std::vector<Result> results_of(const verify::Certificate& certificate, const verify::VerificationResult& verdict) {
+    const std::string file = certificate.path.string();
+    const auto number = [](const auto& value) { return fmt::format("{}", value); };
+    std::vector<Result> results{{"certificate", file, true}, {"polygons", number(certificate.polygons.size())},
+        {"nodes", number(certificate.nodes.size())}, {"lists", number(certificate.lists.size())},
+        {"tolerance_sizes", number(verdict.tolerance_sizes)}, {"pairs", number(verdict.pairs)},
+        {"pairs_by_partings", number(verdict.by_node_planes)},
+        {"claims_by_polygons", number(verdict.statements.by_polygons)},
+        {"claims_by_sums", number(verdict.statements.by_sums)},
+        {"claims_never_seen", number(verdict.statements.never_both_visible)}, {"unlisted", number(verdict.unlisted)},
+        {"unproved", number(verdict.unproved)}, {"every_eye", number(verdict.covers_every_eye)}};
+    if (certificate.first_unproved) {
+        results.push_back({"first_unproved", fmt::format("{}:{}", file, *certificate.first_unproved), true});
+    }
+    if (verdict.failure) {
+        results.push_back(
+            {"refused", fmt::format("{}:{}: {}", file, verdict.failure->line, verdict.failure->what), true});
+    }
+    results.push_back({"proved", number(verdict.proved())});
+    return results;
+}
+
+std::string json_string(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char letter : octant::one_line(text)) {
+        if (letter == '"' || letter == '\\') { quoted += '\\'; }
+        quoted += letter;
+    }
+    return quoted + '"';
+}
+
+void print(const std::vector<Result>& results, bool json) {
+    std::size_t width = 0;
+    for (const Result& result : results) { width = std::max(width, result.name.size()); }
+    std::string text;
+    for (const auto& [name, value, is_text] : results) {
+        text += json ? fmt::format(
+                           "{}  \"{}\": {}", text.empty() ? "{\n" : ",\n", name, is_text ? json_string(value) : value)
+                     : fmt::format("{:<{}}  {}\n", name, width, octant::one_line(value));
+    }
+    std::fputs((json ? text + "\n}\n" : text).c_str(), stdout);
+}
+
+int run(const std::vector<std::string>& words) {
+    const Arguments arguments = arguments_from(words);
+    if (arguments.help || arguments.version) {
+        std::fputs(arguments.help ? help : "octant-verify " OCTANT_VERSION "\n", stdout);
+        return 0;
+    }
+    const verify::Certificate certificate = verify::read_certificate(arguments.file);
+    const verify::VerificationResult verdict = verify::verify(certificate);
+    print(results_of(certificate, verdict), arguments.json);
+    return verdict.proved() ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(std::vector<std::string>(argv + 1, argv + argc));
+    } catch (const std::exception& fault) {
+        std::fputs(fmt::format("octant-verify: {}\n", octant::one_line(fault.what())).c_str(), stderr);
+        return 2;
+    }
+}

@@ -1,0 +1,598 @@
+#include "visuals/planning/ground_pieces.h"
+
+#include "models/colour_vertex.h"
+#include "sim/base/plane.h"
+#include "sim/base/units.h"
+#include "visuals/landscape/ground.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+/// What corners of a layer are multiplied by: each layer lies before the one below it for a depth buffer, by 256 steps
+/// of a float, and in the same place of the picture.
+float depth_offset_factor(GroundLayer layer) { return 1.0F - static_cast<float>(layer) * 0x1p-15F; }
+
+} // namespace
+
+/// What lies on the ground of a frame: pieces and their indices, and the decals, on which shadows fall.
+struct PieceList {
+    std::size_t ground_vertices = 0;
+    std::vector<models::ColourVertex>* vertices = nullptr; ///< numbered on after the ground's
+    std::vector<std::uint32_t> indices;
+    std::vector<ShadowPieces> pieces;
+    std::vector<GroundDecal> decals;
+    std::vector<glm::dvec3> decal_corners_m;
+    int decal_triangles = 0;
+
+    void begin(const GroundPieces::Ground& ground, std::vector<models::ColourVertex>& to) {
+        ground_vertices = ground.triangles.vertices.size();
+        vertices = &to;
+        to.clear();
+        indices.clear();
+        pieces.clear();
+        decals.clear();
+        decal_corners_m.clear();
+        decal_triangles = 0;
+    }
+
+    /// Adds the last vertices as a fan.
+    void add_fan(std::size_t corners) {
+        const auto all = static_cast<std::uint32_t>(ground_vertices + vertices->size());
+        const std::uint32_t base = all - static_cast<std::uint32_t>(corners);
+        for (std::uint32_t i = 2; i < corners; ++i) { indices.insert(indices.end(), {base, base + i - 1, base + i}); }
+    }
+
+    /// Adds what `indices` holds from one on as a piece, unless that is nothing.
+    void add_range(std::uint32_t triangle, GroundLayer layer, std::size_t first) {
+        if (indices.size() > first) {
+            pieces.push_back({triangle, static_cast<std::uint32_t>(first),
+                static_cast<std::uint32_t>(indices.size() - first), layer});
+        }
+    }
+
+    std::span<const glm::dvec3> corners_of(const GroundDecal& decal) const {
+        return std::span(decal_corners_m).subspan(decal.first, decal.count);
+    }
+};
+
+namespace {
+
+constexpr double min_area_m2 = 1e-5;
+/// A little more than two rounding steps of renderers (1/256 pixel), by which two sides may be rounded apart.
+constexpr double overlap_px = 0.01;
+constexpr double max_overlap = 0.05; ///< of the distance from the eye
+
+double area2(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// How far a corner of an edge moves across it in a plane, along a vector of length 1 on the map, so that the eye sees
+/// it move by an angle. `across` is in the plane, `sideways` a unit vector across the plane through the eye and the
+/// edge.
+double moved_m(const glm::dvec3& corner_m, const glm::dvec3& across, const glm::dvec3& sideways, double angle_rad) {
+    const double seen = std::abs(glm::dot(across, sideways));
+    return glm::length(corner_m) * std::min(angle_rad / std::max(seen, 1e-9), max_overlap);
+}
+
+} // namespace
+
+/// Cuts patches to triangles of the ground: each decal lies in the plane of its triangle, whatever the mesh, and
+/// reaches a little beyond its sides, so that no gap shows between two of them. On the plan positions are metres east
+/// and north of the eye.
+class DecalClipper {
+public:
+    explicit DecalClipper(PieceList& pieces) : pieces_(pieces) {}
+
+    void begin(const GroundPieces::Ground& ground) {
+        ground_.emplace(ground);
+        overlap_rad_ = overlap_px * ground.view.pixel_rad;
+    }
+
+    /// Lays what is seen of a decoration on the triangles, the nearest first: as GroundPieces::lay().
+    void lay(nature::GroundDecoration& decoration, int max_triangles) {
+        const glm::dvec3& eye_m = ground_->view.camera.eye_m;
+        const int limit = pieces_.decal_triangles + max_triangles - max_decal_triangles;
+        if (!decoration.begin_lying(eye_m, ground_->view.pixel_rad)) { return; }
+        candidates_.clear();
+        ground_->mesher.triangles_in(
+            [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+                return decoration.may_lie_in(glm::dvec2(min_m), glm::dvec2(max_m));
+            },
+            candidates_);
+        if (!ground_->is_front_to_back) { std::ranges::reverse(candidates_); }
+        for (const std::uint32_t candidate : candidates_) {
+            set_triangle(candidate);
+            if (!is_seen()) { continue; }
+            patches_.clear();
+            const auto& [a, b, c] = corners_on_plan_m_;
+            decoration.find_patches(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), patches_);
+            if (patches_.empty()) { continue; }
+            const bool on_water = is_on_water();
+            mean_colour_ = mean_colour();
+            for (const nature::GroundPatch& patch : patches_) {
+                if ((patch.is_required || pieces_.decal_triangles <= limit) && (patch.is_on_water || !on_water)) {
+                    add_decal(patch);
+                }
+            }
+        }
+    }
+
+private:
+    /// The most triangles of one decal: three cuts add a corner each.
+    static constexpr int max_decal_triangles = 5;
+
+    /// A convex polygon on the plan.
+    struct ClippedPatch {
+        std::array<glm::dvec2, max_decal_triangles + 3> corners;
+        std::size_t count = 0;
+    };
+
+    using SideFlags = std::array<bool, 3>;
+
+    /// A side of the triangle, a unit vector outwards, and how far its ends move along that for one overlap.
+    struct Side {
+        glm::dvec2 from_m;
+        glm::dvec2 to_m;
+        glm::dvec2 out;
+        double from_moved_m = 0.0;
+        double to_moved_m = 0.0;
+    };
+
+    void set_triangle(std::uint32_t triangle) {
+        number_ = triangle;
+        has_sides_ = false;
+        place_triangle(ground_->triangles, triangle, triangle_);
+        for (std::size_t i = 0; i < 3; ++i) { corners_on_plan_m_[i] = glm::dvec2(triangle_[i].at_m); }
+    }
+
+    /// False where the eye sees nothing of the triangle at hand.
+    bool is_seen() const {
+        const glm::dvec3& a = triangle_[0].at_m;
+        const glm::dvec3 up = glm::cross(triangle_[1].at_m - a, triangle_[2].at_m - a);
+        return up.z > 0.0 && glm::dot(up, a) < 0.0 && may_be_in_view();
+    }
+
+    /// False only for a triangle of which nothing is in view, nor of what lies a little beyond its sides.
+    bool may_be_in_view() const {
+        return std::ranges::all_of(ground_->view.frustum, [&](const glm::dvec3& inwards) {
+            return std::ranges::any_of(triangle_, [&](const ViewVertex& corner) {
+                const double inside_m = glm::dot(inwards, corner.at_m);
+                return inside_m >= 0.0 || inside_m >= -ground_->view.pixel_rad * glm::length(corner.at_m);
+            });
+        });
+    }
+
+    /// Of the corners of the triangle at hand, display values.
+    glm::vec3 mean_colour() const {
+        const std::uint32_t* const corner = &ground_->triangles.indices[std::size_t{3} * number_];
+        glm::vec3 sum(0.0F);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t packed = ground_->triangles.vertices[corner[i]].colour;
+            sum += glm::vec3(packed & 0xffU, packed >> 8U & 0xffU, packed >> 16U & 0xffU);
+        }
+        return sum / (3.0F * 255.0F);
+    }
+
+    /// Whether the triangle at hand is water, or stands on the ground and is no part of it.
+    bool is_on_water() const {
+        const std::uint32_t* const corner = &ground_->triangles.indices[std::size_t{3} * number_];
+        return std::all_of(corner, corner + 3,
+            [&](std::uint32_t vertex) { return ground_->triangles.vertices[vertex].colour >> 24U == 0; });
+    }
+
+    /// Computes the plane and the sides of the triangle at hand, and how far each end moves outwards to overlap: on
+    /// most triangles nothing is laid.
+    void place_sides() {
+        has_sides_ = true;
+        plane_ = plane_of(triangle_);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3& from_m = triangle_[i].at_m;
+            const glm::dvec3& to_m = triangle_[(i + 1) % 3].at_m;
+            const glm::dvec2 edge = glm::normalize(glm::dvec2(to_m - from_m));
+            const glm::dvec2 out(edge.y, -edge.x);
+            const glm::dvec3 across(out, -glm::dot(glm::dvec2(plane_.normal), out) / plane_.normal.z);
+            const glm::dvec3 upright = glm::cross(from_m, to_m);
+            const glm::dvec3 sideways = upright / std::max(glm::length(upright), 1e-9);
+            sides_[i] = {glm::dvec2(from_m), glm::dvec2(to_m), out, moved_m(from_m, across, sideways, overlap_rad_),
+                moved_m(to_m, across, sideways, overlap_rad_)};
+        }
+    }
+
+    /// Cuts off what lies to the right of a line.
+    static void cut(ClippedPatch& piece, const glm::dvec2& from, const glm::dvec2& to) {
+        ClippedPatch kept;
+        for (std::size_t i = 0; i < piece.count; ++i) {
+            const glm::dvec2& a = piece.corners[i];
+            const glm::dvec2& b = piece.corners[i + 1 < piece.count ? i + 1 : 0];
+            const double a_side = area2(from, to, a);
+            const double b_side = area2(from, to, b);
+            if (a_side >= 0.0) { kept.corners[kept.count++] = a; }
+            if ((a_side > 0.0 && b_side < 0.0) || (a_side < 0.0 && b_side > 0.0)) {
+                kept.corners[kept.count++] = glm::mix(a, b, a_side / (a_side - b_side));
+            }
+        }
+        piece = kept;
+    }
+
+    /// Which sides of the triangle at hand cut a patch; nothing where it lies beyond one of them.
+    std::optional<SideFlags> sides_across(const ClippedPatch& patch) const {
+        SideFlags across{};
+        for (std::size_t side = 0; side < sides_.size(); ++side) {
+            std::size_t inside = 0;
+            for (std::size_t i = 0; i < patch.count; ++i) {
+                const bool is_in = area2(sides_[side].from_m, sides_[side].to_m, patch.corners[i]) >= 0.0;
+                inside += is_in ? 1U : 0U;
+            }
+            if (inside == 0) { return std::nullopt; }
+            across[side] = inside < patch.count;
+        }
+        return across;
+    }
+
+    /// A patch cut to some sides of the triangle at hand, which move out by so many overlaps.
+    ClippedPatch piece_of(const ClippedPatch& patch, const SideFlags& across, double overlaps) const {
+        ClippedPatch piece = patch;
+        for (std::size_t i = 0; i < sides_.size(); ++i) {
+            if (across[i]) {
+                const Side& side = sides_[i];
+                cut(piece, side.from_m + side.out * (side.from_moved_m * overlaps),
+                    side.to_m + side.out * (side.to_moved_m * overlaps));
+            }
+        }
+        return piece;
+    }
+
+    /// Adds what of a patch lies on the triangle at hand, if anything does, a little beyond its sides: a marking twice
+    /// as far as the surface below it, which must not show along its ends.
+    void add_decal(const nature::GroundPatch& patch) {
+        const auto area_m2 = [](const ClippedPatch& piece) {
+            double sum_m2 = 0.0;
+            for (std::size_t i = 2; i < piece.count; ++i) {
+                sum_m2 += 0.5 * area2(piece.corners[0], piece.corners[i - 1], piece.corners[i]);
+            }
+            return sum_m2;
+        };
+        if (!has_sides_) { place_sides(); }
+        ClippedPatch all{{}, patch.corners_m.size()};
+        std::ranges::copy(patch.corners_m, all.corners.begin());
+        const std::optional<SideFlags> across = sides_across(all);
+        if (!across || area_m2(piece_of(all, *across, 0.0)) <= min_area_m2) { return; }
+        const ClippedPatch piece = piece_of(all, *across, patch.is_marking ? 2.0 : 1.0);
+        const glm::vec3 colour = glm::mix(mean_colour_, patch.colour, patch.own_share);
+        GroundDecal& decal = pieces_.decals.emplace_back();
+        decal = {number_, static_cast<std::uint32_t>(pieces_.decal_corners_m.size()),
+            static_cast<std::uint32_t>(piece.count), models::packed_colour(colour) & 0x00ffffffU,
+            patch.is_marking ? GroundLayer::Marking : GroundLayer::Surface};
+        const std::size_t first = pieces_.indices.size();
+        for (std::size_t i = 0; i < piece.count; ++i) {
+            const glm::dvec2& at_m = piece.corners[i];
+            const double up_m = -(glm::dot(glm::dvec2(plane_.normal), at_m) + plane_.offset_m) / plane_.normal.z;
+            const glm::dvec3 corner_m(at_m, up_m);
+            pieces_.decal_corners_m.push_back(corner_m);
+            pieces_.vertices->push_back({glm::vec3(corner_m) * depth_offset_factor(decal.layer), decal.colour});
+        }
+        pieces_.add_fan(piece.count);
+        pieces_.add_range(number_, decal.layer, first);
+        pieces_.decal_triangles += static_cast<int>(piece.count) - 2;
+    }
+
+    PieceList& pieces_;
+    std::optional<GroundPieces::Ground> ground_;
+    double overlap_rad_ = 0.0;
+    std::vector<std::uint32_t> candidates_;
+    std::vector<nature::GroundPatch> patches_; ///< that may lie on the triangle at hand
+    // The triangle at hand.
+    std::uint32_t number_ = 0;
+    ViewPolygon triangle_;
+    bool has_sides_ = false;
+    Plane plane_;
+    std::array<Side, 3> sides_;
+    std::array<glm::dvec2, 3> corners_on_plan_m_;
+    glm::vec3 mean_colour_{0.0F};
+};
+
+namespace {
+
+/// Share of a sunlit surface's colour that is left in a shadow.
+constexpr float shadow_share = 0.55F;
+constexpr double min_sun_elevation_deg = 3.0;
+constexpr double min_shadow_px = 2.0;
+constexpr int max_march_steps = 200;
+
+glm::vec4 unpacked(std::uint32_t colour) {
+    return glm::vec4(static_cast<float>(colour & 255U), static_cast<float>((colour >> 8U) & 255U),
+               static_cast<float>((colour >> 16U) & 255U), static_cast<float>(colour >> 24U)) /
+           255.0F;
+}
+
+/// Darkened; alpha too, where it says how much light is left.
+std::uint32_t shaded(const glm::vec4& colour, bool is_light) {
+    const float left = is_light ? shadow_share : 1.0F;
+    const auto alpha = static_cast<std::uint32_t>(255.0F * left * colour.w + 0.5F);
+    return (models::packed_colour(glm::vec3(colour) * shadow_share) & 0x00ffffffU) | alpha << 24U;
+}
+
+/// What the light through a hull reaches up to `path_m` below its middle and `reach_m` beyond.
+ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun, double path_m, double reach_m) {
+    const AxisAlignedBox extent = world_bounds(hull);
+    const glm::dvec3 down_m = to_sun * -(path_m + reach_m);
+    ConvexVolume volume;
+    volume.extent = {glm::min(extent.min_m, extent.min_m + down_m), glm::max(extent.max_m, extent.max_m + down_m)};
+    const LightPrism prism = prism_of(hull, to_sun);
+    for (int i = 0; i < prism.count; ++i) { volume.add(prism.planes[static_cast<std::size_t>(i)]); }
+    return volume;
+}
+
+double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// The upright plane through an edge of a polygon that lies counter-clockwise seen from above, with the polygon in
+/// front of it.
+Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
+    const glm::dvec3 edge_m = to_m - from_m;
+    const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
+    return {inward, -glm::dot(inward, from_m)};
+}
+
+} // namespace
+
+/// Shadows of aircraft: each polygon that faces the sun, thrown along the sunlight onto each triangle of the ground
+/// below and cut off at the triangle's sides. The pieces are opaque and have the triangle's own colours, darkened, so
+/// that pieces on pieces change nothing; decals on a triangle have shadows of their own. Light ends at the ground it
+/// meets first; ground shadows no ground.
+class ShadowCaster {
+public:
+    explicit ShadowCaster(PieceList& pieces) : pieces_(pieces) {}
+
+    void begin(const GroundPieces::Ground& ground) {
+        ground_.emplace(ground);
+        decals_by_triangle_.clear();
+    }
+
+    /// As GroundPieces::cast().
+    void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun) {
+        const bool is_high_enough = to_sun.z >= std::sin(rad_from_deg(min_sun_elevation_deg));
+        if (!is_high_enough || ground_->triangles.indices.empty()) { return; }
+        to_sun_ = to_sun;
+        sort_decals();
+        const FrameView& view = ground_->view;
+        const double path_m = light_path_m(hull, ground_->mesher.ground(), view.camera.eye_m);
+        if (path_m < 0.0) { return; }
+        const glm::dvec3 position_m = hull.centre_m - to_sun_ * path_m;
+        const AxisAlignedBox& extent = aircraft.model->hull;
+        const double size_m = 0.5 * glm::distance(extent.min_m, extent.max_m);
+        // On a slope that falls away from the sun a shadow is longer than on the level.
+        const double reach_m = 2.0 * size_m / to_sun_.z;
+        if (2.0 * size_m < min_shadow_px * view.pixel_rad * glm::length(position_m) ||
+            !scene::in_view(position_m, reach_m, view.frustum)) {
+            return;
+        }
+        const ConvexVolume volume = shadow_volume_of(hull, to_sun_, path_m, reach_m);
+
+        struct Look {
+            const ConvexVolume& volume;
+            const glm::dvec3& eye_m;
+        } const look{volume, view.camera.eye_m};
+
+        candidates_.clear();
+        ground_->mesher.triangles_in(
+            [&look](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+                return may_intersect(look.volume, min_m - look.eye_m, max_m - look.eye_m);
+            },
+            candidates_);
+        collect_faces(aircraft);
+        for (const std::uint32_t candidate : candidates_) {
+            place_triangle(ground_->triangles, candidate, triangle_);
+            const glm::dvec3& a = triangle_[0].at_m;
+            const glm::dvec3& b = triangle_[1].at_m;
+            const glm::dvec3& c = triangle_[2].at_m;
+            if (may_intersect(volume, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) { cast_on(candidate); }
+        }
+    }
+
+private:
+    struct Face {
+        Plane plane;
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+
+    /// Length of the light's way from the middle of the hull to the ground; negative when it meets none or the middle
+    /// lies under it.
+    double light_path_m(const OrientedBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const {
+        const glm::dvec3 from_m = hull.centre_m + eye_m;
+        const auto height_over_ground_m = [&](double path_m) -> std::optional<double> {
+            const glm::dvec3 at_m = from_m - to_sun_ * path_m;
+            const std::optional<double> ground_m = ground.height_at(at_m.x, at_m.y);
+            return ground_m ? std::optional<double>(at_m.z - *ground_m) : std::nullopt;
+        };
+        const double min_step_m = radius_m(hull);
+        double above_m = 0.0;
+        double path_m = 0.0;
+        for (int step = 0; step < max_march_steps; ++step) {
+            const std::optional<double> height_m = height_over_ground_m(path_m);
+            if (!height_m || (step == 0 && *height_m < 0.0)) { return -1.0; }
+            if (*height_m <= 0.0) {
+                for (int halving = 0; halving < 20; ++halving) {
+                    const double middle_m = 0.5 * (above_m + path_m);
+                    (height_over_ground_m(middle_m).value_or(0.0) > 0.0 ? above_m : path_m) = middle_m;
+                }
+                return path_m;
+            }
+            above_m = path_m;
+            path_m += std::max(min_step_m, 0.25 * *height_m / to_sun_.z);
+        }
+        return -1.0;
+    }
+
+    /// The polygons that face the sun, where they are.
+    void collect_faces(const PlacedAircraft& aircraft) {
+        faces_.clear();
+        face_corners_.clear();
+        const auto count = static_cast<std::uint32_t>(aircraft.model->polygons.polygons.size());
+        for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
+            place_polygon(aircraft, polygon, part_);
+            const Plane plane = plane_of(part_);
+            if (glm::dot(plane.normal, to_sun_) > 0.0) {
+                faces_.push_back({plane, face_corners_.size(), part_.size()});
+                face_corners_.insert(face_corners_.end(), part_.begin(), part_.end());
+            }
+        }
+    }
+
+    void cast_on(std::uint32_t triangle) {
+        const Plane plane = plane_of(triangle_);
+        const double slope = glm::dot(plane.normal, to_sun_);
+        if (slope <= 0.01 || plane.offset_m <= 0.0 || plane.normal.z <= 0.0) {
+            return; // the sun does not reach it or the eye does not see it
+        }
+        std::array<Plane, 3> sides;
+        for (std::size_t i = 0; i < 3; ++i) { sides[i] = side_of(triangle_[i].at_m, triangle_[(i + 1) % 3].at_m); }
+        shadow_parts_.clear();
+        shadow_ends_.clear();
+        const std::size_t first = pieces_.indices.size();
+        for (const Face& face : faces_) {
+            const auto corners = std::span(face_corners_).subspan(face.first, face.count);
+            part_.assign(corners.begin(), corners.end());
+            clip_to_front(part_, plane, 0.0, scratch_);
+            for (ViewVertex& corner : part_) { corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope); }
+            const std::size_t before = shadow_parts_.size();
+            shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
+            for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) { clip_to_front(part_, sides[i], 0.0, scratch_); }
+            if (part_.size() >= 3) {
+                add_piece(triangle);
+                shadow_ends_.push_back(shadow_parts_.size());
+            } else {
+                shadow_parts_.resize(before);
+            }
+        }
+        pieces_.add_range(triangle, GroundLayer::Shadow, first);
+        if (!pieces_.decals.empty() && !shadow_ends_.empty()) { add_on_decals(triangle); }
+    }
+
+    /// part_ as a fan with the triangle's colours, darkened.
+    void add_piece(std::uint32_t triangle) {
+        const std::uint32_t* corner = &ground_->triangles.indices[std::size_t{3} * triangle];
+        const glm::dvec3& a = triangle_[0].at_m;
+        const glm::dvec3& b = triangle_[1].at_m;
+        const glm::dvec3& c = triangle_[2].at_m;
+        const double whole = plan_area(a, b, c);
+        for (const ViewVertex& at : part_) {
+            const double share_a = plan_area(at.at_m, b, c) / whole;
+            const double share_b = plan_area(a, at.at_m, c) / whole;
+            const glm::vec4 colour =
+                unpacked(ground_->triangles.vertices[corner[0]].colour) * static_cast<float>(share_a) +
+                unpacked(ground_->triangles.vertices[corner[1]].colour) * static_cast<float>(share_b) +
+                unpacked(ground_->triangles.vertices[corner[2]].colour) * static_cast<float>(1.0 - share_a - share_b);
+            pieces_.vertices->push_back({glm::vec3(at.at_m), shaded(colour, ground_->has_light_in_alpha)});
+        }
+        pieces_.add_fan(part_.size());
+    }
+
+    /// The shadows on a triangle once more, cut to what is painted on it and darker than that.
+    void add_on_decals(std::uint32_t triangle) {
+        const auto triangle_of = [&](std::uint32_t decal) { return pieces_.decals[decal].triangle; };
+        auto own = std::ranges::lower_bound(decals_by_triangle_, triangle, {}, triangle_of);
+        const std::size_t first = pieces_.indices.size();
+        for (; own != decals_by_triangle_.end() && triangle_of(*own) == triangle; ++own) {
+            const GroundDecal& decal = pieces_.decals[*own];
+            const auto corners = pieces_.corners_of(decal);
+            std::size_t begin = 0;
+            for (const std::size_t end : shadow_ends_) {
+                part_.assign(shadow_parts_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    shadow_parts_.begin() + static_cast<std::ptrdiff_t>(end));
+                begin = end;
+                for (std::size_t i = 0; i < corners.size() && !part_.empty(); ++i) {
+                    const glm::dvec3& next_m = corners[i + 1 < corners.size() ? i + 1 : 0];
+                    clip_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
+                }
+                for (const ViewVertex& at : part_) {
+                    pieces_.vertices->push_back({glm::vec3(at.at_m) * depth_offset_factor(GroundLayer::ShadowOnDecal),
+                        shaded(unpacked(decal.colour), false)});
+                }
+                pieces_.add_fan(part_.size());
+            }
+        }
+        pieces_.add_range(triangle, GroundLayer::ShadowOnDecal, first);
+    }
+
+    void sort_decals() {
+        if (decals_by_triangle_.size() == pieces_.decals.size()) { return; }
+        decals_by_triangle_.resize(pieces_.decals.size());
+        std::iota(decals_by_triangle_.begin(), decals_by_triangle_.end(), 0U);
+        std::ranges::stable_sort(
+            decals_by_triangle_, {}, [&](std::uint32_t decal) { return pieces_.decals[decal].triangle; });
+    }
+
+    PieceList& pieces_;
+    std::optional<GroundPieces::Ground> ground_;
+    glm::dvec3 to_sun_{0.0, 0.0, 1.0};
+    std::vector<std::uint32_t> decals_by_triangle_; ///< places in PieceList::decals
+    std::vector<std::uint32_t> candidates_;
+    std::vector<Face> faces_;
+    std::vector<ViewVertex> face_corners_;
+    ViewPolygon triangle_;
+    ViewPolygon part_;
+    /// The shadows on one triangle's plane that meet it, not yet cut to it, one after the other, and where each ends.
+    std::vector<ViewVertex> shadow_parts_;
+    std::vector<std::size_t> shadow_ends_;
+    ViewPolygon scratch_;
+};
+
+struct GroundPieces::Memory {
+    PieceList list;
+    DecalClipper clipper{list};
+    ShadowCaster caster{list};
+    scene::TriangleDraw triangles;
+};
+
+GroundPieces::GroundPieces() : memory_(std::make_unique<Memory>()) {}
+
+GroundPieces::~GroundPieces() = default;
+
+void GroundPieces::begin(const Ground& ground, std::vector<models::ColourVertex>& vertices) {
+    memory_->list.begin(ground, vertices);
+    memory_->clipper.begin(ground);
+    memory_->caster.begin(ground);
+    memory_->triangles = ground.triangles;
+}
+
+void GroundPieces::lay(nature::GroundDecoration& decoration, int max_triangles) {
+    memory_->clipper.lay(decoration, max_triangles);
+}
+
+void GroundPieces::cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun) {
+    memory_->caster.cast(aircraft, hull, to_sun);
+}
+
+GroundFrame GroundPieces::finish() {
+    PieceList& list = memory_->list;
+    std::ranges::sort(list.pieces, {},
+        [](const ShadowPieces& piece) { return std::tuple(piece.triangle, piece.layer, piece.first); });
+    return {memory_->triangles, list.pieces, list.indices};
+}
+
+std::span<const GroundDecal> GroundPieces::decals() const { return memory_->list.decals; }
+
+std::span<const glm::dvec3> GroundPieces::corners_of(const GroundDecal& decal) const {
+    return memory_->list.corners_of(decal);
+}
+
+int GroundPieces::decal_triangles() const { return memory_->list.decal_triangles; }
+
+} // namespace octant::visuals::planning
