@@ -13,7 +13,7 @@
 namespace octant::ui::base {
 
 /// What a command found, as it is printed for people and for programs: nothing, a truth value, a number, text, a list,
-/// or named figures in the order in which they were set. The values of JSON, in a type that costs a file next to
+/// or named values in the order in which they were set. The values of JSON, in a type that costs a file next to
 /// nothing to include.
 class JsonValue {
 public:
@@ -42,12 +42,12 @@ public:
 
     /// A list, also an empty one.
     static JsonValue list(List members) {
-        JsonValue results;
-        results.value_ = std::move(members);
-        return results;
+        JsonValue list;
+        list.value_ = std::move(members);
+        return list;
     }
 
-    /// The figure of a name. A new name stands last and has nothing yet. Asserts that this is nothing or named figures.
+    /// The value of a name. A new name comes last and has no value yet. Asserts that this is nothing or named values.
     JsonValue& operator[](std::string_view name);
 
     /// One more member. Asserts that this is nothing or a list.
@@ -72,16 +72,16 @@ private:
     Value value_;
 };
 
-/// A figure as it stands in a line of text: numbers that are no whole ones with six digits.
-std::string text_of_value(const JsonValue& figure);
+/// A value as text in a line; fractions with six digits.
+std::string text_of_value(const JsonValue& value);
 
-/// One figure a line, names in a column; members of lists on lines of their own.
+/// One value a line, names in a column; members of lists on lines of their own.
 std::string text_of_results(const JsonValue& results);
 
 /// As JSON with a line end; bytes of file names that are no UTF-8 are replaced.
 std::string json_of_results(const JsonValue& results);
 
-/// Writes the figures to standard output, as JSON or as text.
+/// Writes the values to standard output, as JSON or as text.
 void print_value(const JsonValue& results, bool as_json);
 
 /// Encodes a file name for JSON. A name that is not UTF-8, or that begins with "bytes:", becomes "bytes:" followed by

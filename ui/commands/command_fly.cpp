@@ -7,7 +7,6 @@
 #include "ui/commands/flight_summary.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/packet_replay.h"
-#include "ui/flight/replay.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"

@@ -167,7 +167,7 @@ std::vector<Option> options_of(ListenOptions& options) {
         text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", options.record.video),
         flag("--json", "with --headless: summary as JSON, with every vehicle and what its packets were", options.json),
         flag("--full-screen", "fill the screen (F11)", options.window.full_screen),
-        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be",
+        flag("--vsync,!--no-vsync", "limit to the display's refresh rate",
             options.window.vsync),
         flag("--panels,!--no-panels", "begin with panels shown (Tab)", options.window.panels)};
     append(table, port_options(listener.input));

@@ -151,9 +151,9 @@ void view_or_bench(ViewWork work) {
 
 std::vector<Option> options_of(ViewWork& work) {
     ViewOptions& view = work.view;
-    std::vector<Option> table = {flag("--by-hand", "in the pilot's hands from the start", view.by_hand),
+    std::vector<Option> table = {flag("--by-hand", "start in manual flight", view.by_hand),
         flag("--full-screen", "fill the screen (F11)", view.full_screen),
-        flag("--vsync,!--no-vsync", "one picture a refresh of the display; else as many as there can be", view.vsync),
+        flag("--vsync,!--no-vsync", "limit to the display's refresh rate", view.vsync),
         flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels),
         text_option("--record", "DIR", "record from the first frame into this folder", view.record),
         with_shown_default(view.recordings_folder.string(),

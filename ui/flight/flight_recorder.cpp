@@ -1,13 +1,15 @@
 #include "ui/flight/flight_recorder.h"
 
+#include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
+#include "ui/base/data_files.h"
 #include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
 #include "ui/base/version.h"
-#include "ui/flight/track_files.h"
+#include "ui/report/frame_csv.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/run_file.h"
@@ -16,17 +18,187 @@
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <list>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 
 namespace {
+
+/// Times in files have six decimals at the least.
+constexpr double rounding_s = 1e-6;
+
+constexpr double flush_every_s = 1.0;
+
+sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
+    std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
+    const auto end = std::find_if(samples.begin() + 1, samples.end(),
+        [&](const sim::AircraftState& sample) { return sample.time_s > until_s + rounding_s; });
+    samples.erase(end, samples.end());
+    return sim::Trajectory(std::move(samples));
+}
+
+/// The part of a track file's text from `begin` on that was flown by a time: up to the first line that tells a later
+/// one. Such lines begin with digits in track.csv, with # in track.acmi.
+std::string_view rows_until(std::string_view text, std::size_t begin, double until_s) {
+    std::size_t at = begin;
+    while (at < text.size()) {
+        const std::size_t end = text.find('\n', at) + 1;
+        std::string_view line = text.substr(at, end - at - 1);
+        if (line.starts_with('#')) {
+            line.remove_prefix(1);
+        } else {
+            line = line.substr(0, line.find(','));
+        }
+        const bool tells_time = text[at] == '#' || text.front() == 't';
+        const auto time_s = tells_time ? finite_number(line) : std::nullopt;
+        if (time_s && *time_s > until_s + rounding_s) { break; }
+        at = end;
+    }
+    return text.substr(begin, at - begin);
+}
+
+flightpaths::AcmiHeader acmi_header(const world::World& world, const sim::Trajectory& flight, const EarthFrame* frame) {
+    flightpaths::AcmiHeader header;
+    header.title = world.flight.title;
+    header.kind = world.leader_kind;
+    header.aircraft = world.scene.model_of(0).polygons.name;
+    for (const flightpaths::LegStart& leg : world.flight.legs) {
+        if (leg.time_s >= flight.start_s() && leg.time_s <= flight.end_s() + rounding_s) {
+            header.bookmarks.push_back(leg);
+        }
+    }
+    header.frame = frame;
+    return header;
+}
+
+} // namespace
+
+void write_tracks(const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight,
+    const EarthFrame* frame) {
+    write_file(folder / "track.csv", flightpaths::track_csv(flight));
+    write_file(folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, frame)));
+}
+
+/// The tracks of a flight while it is flown, in track.csv and track.acmi. Each is handed to the system at the latest
+/// every second, so that the tracks of a killed flight go no further than it came. Throws Error (disk full).
+class TrackFiles {
+public:
+    TrackFiles() = default;
+    virtual ~TrackFiles() = default;
+    TrackFiles(const TrackFiles&) = delete;
+    TrackFiles& operator=(const TrackFiles&) = delete;
+    TrackFiles(TrackFiles&&) = delete;
+    TrackFiles& operator=(TrackFiles&&) = delete;
+
+    /// Appends what was flown up to the session's last picture.
+    void add(const Session& session, double time_s) {
+        append(session, time_s);
+        if (!flushed_s_ || time_s - *flushed_s_ >= flush_every_s) {
+            flush();
+            flushed_s_ = time_s;
+        }
+    }
+
+    virtual void finish(const Session& session, double flown_until_s) = 0;
+
+private:
+    virtual void append(const Session& session, double time_s) = 0;
+    virtual void flush() = 0;
+
+    std::optional<double> flushed_s_;
+};
+
+namespace {
+
+/// The tracks of a flight along the world's path.
+class PathTracks final : public TrackFiles {
+public:
+    PathTracks(const std::filesystem::path& folder, const world::World& world) : folder_(folder) {
+        const sim::Trajectory& path = world.flight.trajectory;
+        tracks_.emplace_back(folder / "track.csv", flightpaths::track_csv(path));
+        tracks_.emplace_back(
+            folder / "track.acmi", flightpaths::track_acmi(path, acmi_header(world, path, world.ground.frame.get())));
+    }
+
+    void finish(const Session& session, double flown_until_s) override {
+        tracks_.clear();
+        const world::World& world = session.world();
+        write_tracks(folder_, world, flown(world.flight.trajectory, flown_until_s), world.ground.frame.get());
+    }
+
+private:
+    void append(const Session& /*session*/, double time_s) override {
+        for (Track& track : tracks_) {
+            const std::string_view flown = rows_until(track.text, track.written, time_s);
+            track.file.append(flown);
+            track.written += flown.size();
+        }
+    }
+
+    void flush() override {
+        for (Track& track : tracks_) { track.file.flush(); }
+    }
+
+    struct Track {
+        Track(std::filesystem::path path, std::string whole) : file(std::move(path)), text(std::move(whole)) {}
+
+        AppendedFile file;
+        /// Of the whole path.
+        std::string text;
+        std::size_t written = 0;
+    };
+
+    std::filesystem::path folder_;
+    std::list<Track> tracks_;
+};
+
+/// The tracks of a flight that others fly, which nobody knows beforehand: track.csv has the states of all pictures,
+/// track.acmi those since the first aircraft is flown, as its place on the earth is known by then.
+class LiveTracks final : public TrackFiles {
+public:
+    LiveTracks(const std::filesystem::path& folder, const world::World& world)
+        : csv_(folder / "track.csv"), acmi_(folder / "track.acmi"),
+          header_(acmi_header(world, world.flight.trajectory, nullptr)) {
+        csv_.append(flightpaths::track_csv_names());
+    }
+
+    void finish(const Session& /*session*/, double /*flown_until_s*/) override { flush(); }
+
+private:
+    void append(const Session& session, double /*time_s*/) override {
+        const StateSource& source = session.simulation().source();
+        const sim::AircraftState& state = session.states().front();
+        csv_.append(flightpaths::track_csv_line(state));
+        header_.frame = source.frame();
+        if (is_flown_ || source.is_flown(0)) {
+            const bool is_first = !std::exchange(is_flown_, true);
+            acmi_.append(is_first ? flightpaths::acmi_head(header_) : std::string());
+            acmi_.append(flightpaths::acmi_state(state, header_, is_first));
+        }
+    }
+
+    void flush() override {
+        csv_.flush();
+        acmi_.flush();
+    }
+
+    AppendedFile csv_;
+    AppendedFile acmi_;
+    flightpaths::AcmiHeader header_;
+    bool is_flown_ = false;
+};
 
 std::string adaptation_text(const StressSettings& stress) {
     return fmt::format("terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
@@ -55,7 +227,7 @@ report::RunInfo run_info(
     info.rate_hz = session.rate_hz();
     info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
     info.machine = report::read_machine_info(std::chrono::system_clock::now());
-    info.facts = {{"ground", session.world().ground_name},
+    info.facts = {{"ground", session.world().ground.name},
         {"path turned by", fmt::format("{:.1f} degrees", deg_from_rad(flight.heading_rad))},
         {"path lifted by", fmt::format("{:.1f} m", flight.offset_m)},
         {"lowest clearance", fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
@@ -112,12 +284,14 @@ FlightRecorder::FlightRecorder(
         }
         recording_.emplace(*options.folder, std::move(info));
         if (settings.path.name == settings::live_path) {
-            live_tracks_.emplace(*options.folder, session.world());
+            tracks_ = std::make_unique<LiveTracks>(*options.folder, session.world());
         } else {
-            tracks_.emplace(*options.folder, session.world());
+            tracks_ = std::make_unique<PathTracks>(*options.folder, session.world());
         }
     }
 }
+
+FlightRecorder::~FlightRecorder() = default;
 
 void FlightRecorder::add(report::FrameRecord record, Session& session) {
     const base::Stopwatch writing;
@@ -132,11 +306,7 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     if (video_) { video_->add(pixel_view_of(session.picture())); }
     record.record_ms = writing.ms();
     if (recording_) {
-        if (tracks_) { tracks_->write_until(record.sim_time_s); }
-        if (live_tracks_) {
-            const StateSource& source = session.simulation().source();
-            live_tracks_->add(session.states().front(), source.is_flown(0), source.frame());
-        }
+        tracks_->add(session, record.sim_time_s);
         recording_->add(record);
     } else {
         times_.add(record);
@@ -159,19 +329,75 @@ FlightResult FlightRecorder::finish(const Session& session, const std::string& s
         end.statistics = recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times(),
             visuals::groundfile::tile_damage_messages(), stopped});
         slow_pictures_.write(*options_.folder);
-        if (tracks_) {
-            tracks_.reset();
-            write_tracks(*options_.folder, session.world(), flown_until_s_);
-        }
-        if (live_tracks_) {
-            live_tracks_->flush();
-            live_tracks_.reset();
-        }
+        tracks_->finish(session, flown_until_s_);
+        tracks_.reset();
         end.notes.push_back(write_report(*options_.folder));
     } else {
         end.statistics = times_.statistics();
     }
     return end;
+}
+
+namespace {
+
+/// More than any control asks for.
+constexpr int max_triangles = 100000000;
+
+std::string hash_verdict(const Replay& replay, const std::string& recorded, const std::string& now) {
+    if (!replay.ended) { return "unknown"; }
+    return recorded == now ? "same" : "other";
+}
+
+} // namespace
+
+Replay read_replay(const std::filesystem::path& folder) {
+    constexpr std::array<std::string_view, 1> target_columns{"triangle_target"};
+    const report::RunFile run = report::read_run_file(folder / "run.json");
+    const auto file = folder / "frames.csv";
+    const report::FrameFile rows = report::read_frame_csv(file, target_columns);
+    if (rows.records.empty()) { throw_error_in(file, "expected the rows of a flight, got none"); }
+    const bool in_a_window =
+        std::ranges::any_of(run.facts, [](const auto& fact) { return fact.first == report::window_fact; });
+    if (in_a_window) {
+        throw_error_in(folder / "run.json",
+            "expected a recording of octant fly, got one of a window, whose pictures follow the "
+            "clock; --settings with this file repeats its flight");
+    }
+    Replay replay{folder, {}, run.ended, run.state_hash, run.picture_hash};
+    for (const report::FrameRecord& row : rows.records) {
+        const auto frame = static_cast<int>(replay.quality_targets.size());
+        if (row.frame != frame) {
+            throw_error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
+        }
+        if (row.triangle_target < 1 || row.triangle_target > max_triangles) {
+            throw_error_at(file, frame + 2,
+                fmt::format("expected a triangle_target from 1 to {}, got {}", max_triangles, row.triangle_target));
+        }
+        replay.quality_targets.push_back(
+            {row.triangle_target, row.smooth_target < 0 ? std::nullopt : std::optional(row.smooth_target)});
+    }
+    return replay;
+}
+
+void check_frames(const Replay& replay, int frames) {
+    const auto rows = static_cast<int>(replay.quality_targets.size());
+    if (rows > frames) {
+        throw_error_at(replay.folder / "frames.csv", frames + 2,
+            fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
+    }
+}
+
+ReplayComparison compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
+    ReplayComparison verdict;
+    verdict.state_hash = hash_verdict(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
+    verdict.picture_hash = hash_verdict(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
+    verdict.is_same = verdict.state_hash == "same" && verdict.picture_hash == "same";
+    const std::string name = base::with_path_aliases(replay.folder.string());
+    verdict.line = replay.ended
+                       ? fmt::format("{} states, {} pictures as {}", verdict.state_hash, verdict.picture_hash, name)
+                       : fmt::format("nothing to compare with: {} was cut short after {} frames and has no hashes",
+                             name, replay.quality_targets.size());
+    return verdict;
 }
 
 } // namespace octant::ui::flight

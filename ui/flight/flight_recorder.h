@@ -1,19 +1,28 @@
 #pragma once
 
+#include "sim/base/earth_frame.h"
+#include "sim/trajectory.h"
 #include "ui/flight/session.h"
-#include "ui/flight/track_files.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 #include "ui/report/statistics.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings.h"
+#include "ui/world/world.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace octant::ui::flight {
+
+/// Writes track.csv and track.acmi of a flight that left the world's path into a folder: `flight` holds its samples,
+/// `frame` says how the world lies on the earth, null where that is not known. Throws Error.
+void write_tracks(const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight,
+    const EarthFrame* frame);
 
 /// What is kept of a flight.
 struct RecordOptions {
@@ -57,6 +66,11 @@ class FlightRecorder {
 public:
     /// Makes the folder with run.json and the track files. Throws Error.
     FlightRecorder(const RecordOptions& options, const settings::RunSettings& settings, const Session& session);
+    ~FlightRecorder();
+    FlightRecorder(const FlightRecorder&) = delete;
+    FlightRecorder& operator=(const FlightRecorder&) = delete;
+    FlightRecorder(FlightRecorder&&) = delete;
+    FlightRecorder& operator=(FlightRecorder&&) = delete;
 
     /// Takes the frame that the session has just drawn. Throws Error (disk full).
     void add(report::FrameRecord record, Session& session);
@@ -70,12 +84,45 @@ private:
     int picture_every_ = 0;
     std::optional<report::RecordingWriter> recording_;
     report::SlowPictures slow_pictures_;
-    std::optional<StreamedTracks> tracks_;
-    std::optional<StreamedLiveTracks> live_tracks_;
+    /// Null without a folder.
+    std::unique_ptr<class TrackFiles> tracks_;
     std::optional<report::VideoPipe> video_;
     /// The times of frames where there is no folder.
     report::FrameTimeHistogram times_;
     double flown_until_s_ = 0.0;
 };
+
+/// A recording to repeat frame by frame: targets and hashes read from it.
+struct Replay {
+    std::filesystem::path folder;
+    /// By frame, at least one.
+    std::vector<QualityTargets> quality_targets;
+    /// False where it was killed and has no hashes.
+    bool ended = false;
+    /// Sixteen hex digits.
+    std::string state_hash;
+    std::string picture_hash;
+};
+
+/// Reads run.json and frames.csv of a recording, a killed one too; its settings are for read_settings(). Throws Error
+/// with file and line for rows that are damaged, missing among others or without a triangle target.
+Replay read_replay(const std::filesystem::path& folder);
+
+/// Throws Error when the recording has more rows than its settings make frames.
+void check_frames(const Replay& replay, int frames);
+
+/// How a replay compares with its recording.
+struct ReplayComparison {
+    /// "same", "other" or "unknown" (the recording was killed).
+    std::string state_hash;
+    /// "same", "other" or "unknown", as state_hash.
+    std::string picture_hash;
+    /// Whether both hashes are known to be the same.
+    bool is_same = false;
+    /// All of it for people.
+    std::string line;
+};
+
+ReplayComparison compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
 
 } // namespace octant::ui::flight

@@ -15,6 +15,7 @@
 namespace octant::ui::flight {
 
 namespace links = sim::links;
+using PacketOutcome = sim::links::LiveTraffic::PacketOutcome;
 
 LiveInput::LiveInput(const LiveInputOptions& options) : bind_(options.bind) {
     const std::uint32_t address = links::address_from_text("--bind", options.bind);
@@ -110,8 +111,6 @@ std::vector<std::string> LiveInput::lines() const {
     if (bind_ != "127.0.0.1") { lines.push_back(fmt::format("open to other machines: bound to {}", bind_)); }
     return lines;
 }
-
-using PacketOutcome = sim::links::LiveTraffic::PacketOutcome;
 
 Listener::Listener(const ListenerOptions& options) : options_(options), input_(options.input) {}
 

@@ -55,8 +55,8 @@ public:
     /// Seconds since the beginning, in whole microseconds.
     double now_s() const;
 
-    /// All packets that have come since the last call, to be moved from until the next one. now_s() from then on lies
-    /// behind their arrivals.
+    /// Packets received since the last call; they may be moved from until the next call. Later now_s() is after their
+    /// arrival.
     std::vector<sim::links::Datagram>& drain();
 
     /// Whether CIGI is listened to.

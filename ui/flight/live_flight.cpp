@@ -33,7 +33,7 @@ constexpr std::size_t max_offsets = 1024;
 
 LiveGeoreference::LiveGeoreference(const world::World& world, std::optional<LiveHeightMode> height)
     : world_(world), height_mode_is_given_(height.has_value()),
-      height_(height.value_or(world.ground_frame ? LiveHeightMode::Msl : LiveHeightMode::Offset)) {}
+      height_(height.value_or(world.ground.frame ? LiveHeightMode::Msl : LiveHeightMode::Offset)) {}
 
 std::optional<double> LiveGeoreference::ground_m(const glm::dvec2& at_m) const {
     return world_.scene.ground->height_at(at_m.x, at_m.y);
@@ -271,7 +271,7 @@ LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
     : options_(options), world_(world), place_(world, options.height),
       cigi_ground_(std::make_unique<WorldCigiGround>(world, place_)),
       traffic_([this](const links::VehicleKey& key, const links::Fix& fix) { return place_.world_position(key, fix); },
-          cigi_ground_.get(), ellipsoid_below(world.ground_place)) {}
+          cigi_ground_.get(), ellipsoid_below(world.ground.place)) {}
 
 void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) {
     vehicle_states_.resize(states.size());
@@ -334,8 +334,8 @@ std::optional<std::size_t> LiveFlight::aircraft_of(std::uint16_t entity) const {
 /// Turns the articulated parts; in steps as far as their packets say and no further.
 void LiveFlight::turn_parts(double time_s) {
     turned_.clear();
-    const double times_s = options_.step ? 0.0 : time_s - options_.delay_s;
-    for (const links::CigiPartPose& part : traffic_.cigi().parts().turned(times_s)) {
+    const double shown_s = options_.step ? 0.0 : time_s - options_.delay_s;
+    for (const links::CigiPartPose& part : traffic_.cigi().parts().turned(shown_s)) {
         if (const auto aircraft = aircraft_of(part.entity)) {
             turned_.push_back({static_cast<std::uint32_t>(*aircraft), part.part, part.turn, part.offset_m});
         }
@@ -356,8 +356,8 @@ glm::dvec2 default_half_tangent(double aspect) {
 /// where sides meet.
 void set_frustum(const links::CigiViewDefinition& definition, double aspect, scene::Camera& camera) {
     const glm::dvec2 half = default_half_tangent(aspect);
-    const auto side = [](bool is_given, double angle_rad, double default_camera) {
-        return is_given ? std::tan(angle_rad) : default_camera;
+    const auto side = [](bool is_given, double angle_rad, double default_tangent) {
+        return is_given ? std::tan(angle_rad) : default_tangent;
     };
     const glm::dvec2 least(
         side(definition.sets.x, definition.left_rad, -half.x), side(definition.sets.w, definition.bottom_rad, -half.y));

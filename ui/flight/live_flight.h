@@ -6,7 +6,7 @@
 #include "sim/links/fix.h"
 #include "sim/links/live_traffic.h"
 #include "ui/flight/session.h"
-#include "ui/flight/state_source.h"
+#include "ui/flight/simulation.h"
 #include "ui/report/frame_record.h"
 #include "ui/settings/enum_names.h"
 #include "ui/world/world.h"
@@ -37,9 +37,9 @@ enum class LiveHeightMode {
     Offset
 };
 
-/// Where fixes lie over the ground of a run. On ground with a place of its own they lie there; else the first fix is
-/// laid over the flight's place and the others around it; but fixes that would lie on the map if its middle were 0 N, 0
-/// E mean that, as another octant does on such a ground.
+/// Where fixes lie over the ground of a run. On georeferenced ground they lie where that has their positions. Else the
+/// first fix is placed at the flight's place and the others around it; but fixes within the map when its centre is
+/// taken as 0 N, 0 E, as another octant sends from generated ground, are placed there.
 class LiveGeoreference {
 public:
     /// The world must outlive this. Without a height it is Msl over ground that knows its place, else Offset; hosts of
@@ -49,7 +49,7 @@ public:
     sim::links::WorldPosition world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
 
     /// How the world lies on the earth; null until that is known.
-    const EarthFrame* frame() const { return assigned_frame_ ? &*assigned_frame_ : world_.ground_frame.get(); }
+    const EarthFrame* frame() const { return assigned_frame_ ? &*assigned_frame_ : world_.ground.frame.get(); }
 
     /// Where the world's origin lies on the earth; nothing until that is known.
     std::optional<GeoPosition> origin() const {
@@ -201,15 +201,14 @@ private:
     std::vector<sim::AircraftState> vehicle_states_;
 };
 
-// What a live flight changes in the session that it flies beside the aircraft: only this knows both.
+// What a live flight changes in its session beside the aircraft.
 
-/// To be called before each picture: tells the flight what shape the session's pictures have, and gives the session the
-/// visibility that a CIGI host has told.
+/// To be called before each picture: gives the flight the aspect ratio of the session's pictures, and the session the
+/// visibility that a CIGI host has sent.
 void apply_host_visibility(LiveFlight& live, Session& session);
 
-/// After apply_host_visibility(): brings the sun to the time of day that a CIGI host has told; in steps at once, else
-/// as soon as the ground's colours are made, beside other pictures. Returns the time that pictures show from this one
-/// on, where it is another one.
+/// After apply_host_visibility(): brings the sun to the time of day that a CIGI host has sent; in steps at once, else
+/// by Session::follow_time_of_day(). Returns the time that pictures show from this one on, where it is another one.
 std::optional<std::string> apply_host_time_of_day(const LiveFlight& live, Session& session);
 
 /// For a flight that is repeated: brings the sun to the time of day that apply_host_time_of_day() gave then.

@@ -2,7 +2,6 @@
 
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/live_flight.h"
-#include "ui/flight/replay.h"
 #include "ui/flight/session.h"
 
 #include <memory>

@@ -10,6 +10,7 @@ namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 namespace shading = visuals::shading;
+using Trend = StressState::Trend;
 
 // Load management: the ground's triangle budget follows the frame time.
 //
@@ -24,8 +25,6 @@ namespace shading = visuals::shading;
 //   frame holds makes a course slower, or end early and be followed by another, never swing back.
 
 namespace {
-
-using Trend = StressState::Trend;
 
 double middle_of_band(const StressSettings& settings) { return 0.5 * (settings.min_stress + settings.max_stress); }
 
@@ -129,26 +128,27 @@ std::optional<int> QualityController::smooth_target(int frame) const {
     return shading_ ? shading_->smooth : 0;
 }
 
-double QualityController::add_frame(const FrameMeasurement& outcome) {
-    add_shading_frame(outcome);
-    if (!adapt_.terrain) { return outcome.frame_ms * rate_hz_ / 1000.0; }
-    if (!outcome.warm_up) {
-        stress_ = next_state(stress_, stress_settings_, {outcome.frame_ms, outcome.terrain_triangles});
+double QualityController::add_frame(const FrameMeasurement& measurement) {
+    add_shading_frame(measurement);
+    if (!adapt_.terrain) { return measurement.frame_ms * rate_hz_ / 1000.0; }
+    if (!measurement.warm_up) {
+        stress_ = next_state(stress_, stress_settings_, {measurement.frame_ms, measurement.terrain_triangles});
     }
     return stress_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-void QualityController::add_shading_frame(const FrameMeasurement& outcome) {
-    if (!adapt_.shading || outcome.warm_up || outcome.smoothable_polygons == 0) { return; }
+void QualityController::add_shading_frame(const FrameMeasurement& measurement) {
+    if (!adapt_.shading || measurement.warm_up || measurement.smoothable_polygons == 0) { return; }
     if (!shading_) {
-        shading_ = shading::initial_shading_state(outcome.smoothable_polygons);
+        shading_ = shading::initial_shading_state(measurement.smoothable_polygons);
         return;
     }
     shading::ShadingControllerSettings control;
     control.target_frame_ms = 1000.0 / rate_hz_;
     shading_ = shading::update_shading(*shading_, control,
-        {outcome.frame_ms, outcome.smoothable_polygons - outcome.smooth_polygons, outcome.smooth_polygons},
-        outcome.smoothable_polygons);
+        {measurement.frame_ms, measurement.smoothable_polygons - measurement.smooth_polygons,
+            measurement.smooth_polygons},
+        measurement.smoothable_polygons);
 }
 
 } // namespace octant::ui::flight

@@ -75,7 +75,7 @@ StressState with_target(const StressState& state, int triangles);
 /// State after a frame. Settings are as their comments demand (asserted).
 StressState next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost);
 
-/// What a frame took and drew, as far as the next ones' decisions go by it.
+/// What a frame took and drew, as far as the targets of the next frames depend on it.
 struct FrameMeasurement {
     double frame_ms = 0.0;
     int terrain_triangles = 0;
@@ -87,23 +87,23 @@ struct FrameMeasurement {
     bool warm_up = false;
 };
 
-/// What the clock decided for a frame, or the settings.
+/// Triangle and smooth-polygon targets of a frame.
 struct QualityTargets {
     int triangle_target = 0;
     /// Polygons lit smoothly; nothing: by the settings' share.
     std::optional<int> smooth_target;
 };
 
-/// Decides for each frame how many triangles of ground it aims at and how many polygons are smooth: as the settings
-/// say, by what earlier frames took where the settings let that follow the clock, or as a recording has it. Reads no
-/// clock itself, so that same outcomes give same decisions.
+/// Chooses for each frame how many triangles of ground it aims at and how many polygons are smooth: as the settings
+/// say, by the times of earlier frames where the settings ask for adaptation, or as a recording has them. Reads no
+/// clock itself: equal measurements give equal targets.
 class QualityController {
 public:
-    /// Forgets all outcomes and decides by these settings from now on; what is replayed stays. `rate_hz`: frames a
+    /// Forgets all measurements and follows these settings from now on; replayed targets stay. `rate_hz`: frames a
     /// second that there is time for.
     void begin(const visuals::scene::Settings& settings, double rate_hz);
 
-    /// From now on each frame is decided as it stands here, by its number, whatever the clock says.
+    /// From now on each frame has these targets, by its number, whatever the clock says.
     void replay(std::vector<QualityTargets> quality_targets) { replayed_targets_ = std::move(quality_targets); }
 
     /// Triangles of ground that a frame aims at; below the number of replayed ones, if any (asserted).
@@ -114,13 +114,13 @@ public:
 
     /// Learns from a frame. Returns its stress, the share of its time that it used: of this frame alone, or filtered
     /// over several where the triangle target follows it. Not a number before the first frame that counts.
-    double add_frame(const FrameMeasurement& outcome);
+    double add_frame(const FrameMeasurement& measurement);
 
     /// What `--adapt shading` has found out; nothing before the first frame that counts.
     const std::optional<visuals::shading::ShadingState>& shading() const { return shading_; }
 
 private:
-    void add_shading_frame(const FrameMeasurement& outcome);
+    void add_shading_frame(const FrameMeasurement& measurement);
 
     visuals::scene::Adaptation adapt_;
     double rate_hz_ = 60.0;

@@ -30,13 +30,15 @@
 
 namespace octant::ui::flight {
 
-namespace {
-
 namespace links = sim::links;
+namespace scene = visuals::scene;
+using Clock = std::chrono::steady_clock;
+
+namespace {
 
 const EarthFrame& frame_of(const Session& session) {
     return frame_or_at_zero(
-        session.simulation().is_live() ? session.simulation().source().frame() : session.world().ground_frame.get());
+        session.simulation().is_live() ? session.simulation().source().frame() : session.world().ground.frame.get());
 }
 
 /// Microseconds as a clock that wraps around.
@@ -76,15 +78,6 @@ std::optional<links::Fix> flown_fix(const Session& session, std::size_t aircraft
     const bool is_shown = state.is_present && links::error_of_fix(fix) == links::PacketError::None;
     return is_shown ? std::optional(fix) : std::nullopt;
 }
-
-} // namespace
-
-namespace links = sim::links;
-namespace scene = visuals::scene;
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t max_entities = 48;  // of one packet that receivers take
 constexpr int max_consecutive_missed = 5; ///< frames, then a channel is not waited for
@@ -316,8 +309,6 @@ std::vector<std::string> CigiChannels::lines() const {
     }
     return lines;
 }
-
-namespace links = sim::links;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/statistics.h"
-#include "ui/world/sun_at_time.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/landscape/ground_texture_maker.h"
 #include "visuals/scene/camera_rig.h"
 
@@ -33,7 +33,7 @@ Session::Session(const settings::RunSettings& settings, PictureContent content,
       world_(loaded_or_load_world(std::move(loaded), settings, render_device())),
       pictures_(*renderer_, world_.scene, settings_), times_(world::picture_times_of(settings_, world_.flight)),
       ground_height_([this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
-    settings_ = world::with_sun_at_time(settings_, world_.ground_place);
+    settings_ = world::with_sun_at_time(settings_, world_.ground.place);
     pictures_.load_models(content);
     if (content == PictureContent::World && world_.scene.ground_texture) {
         renderer_->load_ground_texture(*world_.scene.ground_texture);

@@ -8,7 +8,6 @@
 #include "ui/flight/frame_renderer.h"
 #include "ui/flight/quality_controller.h"
 #include "ui/flight/simulation.h"
-#include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/kernel_counters.h"
 #include "ui/settings/frame_part.h"

@@ -3,8 +3,8 @@
 #include "ui/flight/session.h"
 #include "ui/settings/settings_change.h"
 #include "ui/settings/settings_check.h"
-#include "ui/world/airfield.h"
-#include "ui/world/sun_at_time.h"
+#include "ui/world/flight.h"
+#include "ui/world/scene_ground.h"
 
 #include <algorithm>
 #include <optional>
@@ -15,7 +15,7 @@ namespace octant::ui::flight {
 namespace scene = visuals::scene;
 
 void Session::apply(const settings::RunSettings& wanted) {
-    const settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground_place);
+    const settings::RunSettings settings = world::with_sun_updated(wanted, settings_, world_.ground.place);
     const settings::SettingsChange change = settings::change_between(settings_, settings);
     if (change > settings::SettingsChange::Look && recoloured_air_) {
         recoloured_air_.reset();
@@ -57,7 +57,7 @@ void Session::apply_world_change(const settings::RunSettings& settings) {
     const bool goes_on =
         settings::change_between(settings_, settings) != settings::SettingsChange::Flight && !simulation_->by_hand();
     pictures_.remove_views();
-    settings_ = world::with_sun_at_time(settings, world.ground_place);
+    settings_ = world::with_sun_at_time(settings, world.ground.place);
     world_ = std::move(world);
     times_ = std::move(times);
     pictures_.load_models(PictureContent::World);
@@ -69,7 +69,7 @@ void Session::apply_world_change(const settings::RunSettings& settings) {
 /// The ground for pictures by other settings: the one that is there, one made of its heights or, if neither will do,
 /// one loaded. Without a texture where the one that is there stays.
 world::SceneGround Session::ground_for(const settings::RunSettings& settings) const {
-    const settings::RunSettings own = world::with_ground_defaults(settings, world_.ground_place);
+    const settings::RunSettings own = world::with_ground_defaults(settings, world_.ground.place);
     if (world_.scene.ground->matches_settings(own.ground, own.air)) {
         world::SceneGround same;
         same.ground = world_.scene.ground;
@@ -127,7 +127,7 @@ bool Session::follow_time_of_day(const std::optional<std::string>& time) {
     if (time == settings_.air.time) { return false; }
     settings::RunSettings wanted = settings_;
     wanted.air.time = time;
-    wanted = world::with_sun_updated(std::move(wanted), settings_, world_.ground_place);
+    wanted = world::with_sun_updated(std::move(wanted), settings_, world_.ground.place);
     recoloured_air_ = wanted.air;
     recolouring_.begin([this, settings = std::move(wanted)] {
         recoloured_ground_ = ground_for(settings);

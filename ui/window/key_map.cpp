@@ -132,8 +132,7 @@ constexpr bool is_letter_or_digit(int key) {
     return (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9);
 }
 
-} // namespace
-
+/// Returns the name that stands on a key; empty for a key that has none here.
 std::string name_of_key(int key) {
     if (is_letter_or_digit(key)) {
         return std::string(1, static_cast<char>(key)); // GLFW numbers them as ASCII does
@@ -141,6 +140,8 @@ std::string name_of_key(int key) {
     if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25) { return "F" + std::to_string(key - GLFW_KEY_F1 + 1); }
     return name_in(named_keys, key);
 }
+
+} // namespace
 
 std::optional<int> key_of_name(std::string_view name) {
     for (int key = GLFW_KEY_0; key <= GLFW_KEY_F25; ++key) {
@@ -152,17 +153,20 @@ std::optional<int> key_of_name(std::string_view name) {
 
 std::string name_of_button(int button) { return name_in(buttons, button); }
 
-std::optional<int> button_of_name(std::string_view name) { return number_in(buttons, name); }
-
-std::string name_of_axis(int axis) { return name_in(axis_names, axis); }
-
-std::optional<int> axis_of_name(std::string_view name) { return number_in(axis_names, name); }
-
 std::string name_of_pad_button(int button) { return name_in(pad_buttons, button); }
 
-std::optional<int> pad_button_of_name(std::string_view name) { return number_in(pad_buttons, name); }
-
 namespace {
+
+/// The tables must be in the order of their enumerations, by which KeyMap counts.
+template <class Rows, class Value>
+constexpr bool is_in_order(const Rows& rows, Value value) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (static_cast<std::size_t>(rows[i].*value) != i) { return false; }
+    }
+    return true;
+}
+
+static_assert(is_in_order(default_view_keys, &ViewKey::command) && is_in_order(while_held, &HeldKey::action));
 
 constexpr std::size_t largest_file_bytes = std::size_t{64} << 10;
 constexpr int max_joystick_axes = 16;
@@ -193,6 +197,36 @@ std::optional<int> joystick_axis(std::string_view name) {
                                                                   : std::nullopt;
 }
 
+std::optional<int> gamepad_axis(std::string_view name) { return number_in(axis_names, name); }
+
+/// An axis by its name in the file of keys.
+template <class Axes>
+struct NamedAxis {
+    std::string_view name;
+    AxisBinding Axes::*binding;
+};
+
+constexpr std::array gamepad_table{NamedAxis<GamepadAxes>{"roll", &GamepadAxes::roll},
+    NamedAxis<GamepadAxes>{"pitch", &GamepadAxes::pitch}, NamedAxis<GamepadAxes>{"rudder", &GamepadAxes::rudder},
+    NamedAxis<GamepadAxes>{"throttle up", &GamepadAxes::throttle_up},
+    NamedAxis<GamepadAxes>{"throttle down", &GamepadAxes::throttle_down}};
+
+constexpr std::array joystick_table{NamedAxis<JoystickAxes>{"roll", &JoystickAxes::roll},
+    NamedAxis<JoystickAxes>{"pitch", &JoystickAxes::pitch}, NamedAxis<JoystickAxes>{"rudder", &JoystickAxes::rudder},
+    NamedAxis<JoystickAxes>{"throttle", &JoystickAxes::throttle}};
+
+/// Binds the axis of this name to `choice`, which is nothing for a wrong input. Returns what was expected and what
+/// came.
+template <class Table, class Axes>
+std::optional<std::string> bind_axis(const Table& table, Axes& axes, std::string_view name,
+    const std::optional<AxisBinding>& choice, const std::string& expected_input) {
+    const auto row = std::ranges::find(table, name, [](const auto& each) { return each.name; });
+    if (row == table.end()) { return expected("something that keys, mouse or sticks do", name); }
+    if (!choice) { return expected_input; }
+    axes.*row->binding = *choice;
+    return std::nullopt;
+}
+
 std::string text_of(const AxisBinding& choice, const std::string& name) { return (choice.reversed ? "-" : "") + name; }
 
 /// The axis as it stands; 0 where the device has none such.
@@ -207,9 +241,8 @@ float value_of(const AxisBinding& choice, std::span<const float> axes) {
 KeyMap::KeyMap()
     : look_button(GLFW_MOUSE_BUTTON_LEFT),
       stick_button(GLFW_MOUSE_BUTTON_RIGHT), gamepad{{GLFW_GAMEPAD_AXIS_LEFT_X}, {GLFW_GAMEPAD_AXIS_LEFT_Y},
-                                                 {GLFW_GAMEPAD_AXIS_RIGHT_X}},
-      throttle_up{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER}, throttle_down{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER}, joystick_throttle{
-                                                                                                       3} {
+                                                 {GLFW_GAMEPAD_AXIS_RIGHT_X}, {GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER},
+                                                 {GLFW_GAMEPAD_AXIS_LEFT_TRIGGER}} {
     pad_commands[GLFW_GAMEPAD_BUTTON_START] = ViewCommand::PlayOrPause;
     pad_commands[GLFW_GAMEPAD_BUTTON_BACK] = ViewCommand::ToBeginning;
     pad_commands[GLFW_GAMEPAD_BUTTON_X] = ViewCommand::ManualFlight;
@@ -229,21 +262,19 @@ std::optional<ViewCommand> KeyMap::command_of(int key, bool repeats) const {
     return std::nullopt;
 }
 
+namespace {
+
+std::string name_or_none(int key) { return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key); }
+
+} // namespace
+
 std::string KeyMap::name_of(ViewCommand command) const {
-    const auto found = std::ranges::find(view_keys(), command, &ViewKey::command);
-    const int key = commands_[static_cast<std::size_t>(found - view_keys().begin())];
-    return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key);
+    return name_or_none(commands_[static_cast<std::size_t>(command)]);
 }
 
-int KeyMap::key_of(HeldAction chosen_action) const {
-    const auto found = std::ranges::find(held_keys(), chosen_action, &HeldKey::chosen_action);
-    return held_[static_cast<std::size_t>(found - held_keys().begin())];
-}
+int KeyMap::key_of(HeldAction action) const { return held_[static_cast<std::size_t>(action)]; }
 
-std::string KeyMap::name_of(HeldAction chosen_action) const {
-    const int key = key_of(chosen_action);
-    return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key);
-}
+std::string KeyMap::name_of(HeldAction action) const { return name_or_none(key_of(action)); }
 
 /// A key that did something else does that no more.
 std::optional<std::string> KeyMap::bind_key(int& chosen, std::string_view input) {
@@ -269,53 +300,35 @@ std::optional<std::string> KeyMap::bind_pad_button(int button, std::string_view 
     return std::nullopt;
 }
 
-std::optional<std::string> KeyMap::bind_axis(std::string_view id, std::string_view input) {
-    const bool of_pad = id.starts_with("gamepad ");
-    const auto choice = of_pad ? axis_from(input, axis_of_name) : axis_from(input, joystick_axis);
-    const std::string_view what = id.substr(id.find(' ') + 1);
-    AxisMap map = of_pad ? gamepad : joystick.value_or(AxisMap{{0}, {1}, {2}});
-    AxisBinding* chosen = what == "roll"     ? &map.roll
-                          : what == "pitch"  ? &map.pitch
-                          : what == "rudder" ? &map.rudder
-                                             : nullptr;
-    if (of_pad && what == "throttle up") {
-        chosen = &throttle_up;
-    } else if (of_pad && what == "throttle down") {
-        chosen = &throttle_down;
-    } else if (!of_pad && what == "throttle") {
-        chosen = &joystick_throttle;
-    }
-    if (chosen == nullptr) { return expected("something that keys, mouse or sticks do", id); }
-    if (!choice) { return expected(of_pad ? pad_form : joystick_form, input); }
-    *chosen = *choice;
-    if (of_pad) {
-        gamepad = map;
-    } else {
-        joystick = map;
-    }
-    return std::nullopt;
-}
-
 std::optional<std::string> KeyMap::bind(std::string_view id, std::string_view input) {
     const auto command = std::ranges::find(view_keys(), id, &ViewKey::id);
     if (command != view_keys().end()) {
         return bind_key(commands_[static_cast<std::size_t>(command - view_keys().begin())], input);
     }
-    const auto chosen_action = std::ranges::find(held_keys(), id, &HeldKey::id);
-    if (chosen_action != held_keys().end()) {
-        return bind_key(held_[static_cast<std::size_t>(chosen_action - held_keys().begin())], input);
+    const auto held_key = std::ranges::find(held_keys(), id, &HeldKey::id);
+    if (held_key != held_keys().end()) {
+        return bind_key(held_[static_cast<std::size_t>(held_key - held_keys().begin())], input);
     }
     if (id == "mouse look" || id == "mouse stick") {
-        const auto button = button_of_name(input);
+        const auto button = number_in(buttons, input);
         if (!button) { return expected("left, right or middle", input); }
         (id == "mouse look" ? look_button : stick_button) = *button;
         return std::nullopt;
     }
     constexpr std::string_view pad = "gamepad ";
+    constexpr std::string_view stick = "joystick ";
     if (id.starts_with(pad)) {
-        if (const auto pressed = pad_button_of_name(id.substr(pad.size()))) { return bind_pad_button(*pressed, input); }
+        const std::string_view name = id.substr(pad.size());
+        if (const auto pressed = number_in(pad_buttons, name)) { return bind_pad_button(*pressed, input); }
+        return bind_axis(gamepad_table, gamepad, name, axis_from(input, gamepad_axis), expected(pad_form, input));
     }
-    if (id.starts_with(pad) || id.starts_with("joystick ")) { return bind_axis(id, input); }
+    if (id.starts_with(stick)) {
+        JoystickAxes axes = joystick.value_or(JoystickAxes());
+        auto fault = bind_axis(joystick_table, axes, id.substr(stick.size()), axis_from(input, joystick_axis),
+            expected(joystick_form, input));
+        if (!fault) { joystick = axes; }
+        return fault;
+    }
     return expected("something that keys, mouse or sticks do", id);
 }
 
@@ -346,7 +359,7 @@ KeyMapFile read_key_map(const std::filesystem::path& file) {
 
 std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> axes) {
     return {value_of(keys.gamepad.roll, axes), value_of(keys.gamepad.pitch, axes), value_of(keys.gamepad.rudder, axes),
-        0.0F, value_of(keys.throttle_down, axes), value_of(keys.throttle_up, axes)};
+        0.0F, value_of(keys.gamepad.throttle_down, axes), value_of(keys.gamepad.throttle_up, axes)};
 }
 
 std::vector<ViewCommand> pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now) {
@@ -366,7 +379,7 @@ JoystickState mapped_joystick(const KeyMap& keys, std::span<const float> axes) {
     JoystickState joystick;
     if (keys.joystick) {
         joystick.axes = {value_of(keys.joystick->roll, axes), value_of(keys.joystick->pitch, axes),
-            value_of(keys.joystick->rudder, axes), value_of(keys.joystick_throttle, axes)};
+            value_of(keys.joystick->rudder, axes), value_of(keys.joystick->throttle, axes)};
         joystick.axis_count = 4;
         return joystick;
     }
@@ -379,35 +392,23 @@ std::string text_of_key_map(const KeyMap& keys) {
     std::string text = "# Keys, mouse and sticks of octant view. What is left out is as usual.\n"
                        "# A key that is given twice does what its last line says; none is no key.\n";
     for (const ViewKey& each : view_keys()) { text += fmt::format("{} = {}\n", each.id, keys.name_of(each.command)); }
-    for (const HeldKey& each : held_keys()) {
-        text += fmt::format("{} = {}\n", each.id, keys.name_of(each.chosen_action));
-    }
+    for (const HeldKey& each : held_keys()) { text += fmt::format("{} = {}\n", each.id, keys.name_of(each.action)); }
     text += fmt::format(
         "mouse look = {}\nmouse stick = {}\n", name_of_button(keys.look_button), name_of_button(keys.stick_button));
-    const auto pad = [&](const char* id, const AxisBinding& choice) {
-        text += fmt::format("gamepad {} = {}\n", id, text_of(choice, name_of_axis(choice.axis)));
-    };
-    pad("roll", keys.gamepad.roll);
-    pad("pitch", keys.gamepad.pitch);
-    pad("rudder", keys.gamepad.rudder);
-    pad("throttle up", keys.throttle_up);
-    pad("throttle down", keys.throttle_down);
+    for (const auto& [name, binding] : gamepad_table) {
+        const AxisBinding& choice = keys.gamepad.*binding;
+        text += fmt::format("gamepad {} = {}\n", name, text_of(choice, name_in(axis_names, choice.axis)));
+    }
     for (std::size_t i = 0; i < keys.pad_commands.size(); ++i) {
         const auto& command = keys.pad_commands[i];
         text += fmt::format("gamepad {} = {}\n", name_of_pad_button(static_cast<int>(i)),
-            command ? std::ranges::find(view_keys(), *command, &ViewKey::command)->id : "none");
+            command ? view_keys()[static_cast<std::size_t>(*command)].id : "none");
     }
-    if (!keys.joystick) {
-        return text + "# joystick roll = 1\n# joystick pitch = 2\n# joystick rudder = 3\n"
-                      "# joystick throttle = 4\n";
+    for (const auto& [name, binding] : joystick_table) {
+        const AxisBinding choice = keys.joystick.value_or(JoystickAxes()).*binding;
+        text += fmt::format(
+            "{}joystick {} = {}\n", keys.joystick ? "" : "# ", name, text_of(choice, std::to_string(choice.axis + 1)));
     }
-    const auto stick = [&](const char* id, const AxisBinding& choice) {
-        text += fmt::format("joystick {} = {}\n", id, text_of(choice, std::to_string(choice.axis + 1)));
-    };
-    stick("roll", keys.joystick->roll);
-    stick("pitch", keys.joystick->pitch);
-    stick("rudder", keys.joystick->rudder);
-    stick("throttle", keys.joystick_throttle);
     return text;
 }
 

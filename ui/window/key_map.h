@@ -60,7 +60,7 @@ struct ViewKey {
     bool repeats = false;
 };
 
-/// Returns all commands, in the order of the help.
+/// Returns all commands, in the order of the help and of ViewCommand.
 std::span<const ViewKey> view_keys();
 
 /// What keys do as long as they are held.
@@ -84,33 +84,25 @@ enum class HeldAction {
 
 /// An action and the key that does it unless a person chose another.
 struct HeldKey {
-    HeldAction chosen_action = HeldAction::Pull;
+    HeldAction action = HeldAction::Pull;
     int key = 0;
     std::string_view id;
     /// What this key and those before it without one do; empty where the next line tells it.
     std::string_view meaning;
 };
 
-/// Returns all actions, in the order of the help.
+/// Returns all actions, in the order of the help and of HeldAction.
 std::span<const HeldKey> held_keys();
 
-/// Returns the name that stands on a key, one of GLFW_KEY_..., such as "Page Up"; empty for a key that has none here.
-std::string name_of_key(int key);
-
-/// Returns the key of that name, in whatever letters; nothing where there is none.
+/// Returns the key, one of GLFW_KEY_..., that has this name, such as "Page Up", in whatever letters; nothing where
+/// there is none.
 std::optional<int> key_of_name(std::string_view name);
 
-/// The same for the buttons of a mouse ("left", "right", "middle"), one of GLFW_MOUSE_BUTTON_...
+/// Returns the name of a button of a mouse ("left", "right", "middle"), one of GLFW_MOUSE_BUTTON_...
 std::string name_of_button(int button);
-std::optional<int> button_of_name(std::string_view name);
 
-/// The same for the axes of a gamepad ("left x", "right trigger"), in the order of GLFWgamepadstate.
-std::string name_of_axis(int axis);
-std::optional<int> axis_of_name(std::string_view name);
-
-/// The same for the buttons of a gamepad ("a", "left bumper", "start"), in the order of GLFWgamepadstate.
+/// Returns the name of a button of a gamepad ("a", "left bumper", "start"), in the order of GLFWgamepadstate.
 std::string name_of_pad_button(int button);
-std::optional<int> pad_button_of_name(std::string_view name);
 
 /// An axis of a device, and whether it counts the other way round.
 struct AxisBinding {
@@ -118,11 +110,20 @@ struct AxisBinding {
     bool reversed = false;
 };
 
-/// What each axis of a gamepad or joystick does in a flight by hand.
-struct AxisMap {
+/// What moves the controls in a flight by hand: axes of a gamepad; its buttons or axes open and close the throttle.
+struct GamepadAxes {
     AxisBinding roll;
     AxisBinding pitch;
     AxisBinding rudder;
+    AxisBinding throttle_up;
+    AxisBinding throttle_down;
+};
+
+struct JoystickAxes {
+    AxisBinding roll{0};
+    AxisBinding pitch{1};
+    AxisBinding rudder{2};
+    AxisBinding throttle{3};
 };
 
 /// Which keys, mouse buttons and axes do what. Made as the program has it; a person's file changes some of it.
@@ -136,8 +137,8 @@ public:
     /// Returns the name of the key that gives a command, such as "Space"; "none" where none does.
     std::string name_of(ViewCommand command) const;
 
-    int key_of(HeldAction chosen_action) const;
-    std::string name_of(HeldAction chosen_action) const;
+    int key_of(HeldAction action) const;
+    std::string name_of(HeldAction action) const;
 
     /// Changes what the line "id = input" of a file says. Returns nothing, or what was expected and what came; then
     /// nothing is changed.
@@ -146,24 +147,19 @@ public:
     /// The buttons of the mouse, GLFW_MOUSE_BUTTON_..., that turn the look and that make the pointer the stick.
     int look_button = 0;
     int stick_button = 1;
-    AxisMap gamepad;
-    /// Buttons or axes of the gamepad that open and close the throttle.
-    AxisBinding throttle_up;
-    AxisBinding throttle_down;
+    GamepadAxes gamepad;
+    /// Unset where the joystick's axes are those that its kind usually has.
+    std::optional<JoystickAxes> joystick;
     /// What a button of the gamepad commands when it is pressed; nothing for most.
     std::array<std::optional<ViewCommand>, std::tuple_size_v<GamepadButtons>> pad_commands;
-    /// Of a joystick; unset where its axes are those that its kind usually has.
-    std::optional<AxisMap> joystick;
-    AxisBinding joystick_throttle;
 
 private:
     std::optional<std::string> bind_key(int& chosen, std::string_view input);
     std::optional<std::string> bind_pad_button(int button, std::string_view input);
-    std::optional<std::string> bind_axis(std::string_view id, std::string_view input);
 
-    /// Keys, in the order of view_keys().
+    /// Keys, in the order of view_keys(), which is that of ViewCommand.
     std::vector<int> commands_;
-    /// Keys, in the order of held_keys().
+    /// Keys, in the order of held_keys(), which is that of HeldAction.
     std::vector<int> held_;
 };
 

@@ -9,11 +9,11 @@
 #include "ui/report/statistics.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/path_fields.h"
-#include "ui/window/camera_control.h"
 #include "ui/window/key_map.h"
 #include "ui/window/panel_widgets.h"
 #include "ui/window/setting_widgets.h"
-#include "ui/world/sun_at_time.h"
+#include "ui/window/view_state.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/common.hpp>
@@ -32,6 +32,9 @@
 #include <vector>
 
 namespace octant::ui::window {
+
+namespace scene = visuals::scene;
+using report::FrameRecord;
 
 namespace {
 
@@ -93,6 +96,9 @@ std::vector<FlightReadout> flight_readouts(
         {"load", fmt::format("{:.2f} g", state.load_factor)}};
 }
 
+namespace {
+
+/// Draws the positions of stick, rudder and throttle, and the readouts.
 void show_controls(const sim::AircraftKind& kind, const sim::AircraftState& state, const sim::PilotControls& controls) {
     constexpr float letters = 5.0F;
     constexpr float name_letters = 11.0F;
@@ -111,6 +117,24 @@ void show_controls(const sim::AircraftKind& kind, const sim::AircraftState& stat
     ImGui::EndGroup();
 }
 
+std::vector<StatusMark> manual_flight_marks(const ManualFlightStatus& status) {
+    if (status.ended) { return {{status.off_the_map ? "LEFT THE MAP" : "MET THE GROUND", true}}; }
+    std::vector<StatusMark> marks;
+    if (status.levelling) { marks.push_back({"levelling off"}); }
+    if (status.warnings.stalled) { marks.push_back({"STALL", true}); }
+    if (status.warnings.is_at_limit) { marks.push_back({"LIMIT", true}); }
+    return marks;
+}
+
+std::optional<ManualFlightStatus> manual_flight_status(const flight::Simulation& simulation) {
+    if (!simulation.by_hand()) { return std::nullopt; }
+    const auto end = simulation.end_of_flight();
+    return ManualFlightStatus{simulation.pilot().warnings(), end.has_value(),
+        end.has_value() && *end == flight::Simulation::End::OffTheMap, simulation.is_levelling()};
+}
+
+} // namespace
+
 std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<ManualFlightStatus>& manual_flight) {
     std::vector<StatusMark> marks;
     if (state.recording) { marks.push_back({fmt::format("REC {}", state.recording->string()), true}); }
@@ -122,17 +146,10 @@ std::vector<StatusMark> status_marks(const ViewState& state, const std::optional
     }
     if (!manual_flight) { return marks; }
     marks.push_back({"by hand"});
-    if (manual_flight->ended) {
-        marks.push_back({manual_flight->off_the_map ? "LEFT THE MAP" : "MET THE GROUND", true});
-        return marks;
-    }
-    if (manual_flight->levelling) { marks.push_back({"levelling off"}); }
-    if (manual_flight->warnings.stalled) { marks.push_back({"STALL", true}); }
-    if (manual_flight->warnings.is_at_limit) { marks.push_back({"LIMIT", true}); }
+    const auto more = manual_flight_marks(*manual_flight);
+    marks.insert(marks.end(), more.begin(), more.end());
     return marks;
 }
-
-namespace scene = visuals::scene;
 
 namespace {
 
@@ -159,15 +176,21 @@ void choose_flight(ViewState& state) {
     if (state.recording) { show_tooltip_on_hover("a recording keeps its path, aircraft and ground"); }
 }
 
+/// Makes a button on the line of the previous widget if it fits there, with the key of its command as its tooltip.
+/// Returns whether it was pressed.
+bool command_button(const ViewState& state, const char* label, ViewCommand command) {
+    const bool pressed = next_button(label);
+    show_tooltip_on_hover(state.keys.name_of(command));
+    return pressed;
+}
+
 void play_buttons(ViewState& state) {
     Playback& playback = state.playback;
     // One name for both, so that a click that changes it is a click on one button.
     if (ImGui::Button(playback.playing ? "Pause###play" : "Play###play")) { playback.playing = !playback.playing; }
     show_tooltip_on_hover(state.keys.name_of(ViewCommand::PlayOrPause));
-    if (next_button("One frame")) { state.requests.step_frame = true; }
-    show_tooltip_on_hover(state.keys.name_of(ViewCommand::StepFrame));
-    if (next_button("To beginning")) { state.requests.go_to_s = playback.begin_s; }
-    show_tooltip_on_hover(state.keys.name_of(ViewCommand::ToBeginning));
+    if (command_button(state, "One frame", ViewCommand::StepFrame)) { state.requests.step_frame = true; }
+    if (command_button(state, "To beginning", ViewCommand::ToBeginning)) { state.requests.go_to_s = playback.begin_s; }
     same_line_for(checkbox_width("loop"));
     ImGui::Checkbox("loop", &playback.loops);
     show_tooltip_on_hover(fmt::format("begin again at the path's end ({})", state.keys.name_of(ViewCommand::Loop)));
@@ -223,20 +246,10 @@ void show_manual_flight(const ViewState& state, const flight::Simulation& simula
     const sim::PilotedFlight& pilot = simulation.pilot();
     show_controls(base::aircraft_kind_of(settings::aircraft_shape(state.next_settings.path.aircraft.front())),
         pilot.state(), simulation.controls());
-    const char* warning = "";
-    ImVec4 colour = warning_colour;
-    if (simulation.end_of_flight()) {
-        warning = simulation.end_of_flight() == flight::Simulation::End::OffTheMap ? "left the map" : "met the ground";
-    } else if (simulation.is_levelling()) {
-        warning = "levelling off";
-        colour = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-    } else if (pilot.warnings().stalled) {
-        warning = "STALL";
-    } else if (pilot.warnings().is_at_limit) {
-        warning = "limit";
-    }
+    const auto marks = manual_flight_marks(*manual_flight_status(simulation));
+    const StatusMark mark = marks.empty() ? StatusMark{} : marks.front();
     // Always one line, so that the widgets below do not move.
-    ImGui::TextColored(colour, "%s", warning);
+    ImGui::TextColored(mark.warns ? warning_colour : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s", mark.text.c_str());
 }
 
 void manual_flight_buttons(ViewState& state, const flight::Simulation& simulation) {
@@ -246,8 +259,7 @@ void manual_flight_buttons(ViewState& state, const flight::Simulation& simulatio
     }
     show_tooltip_on_hover(state.keys.name_of(ViewCommand::ManualFlight));
     if (!by_hand) { return; }
-    if (next_button("Level off")) { state.requests.level_off = true; }
-    show_tooltip_on_hover(state.keys.name_of(ViewCommand::LevelOff));
+    if (command_button(state, "Level off", ViewCommand::LevelOff)) { state.requests.level_off = true; }
     show_manual_flight(state, simulation);
 }
 
@@ -256,8 +268,7 @@ void recording_buttons(ViewState& state, const flight::Simulation& simulation) {
         state.requests.toggle_recording = true;
     }
     show_tooltip_on_hover(state.keys.name_of(ViewCommand::Record));
-    if (next_button("Screenshot")) { state.requests.screenshot = true; }
-    show_tooltip_on_hover(state.keys.name_of(ViewCommand::Screenshot));
+    if (command_button(state, "Screenshot", ViewCommand::Screenshot)) { state.requests.screenshot = true; }
     if (state.recording) {
         ImGui::PushStyleColor(ImGuiCol_Text, warning_colour);
         ImGui::TextWrapped("%.1f s in %s", static_cast<double>(simulation.log().size()) * sim::step_s,
@@ -283,8 +294,6 @@ void flight_panel(ViewState& state, flight::Session& session) {
 }
 
 namespace {
-
-using report::FrameRecord;
 
 constexpr ImU32 line_colour = IM_COL32(120, 200, 255, 255);
 constexpr ImU32 level_colour = IM_COL32(200, 200, 120, 160);
@@ -432,12 +441,10 @@ void show_counts(const FrameRecord& last) {
     }
 }
 
-} // namespace
-
 void terrain_panel(ViewState& state, const flight::Session& session) {
     const Panel panel("Terrain", state.columns, state.open.terrain);
     if (!panel.is_seen()) { return; }
-    ImGui::TextWrapped("%s", session.world().ground_name.c_str());
+    ImGui::TextWrapped("%s", session.world().ground.name.c_str());
     if (!state.history.empty()) {
         show_counts(state.history.last());
         count_plot(state.history.records());
@@ -446,8 +453,6 @@ void terrain_panel(ViewState& state, const flight::Session& session) {
     ImGui::Separator();
     edit_settings(state.next_settings, controls);
 }
-
-namespace {
 
 constexpr std::array<std::string_view, 2> order_settings{"hidden-surface", "order-method"};
 
@@ -472,16 +477,14 @@ void show_last_frame(const report::FrameRecord& last, const visuals::draworder::
 void show_pixel_check(ViewState& state) {
     if (ImGui::Button("Count wrong pixels")) { state.requests.count_wrong_pixels = true; }
     show_tooltip_on_hover("draws this picture once more with a depth buffer and compares them");
-    if (!state.wrong_pixels) { return; }
-    const WrongPixels& found = *state.wrong_pixels;
+    if (!state.pixel_check) { return; }
+    const flight::PixelCheck& found = *state.pixel_check;
     const bool clean = found.wrong == 0;
     ImGui::SameLine();
     ImGui::TextColored(clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour, "%ld wrong", found.wrong);
     ImGui::Text("%ld of %ld pixels differ", found.differing, found.pixels);
     show_tooltip_on_hover("with those along edges, where two right pictures may differ");
 }
-
-} // namespace
 
 void draw_order_panel(ViewState& state, const flight::Session& session) {
     const Panel panel("Draw order", state.columns, state.open.draw_order);
@@ -494,8 +497,6 @@ void draw_order_panel(ViewState& state, const flight::Session& session) {
     ImGui::Checkbox("painting order on the polygons", &state.order_numbers);
     show_pixel_check(state);
 }
-
-namespace {
 
 constexpr std::array<std::string_view, 10> aircraft_settings{"axes", "shadows", "aircraft-error-px", "show-model",
     "shading", "shading-rule", "smooth-share", "device-ratio", "shading-near", "shading-far"};
@@ -530,8 +531,6 @@ void show_models(const visuals::planning::Scene& scene) {
     }
 }
 
-} // namespace
-
 void aircraft_panel(ViewState& state, const flight::Session& session) {
     const Panel panel("Aircraft", state.columns, state.open.aircraft);
     if (!panel.is_seen()) { return; }
@@ -552,8 +551,6 @@ void aircraft_panel(ViewState& state, const flight::Session& session) {
     ImGui::EndDisabled();
     edit_settings(state.next_settings, aircraft_settings);
 }
-
-namespace {
 
 constexpr std::array<std::string_view, 12> scene_settings{"time", "sun-azimuth", "sun-elevation", "visibility",
     "haze-height", "sky", "background", "relief-shadows", "water-level", "palette", "ground-shading", "drape"};
@@ -594,12 +591,10 @@ void time_of_day(settings::RunSettings& settings, double latitude_deg) {
     }
 }
 
-} // namespace
-
 void scene_panel(ViewState& state, const flight::Session& session) {
     const Panel panel("Scene", state.columns, state.open.scene);
     if (!panel.is_seen()) { return; }
-    time_of_day(state.next_settings, world::latitude_of(session.world().ground_place));
+    time_of_day(state.next_settings, world::latitude_of(session.world().ground.place));
     ImGui::Separator();
     edit_settings(state.next_settings, scene_settings);
     ImGui::Separator();
@@ -607,8 +602,6 @@ void scene_panel(ViewState& state, const flight::Session& session) {
     count_slider(state.next_settings.path.aircraft);
     ImGui::EndDisabled();
 }
-
-namespace {
 
 void save_and_load(ViewState& state) {
     std::array<char, 1024> name{};
@@ -686,7 +679,7 @@ void help_panel(ViewState& state) {
     for (const ViewKey& key : view_keys()) { line_of(keys.name_of(key.command), key.meaning); }
     std::string names;
     for (const HeldKey& key : held_keys()) {
-        names += (names.empty() ? "" : ", ") + keys.name_of(key.chosen_action);
+        names += (names.empty() ? "" : ", ") + keys.name_of(key.action);
         if (!key.meaning.empty()) {
             line_of(names, key.meaning);
             names.clear();
@@ -699,7 +692,7 @@ void help_panel(ViewState& state) {
     for (std::size_t i = 0; i < keys.pad_commands.size(); ++i) {
         if (const auto& what = keys.pad_commands[i]) {
             line_of("gamepad " + name_of_pad_button(static_cast<int>(i)),
-                std::ranges::find(view_keys(), *what, &ViewKey::command)->meaning);
+                view_keys()[static_cast<std::size_t>(*what)].meaning);
         }
     }
     line_of("gamepad", "by hand: left stick; triggers throttle; bumpers or right stick rudder");
@@ -716,22 +709,14 @@ void first_steps_panel(ViewState& state) {
     if (ImGui::Button("Begin")) { state.open.first_steps = false; }
 }
 
+namespace {
+
 void leave_question(ViewState& state) {
     const Panel panel("Leave?", state.columns, state.open.leave_question);
     if (!panel.is_seen()) { return; }
     ImGui::TextWrapped("A recording is being made. Leaving ends it; what was flown is kept.");
     if (ImGui::Button("Stop it and leave")) { state.requests.leave_recording = true; }
-    if (next_button("Go on")) { state.open.leave_question = false; }
-    show_tooltip_on_hover(state.keys.name_of(ViewCommand::Leave));
-}
-
-namespace {
-
-std::optional<ManualFlightStatus> manual_flight_status(const flight::Simulation& simulation) {
-    if (!simulation.by_hand()) { return std::nullopt; }
-    const auto end = simulation.end_of_flight();
-    return ManualFlightStatus{simulation.pilot().warnings(), end.has_value(),
-        end.has_value() && *end == flight::Simulation::End::OffTheMap, simulation.is_levelling()};
+    if (command_button(state, "Go on", ViewCommand::Leave)) { state.open.leave_question = false; }
 }
 
 const ImVec4 mark_colour{1.0F, 0.95F, 0.7F, 1.0F};

@@ -22,9 +22,6 @@ struct FlightReadout {
 std::vector<FlightReadout> flight_readouts(
     const sim::AircraftKind& kind, const sim::AircraftState& state, const sim::PilotControls& controls);
 
-/// Draws the positions of stick, rudder and throttle, and the readouts.
-void show_controls(const sim::AircraftKind& kind, const sim::AircraftState& state, const sim::PilotControls& controls);
-
 /// A word of the status line, which is visible even while panels are hidden.
 struct StatusMark {
     std::string text;
@@ -43,8 +40,7 @@ struct ManualFlightStatus {
 };
 
 /// Returns the marks that apply, in this order: "REC folder", "paused", "x0.5", "x0.67 of real time", "by hand",
-/// "STALL",
-/// ...
+/// "STALL", ...
 std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<ManualFlightStatus>& manual_flight);
 
 // Each function makes the widgets of one panel if it is open, to be called between ImGui::NewFrame and ImGui::Render.
@@ -52,14 +48,9 @@ std::vector<StatusMark> status_marks(const ViewState& state, const std::optional
 
 void flight_panel(ViewState& state, flight::Session& session);
 void timing_panel(ViewState& state);
-void terrain_panel(ViewState& state, const flight::Session& session);
-void draw_order_panel(ViewState& state, const flight::Session& session);
-void aircraft_panel(ViewState& state, const flight::Session& session);
-void scene_panel(ViewState& state, const flight::Session& session);
 void settings_panel(ViewState& state);
 void help_panel(ViewState& state);
 void first_steps_panel(ViewState& state);
-void leave_question(ViewState& state);
 
 /// Draws the status marks and the last message between the columns of panels, at the top of the window; at the bottom
 /// during a live flight, whose picture has text at the top. Returns the height used at the top of the window.

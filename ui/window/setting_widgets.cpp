@@ -1,6 +1,7 @@
 #include "ui/window/setting_widgets.h"
 
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/window/panel_widgets.h"
@@ -17,6 +18,8 @@
 #include <utility>
 
 namespace octant::ui::window {
+
+using settings::RunSettings;
 
 std::vector<std::string> with_aircraft_count(std::vector<std::string> aircraft, int count) {
     const std::string first = settings::aircraft_shape(aircraft.front());
@@ -74,52 +77,13 @@ std::string comma_separated(std::span<const std::string> names) { return fmt::fo
 
 std::vector<std::string> split_at_commas(std::string_view text) {
     std::vector<std::string> names;
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find(','), text.size());
-        const std::string_view field = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        const std::size_t from = field.find_first_not_of(' ');
-        if (from != std::string_view::npos) {
-            names.emplace_back(field.substr(from, field.find_last_not_of(' ') - from + 1));
-        }
+    for (const std::string_view name : split_fields(text, ',')) {
+        if (!name.empty()) { names.emplace_back(name); }
     }
     return names;
 }
 
-using settings::RunSettings;
-
 namespace {
-
-/// Makes the row of a setting: the widget of its value, made while this object lives, then its name. Both show the
-/// meaning of the setting as a tooltip.
-class Row {
-public:
-    explicit Row(const settings::SettingInfo& info) : info_(info) {
-        ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
-        ImGui::BeginGroup();
-        width_ = value_width();
-        ImGui::SetNextItemWidth(width_);
-    }
-
-    ~Row() {
-        ImGui::SameLine();
-        ImGui::TextUnformatted(info_.name.data(), info_.name.data() + info_.name.size());
-        ImGui::EndGroup();
-        if (ImGui::IsItemHovered()) { show_tooltip(tooltip_of(info_)); }
-        ImGui::PopID();
-    }
-
-    Row(const Row&) = delete;
-    Row& operator=(const Row&) = delete;
-    Row(Row&&) = delete;
-    Row& operator=(Row&&) = delete;
-
-    float width() const { return width_; }
-
-private:
-    const settings::SettingInfo& info_;
-    float width_ = 0.0F;
-};
 
 /// Makes a list to choose from. Returns the index of a name that was picked, if any. `chosen` is the index of the
 /// current name, below zero where the list does not hold it.
@@ -167,16 +131,13 @@ bool edit_number(const settings::SettingInfo& info, Number& value) {
 
 /// Makes a list of the only numbers that the setting takes. Returns whether another was picked.
 bool choose_number(const settings::SettingInfo& info, int& value) {
-    bool changed = false;
-    if (!ImGui::BeginCombo("##value", settings::text_of(value).c_str())) { return changed; }
-    for (const int number : info.allowed_values) {
-        if (ImGui::Selectable(settings::text_of(number).c_str(), number == value) && number != value) {
-            value = number;
-            changed = true;
-        }
-    }
-    ImGui::EndCombo();
-    return changed;
+    std::vector<std::string> texts;
+    for (const int number : info.allowed_values) { texts.push_back(settings::text_of(number)); }
+    const std::vector<std::string_view> names(texts.begin(), texts.end());
+    const auto at = std::ranges::find(info.allowed_values, value) - info.allowed_values.begin();
+    const auto picked = choose(settings::text_of(value), names, static_cast<int>(at));
+    if (picked) { value = info.allowed_values[static_cast<std::size_t>(*picked)]; }
+    return picked.has_value();
 }
 
 bool edit(const settings::SettingInfo& info, double& value) { return edit_number(info, value); }
@@ -315,15 +276,21 @@ bool edit(const settings::SettingInfo& info, std::optional<Value>& value) {
     return changed;
 }
 
-struct RowOfWidgets {
-    template <class Value>
-    void operator()(const settings::SettingInfo& info, Value& value) const {
-        const Row row(info);
-        ImGui::BeginDisabled(info.set_by_window);
-        edit(info, value);
-        ImGui::EndDisabled();
-    }
-};
+/// Makes the row of a setting: the widget of its value, then its name, both with its meaning as a tooltip.
+template <class Value>
+void show_row(const settings::SettingInfo& info, Value& value) {
+    ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
+    ImGui::BeginGroup();
+    ImGui::SetNextItemWidth(value_width());
+    ImGui::BeginDisabled(info.set_by_window);
+    edit(info, value);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::TextUnformatted(info.name.data(), info.name.data() + info.name.size());
+    ImGui::EndGroup();
+    if (ImGui::IsItemHovered()) { show_tooltip(tooltip_of(info)); }
+    ImGui::PopID();
+}
 
 } // namespace
 
@@ -351,18 +318,16 @@ bool choose_name(const settings::FieldInfo& info, std::string& name, std::span<c
 }
 
 void edit_settings(RunSettings& settings, std::span<const std::string_view> names) {
-    const RowOfWidgets row;
     for (const std::string_view name : names) {
         settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
-            if (info.name == name) { row(info, value); }
+            if (info.name == name) { show_row(info, value); }
         });
     }
 }
 
 void edit_group(RunSettings& settings, settings::SettingGroup group) {
-    const RowOfWidgets row;
     settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
-        if (info.group == group) { row(info, value); }
+        if (info.group == group) { show_row(info, value); }
     });
 }
 

@@ -1,10 +1,14 @@
 #pragma once
 
+#include "ui/flight/id_comparison.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/settings.h"
 #include "ui/window/key_map.h"
 #include "ui/window/panel_columns.h"
+#include "visuals/scene/camera.h"
+
+#include <glm/vec2.hpp>
 
 #include <cstddef>
 #include <deque>
@@ -77,17 +81,9 @@ struct Playback {
     bool playing = true;
     bool loops = true;
 
-    /// How the time changed.
-    enum class TimeChange {
-        /// It went forward or stayed.
-        Advanced,
-        /// It jumped back to the beginning.
-        Restarted
-    };
-
     /// Lets `wall_s` seconds of wall time pass. At its end the path begins anew or stops, unless the flight is
-    /// `open_ended`, as one by hand is.
-    TimeChange advance(double wall_s, bool open_ended);
+    /// `open_ended`, as one by hand is. Returns whether it began anew.
+    bool advance(double wall_s, bool open_ended);
 
     /// Advances by one frame of `frame_s` simulated seconds and pauses.
     void step_frame(double frame_s, bool open_ended);
@@ -123,14 +119,6 @@ struct ViewMessage {
     double until_s = 0.0;
 };
 
-/// Pixels of the last picture that the draw order got wrong.
-struct WrongPixels {
-    long wrong = 0;
-    /// The wrong pixels and those along edges, where two right pictures may differ.
-    long differing = 0;
-    long pixels = 0;
-};
-
 /// What a window knows beside its session: everything that keys, mouse and panels change.
 struct ViewState {
     /// The settings of the next frame.
@@ -148,7 +136,8 @@ struct ViewState {
     ViewMessage message;
     /// The painting order is written on the polygons of the first aircraft.
     bool order_numbers = false;
-    std::optional<WrongPixels> wrong_pixels;
+    /// Pixels of the last picture that the draw order got wrong, once counted.
+    std::optional<flight::PixelCheck> pixel_check;
     bool vsync = true;
     RealTimeFactor real_time_factor;
     /// The file in which the settings panel saves settings and from which it loads them.
@@ -156,5 +145,32 @@ struct ViewState {
     /// The folder of the recording that is being made, if any.
     std::optional<std::filesystem::path> recording;
 };
+
+// What mouse and keys change of the camera's settings.
+
+/// The directions in which the free camera is asked to move, each -1, 0 or 1, in its own axes.
+struct FreeMove {
+    int right = 0;
+    int up = 0;
+    int ahead = 0;
+    bool fast = false;
+};
+
+/// Returns the settings after the pointer was dragged by these shares of the picture's height. The direction of view
+/// turns, or the eye moves around the aircraft. Dragging right shows more of what is on the left, as a map is dragged.
+settings::RunSettings dragged(const settings::RunSettings& settings, const glm::vec2& share_of_height);
+
+/// Returns the settings after the wheel was turned by `clicks` towards the screen.
+settings::RunSettings zoomed(const settings::RunSettings& settings, double clicks);
+
+/// Returns the settings with the view turned straight ahead and a zoom of 1.
+settings::RunSettings with_straight_look(const settings::RunSettings& settings);
+
+/// Returns the settings with another view. A view that becomes the free one begins at the place of `camera`.
+settings::RunSettings with_view(
+    const settings::RunSettings& settings, visuals::scene::View view, const visuals::scene::Camera& camera);
+
+/// Returns the settings after the free camera moved for `wall_s` seconds.
+settings::RunSettings moved(const settings::RunSettings& settings, const FreeMove& move, double wall_s);
 
 } // namespace octant::ui::window

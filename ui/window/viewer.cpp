@@ -1,4 +1,3 @@
-// What the viewer reads and writes for a person: the places of panels, keys, settings.
 #include "ui/window/viewer.h"
 
 #include "sim/base/error.h"
@@ -13,12 +12,12 @@
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_change.h"
 #include "ui/settings/settings_file.h"
-#include "ui/window/camera_control.h"
 #include "ui/window/gui.h"
 #include "ui/window/key_map.h"
 #include "ui/window/panels.h"
+#include "ui/window/view_state.h"
 #include "ui/world/input_files.h"
-#include "ui/world/sun_at_time.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/gl/make_renderer.h"
 #include "visuals/gl/picture_painter.h"
 #include "visuals/gl/window_context.h"
@@ -36,14 +35,11 @@
 #include <thread>
 #include <utility>
 
-// A viewer's recordings: of a path, of a flight by hand and of what others fly.
-
-// A viewer whose aircraft others fly.
-
 namespace octant::ui::window {
 
-namespace scene = visuals::scene;
+namespace fs = std::filesystem;
 namespace gl = visuals::gl;
+namespace scene = visuals::scene;
 
 namespace {
 
@@ -51,10 +47,6 @@ namespace {
 constexpr double max_frame_s = 0.25;
 constexpr double message_s = 5.0;
 constexpr double save_layout_every_s = 5.0;
-
-std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
-    return gl::make_window_context({.size = options.settings.view.size_px, .title = "Octant"});
-}
 
 double refresh_hz_of(GLFWmonitor* monitor) {
     const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
@@ -64,15 +56,16 @@ double refresh_hz_of(GLFWmonitor* monitor) {
 /// Where the settings ask for OpenGL or a GPU draws in the window; else the raster renderer does.
 bool gl_draws(const gl::WindowContext& context, const settings::RunSettings& settings) {
     using settings::RendererKind;
-    const RendererKind next_settings = settings.drawing.renderer;
+    const RendererKind wanted = settings.drawing.renderer;
     const bool gpu_draws = !context.info().is_software;
-    return next_settings == RendererKind::Gl || (next_settings == RendererKind::Auto && gpu_draws);
+    return wanted == RendererKind::Gl || (wanted == RendererKind::Auto && gpu_draws);
 }
 
 } // namespace
 
 Viewer::Viewer(const ViewOptions& options) : options_(options), sender_(options.send) {
-    std::shared_ptr<gl::WindowContext> context = open_window(options);
+    std::shared_ptr<gl::WindowContext> context =
+        gl::make_window_context({.size = options.settings.view.size_px, .title = "Octant"});
     context_ = context.get();
     input_.emplace(context_->window());
     settings::RunSettings settings = options.settings;
@@ -83,7 +76,7 @@ Viewer::Viewer(const ViewOptions& options) : options_(options), sender_(options.
     }
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
-        settings, flight::PictureContent::World, make_renderer(std::move(context), settings));
+        settings, flight::PictureContent::World, make_window_renderer(std::move(context), settings));
     session_->pictures().set_presenter([this](scene::Renderer& renderer) { present(renderer); });
     read_layout();
     read_keys();
@@ -105,7 +98,7 @@ Viewer::Viewer(const ViewOptions& options) : options_(options), sender_(options.
     clock_ = base::Stopwatch();
 }
 
-std::unique_ptr<scene::Renderer> Viewer::make_renderer(
+std::unique_ptr<scene::Renderer> Viewer::make_window_renderer(
     std::shared_ptr<gl::WindowContext> context, const settings::RunSettings& settings) {
     if (gl_draws(*context, settings)) {
         return gl::make_renderer(std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
@@ -148,6 +141,14 @@ void Viewer::restart_playback() {
     shown_s_ = playback.time_s;
 }
 
+/// Lets others fly what is loaded now, where there are others.
+void Viewer::restart_live_flight() {
+    if (listener_) {
+        listener_->attach(*session_);
+        state_.playback.playing = true;
+    }
+}
+
 bool Viewer::run_frame() {
     const double now_s = clock_.s();
     const double passed_s = now_s - last_frame_s_;
@@ -170,9 +171,7 @@ bool Viewer::run_frame() {
                          : "the ground ends the flight: T flies on above it, H goes back to the path");
     }
     const bool open_ended = session_->simulation().by_hand() || listener_ != nullptr;
-    if (state_.playback.advance(wall_s, open_ended) == Playback::TimeChange::Restarted) {
-        go_to(state_.playback.begin_s);
-    }
+    if (state_.playback.advance(wall_s, open_ended)) { go_to(state_.playback.begin_s); }
     if (listener_) {
         draw_live();
     } else {
@@ -229,7 +228,7 @@ void Viewer::handle_input(double wall_s) {
 
 void Viewer::move_free_camera(double wall_s) {
     using A = HeldAction;
-    const auto is_down = [&](A chosen_action) { return input_->is_down(state_.keys.key_of(chosen_action)); };
+    const auto is_down = [&](A action) { return input_->is_down(state_.keys.key_of(action)); };
     const auto sense = [&](A more, A less) {
         return static_cast<int>(is_down(more)) - static_cast<int>(is_down(less));
     };
@@ -262,7 +261,7 @@ void Viewer::apply_next_settings() {
     }
     if (listener_) { next_settings.path.name = settings::live_path; }
     next_settings =
-        world::with_sun_updated(std::move(next_settings), session_->settings(), session_->world().ground_place);
+        world::with_sun_updated(std::move(next_settings), session_->settings(), session_->world().ground.place);
     if (next_settings == session_->settings()) { return; }
     const bool other_flight =
         settings::change_between(session_->settings(), state_.next_settings) >= settings::SettingsChange::World;
@@ -289,18 +288,48 @@ void Viewer::draw() {
     const double next_s = state_.playback.time_s;
     const bool ahead = session_->settings().ground.mesh_async;
     const double input_of_next_s = input_s_;
-    const double time_s = ahead ? shown_s_ : next_s;
     session_->pictures().set_window_target(input_->size_px());
-    report::FrameRecord record = session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
+    report::FrameRecord record =
+        session_->draw_at(ahead ? shown_s_ : next_s, ahead ? std::optional(next_s) : std::nullopt);
+    record.latency_ms = 1000.0 * (clock_.s() - (ahead ? shown_input_s_ : input_of_next_s));
+    shown_s_ = next_s;
+    shown_input_s_ = input_of_next_s;
+    finish_picture(record);
+}
+
+/// Shows what other programs have sent up to now.
+void Viewer::draw_live() {
+    const double time_s = receive_packets();
+    for (const std::string& line : listener_->take_new_messages()) { base::print_note(options_.quiet, line); }
+    state_.next_settings.air = session_->settings().air; // a host may have told another
+    const bool records = live_recorder_.has_value();
+    session_->pictures().set_reads_before_presenting(records);
+    session_->pictures().set_window_target(records && !painter_ ? glm::ivec2(0) : input_->size_px());
+    report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
+    listener_->finish_picture(record);
+    finish_picture(record);
+}
+
+/// Sends and records what was drawn.
+void Viewer::finish_picture(report::FrameRecord& record) {
     const double now_s = clock_.s();
-    record.latency_ms = 1000.0 * (now_s - (ahead ? shown_input_s_ : input_of_next_s));
     record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
     presented_s_ = now_s;
     sender_.send(*session_);
-    shown_s_ = next_s;
-    shown_input_s_ = input_of_next_s;
     state_.history.add(record);
     record_frame(record);
+}
+
+/// Returns the time of the next picture. A recording that can no longer be written ends; the window does not.
+double Viewer::receive_packets() {
+    try {
+        return *listener_->take(*session_); // not in steps: always a picture
+    } catch (const Error& fault) {
+        if (!live_recorder_) { throw; }
+        drop_recording();
+        show_message(fault.what());
+        return *listener_->take(*session_);
+    }
 }
 
 /// Waits for the display's next refresh where the driver does not do so itself.
@@ -309,8 +338,6 @@ void Viewer::wait_for_display(double turn_began_s) const {
     const double left_s = 1.0 / refresh_hz_ - (clock_.s() - turn_began_s);
     if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
 }
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -389,13 +416,19 @@ void Viewer::flight_command(ViewCommand what) {
     Playback& playback = state_.playback;
     ViewRequests& requests = state_.requests;
     const bool at_the_end = playback.time_s >= playback.end_s && !session_->simulation().by_hand();
+    constexpr std::array<std::pair<C, bool ViewRequests::*>, 6> requested{
+        {{C::StepFrame, &ViewRequests::step_frame}, {C::ManualFlight, &ViewRequests::toggle_manual_flight},
+            {C::LevelOff, &ViewRequests::level_off}, {C::Record, &ViewRequests::toggle_recording},
+            {C::Screenshot, &ViewRequests::screenshot}, {C::FullScreen, &ViewRequests::toggle_full_screen}}};
+    const auto request = std::ranges::find(requested, what, &std::pair<C, bool ViewRequests::*>::first);
+    if (request != requested.end()) {
+        requests.*request->second = true;
+        return;
+    }
     switch (what) {
     case C::PlayOrPause:
         playback.playing = !playback.playing;
         if (playback.playing && at_the_end) { requests.go_to_s = playback.begin_s; }
-        return;
-    case C::StepFrame:
-        requests.step_frame = true;
         return;
     case C::Slower:
         return playback.change_speed(-1);
@@ -412,21 +445,6 @@ void Viewer::flight_command(ViewCommand what) {
         return;
     case C::Forward:
         requests.go_to_s = playback.time_s + skip_s;
-        return;
-    case C::ManualFlight:
-        requests.toggle_manual_flight = true;
-        return;
-    case C::LevelOff:
-        requests.level_off = true;
-        return;
-    case C::Record:
-        requests.toggle_recording = true;
-        return;
-    case C::Screenshot:
-        requests.screenshot = true;
-        return;
-    case C::FullScreen:
-        requests.toggle_full_screen = true;
         return;
     case C::Leave:
         requests.leave = !std::exchange(state_.open.leave_question, false) && !std::exchange(state_.open.help, false);
@@ -516,8 +534,7 @@ void Viewer::take_screenshot() {
 
 void Viewer::count_wrong_pixels() {
     try {
-        const flight::PixelCheck check = flight::check_pixels(*session_);
-        state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
+        state_.pixel_check = flight::check_pixels(*session_);
     } catch (const Error& fault) { show_message(fault.what()); }
 }
 
@@ -620,15 +637,13 @@ namespace {
 
 constexpr std::size_t largest_layout_bytes = std::size_t{64} << 10;
 
-fs::path layout_file(const fs::path& folder) { return folder.empty() ? fs::path() : folder / "layout.ini"; }
-
 } // namespace
 
 /// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is kept and the viewer
 /// works all the same.
 void Viewer::read_layout() {
     if (options_.config_folder.empty()) { return; }
-    const fs::path file = layout_file(options_.config_folder);
+    const fs::path file = options_.config_folder / "layout.ini";
     try {
         make_folder(options_.config_folder);
         state_.open.first_steps = !path_exists(file);
@@ -658,7 +673,7 @@ void Viewer::save_layout() noexcept {
     if (options_.config_folder.empty()) { return; }
     try {
         saved_layout_ = state_.columns.user_placed();
-        write_file(layout_file(options_.config_folder), text_of_layout(*saved_layout_));
+        write_file(options_.config_folder / "layout.ini", text_of_layout(*saved_layout_));
     } catch (const std::exception&) { options_.config_folder.clear(); }
 }
 
@@ -681,44 +696,6 @@ void Viewer::handle_file_requests(const ViewRequests& requests) {
             fit_to_window();
         }
     } catch (const Error& fault) { show_message(fault.what()); }
-}
-
-/// Lets others fly what is loaded now, where there are others.
-void Viewer::restart_live_flight() {
-    if (listener_) {
-        listener_->attach(*session_);
-        state_.playback.playing = true;
-    }
-}
-
-/// The time that is shown now. A recording that can no longer be written ends; the window does not.
-double Viewer::receive_packets() {
-    try {
-        return *listener_->take(*session_); // not in steps: always a picture
-    } catch (const Error& fault) {
-        if (!live_recorder_) { throw; }
-        drop_recording();
-        show_message(fault.what());
-        return *listener_->take(*session_);
-    }
-}
-
-/// Shows what has come up to now.
-void Viewer::draw_live() {
-    const double time_s = receive_packets();
-    for (const std::string& line : listener_->take_new_messages()) { base::print_note(options_.quiet, line); }
-    state_.next_settings.air = session_->settings().air; // a host may have told another
-    const bool records = live_recorder_.has_value();
-    session_->pictures().set_reads_before_presenting(records);
-    session_->pictures().set_window_target(records && !painter_ ? glm::ivec2(0) : input_->size_px());
-    report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
-    listener_->finish_picture(record);
-    const double now_s = clock_.s();
-    record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
-    presented_s_ = now_s;
-    sender_.send(*session_);
-    state_.history.add(record);
-    record_frame(record);
 }
 
 } // namespace octant::ui::window

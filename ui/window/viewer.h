@@ -105,7 +105,7 @@ private:
     void toggle_recording();
     void start_recording(const std::filesystem::path& folder);
     void take_screenshot();
-    std::unique_ptr<visuals::scene::Renderer> make_renderer(
+    std::unique_ptr<visuals::scene::Renderer> make_window_renderer(
         std::shared_ptr<visuals::gl::WindowContext> context, const settings::RunSettings& settings);
     void present(visuals::scene::Renderer& renderer);
     void toggle_full_screen();
@@ -113,6 +113,7 @@ private:
     void restart_playback();
     void draw();
     void draw_live();
+    void finish_picture(report::FrameRecord& record);
     void restart_live_flight();
     void start_live_recording(const std::filesystem::path& folder);
     std::string finish_live_recording();

@@ -15,10 +15,8 @@ struct WindowCallbacks {
         return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
     }
 
-    static void key(GLFWwindow* window, int key, int /*scan_code*/, int chosen_action, int /*mods*/) {
-        if (chosen_action != GLFW_RELEASE) {
-            input_of(window).events_.keys.push_back({key, chosen_action == GLFW_REPEAT});
-        }
+    static void key(GLFWwindow* window, int key, int /*scan_code*/, int action, int /*mods*/) {
+        if (action != GLFW_RELEASE) { input_of(window).events_.keys.push_back({key, action == GLFW_REPEAT}); }
     }
 
     static void wheel(GLFWwindow* window, double /*x*/, double y) { input_of(window).events_.wheel_clicks += y; }
@@ -58,7 +56,7 @@ GamepadButtons WindowInput::pad_buttons() const {
 
 PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
     PilotDevices devices;
-    const auto is_held = [&](HeldAction chosen_action) { return is_down(keys.key_of(chosen_action)); };
+    const auto is_held = [&](HeldAction action) { return is_down(keys.key_of(action)); };
     devices.keys = {.pull = is_held(HeldAction::Pull),
         .push = is_held(HeldAction::Push),
         .roll_left = is_held(HeldAction::RollLeft),

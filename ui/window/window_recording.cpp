@@ -6,7 +6,6 @@
 #include "sim/flight_steps.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/flight_recorder.h"
-#include "ui/flight/track_files.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 #include "visuals/groundfile/ground_file.h"
@@ -146,7 +145,7 @@ std::string WindowRecording::finish(flight::Session& session) {
     }
     flight::write_tracks(recording_.folder(), session.world(),
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())),
-        session.world().ground_frame.get());
+        session.world().ground.frame.get());
     recording_.finish(
         {last_hash_, std::nullopt, report::read_cpu_times(), visuals::groundfile::tile_damage_messages()});
     session.simulation().stop_log();

@@ -47,7 +47,19 @@
 
 namespace octant::ui::world {
 
+namespace draworder = visuals::draworder;
+namespace fs = std::filesystem;
+namespace measure = models::measure;
+namespace meshfile = models::meshfile;
+namespace ordercache = visuals::ordercache;
+namespace planning = visuals::planning;
+namespace refine = visuals::refine;
+namespace scene = visuals::scene;
+namespace shading = visuals::shading;
+using models::meshfile::RotatingPart;
 using models::polygons::FileAxes;
+using models::polygons::Polygon;
+using models::polygons::PolygonModel;
 using AxesSource = AircraftAxes::AxesSource;
 
 namespace {
@@ -86,8 +98,7 @@ std::string_view source_of(AxesSource source) {
 
 } // namespace
 
-AircraftAxes aircraft_axes(
-    const std::string& setting, const std::filesystem::path& file, const models::TriangleMesh& mesh) {
+AircraftAxes aircraft_axes(const std::string& setting, const fs::path& file, const models::TriangleMesh& mesh) {
     if (setting != automatic) { return {FileAxes::from_text(setting), AxesSource::Given}; }
     if (const auto axes = models::meshfile::axes_of_format(file)) { return {*axes, AxesSource::Format}; }
     const auto default_axes = models::meshfile::default_axes_of_format(file);
@@ -107,16 +118,18 @@ std::string axes_text(const AircraftAxes& axes) {
         axis_along(axes.axes, {0.0, 0.0, -1.0}), source_of(axes.source));
 }
 
-std::string axes_note(const AircraftAxes& axes, const std::filesystem::path& file) {
-    if (axes.source == AxesSource::Given || axes.source == AxesSource::Format) { return {}; }
-    return fmt::format("{}: {}; --axes to change", file.filename().string(), axes_text(axes));
+namespace {
+
+/// Tells where nose and top were found, unless the setting or the format says it.
+void note_axes(const AircraftAxes& axes, const fs::path& file, std::vector<std::string>& notes) {
+    if (axes.source == AxesSource::Guess || axes.source == AxesSource::Default) {
+        notes.push_back(fmt::format("{}: {}; --axes to change", file.filename().string(), axes_text(axes)));
+    }
 }
 
-namespace fs = std::filesystem;
-namespace ordercache = visuals::ordercache;
-namespace refine = visuals::refine;
-
-namespace {
+/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was cached
+/// before is then made anew.
+constexpr unsigned refine_mesh_cache_version = 4;
 
 template <class Item>
 void add_list(Hash& hash, const std::vector<Item>& list) {
@@ -177,9 +190,22 @@ RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& i
 
 namespace {
 
-using models::meshfile::RotatingPart;
-using models::polygons::Polygon;
-using models::polygons::PolygonModel;
+/// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and polygons for far away.
+struct MeshAircraft {
+    /// Levels of detail, the finest first; none where there is a hierarchy.
+    std::vector<models::meshfile::ChainLevel> levels;
+    /// Null where there are levels.
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
+    /// What turns beside the hierarchy; its pivots are those of the polygons.
+    std::vector<RotatingPart> turning;
+    /// Surfaces that are seen through, which the hierarchy leaves out; often none.
+    models::meshfile::TransparentSurfaces clear;
+    /// What is drawn of it far away.
+    PolygonModel polygons;
+    /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.
+    double polygons_error_m = 0.0;
+    std::vector<std::string> notes;
+};
 
 /// Triangles of all parts together, and of one at least.
 constexpr std::size_t far_faces_of_parts = 120;
@@ -201,6 +227,14 @@ void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
     }
 }
 
+/// The certified distance of two meshes, found quickly.
+double max_distance_m(const models::TriangleMesh& a, const models::TriangleMesh& b) {
+    measure::DistanceOptions options;
+    options.tightness = 1.4;
+    options.samples = 0;
+    return measure::distance(a, b, options).max_hausdorff_m();
+}
+
 /// Adds a mesh to a part, simplified to so many triangles. Returns their certified distance.
 double append_far(const models::TriangleMesh& mesh, std::size_t faces, std::uint32_t part, PolygonModel& to) {
     const models::TriangleMesh whole = models::repair::repaired(mesh).mesh;
@@ -209,23 +243,13 @@ double append_far(const models::TriangleMesh& mesh, std::size_t faces, std::uint
     options.goal.faces = faces;
     const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
     append(to, models::polygons::polygons_from_mesh(far), part);
-    models::measure::DistanceOptions loosely;
-    loosely.tightness = 1.4;
-    loosely.samples = 0;
-    return models::measure::distance(whole, far, loosely).max_hausdorff_m();
+    return max_distance_m(whole, far);
 }
 
 /// Turns a mesh from its file's axes into body axes: a rotation, so that no triangle turns over.
 void rotate_mesh_to_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
     for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
     for (glm::vec3& normal : mesh.normals) { normal = glm::vec3(axes.body_from_file(glm::dvec3(normal))); }
-}
-
-/// Turns a part with its axis from its file's axes into body axes.
-void rotate_part_to_body(RotatingPart& part, const models::polygons::FileAxes& axes) {
-    rotate_mesh_to_body(part.mesh, axes);
-    part.about.point_m = axes.body_from_file(part.about.point_m);
-    part.about.direction = axes.body_from_file(part.about.direction);
 }
 
 /// Adds parts that turn to the polygons that stand in for an aircraft far away: a pivot for each, in their order, and
@@ -242,20 +266,6 @@ double add_far_parts(std::span<const RotatingPart> parts, PolygonModel& polygons
     }
     return error_m;
 }
-
-/// Adds clear surfaces to them, opaque: far away what lies behind is not seen. Returns the same.
-double add_far_transparent(const models::TriangleMesh& mesh, PolygonModel& polygons) {
-    return append_far(mesh, far_faces_of_transparent, 0, polygons);
-}
-
-} // namespace
-
-namespace meshfile = models::meshfile;
-namespace measure = models::measure;
-namespace refine = visuals::refine;
-namespace planning = visuals::planning;
-
-namespace {
 
 /// Few enough polygons for a painting order.
 constexpr std::size_t far_faces = 250;
@@ -292,14 +302,9 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
     return mesh;
 }
 
-/// Tells where nose and top were found.
-void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::filesystem::path& file) {
-    if (std::string note = axes_note(axes, file); !note.empty()) { aircraft.notes.push_back(std::move(note)); }
-}
-
 /// A hierarchy from its file, or made of a mesh; what turns or is clear beside it goes to `aircraft`, in axes of the
 /// file.
-RefineMesh hierarchy_in(const std::filesystem::path& file, const std::filesystem::path& cache, MeshAircraft& aircraft) {
+RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, MeshAircraft& aircraft) {
     const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
     if (refine::is_progressive_file(file)) { return read_refine_mesh(input); }
     const meshfile::ReadOptions options{.pictures = true, .backs = true};
@@ -315,25 +320,26 @@ RefineMesh hierarchy_in(const std::filesystem::path& file, const std::filesystem
                          : cached_refine_mesh(cache, input, std::move(model.body));
 }
 
-MeshAircraft from_hierarchy(
-    const std::filesystem::path& file, const std::string& setting, const std::filesystem::path& cache) {
+MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, const fs::path& cache) {
     const base::Stopwatch watch;
     MeshAircraft aircraft;
     RefineMesh input = hierarchy_in(file, cache, aircraft);
     const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     aircraft.notes = std::move(input.notes);
-    add_note(aircraft, axes, file);
+    note_axes(axes, file, aircraft.notes);
     aircraft.hierarchy = turned(*input.mesh, axes.axes);
     const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
-    measure::DistanceOptions loosely;
-    loosely.tightness = 1.4;
-    loosely.samples = 0;
-    aircraft.polygons_error_m = measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).max_hausdorff_m();
+    aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
-    for (meshfile::RotatingPart& part : aircraft.turning) { rotate_part_to_body(part, axes.axes); }
+    for (RotatingPart& part : aircraft.turning) {
+        rotate_mesh_to_body(part.mesh, axes.axes);
+        part.about.point_m = axes.axes.body_from_file(part.about.point_m);
+        part.about.direction = axes.axes.body_from_file(part.about.direction);
+    }
     rotate_mesh_to_body(aircraft.clear.mesh, axes.axes);
+    // Transparent surfaces are opaque there: far away nothing is seen through them.
     aircraft.polygons_error_m = std::max({aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons),
-        add_far_transparent(aircraft.clear.mesh, aircraft.polygons)});
+        append_far(aircraft.clear.mesh, far_faces_of_transparent, 0, aircraft.polygons)});
     if (!aircraft.turning.empty()) {
         aircraft.notes.push_back(fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
     }
@@ -343,12 +349,12 @@ MeshAircraft from_hierarchy(
 }
 
 /// Levels that are no better than the polygons are never drawn.
-MeshAircraft from_chain(const std::filesystem::path& file, const std::string& setting) {
+MeshAircraft from_chain(const fs::path& file, const std::string& setting) {
     meshfile::LevelChain chain = meshfile::read_chain(file);
     const AircraftAxes found = aircraft_axes(setting, file, chain.levels.front().mesh);
     const models::polygons::FileAxes& axes = found.axes;
     MeshAircraft aircraft;
-    add_note(aircraft, found, file);
+    note_axes(found, file, aircraft.notes);
     aircraft.polygons =
         chain.polygons ? std::move(*chain.polygons) : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
     aircraft.polygons_error_m = chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
@@ -366,18 +372,19 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
     return aircraft;
 }
 
-} // namespace
-
-MeshAircraft read_mesh_aircraft(
-    const std::filesystem::path& file, const std::string& axes, const std::filesystem::path& cache) {
+/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a hierarchy is made
+/// here, or read where `cache`, a folder, has it of before; empty: none. `axes`: as aircraft_axes takes them. Throws
+/// Error.
+MeshAircraft read_mesh_aircraft(const fs::path& file, const std::string& axes, const fs::path& cache) {
     return meshfile::is_chain_file(file) ? from_chain(file, axes) : from_hierarchy(file, axes, cache);
 }
 
+/// Gives the model that was made of its polygons the rest of a mesh aircraft.
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
         planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
         std::vector<planning::TurningPartMesh> parts;
-        for (const meshfile::RotatingPart& part : aircraft.turning) {
+        for (const RotatingPart& part : aircraft.turning) {
             parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
         }
         planning::add_turning_parts(model, parts);
@@ -391,12 +398,10 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     planning::add_levels(model, sources, aircraft.polygons_error_m);
 }
 
-namespace fs = std::filesystem;
-namespace ordercache = visuals::ordercache;
+/// What the user's own cache may hold.
+constexpr std::uintmax_t max_bytes_of_user_cache = std::uintmax_t{256} << 20;
 
-namespace {
-
-/// What is known of a kept file.
+/// A file of a cache.
 struct FoundFile {
     fs::file_time_type written;
     fs::path path;
@@ -412,17 +417,18 @@ std::vector<FoundFile> files_of(const fs::path& folder) {
     std::error_code ignored;
     for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
         const fs::path kind = entry->path().extension();
-        std::error_code gone;
-        std::error_code too;
-        const bool is_rest = is_unfinished(entry->path());
-        if ((std::ranges::find(cache_file_endings, kind) == cache_file_endings.end() && !is_rest) ||
-            entry->symlink_status(gone).type() != fs::file_type::regular) {
+        std::error_code size_error;
+        std::error_code time_error;
+        const bool is_unfinished_file = is_unfinished(entry->path());
+        if ((std::ranges::find(cache_file_endings, kind) == cache_file_endings.end() && !is_unfinished_file) ||
+            entry->symlink_status(size_error).type() != fs::file_type::regular) {
             continue;
         }
-        const std::uintmax_t bytes = entry->file_size(gone);
-        const fs::file_time_type written = entry->last_write_time(too);
-        const bool is_being_written = is_rest && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
-        if (!gone && !too && !is_being_written) { files.push_back({written, entry->path(), bytes}); }
+        const std::uintmax_t bytes = entry->file_size(size_error);
+        const fs::file_time_type written = entry->last_write_time(time_error);
+        const bool is_being_written =
+            is_unfinished_file && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
+        if (!size_error && !time_error && !is_being_written) { files.push_back({written, entry->path(), bytes}); }
     }
     return files;
 }
@@ -457,20 +463,14 @@ std::optional<fs::path> order_cache_folder(const std::string& value) {
     } catch (const Error&) { return std::nullopt; }
 }
 
-namespace planning = visuals::planning;
-namespace scene = visuals::scene;
-namespace draworder = visuals::draworder;
-namespace ordercache = visuals::ordercache;
-namespace shading = visuals::shading;
-
 namespace {
 
-/// What loading comes upon beside the models.
-struct LoadNotes {
+/// The folder of cached painting orders, and what loading gives beside the models.
+struct LoadContext {
     std::vector<std::string> notes;
-    std::vector<std::filesystem::path> order_files;
+    std::vector<fs::path> order_files;
     /// Where painting orders are kept.
-    std::optional<std::filesystem::path> order_cache_folder;
+    std::optional<fs::path> order_cache_folder;
 
     void note(const std::vector<std::string>& more) { notes.insert(notes.end(), more.begin(), more.end()); }
 };
@@ -490,8 +490,8 @@ struct OrderLimits {
     double seconds = 0.0;
 };
 
-draworder::OrderedModel with_order(models::polygons::PolygonModel model, const AircraftSources& inputs,
-    const OrderLimits& most, LoadNotes& load_notes) {
+draworder::OrderedModel with_order(
+    PolygonModel model, const AircraftSources& inputs, const OrderLimits& most, LoadContext& context) {
     if (inputs.hidden_surface != scene::HiddenSurface::Octant || model.polygons.size() > most.polygons) {
         draworder::DrawOrder order = draworder::file_order(model);
         return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
@@ -499,27 +499,26 @@ draworder::OrderedModel with_order(models::polygons::PolygonModel model, const A
     draworder::OrderOptions options;
     options.method = inputs.order_method;
     options.seconds = std::min(inputs.order_seconds, most.seconds);
-    if (!load_notes.order_cache_folder) { return draworder::ordered(std::move(model), options); }
-    ordercache::CachedOrder cached =
-        ordercache::cached_order(*load_notes.order_cache_folder, std::move(model), options);
-    load_notes.note(cached.notes);
-    if (settings::is_order_cache_folder(inputs.order_cache)) { load_notes.order_files.push_back(cached.file); }
+    if (!context.order_cache_folder) { return draworder::ordered(std::move(model), options); }
+    ordercache::CachedOrder cached = ordercache::cached_order(*context.order_cache_folder, std::move(model), options);
+    context.note(cached.notes);
+    if (settings::is_order_cache_folder(inputs.order_cache)) { context.order_files.push_back(cached.file); }
     return std::move(cached.ordered);
 }
 
 /// Whether a material file has pictures or glass, which meshes show.
-bool has_pictures_or_glass(const std::filesystem::path& materials) {
+bool has_pictures_or_glass(const fs::path& materials) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(materials, ignored)) { return false; }
+    if (!fs::is_regular_file(materials, ignored)) { return false; }
     const models::polygons::MtlFile read = models::polygons::read_mtl(materials);
     return !read.opacities.empty() || std::ranges::any_of(read.pictures, [&](const auto& of_material) {
-        return std::filesystem::is_regular_file(materials.parent_path() / of_material.second, ignored);
+        return fs::is_regular_file(materials.parent_path() / of_material.second, ignored);
     });
 }
 
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
 /// mesh of a surface, which refinement in flight serves better.
-bool is_polygon_model(const std::filesystem::path& file) {
+bool is_polygon_model(const fs::path& file) {
     if (extension_of(file) != ".obj") { return false; }
     std::size_t triangles = 0;
     std::size_t others = 0;
@@ -539,12 +538,12 @@ bool is_polygon_model(const std::filesystem::path& file) {
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
-planning::AircraftModel finished_model(models::polygons::PolygonModel model, const sim::AircraftKind* kind,
-    const AircraftSources& inputs, const OrderLimits& most, LoadNotes& load_notes) {
+planning::AircraftModel finished_model(PolygonModel model, const sim::AircraftKind* kind, const AircraftSources& inputs,
+    const OrderLimits& most, LoadContext& context) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
-    const models::polygons::PolygonModel whole = model;
-    draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, load_notes);
-    load_notes.note(ordered.notes);
+    const PolygonModel whole = model;
+    draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, context);
+    context.note(ordered.notes);
     std::vector<glm::vec3> normals = shading::piece_normals(whole, shading::corner_normals(whole), ordered.model);
     planning::AircraftModel made =
         planning::aircraft_model(std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
@@ -553,44 +552,43 @@ planning::AircraftModel finished_model(models::polygons::PolygonModel model, con
     return made;
 }
 
-models::polygons::PolygonModel read_polygon_model(
-    const std::filesystem::path& file, const std::string& axes, LoadNotes& load_notes) {
+PolygonModel read_polygon_model(const fs::path& file, const std::string& axes, LoadContext& context) {
     if (file.parent_path() == base::data_folder() / "models") { return models::polygons::read_obj(file); }
     const models::polygons::FileAxes default_axes;
-    models::polygons::PolygonModel model = models::polygons::read_obj(file, default_axes);
+    PolygonModel model = models::polygons::read_obj(file, default_axes);
     models::TriangleMesh shape = models::polygons::mesh_from_polygons(model);
     for (glm::dvec3& vertex_m : shape.vertices_m) { vertex_m = default_axes.file_from_body(vertex_m); }
     const AircraftAxes shown = aircraft_axes(axes, file, shape);
-    if (std::string note = axes_note(shown, file); !note.empty()) { load_notes.notes.push_back(std::move(note)); }
+    note_axes(shown, file, context.notes);
     return shown.axes.text() == default_axes.text() ? std::move(model) : models::polygons::read_obj(file, shown.axes);
 }
 
-/// The polygons that stand in for a mesh far away. Without a painting order they only throw shadows.
-planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftSources& inputs, LoadNotes& load_notes) {
+/// The polygons that are drawn of a mesh far away. If no painting order is found they are used for shadows only: their
+/// error is then infinite.
+planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftSources& inputs, LoadContext& context) {
     if (mesh.polygons.polygons.size() <= max_polygons_of_a_mesh) {
         try {
             return finished_model(
-                mesh.polygons, nullptr, inputs, {max_polygons_of_a_mesh, max_seconds_of_a_mesh}, load_notes);
+                mesh.polygons, nullptr, inputs, {max_polygons_of_a_mesh, max_seconds_of_a_mesh}, context);
         } catch (const Error& fault) {
-            load_notes.notes.push_back(fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
+            context.notes.push_back(fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
         }
     }
     mesh.polygons_error_m = std::numeric_limits<double>::infinity();
-    return finished_model(std::move(mesh.polygons), nullptr, inputs, {}, load_notes);
+    return finished_model(std::move(mesh.polygons), nullptr, inputs, {}, context);
 }
 
-planning::AircraftModel load_model(const std::string& name, const AircraftSources& inputs, LoadNotes& load_notes) {
-    const std::filesystem::path file = base::aircraft_file(name);
+planning::AircraftModel load_model(const std::string& name, const AircraftSources& inputs, LoadContext& context) {
+    const fs::path file = base::aircraft_file(name);
     if (is_polygon_model(file)) {
-        models::polygons::PolygonModel model = read_polygon_model(file, inputs.axes, load_notes);
-        load_notes.note(model.notes);
+        PolygonModel model = read_polygon_model(file, inputs.axes, context);
+        context.note(model.notes);
         return finished_model(std::move(model), sim::find_aircraft_kind(name), inputs,
-            {max_polygons_of_a_model, inputs.order_seconds}, load_notes);
+            {max_polygons_of_a_model, inputs.order_seconds}, context);
     }
-    MeshAircraft mesh =
-        read_mesh_aircraft(file, inputs.axes, load_notes.order_cache_folder.value_or(std::filesystem::path()));
-    load_notes.note(mesh.notes);
-    planning::AircraftModel model = far_model(mesh, inputs, load_notes);
+    MeshAircraft mesh = read_mesh_aircraft(file, inputs.axes, context.order_cache_folder.value_or(fs::path()));
+    context.note(mesh.notes);
+    planning::AircraftModel model = far_model(mesh, inputs, context);
     add_meshes(model, mesh);
     return model;
 }
@@ -599,8 +597,7 @@ planning::AircraftModel load_model(const std::string& name, const AircraftSource
 std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft) {
     const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft);
     if (kind == nullptr) { return std::nullopt; }
-    models::polygons::PolygonModel model =
-        models::polygons::read_obj(base::data_folder() / "models" / kind->cockpit_file);
+    PolygonModel model = models::polygons::read_obj(base::data_folder() / "models" / kind->cockpit_file);
     draworder::DrawOrder order = draworder::file_order(model);
     return planning::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0));
 }
@@ -616,10 +613,10 @@ AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vec
         .order_seconds = settings.surface.order_seconds,
         .order_cache = settings.surface.order_cache};
     for (const std::string& shape : inputs.shapes) {
-        const std::filesystem::path file = base::aircraft_file(shape);
+        const fs::path file = base::aircraft_file(shape);
         open_file(file);
         add_mtime(file, inputs.files);
-        for (const std::filesystem::path& named : referenced_files(file)) { add_mtime(named, inputs.files); }
+        for (const fs::path& named : referenced_files(file)) { add_mtime(named, inputs.files); }
     }
     return inputs;
 }
@@ -627,30 +624,26 @@ AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vec
 LoadedAircraft load_aircraft(const AircraftSources& inputs) {
     LoadedAircraft loaded;
     loaded.inputs = inputs;
-    LoadNotes told;
-    told.order_cache_folder = order_cache_folder(inputs.order_cache);
+    LoadContext context;
+    context.order_cache_folder = order_cache_folder(inputs.order_cache);
     const auto add = [&](planning::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };
     std::vector<std::string> names;
-    for (const std::string& name : inputs.shapes) {
-        const auto load_notes = std::find(names.begin(), names.end(), name);
-        loaded.aircraft.push_back(static_cast<std::uint32_t>(load_notes - names.begin()));
-        if (load_notes == names.end()) {
+    const auto model_of = [&](const std::string& name) {
+        const auto known = std::ranges::find(names, name);
+        const auto number = static_cast<std::uint32_t>(known - names.begin());
+        if (known == names.end()) {
             names.push_back(name);
-            add(load_model(name, inputs, told));
+            add(load_model(name, inputs, context));
         }
-    }
+        return number;
+    };
+    for (const std::string& name : inputs.shapes) { loaded.aircraft.push_back(model_of(name)); }
     for (std::uint32_t i = 0; i < names.size(); ++i) {
         const sim::AircraftKind* kind = sim::find_aircraft_kind(names[i]);
-        if (kind == nullptr || kind->simple_type_name.empty()) { continue; }
-        const std::string plain(kind->simple_type_name);
-        const auto load_notes = std::find(names.begin(), names.end(), plain);
-        loaded.far_models.push_back(
-            {i, static_cast<std::uint32_t>(load_notes - names.begin()), kind->simple_model_error_m});
-        if (load_notes == names.end()) {
-            names.push_back(plain);
-            add(load_model(plain, inputs, told));
+        if (kind != nullptr && !kind->simple_type_name.empty()) {
+            loaded.far_models.push_back({i, model_of(std::string(kind->simple_type_name)), kind->simple_model_error_m});
         }
     }
     if (auto cockpit = load_cockpit(inputs.shapes.front())) {
@@ -658,8 +651,8 @@ LoadedAircraft load_aircraft(const AircraftSources& inputs) {
         loaded.dials = planning::dials_of(cockpit->polygons, sim::aircraft_kind(inputs.shapes.front()).limits);
         add(std::move(*cockpit));
     }
-    loaded.notes = std::move(told.notes);
-    loaded.order_files = std::move(told.order_files);
+    loaded.notes = std::move(context.notes);
+    loaded.order_files = std::move(context.order_files);
     return loaded;
 }
 

@@ -25,7 +25,7 @@ namespace octant::ui::world {
 
 /// Where the axes of an aircraft's file point, and how that is known.
 struct AircraftAxes {
-    /// Usual: its shape does not say, so that it is taken as its format's scenes mostly lie, else as x right, y up, z
+    /// Default: the shape does not say; the axes are those that scenes of the format mostly have, else x right, y up, z
     /// back.
     enum class AxesSource { Given, Format, Guess, Default };
 
@@ -44,13 +44,6 @@ void check_axes(const std::string& setting);
 /// "nose towards -x, up +y: guessed from the shape".
 std::string axes_text(const AircraftAxes& axes);
 
-/// What a person should be told of axes that were not given: empty for those of a format.
-std::string axes_note(const AircraftAxes& axes, const std::filesystem::path& file);
-
-/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was kept
-/// before is then made anew.
-inline constexpr unsigned refine_mesh_cache_version = 4;
-
 /// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that decides it: places,
 /// triangles, colours and materials.
 std::filesystem::path refine_mesh_cache_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
@@ -61,35 +54,6 @@ std::filesystem::path refine_mesh_cache_file(const std::filesystem::path& folder
 RefineMesh cached_refine_mesh(
     const std::filesystem::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh);
 
-/// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and polygons for far away.
-struct MeshAircraft {
-    /// Levels of detail, the finest first; none where there is a hierarchy.
-    std::vector<models::meshfile::ChainLevel> levels;
-    /// Null where there are levels.
-    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
-    /// What turns beside the hierarchy; its pivots are those of the polygons.
-    std::vector<models::meshfile::RotatingPart> turning;
-    /// Surfaces that are seen through, which the hierarchy leaves out; often none.
-    models::meshfile::TransparentSurfaces clear;
-    /// What is drawn of it far away.
-    models::polygons::PolygonModel polygons;
-    /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.
-    double polygons_error_m = 0.0;
-    std::vector<std::string> notes;
-};
-
-/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a hierarchy is made
-/// here, or read where `cache`, a folder, has it of before; empty: none. `axes`: as aircraft_axes takes them. Throws
-/// Error.
-MeshAircraft read_mesh_aircraft(
-    const std::filesystem::path& file, const std::string& axes, const std::filesystem::path& cache = {});
-
-/// Gives the model that was made of its polygons the rest of a mesh aircraft.
-void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);
-
-/// What the user's own cache may hold.
-inline constexpr std::uintmax_t max_bytes_of_user_cache = std::uintmax_t{256} << 20;
-
 /// The folder that a value of --order-cache means, made where it is missing; nothing for none. The user's own cache is
 /// done without where it cannot be made or written; a folder that is named and cannot be is an Error.
 std::optional<std::filesystem::path> order_cache_folder(const std::string& value);
@@ -98,7 +62,7 @@ std::optional<std::filesystem::path> order_cache_folder(const std::string& value
 /// stays.
 void remove_oldest(const std::filesystem::path& folder, std::uintmax_t max_bytes);
 
-/// What aircraft are loaded of: where all of it is the same, so are they.
+/// Inputs of load_aircraft(): equal inputs give equal aircraft.
 struct AircraftSources {
     /// Names or files.
     std::vector<std::string> shapes;
@@ -126,7 +90,7 @@ struct LoadedAircraft {
     std::optional<std::uint32_t> cockpit;
     /// The working dials of the cockpit.
     visuals::overlay::InstrumentLayout dials;
-    /// What a person should be told.
+    /// Notes for the user.
     std::vector<std::string> notes;
     /// Painting orders kept in a folder that the run names.
     std::vector<std::filesystem::path> order_files;

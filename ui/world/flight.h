@@ -1,6 +1,7 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
+#include "models/heights/runway_strip.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/ground_height.h"
@@ -20,28 +21,28 @@
 
 namespace octant::ui::world {
 
-/// A path or a recorded track as its file gives it, before it is laid over ground.
+/// A path or a recorded track as its file gives it, before it is placed over ground.
 struct LoadedPath {
     sim::Trajectory trajectory;
     double rate_hz = 0.0;
     double min_clearance_m = 0.0;
-    /// Those of what flies, where they are known.
+    /// Of the aircraft, where its type is known.
     std::optional<sim::AircraftLimits> limits;
-    /// That of a track which knows where it was flown: its axes are a TransverseMercator frame's there.
+    /// Geographic origin of a track with positions; its axes are those of the TransverseMercator frame there.
     std::optional<GeoPosition> origin;
     std::vector<flightpaths::LegStart> legs;
     std::vector<std::string> notes;
-    /// Of a recording with several aircraft, those that fly beside this one, in its axes and by its clock, and the
-    /// built-in aircraft that each is shown as.
+    /// The other aircraft of an ACMI recording, in the axes and on the clock of the first one, and the built-in
+    /// aircraft that shows each of them.
     std::vector<sim::Trajectory> other_trajectories;
     std::vector<std::string> other_aircraft;
     bool is_acmi_recording = false;
 };
 
-/// What an aircraft of this shape flies by a path's name or file. Throws Error.
+/// Loads a path by its name or file for an aircraft of this shape. Throws Error.
 LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient);
 
-/// A path as it is flown over the ground of a run.
+/// A path placed over the ground of a run.
 struct Flight {
     /// States in world axes.
     sim::Trajectory trajectory;
@@ -58,8 +59,8 @@ struct Flight {
     double lowest_clearance_m = 0.0;
     double lowest_clearance_s = 0.0;
     std::vector<flightpaths::LegStart> legs;
-    /// Of aircraft that fly a path of their own, by their numbers and by the first one's clock, in world axes; before
-    /// its start and after its end such an aircraft is not there.
+    /// Paths of aircraft with a path of their own, by aircraft number, on the first one's clock, in world axes. Before
+    /// the start and after the end of its path such an aircraft is absent.
     std::map<std::size_t, sim::Trajectory> other_trajectories;
 };
 
@@ -76,28 +77,29 @@ void check_path_origin(const settings::PathSettings& settings);
 /// The first aircraft's path: its own, or that of the settings.
 std::string path_of(const settings::RunSettings& settings);
 
-/// Where a path has been laid before.
+/// Where a path was placed.
 struct PathPlacement {
     glm::dvec2 place_m{0.0};
     double heading_rad = 0.0;
 };
 
-/// What laying a path over a ground asks of it.
+/// The ground as placing a path needs it.
 struct PlacementGround {
     GroundHeight height_at;
     glm::dvec2 half_extent_m{0.0};
-    /// How it lies on the earth; null for made ground.
+    /// How it lies on the earth; null for generated ground.
     std::shared_ptr<const EarthFrame> frame;
 };
 
-/// It refers to the ground.
+/// The result must not outlive `ground`.
 PlacementGround placement_ground(const SceneGround& ground);
 
-/// Where the first aircraft stands that others fly, until somebody moves it. Throws Error.
+/// The flight of a run whose aircraft other programs fly: the first one waits there until packets move it. Throws
+/// Error.
 Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground);
 
-/// Lays the first aircraft's path over the ground, and with it all that a recording has beside it. Adds what a person
-/// should be told to the notes. `given_placement`: there, and not where settings and ground say. Throws Error.
+/// Places the first aircraft's path over the ground, with the other aircraft of its ACMI recording, and appends notes
+/// for the user. `given_placement` replaces what the settings and the ground say. Throws Error.
 Flight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
     std::vector<std::string>& notes, const std::optional<PathPlacement>& given_placement = std::nullopt);
 
@@ -105,5 +107,14 @@ Flight place_flight(const settings::RunSettings& settings, LoadedPath loaded, co
 /// was flown. Throws Error.
 sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,
     const glm::dvec2& begin_m, const PlacementGround& ground, const Flight& first, std::vector<std::string>& notes);
+
+/// Finds the runway of a run where its first aircraft begins, along its heading, or near there; null where the settings
+/// ask for none. `script`: nothing where others fly the aircraft. `given_placement` is set to where the path lies over
+/// the ground before that is levelled. All must outlive it.
+RunwayFinder make_runway_finder(const settings::RunSettings& settings, const std::optional<LoadedPath>& script,
+    std::optional<PathPlacement>& given_placement);
+
+/// Says where it lies already; null where there is none.
+RunwayFinder fixed_runway_finder(std::shared_ptr<const models::heights::RunwayStrip> runway);
 
 } // namespace octant::ui::world

@@ -27,14 +27,14 @@
 
 namespace octant::ui::world {
 
+namespace fs = std::filesystem;
+
 void add_mtime(const std::filesystem::path& file, std::vector<FileMtime>& mtimes) {
     std::error_code unknown;
     mtimes.push_back({file, std::filesystem::last_write_time(file, unknown)});
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t largest_model_bytes = std::size_t{1} << 30U;
 constexpr std::size_t max_files = 2'000;
@@ -77,7 +77,7 @@ private:
         return true;
     }
 
-    /// As models/meshfile/baked_pictures.cpp looks for one.
+    /// Looks for a picture as the readers of models/meshfile do.
     void add_picture(const fs::path& folder, std::string name) {
         std::ranges::replace(name, '\\', '/');
         if (!name.empty() && !add(folder / name)) { add(folder / fs::path(name).filename()); }
@@ -150,8 +150,6 @@ std::vector<fs::path> referenced_files(const fs::path& model) {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Where a recording keeps copies of the files that its run read.
 constexpr const char* inputs_folder = "inputs";
 
@@ -192,6 +190,24 @@ std::vector<fs::path> relative_paths_below(const fs::path& model, const std::vec
     }
     return ways;
 }
+
+/// Where a recording has a file that its run reads.
+enum class FileLocation {
+    /// A copy lies in the recording.
+    Copied,
+    /// The file lies in the program's own folder.
+    BuiltIn,
+    /// The file is too large to copy: a terrain, which is known by its hash.
+    External
+};
+
+/// A file that a run reads.
+struct InputFile {
+    std::filesystem::path file;
+    /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the file's own name.
+    std::string name;
+    FileLocation location = FileLocation::Copied;
+};
 
 /// Files in the order in which they are found, each once, with names that differ.
 struct Collector {
@@ -291,6 +307,10 @@ settings::RunSettings with_absolute_paths(settings::RunSettings settings) {
     return settings;
 }
 
+namespace {
+
+/// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain and what lies on it.
+/// Throws Error for files that are missing.
 std::vector<InputFile> input_files(const settings::RunSettings& settings) {
     Collector found;
     if (!is_live(settings)) {
@@ -307,6 +327,8 @@ std::vector<InputFile> input_files(const settings::RunSettings& settings) {
     if (settings.air.drape) { found.add_external(*settings.air.drape); }
     return std::move(found.files);
 }
+
+} // namespace
 
 std::vector<std::pair<std::string, std::string>> input_hashes(const settings::RunSettings& settings) {
     std::vector<std::pair<std::string, std::string>> hashes;
@@ -351,21 +373,22 @@ settings::RunSettings settings_in_recording(const settings::RunSettings& setting
     return renamed;
 }
 
-CopiedFiles files_to_copy(const settings::RunSettings& settings, const std::vector<fs::path>& order_files) {
+std::vector<std::pair<std::string, std::string>> files_to_copy(
+    const settings::RunSettings& settings, const std::vector<fs::path>& order_files) {
     constexpr std::size_t largest_bytes = std::size_t{1} << 30;
-    CopiedFiles location;
+    std::vector<std::pair<std::string, std::string>> copied;
     for (const InputFile& input : input_files(settings)) {
         if (input.location == FileLocation::Copied) {
-            location.emplace_back(input.name, read_file(input.file, largest_bytes));
+            copied.emplace_back(input.name, read_file(input.file, largest_bytes));
         }
     }
     for (const fs::path& file : order_files) {
         if (is_file(file)) { // one that could not be written was told
-            location.emplace_back(
+            copied.emplace_back(
                 (fs::path(inputs_folder) / "orders" / file.filename()).string(), read_file(file, largest_bytes));
         }
     }
-    return location;
+    return copied;
 }
 
 } // namespace octant::ui::world

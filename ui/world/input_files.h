@@ -29,28 +29,6 @@ std::vector<std::filesystem::path> referenced_files(const std::filesystem::path&
 /// The settings with every file in them by its absolute name, so that they mean the same in any folder.
 settings::RunSettings with_absolute_paths(settings::RunSettings settings);
 
-/// Where a recording has a file that its run reads.
-enum class FileLocation {
-    /// A copy lies in the recording.
-    Copied,
-    /// The file lies in the program's own folder.
-    BuiltIn,
-    /// The file is too large to copy: a terrain, which is known by its hash.
-    External
-};
-
-/// A file that a run reads.
-struct InputFile {
-    std::filesystem::path file;
-    /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the file's own name.
-    std::string name;
-    FileLocation location = FileLocation::Copied;
-};
-
-/// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain and what lies on it.
-/// Throws Error for files that are missing.
-std::vector<InputFile> input_files(const settings::RunSettings& settings);
-
 /// All files of this computer that the heights of a terrain come from; none for made ground. Throws Error where there
 /// are none.
 std::vector<std::filesystem::path> ground_files(const std::string& terrain);
@@ -62,10 +40,9 @@ std::vector<std::pair<std::string, std::string>> input_hashes(const settings::Ru
 /// them from there. settings::read_settings finds them again.
 settings::RunSettings settings_in_recording(const settings::RunSettings& settings, const std::filesystem::path& folder);
 
-/// Copies of files that are to lie in a recording: their names in it and their bytes.
-using CopiedFiles = std::vector<std::pair<std::string, std::string>>;
-
-/// Reads what settings_in_recording() names inside the recording, and the painting orders that were used. Throws Error.
-CopiedFiles files_to_copy(const settings::RunSettings& settings, const std::vector<std::filesystem::path>& order_files);
+/// Reads what settings_in_recording() names inside the recording, and the painting orders that were used: names in the
+/// recording and bytes. Throws Error.
+std::vector<std::pair<std::string, std::string>> files_to_copy(
+    const settings::RunSettings& settings, const std::vector<std::filesystem::path>& order_files);
 
 } // namespace octant::ui::world

@@ -27,6 +27,7 @@
 
 namespace octant::ui::world {
 
+namespace fs = std::filesystem;
 namespace refine = visuals::refine;
 
 namespace {
@@ -117,8 +118,6 @@ RefineMesh load_refine_mesh(const RefineMeshOptions& input) {
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Library {
     /// What octant-read-mesh calls it.

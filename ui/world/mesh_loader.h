@@ -24,13 +24,13 @@ struct RefineMeshOptions {
     bool quiet = false;
 };
 
-/// A hierarchy, and what a person should be told of its making.
+/// A hierarchy, with notes for the user.
 struct RefineMesh {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
     std::vector<std::string> notes;
     /// What repair has changed, in words; in the notes, too, behind the name of the file.
     std::vector<std::string> repairs;
-    /// The mesh has no colours; those of the hierarchy are its materials', grey where it has none.
+    /// True if the mesh has no vertex colours: the hierarchy then has its materials' colours, or grey.
     bool has_material_colours = false;
 };
 

@@ -12,11 +12,10 @@
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "ui/base/data_files.h"
+#include "sim/sun_position.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/input_files.h"
-#include "ui/world/sun_at_time.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
@@ -40,7 +39,16 @@
 namespace octant::ui::world {
 
 namespace fs = std::filesystem;
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
 using models::heights::HeightField;
+using models::heights::RunwayStrip;
+using scene::GroundShading;
+
+// Built-in heights are cached. A file in the cache is: signature, version, columns, rows, spacing, heights, and a
+// checksum of all bytes before it.
 
 namespace {
 
@@ -139,10 +147,6 @@ models::heights::ImportOptions import_options(const settings::PathSettings& sett
         settings.terrain_band};
 }
 
-namespace landscape = visuals::landscape;
-namespace scene = visuals::scene;
-using scene::GroundShading;
-
 std::optional<scene::GroundTexture> load_ground_texture(const landscape::GroundTextureSource& ground,
     const settings::RunSettings& settings, RenderDevice device, std::vector<std::string>& notes) {
     const visuals::nature::Climate climate = landscape::climate_at(ground.place);
@@ -158,14 +162,6 @@ std::optional<scene::GroundTexture> load_ground_texture(const landscape::GroundT
                     : std::nullopt;
 }
 
-namespace landscape = visuals::landscape;
-namespace planning = visuals::planning;
-namespace scene = visuals::scene;
-namespace terrain = visuals::terrain;
-
-using models::heights::HeightField;
-using models::heights::RunwayStrip;
-
 namespace {
 
 void add_texture(const settings::RunSettings& settings, RenderDevice device, SceneGround& ground) {
@@ -175,23 +171,23 @@ void add_texture(const settings::RunSettings& settings, RenderDevice device, Sce
     if (texture) { ground.texture = std::make_shared<const scene::GroundTexture>(std::move(*texture)); }
 }
 
-/// With its texture, and with what is to be said of it. The ground has a source.
+/// Completes a ground that has samples: name, place, notes and texture.
 SceneGround with_texture_and_notes(std::shared_ptr<const landscape::Ground> ground, std::int64_t filled_voids,
     const settings::RunSettings& settings, RenderDevice device) {
     SceneGround loaded;
-    loaded.filled_voids = filled_voids;
+    loaded.info.filled_voids = filled_voids;
     loaded.ground = std::move(ground);
     const landscape::GroundTextureSource source = loaded.ground->source().value();
-    loaded.name = fmt::format("{}, {} x {} samples, {:.4g} m apart", source.area.name, source.samples.columns(),
+    loaded.info.name = fmt::format("{}, {} x {} samples, {:.4g} m apart", source.area.name, source.samples.columns(),
         source.samples.rows(), source.samples.spacing_m());
-    loaded.place = source.place;
-    loaded.frame = models::heights::frame_of_ground(source.area.system, source.place);
+    loaded.info.place = source.place;
+    loaded.info.frame = models::heights::frame_of_ground(source.area.system, source.place);
     if (filled_voids > 0) {
         loaded.notes.push_back(
             fmt::format("{}: {} samples without data were filled in", source.area.name, filled_voids));
     }
     add_texture(settings, device, loaded);
-    if (loaded.texture) { loaded.name += settings.air.drape ? ", draped" : ", textured"; }
+    if (loaded.texture) { loaded.info.name += settings.air.drape ? ", draped" : ", textured"; }
     return loaded;
 }
 
@@ -253,14 +249,9 @@ SceneGround load_imported(const settings::RunSettings& settings, RenderDevice de
         landscape::make_bisection_ground(std::move(ground), own.air), filled_voids, own, device);
 }
 
-SceneGround load_field(const settings::RunSettings& settings, RenderDevice device, const RunwayFinder& find_runway) {
-    return ground_of_field(
-        load_height_field(settings.path.terrain, import_options(settings.path)), settings, device, find_runway);
-}
-
 SceneGround load_polygons(const settings::RunSettings& settings) {
     SceneGround loaded;
-    loaded.name = settings.path.terrain;
+    loaded.info.name = settings.path.terrain;
     loaded.ground = landscape::make_polygon_ground(
         settings.path.terrain == "none" ? models::polygons::PolygonModel{} : models::procedural::background60(),
         with_ground_defaults(settings, std::nullopt).air);
@@ -285,26 +276,26 @@ TerrainSources terrain_sources(const settings::PathSettings& settings) {
     return inputs;
 }
 
-std::optional<SceneGround> shared_scene_ground(
-    const SceneGround& other, const settings::RunSettings& settings, RenderDevice device) {
-    if (terrain_sources(settings.path) != other.inputs) { return std::nullopt; }
-    const settings::RunSettings own = with_ground_defaults(settings, other.place);
-    std::shared_ptr<const landscape::Ground> ground = other.ground->matches_settings(own.ground, own.air)
-                                                          ? other.ground
-                                                          : other.ground->with_settings(own.ground, own.air);
-    if (!ground || !ground->source()) { return std::nullopt; }
-    SceneGround shared = with_texture_and_notes(std::move(ground), other.filled_voids, own, device);
-    shared.inputs = other.inputs;
+std::optional<SceneGround> shared_scene_ground(const GroundInfo& info,
+    const std::shared_ptr<const landscape::Ground>& ground, const settings::RunSettings& settings,
+    RenderDevice device) {
+    if (terrain_sources(settings.path) != info.inputs) { return std::nullopt; }
+    const settings::RunSettings own = with_ground_defaults(settings, info.place);
+    std::shared_ptr<const landscape::Ground> shown =
+        ground->matches_settings(own.ground, own.air) ? ground : ground->with_settings(own.ground, own.air);
+    if (!shown || !shown->source()) { return std::nullopt; }
+    SceneGround shared = with_texture_and_notes(std::move(shown), info.filled_voids, own, device);
+    shared.info.inputs = info.inputs;
     return shared;
 }
 
 std::optional<SceneGround> rebuilt_scene_ground(
     const planning::Scene& scene, const settings::RunSettings& settings, RenderDevice device) {
-    SceneGround with_settings;
-    with_settings.ground = scene.ground->with_settings(settings.ground, settings.air);
-    if (!with_settings.ground) { return std::nullopt; }
-    if (scene.ground_texture) { add_texture(settings, device, with_settings); }
-    return with_settings;
+    SceneGround rebuilt;
+    rebuilt.ground = scene.ground->with_settings(settings.ground, settings.air);
+    if (!rebuilt.ground) { return std::nullopt; }
+    if (scene.ground_texture) { add_texture(settings, device, rebuilt); }
+    return rebuilt;
 }
 
 SceneGround load_scene_ground(
@@ -317,13 +308,62 @@ SceneGround load_scene_ground(
         }
         return load_polygons(settings);
     }
-    // What is written while heights are read makes them old.
+    // Taken before reading: a file that changes meanwhile counts as changed.
     TerrainSources inputs = terrain_sources(settings.path);
     SceneGround ground = settings::is_imported_ground(settings.path.terrain)
                              ? load_imported(settings, device, find_runway)
-                             : load_field(settings, device, find_runway);
-    ground.inputs = std::move(inputs);
+                             : ground_of_field(load_height_field(settings.path.terrain, import_options(settings.path)),
+                                   settings, device, find_runway);
+    ground.info.inputs = std::move(inputs);
     return ground;
+}
+
+namespace {
+
+std::optional<sim::SunPosition> sun_of(
+    const visuals::scene::AirSettings& air, const std::optional<GeoPosition>& place) {
+    const auto time = air.time ? sim::solar_time_from_text(*air.time) : std::nullopt;
+    return time ? std::optional(sim::sun_position(latitude_of(place), *time)) : std::nullopt;
+}
+
+} // namespace
+
+double latitude_of(const std::optional<GeoPosition>& place) {
+    constexpr double default_deg = 45.0;
+    return place ? place->latitude_deg : default_deg;
+}
+
+settings::RunSettings with_sun_at_time(settings::RunSettings settings, const std::optional<GeoPosition>& place) {
+    if (const auto sun = sun_of(settings.air, place)) {
+        settings.air.sun_azimuth_deg = sun->azimuth_deg;
+        settings.air.sun_elevation_deg = std::clamp(sun->elevation_deg, 0.0, 90.0);
+    }
+    return settings;
+}
+
+settings::RunSettings with_sun_updated(
+    settings::RunSettings settings, const settings::RunSettings& before, const std::optional<GeoPosition>& place) {
+    const bool moved_by_hand =
+        settings.air.time == before.air.time && (settings.air.sun_azimuth_deg != before.air.sun_azimuth_deg ||
+                                                    settings.air.sun_elevation_deg != before.air.sun_elevation_deg);
+    if (moved_by_hand) { settings.air.time.reset(); }
+    return with_sun_at_time(std::move(settings), place);
+}
+
+std::vector<std::string> sun_notes(const settings::RunSettings& settings, const std::optional<GeoPosition>& place) {
+    std::vector<std::string> notes;
+    const auto sun = sun_of(settings.air, place);
+    if (const Ellipsoid below = ellipsoid_below(place); sun && !below.is_earth()) {
+        notes.push_back(
+            fmt::format("--time {}: the sun stands as over the earth at this latitude and date, not as over {}",
+                *settings.air.time, name_of_body(below)));
+    }
+    if (sun && sun->elevation_deg < 0.0) {
+        notes.push_back(fmt::format("--time {}: the sun is {:.0f} degrees below the horizon at latitude {:.1f}; it is "
+                                    "shown on the horizon",
+            *settings.air.time, -sun->elevation_deg, latitude_of(place)));
+    }
+    return notes;
 }
 
 } // namespace octant::ui::world

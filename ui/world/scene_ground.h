@@ -24,8 +24,8 @@
 namespace octant::ui::world {
 
 /// Built-in ground by name, "hills" or "canyon", as models::procedural::procedural_terrain makes it; nothing for
-/// another name. It is kept in the user's cache, and read from there in a twentieth of the time. A file that is damaged
-/// or of another version is replaced; a cache that cannot be made, read or written is done without.
+/// another name. It is cached in the user's cache folder; a damaged or outdated file is replaced, an unusable cache is
+/// ignored.
 std::optional<models::heights::HeightField> built_in_ground(std::string_view name);
 
 /// A height field by name: hills, canyon, or maps that GDAL reads, as models::heights::map_inputs takes them. Throws
@@ -33,24 +33,22 @@ std::optional<models::heights::HeightField> built_in_ground(std::string_view nam
 models::heights::HeightField load_height_field(
     const std::string& name_or_file, const models::heights::ImportOptions& options);
 
-/// What a person should be told who asks for more triangles than the samples of a ground make; nothing where they
-/// suffice. `option`: one that cures it.
+/// A note where more triangles are asked for than the samples of a ground make; nothing where they suffice. `option`:
+/// what to change.
 std::optional<std::string> few_samples_note(
     const std::string& name, const glm::ivec2& samples, int asked_triangles, const std::string& option);
 
-/// What a person should be told whose eye point lies under the ground, which is so high there; nothing where it does
-/// not.
+/// A note where the eye point lies under the ground, whose height there is `ground_m`; nothing where it does not.
 std::optional<std::string> low_eye_note(const glm::dvec3& eye_m, const std::optional<double>& ground_m);
 
-/// What settings say of files that do not say it themselves.
+/// The import options of the settings, which count where a file does not say them.
 models::heights::ImportOptions import_options(const settings::PathSettings& settings);
 
-/// What decides whether a texture is worth its time where the settings leave it open.
+/// Who draws: decides whether the setting ground-shading auto uses a texture.
 enum class RenderDevice { Cpu, Gpu };
 
-/// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person should be told goes to
-/// `notes`. The settings have passed settings::check_settings. Throws Error for a drape that cannot be read or laid
-/// over the ground.
+/// The texture of the ground; nothing where it is drawn by its vertices' colours. Appends notes for the user. The
+/// settings have passed settings::check_settings. Throws Error for a drape that cannot be read or laid over the ground.
 std::optional<visuals::scene::GroundTexture> load_ground_texture(const visuals::landscape::GroundTextureSource& ground,
     const settings::RunSettings& settings, RenderDevice device, std::vector<std::string>& notes);
 
@@ -58,7 +56,7 @@ std::optional<visuals::scene::GroundTexture> load_ground_texture(const visuals::
 settings::RunSettings with_ground_defaults(
     const settings::RunSettings& settings, const std::optional<GeoPosition>& place);
 
-/// What the heights of a ground are loaded of.
+/// Inputs of the heights of a ground: equal inputs give equal heights.
 struct TerrainSources {
     /// As PathSettings has them.
     std::string terrain;
@@ -72,25 +70,30 @@ struct TerrainSources {
 /// Throws Error where there are no such files.
 TerrainSources terrain_sources(const settings::PathSettings& settings);
 
-/// The ground of a run, ready to be shared by its views.
-struct SceneGround {
+/// What is known of the ground of a run beside its shape.
+struct GroundInfo {
     TerrainSources inputs;
     /// How many samples of the heights had no data.
     std::int64_t filled_voids = 0;
+    /// With its size, for people.
+    std::string name;
+    /// Where it lies on the earth; nothing for generated ground.
+    std::optional<GeoPosition> place;
+    /// How it lies on the earth; null for generated ground.
+    std::shared_ptr<const EarthFrame> frame;
+};
+
+/// The ground of a run, ready to be shared by its views.
+struct SceneGround {
+    GroundInfo info;
     std::shared_ptr<const visuals::landscape::Ground> ground;
     /// Null = the ground shows its vertices' colours.
     std::shared_ptr<const visuals::scene::GroundTexture> texture;
-    /// With its size, for people.
-    std::string name;
-    /// Nothing for made ground.
-    std::optional<GeoPosition> place;
-    /// How it lies on the earth; null for made ground.
-    std::shared_ptr<const EarthFrame> frame;
-    /// What a person should be told.
+    /// Notes for the user.
     std::vector<std::string> notes;
 };
 
-/// Says where a runway lies on these heights, with notes for people. Throws Error where none can.
+/// Finds a runway on these heights and appends notes for the user. Throws Error where none fits.
 using RunwayFinder = std::function<models::heights::RunwayStrip(
     const models::heights::HeightField& field, std::vector<std::string>& notes)>;
 
@@ -101,15 +104,30 @@ SceneGround load_scene_ground(
     const settings::RunSettings& settings, RenderDevice device, const RunwayFinder& find_runway = nullptr);
 
 /// The ground of a run whose heights another run has in memory: as it is there where these settings mesh and colour it
-/// alike. Nothing where it must be loaded. Throws Error for an image to be laid over it. `other` needs inputs, ground,
-/// place and filled voids only.
-std::optional<SceneGround> shared_scene_ground(
-    const SceneGround& other, const settings::RunSettings& settings, RenderDevice device);
+/// alike. Nothing where it must be loaded. Throws Error for an image to be laid over it.
+std::optional<SceneGround> shared_scene_ground(const GroundInfo& info,
+    const std::shared_ptr<const visuals::landscape::Ground>& ground, const settings::RunSettings& settings,
+    RenderDevice device);
 
 /// Ground and texture of a scene as these settings, which are with_ground_defaults(), want them: made of the heights in
 /// memory, in other colours or under another mesh. Terrain is not read again; an image laid over it is. Nothing where
 /// the heights must be loaded. Throws Error for that image.
 std::optional<SceneGround> rebuilt_scene_ground(
     const visuals::planning::Scene& scene, const settings::RunSettings& settings, RenderDevice device);
+
+/// 45 degrees north for ground without a place.
+double latitude_of(const std::optional<GeoPosition>& place);
+
+/// The settings with the sun where it stands at their time and that place, on the horizon at night; the same settings
+/// where they name no time, which has passed settings::check_settings.
+settings::RunSettings with_sun_at_time(settings::RunSettings settings, const std::optional<GeoPosition>& place);
+
+/// As with_sun_at_time(), for settings that change from `before`: where the sun was moved by hand (the sun differs, the
+/// time does not), the time is cleared.
+settings::RunSettings with_sun_updated(
+    settings::RunSettings settings, const settings::RunSettings& before, const std::optional<GeoPosition>& place);
+
+/// Notes on the sun of the settings' time: that it is the earth's, over another planet, or below the horizon.
+std::vector<std::string> sun_notes(const settings::RunSettings& settings, const std::optional<GeoPosition>& place);
 
 } // namespace octant::ui::world

@@ -3,22 +3,20 @@
 #include "flightpaths/limits_check.h"
 #include "flightpaths/placement.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/thread_pool.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
-#include "ui/world/airfield.h"
 #include "ui/world/flight.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/sun_at_time.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -26,6 +24,45 @@ namespace octant::ui::world {
 
 namespace planning = visuals::planning;
 namespace scene = visuals::scene;
+using settings::RunSettings;
+
+namespace {
+
+constexpr int max_abreast = 9;
+
+int aircraft_abreast(int aircraft) {
+    return aircraft <= max_abreast ? aircraft
+                                   : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
+}
+
+} // namespace
+
+Formation::Formation(int aircraft, double largest_radius_m)
+    : abreast_(aircraft_abreast(aircraft)), lines_per_layer_(aircraft <= max_abreast ? 1 : abreast_),
+      wingmen_per_side_(abreast_ / 2), lateral_spacing_m_(1.7 * largest_radius_m),
+      trail_spacing_m_(0.5 * largest_radius_m) {}
+
+sim::AircraftState Formation::wingman_state(const sim::AircraftState& leader, int number) const {
+    const int place = number % abreast_;
+    const int line = number / abreast_ % lines_per_layer_;
+    const int layer = number / abreast_ / lines_per_layer_;
+    const double rank = (place + 1) / 2; // NOLINT(bugprone-integer-division): whole ranks
+    const double side = place % 2 == 1 ? 1.0 : -1.0;
+    const double heading_rad = euler_from_body_to_world(leader.body_to_world).heading_rad;
+    const glm::dvec3 ahead = direction_from_heading(heading_rad);
+    const glm::dvec3 right(ahead.y, -ahead.x, 0.0);
+    sim::AircraftState state = leader;
+    state.position_m += rank * (side * lateral_spacing_m_ * right - trail_spacing_m_ * ahead);
+    state.position_m += glm::dvec3(0.0, 0.0, line * lateral_spacing_m_) - layer * 2.0 * lateral_spacing_m_ * ahead;
+    return state;
+}
+
+double Formation::framed_radius_m(double leader_radius_m) const {
+    // The camera stands three radii behind and sees a little more than a third of a right angle to either side.
+    constexpr double distances_per_aside = 2.2;
+    const double distance_m = wingmen_per_side_ * (distances_per_aside * lateral_spacing_m_ + trail_spacing_m_);
+    return std::max(leader_radius_m, distance_m / 3.0);
+}
 
 namespace {
 
@@ -77,8 +114,8 @@ void check_wingmen(const World& world) {
     }
 }
 
-/// Tells of aircraft of known types that fly what their types cannot: in formation the motion of another one, or what
-/// somebody else flew.
+/// Notes aircraft of known types that fly beyond the limits of their types: in formation they copy the motion of
+/// another one, or their path was recorded from another.
 void note_limits(const std::vector<std::string>& shapes, World& world) {
     const bool has_script = !world.flight.legs.empty();
     std::vector<std::string> in_formation_before;
@@ -101,7 +138,8 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
     }
 }
 
-/// The shapes of all aircraft of a run: those that are asked for, then those of its recording.
+/// The shapes of all aircraft of a run: those of the settings, then those of its ACMI recording, whose first aircraft
+/// is the first of the settings.
 std::vector<std::string> shapes_of(
     const settings::RunSettings& settings, const std::vector<std::string>& of_recording) {
     std::vector<std::string> shapes;
@@ -140,19 +178,51 @@ scene::TowerRequest tower_request(const World& world, std::vector<sim::AircraftS
         world.flight.place_m};
 }
 
-/// The ground of another world where it has the heights of these settings, else one that is loaded.
-SceneGround shared_or_load_ground(const World* shared_world, const settings::RunSettings& settings, RenderDevice device,
-    const RunwayFinder& find_runway) {
+/// A ground, and where the first aircraft's path was laid on it before it was levelled for a runway.
+struct GroundAndPlacement {
+    SceneGround ground;
+    std::optional<PathPlacement> placement;
+};
+
+/// Takes the ground of another world where that has the heights of these settings, or loads one. `path`: nothing where
+/// others fly the aircraft.
+GroundAndPlacement shared_or_load_ground(const World* shared_world, const settings::RunSettings& settings,
+    RenderDevice device, const std::optional<LoadedPath>& path) {
+    GroundAndPlacement loaded;
     // Levelled heights are those of one flight.
     if (shared_world != nullptr && !settings.ground.airfield && !shared_world->scene.ground->runway()) {
-        SceneGround other;
-        other.inputs = shared_world->terrain;
-        other.filled_voids = shared_world->filled_voids;
-        other.ground = shared_world->scene.ground;
-        other.place = shared_world->ground_place;
-        if (auto shared = shared_scene_ground(other, settings, device)) { return std::move(*shared); }
+        if (auto shared = shared_scene_ground(shared_world->ground, shared_world->scene.ground, settings, device)) {
+            loaded.ground = std::move(*shared);
+            return loaded;
+        }
     }
-    return load_scene_ground(settings, device, find_runway);
+    loaded.ground = load_scene_ground(settings, device, make_runway_finder(settings, path, loaded.placement));
+    return loaded;
+}
+
+void fill_scene(const SceneGround& ground, const LoadedAircraft& aircraft, planning::Scene& scene) {
+    scene.ground = ground.ground;
+    scene.ground_texture = ground.texture;
+    scene.models = aircraft.models;
+    scene.aircraft = aircraft.aircraft;
+    scene.far_models = aircraft.far_models;
+    scene.cockpit = aircraft.cockpit;
+    scene.dials = aircraft.dials;
+}
+
+/// Notes of views that show less than a person expects.
+void note_views(const settings::RunSettings& settings, bool is_live, World& world) {
+    if (settings.view.kind == scene::View::Free) {
+        const glm::dvec3& eye_m = world.points.free_eye_m;
+        if (auto low = low_eye_note(eye_m, world.scene.ground->height_at(eye_m.x, eye_m.y))) {
+            world.notes.push_back(std::move(*low));
+        }
+    }
+    const bool from_tower = settings.view.kind == scene::View::Tower || settings.view.inset == scene::View::Tower;
+    if (is_live && from_tower && !settings.view.eye_m) {
+        world.notes.emplace_back("tower: nothing is known of the flight yet, so it stands beside the place where the "
+                                 "aircraft begins; --eye X,Y,Z puts it elsewhere");
+    }
 }
 
 } // namespace
@@ -210,42 +280,33 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     check_path_origin(settings.path);
     const bool is_live = settings.path.name == settings::live_path;
     check_own_paths(settings, is_live);
-    // Paths and names of files are quickly looked at: what is wrong with them is told at once.
-    std::optional<LoadedPath> script;
+    // Paths and names of files are read quickly: errors in them are reported at once.
+    std::optional<LoadedPath> path;
     if (!is_live) {
-        script = load_path(
+        path = load_path(
             path_of(settings), settings::aircraft_shape(settings.path.aircraft.front()), settings.path.lenient);
     }
     const AircraftSources inputs =
-        aircraft_sources(settings, shapes_of(settings, script ? script->other_aircraft : std::vector<std::string>()));
+        aircraft_sources(settings, shapes_of(settings, path ? path->other_aircraft : std::vector<std::string>()));
     // At the same time, because finding a painting order takes one thread. Errors of the aircraft come first.
-    std::optional<PathPlacement> given_placement;
-    auto [aircraft, ground] = run_both(
+    auto [aircraft, loaded] = run_both(
         true,
         [&] {
             return shared_world != nullptr && shared_world->aircraft.inputs == inputs ? shared_world->aircraft
                                                                                       : load_aircraft(inputs);
         },
-        [&] {
-            return shared_or_load_ground(
-                shared_world, settings, device, make_runway_finder(settings, script, given_placement));
-        });
-    check_clouds(settings.air, *ground.ground);
+        [&] { return shared_or_load_ground(shared_world, settings, device, path); });
+    const SceneGround& ground = loaded.ground;
     World world;
-    world.notes = aircraft.notes;
-    if (script) { add_notes(world.notes, script->notes); }
+    world.aircraft = std::move(aircraft);
+    check_clouds(settings.air, *ground.ground);
+    fill_scene(ground, world.aircraft, world.scene);
+    world.notes = world.aircraft.notes;
+    if (path) { add_notes(world.notes, path->notes); }
     add_notes(world.notes, ground.notes);
     world.flight =
-        script ? place_flight(settings, std::move(*script), placement_ground(ground), world.notes, given_placement)
-               : live_flight(settings, placement_ground(ground));
-    world.scene.ground = ground.ground;
-    world.scene.ground_texture = ground.texture;
-    world.scene.models = aircraft.models;
-    world.scene.aircraft = aircraft.aircraft;
-    world.scene.far_models = aircraft.far_models;
-    world.scene.cockpit = aircraft.cockpit;
-    world.scene.dials = aircraft.dials;
-    world.aircraft = std::move(aircraft);
+        path ? place_flight(settings, std::move(*path), placement_ground(ground), world.notes, loaded.placement)
+             : live_flight(settings, placement_ground(ground));
     if (!is_live) {
         world.scene.path = drawn_path(world.flight);
         add_own_paths(settings, ground, world);
@@ -253,28 +314,12 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
         note_limits(inputs.shapes, world);
     }
     world.leader_kind = sim::find_aircraft_kind(settings::aircraft_shape(settings.path.aircraft.front()));
-    world.terrain = std::move(ground.inputs);
-    world.filled_voids = ground.filled_voids;
-    world.ground_name = std::move(ground.name);
-    world.ground_place = ground.place;
-    world.ground_frame = ground.frame;
-    std::ranges::move(sun_notes(settings, ground.place), std::back_inserter(world.notes));
+    add_notes(world.notes, sun_notes(settings, ground.info.place));
+    world.ground = ground.info;
     world.points = fixed_points(settings, world);
-    if (settings.view.kind == scene::View::Free) {
-        const glm::dvec3& eye_m = world.points.free_eye_m;
-        if (auto low = low_eye_note(eye_m, ground.ground->height_at(eye_m.x, eye_m.y))) {
-            world.notes.push_back(std::move(*low));
-        }
-    }
-    const bool from_tower = settings.view.kind == scene::View::Tower || settings.view.inset == scene::View::Tower;
-    if (is_live && from_tower && !settings.view.eye_m) {
-        world.notes.emplace_back("tower: nothing is known of the flight yet, so it stands beside the place where the "
-                                 "aircraft begins; --eye X,Y,Z puts it elsewhere");
-    }
+    note_views(settings, is_live, world);
     return world;
 }
-
-using settings::RunSettings;
 
 namespace {
 
@@ -324,7 +369,7 @@ namespace {
 /// Why a ground shows neither; empty where it does.
 std::string reason_for_no_near_detail(const World& world, const visuals::scene::GroundSettings& settings) {
     if (world.scene.ground->spacing_m() <= 0.0) {
-        return fmt::format("{} has no samples between which there could be any", world.ground_name);
+        return fmt::format("{} has no samples between which there could be any", world.ground.name);
     }
     if (visuals::scene::ground_metric(settings) != visuals::scene::GroundMetric::ScreenError) {
         return "only ground that is refined by screen-error shows any";
@@ -337,7 +382,7 @@ std::string reason_for_no_near_detail(const World& world, const visuals::scene::
 std::vector<std::string> near_detail_warnings(
     const World& world, const visuals::scene::GroundSettings& settings, std::span<const std::string> given) {
     const std::string why = reason_for_no_near_detail(world, settings);
-    const Ellipsoid below = ellipsoid_below(world.ground_place);
+    const Ellipsoid below = ellipsoid_below(world.ground.place);
     const std::string textured = world.scene.ground_texture ? "where a texture colours the ground there is none"
                                  : !below.is_earth()
                                      ? fmt::format("nothing grows or is built on {}", name_of_body(below))

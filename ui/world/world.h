@@ -1,12 +1,12 @@
 #pragma once
 
 #include "sim/aircraft_kind.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/flight.h"
-#include "ui/world/formation.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/camera_rig.h"
@@ -21,6 +21,34 @@
 
 namespace octant::ui::world {
 
+/// Where wingmen fly, in the leader's attitude and far enough apart for the largest of them: up to eight nearly abreast
+/// of him, alternately to his right and left; more in lines one above and one behind the other, so that a thousand are
+/// a block of ten by ten by ten.
+class Formation {
+public:
+    /// `aircraft` >= 1 with the leader; `largest_radius_m` of any of them.
+    Formation(int aircraft, double largest_radius_m);
+
+    /// State of wingman `number` (from 1) beside the leader.
+    sim::AircraftState wingman_state(const sim::AircraftState& leader, int number) const;
+
+    /// Radius of the sphere that a chase camera should frame, so that all are in its picture: the leader's own radius
+    /// unless the formation is too wide for it.
+    double framed_radius_m(double leader_radius_m) const;
+
+private:
+    /// Aircraft in a line, the leader's place among them.
+    int abreast_;
+    /// Lines one above the other, in each layer.
+    int lines_per_layer_;
+    /// Wingmen to one side of a line's middle.
+    int wingmen_per_side_;
+    /// How far a rank stands beside the one before.
+    double lateral_spacing_m_;
+    /// How far a rank stands behind the one before.
+    double trail_spacing_m_;
+};
+
 /// Everything a run needs, loaded.
 struct World {
     visuals::planning::Scene scene;
@@ -31,15 +59,10 @@ struct World {
         .legs = {},
         .other_trajectories = {}};
     visuals::scene::FixedViewpoints points;
-    /// What `scene` has its aircraft of.
+    /// The loaded aircraft; `scene` shares their models.
     LoadedAircraft aircraft;
-    TerrainSources terrain;
-    std::int64_t filled_voids = 0; ///< of the terrain
-    std::string ground_name;
-    std::optional<GeoPosition> ground_place;
-    /// How the ground lies on the earth; null where that is not known.
-    std::shared_ptr<const EarthFrame> ground_frame;
-    /// What a person should be told: voids filled, legs clipped, ...
+    GroundInfo ground;
+    /// Notes for the user: voids filled, legs clipped, ...
     std::vector<std::string> notes;
 };
 
@@ -57,9 +80,9 @@ visuals::scene::FixedViewpoints fixed_points(const settings::RunSettings& settin
 /// Throws Error where clouds would lie in the ground.
 void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
 
-/// Loads aircraft, ground and path of a run and lays the path over the ground. `shared_world`: a world with which the
-/// two share what is loaded of the same inputs: aircraft with their orders, heights, and the whole ground where these
-/// settings mesh and colour it alike. Throws Error.
+/// Loads aircraft, ground and path of a run and places the path over the ground. With `shared_world` the new world
+/// shares what both load from the same inputs: aircraft with their painting orders, heights, and the whole ground where
+/// these settings mesh and colour it alike. Throws Error.
 World load_world(const settings::RunSettings& settings, RenderDevice device = RenderDevice::Cpu,
     const World* shared_world = nullptr);
 
@@ -78,8 +101,8 @@ struct PictureTimes {
 /// Throws Error when the run would start behind the path's end.
 PictureTimes picture_times_of(const settings::RunSettings& settings, const Flight& flight);
 
-/// What a person should be told who asked for detail or scenery near the eye on ground that cannot show it. `given`:
-/// names of the options that stand on the command line.
+/// Notes for options of detail or scenery near the eye that this ground cannot show. `given`: names of the options on
+/// the command line.
 std::vector<std::string> near_detail_warnings(
     const World& world, const visuals::scene::GroundSettings& settings, std::span<const std::string> given);
 

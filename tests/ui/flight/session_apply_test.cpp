@@ -206,7 +206,7 @@ TEST_CASE("a change while ground is meshed ahead gives the pictures of ground me
     change([](RunSettings& settings) { settings.air.palette = scene::Palette::Arid; });
     change([](RunSettings& settings) { settings.view.size_px = {128, 96}; });
     change([](RunSettings& settings) { settings.ground.error_px = 2.0; });
-    change([](RunSettings& settings) { settings.view.inset = scene::View::Tower; });
+    change([](RunSettings& settings) { settings.view.inset = scene::View::Chase; });
     change([](RunSettings& settings) { settings.air.sun_elevation_deg = 60.0; });
     change([](RunSettings& settings) {
         settings.ground.mesh = scene::GroundMetric::Midpoint;
@@ -216,7 +216,7 @@ TEST_CASE("a change while ground is meshed ahead gives the pictures of ground me
 
 TEST_CASE("another visibility makes nothing anew, and an inset sees it too") {
     RunSettings settings = small_settings();
-    settings.view.inset = scene::View::Tower;
+    settings.view.inset = scene::View::Chase;
     settings.air.haze_height_m = 0.0;
     Flown flown(settings);
     flown.picture();
@@ -307,7 +307,7 @@ TEST_CASE("another light, palette or view reads no terrain again, whatever is dr
             CHECK(relit.log().texture == texture_of_lit);
             CHECK((texture_of_lit != 0) == is_textured);
 
-            changed.view.inset = scene::View::Tower;
+            changed.view.inset = scene::View::Chase;
             relit.apply(changed);
             CHECK(relit.log().calls == std::vector<std::string>{"resize 64x48"});
             const std::size_t grounds = relit.log().grounds.size();

@@ -34,8 +34,8 @@ TEST_CASE("without a file keys are as the help has them, and every key has a nam
         CHECK(key_of_name(none.keys.name_of(each.command)) == each.key);
     }
     for (const HeldKey& each : held_keys()) {
-        CHECK(none.keys.key_of(each.chosen_action) == each.key);
-        CHECK(key_of_name(none.keys.name_of(each.chosen_action)) == each.key);
+        CHECK(none.keys.key_of(each.action) == each.key);
+        CHECK(key_of_name(none.keys.name_of(each.action)) == each.key);
     }
 }
 

@@ -1,5 +1,5 @@
 #include "tests/ui/window/headless_gui.h"
-#include "ui/window/panel_rasterizer.h"
+#include "ui/window/gui.h"
 
 #include <catch2/catch.hpp>
 #include <glm/vec2.hpp>

@@ -42,7 +42,6 @@ PilotDevices joystick(std::array<float, 4> axes, int count) {
 } // namespace
 
 TEST_CASE("a hand on any device is noticed, one that only lies there is not") {
-    using namespace octant::ui::window;
     PilotDevices devices;
     CHECK_FALSE(moves_controls(devices));
     devices.gamepad.emplace();
@@ -137,10 +136,7 @@ TEST_CASE("a joystick has its throttle on the third axis, or with a twist on the
 }
 
 TEST_CASE("held keys move the stick smoothly to its stop, let go it returns") {
-    PilotKeys held;
-    held.pull = true;
-    held.roll_left = true;
-    held.yaw_right = true;
+    const PilotKeys held{.pull = true, .roll_left = true, .yaw_right = true};
     PilotControls controls = after({}, keys(held), 0.1);
     CHECK(controls.pitch == Approx(0.2));
     CHECK(controls.roll == Approx(-0.2));
@@ -157,8 +153,7 @@ TEST_CASE("held keys move the stick smoothly to its stop, let go it returns") {
 }
 
 TEST_CASE("the other key brings the stick over faster than letting go, both keys are none") {
-    PilotKeys push;
-    push.push = true;
+    const PilotKeys push{.push = true};
     PilotKeys both = push;
     both.pull = true;
     const PilotControls pulled{0.8, 0, 0, 0};
@@ -167,10 +162,8 @@ TEST_CASE("the other key brings the stick over faster than letting go, both keys
 }
 
 TEST_CASE("throttle keys move the throttle between its stops and nothing moves it back") {
-    PilotKeys up;
-    up.throttle_up = true;
-    PilotKeys down;
-    down.throttle_down = true;
+    const PilotKeys up{.throttle_up = true};
+    const PilotKeys down{.throttle_down = true};
     PilotControls controls = after({0, 0, 0, 0.5}, keys(up), 0.5);
     CHECK(controls.throttle == Approx(0.7));
     controls = after(controls, keys({}), 5.0);
@@ -180,9 +173,7 @@ TEST_CASE("throttle keys move the throttle between its stops and nothing moves i
 }
 
 TEST_CASE("what keys do depends on the time that passed and not on how it is cut up") {
-    PilotKeys held;
-    held.pull = true;
-    held.throttle_up = true;
+    const PilotKeys held{.pull = true, .throttle_up = true};
     const PilotControls coarse = after({}, keys(held), 0.3, 0.05);
     const PilotControls fine = after({}, keys(held), 0.3, 0.001);
     CHECK(coarse.pitch == Approx(fine.pitch));
@@ -219,9 +210,7 @@ TEST_CASE("the pointer is a stick: right rolls right, down pulls, beyond its rea
 }
 
 TEST_CASE("no time, odd times and odd numbers leave controls in their ranges") {
-    PilotKeys held;
-    held.pull = true;
-    held.throttle_up = true;
+    const PilotKeys held{.pull = true, .throttle_up = true};
     const PilotControls before{0.3, -0.2, 0.1, 0.5};
     for (const double passed_s : {0.0, -1.0, not_a_number}) {
         const PilotControls controls = controls_after(before, keys(held), passed_s);

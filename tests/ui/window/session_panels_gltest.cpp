@@ -1,5 +1,5 @@
 #include "ui/flight/session.h"
-#include "ui/window/panel_rasterizer.h"
+#include "ui/window/gui.h"
 #include "ui/window/panels.h"
 
 #include <catch2/catch.hpp>

@@ -3,19 +3,27 @@
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_model.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/base/data_files.h"
+#include "ui/settings/settings.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
+#include "visuals/landscape/ground.h"
+#include "visuals/scene/camera.h"
+#include "visuals/scene/tower.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +31,7 @@
 using namespace octant;
 using ui::settings::RunSettings;
 using ui::world::RenderDevice;
+using ui::world::World;
 
 namespace {
 
@@ -172,7 +181,7 @@ TEST_CASE("a path is laid over ground from a file with the clearance that it ask
     CHECK(world.flight.lowest_clearance_m >= 150.0 - 1e-6);
     CHECK(world.flight.trajectory.end_s() == Approx(39.95).margin(0.06));
     CHECK(world.flight.rate_hz == 20.0);
-    CHECK(world.ground_name == "rolling.tif, 257 x 257 samples, 101.6 m apart");
+    CHECK(world.ground.name == "rolling.tif, 257 x 257 samples, 101.6 m apart");
     CHECK_FALSE(world.scene.ground_texture);
     for (const sim::AircraftState& sample : world.flight.trajectory.samples()) {
         const auto ground_m = world.scene.ground->height_at(sample.position_m.x, sample.position_m.y);
@@ -213,7 +222,7 @@ TEST_CASE("aircraft with paths of their own begin beside the first one, by its c
     CHECK_THROWS_AS(ui::world::load_world(settings), Error);
 }
 
-TEST_CASE("a recording's aircraft fly as they flew beside each other, each as what its type says") {
+TEST_CASE("aircraft of an ACMI recording fly as they flew beside each other, each as what its type says") {
     const std::filesystem::path file = tests::scratch_folder() / "two.acmi";
     write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#5\n1,T=8|47|900,Type=Air+FixedWing\n"
                      "2,T=8|47.001|950,Type=Air+Rotorcraft\n3,T=8|47|0,Type=Sea+Watercraft\n#6\n"
@@ -234,7 +243,7 @@ TEST_CASE("a recording's aircraft fly as they flew beside each other, each as wh
     CHECK(world.flight.lowest_clearance_m == Approx(50.0));
 }
 
-TEST_CASE("a recording that leaves the map is refused with its name") {
+TEST_CASE("an ACMI recording that leaves the map is refused with its name") {
     const std::filesystem::path file = tests::scratch_folder() / "far.acmi";
     write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n1,T=8|47|900\n#900\n1,T=8|49|900\n");
     RunSettings settings = over(rolling_ground());
@@ -259,12 +268,12 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
     const ui::world::SceneGround bare = ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     CHECK(bare.texture == nullptr);
     CHECK(bare.notes.empty());
-    CHECK_FALSE(bare.place);
+    CHECK_FALSE(bare.info.place);
     settings.air.ground_shading = visuals::scene::GroundShading::Texture;
     const ui::world::SceneGround textured = ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     REQUIRE(textured.texture);
     CHECK(textured.texture->albedo.width == 257);
-    CHECK(textured.name == bare.name + ", textured");
+    CHECK(textured.info.name == bare.info.name + ", textured");
     CHECK(textured.ground->height_at(100.0, -300.0) == bare.ground->height_at(100.0, -300.0));
 }
 
@@ -313,3 +322,228 @@ TEST_CASE("clouds that would lie in the ground are refused with its height") {
     CHECK_THROWS_WITH(
         ui::world::load_world(settings), "--cloud-height: expected more than the highest ground, 100.0 m, got 99");
 }
+
+namespace {
+
+/// Least distance between any two aircraft of a formation, metres.
+double min_distance_m(int aircraft, double radius_m) {
+    const ui::world::Formation formation(aircraft, radius_m);
+    sim::AircraftState leader;
+    leader.body_to_world = body_to_world_from_euler({0.7, 0.2, 0.4});
+    std::vector<glm::dvec3> places_m = {leader.position_m};
+    double min_m = std::numeric_limits<double>::infinity();
+    for (int number = 1; number < aircraft; ++number) {
+        const glm::dvec3 place_m = formation.wingman_state(leader, number).position_m;
+        for (const glm::dvec3& other_m : places_m) { min_m = std::min(min_m, glm::distance(place_m, other_m)); }
+        places_m.push_back(place_m);
+    }
+    return min_m;
+}
+
+} // namespace
+
+TEST_CASE("aircraft of a formation keep apart, however many there are") {
+    for (const int aircraft : {2, 3, 9, 10, 16, 100, 1000}) {
+        INFO(aircraft << " aircraft");
+        CHECK(min_distance_m(aircraft, 10.0) >= 17.0 - 1e-9);
+    }
+}
+
+TEST_CASE("no aircraft of a formation flies below its leader") {
+    const ui::world::Formation formation(1000, 10.0);
+    const sim::AircraftState leader;
+    for (int number = 1; number < 1000; ++number) {
+        REQUIRE(formation.wingman_state(leader, number).position_m.z >= leader.position_m.z);
+    }
+}
+
+// Worlds that share what is loaded of the same inputs.
+
+namespace {
+
+/// Rolling ground of 26 by 26 km as a file.
+std::string rolling_ground(const std::string& name, double lift_m) {
+    constexpr int side = 257;
+    std::vector<float> heights_m;
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            heights_m.push_back(static_cast<float>(lift_m + 60.0 * std::sin(column / 9.0) + row / 13.0));
+        }
+    }
+    const std::filesystem::path file = tests::scratch_folder() / name;
+    models::heights::write_height_field(file, {side, side, 101.5625, heights_m});
+    return file.string();
+}
+
+const std::string corners = "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\n";
+
+std::filesystem::path wedge(const std::string& head) {
+    std::filesystem::path shape = tests::scratch_folder() / "wedge.obj";
+    write_file(shape, head + corners + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+    return shape;
+}
+
+/// As if the file had been written two seconds from now.
+void age(const std::filesystem::path& file) {
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
+}
+
+World shared_world(const RunSettings& settings, const World& other) {
+    return ui::world::load_world(settings, RenderDevice::Cpu, &other);
+}
+
+} // namespace
+
+TEST_CASE("a world shares with another what is loaded of the same inputs, and loads the rest") {
+    const std::filesystem::path shape = wedge("");
+    RunSettings settings;
+    settings.path.terrain = rolling_ground("rolling.tif", 0.0);
+    settings.path.aircraft = {shape.string()};
+    const World first = ui::world::load_world(settings);
+
+    settings.path.name = "turn";
+    const World turn = shared_world(settings, first);
+    CHECK(turn.scene.ground == first.scene.ground);
+    CHECK(turn.scene.models.front() == first.scene.models.front());
+    CHECK(turn.ground.name == first.ground.name);
+
+    RunSettings elsewhere = settings;
+    elsewhere.path.terrain = "none";
+    const World over_none = shared_world(elsewhere, first);
+    CHECK(over_none.scene.ground != first.scene.ground);
+    CHECK(over_none.scene.models.front() == first.scene.models.front());
+    CHECK(shared_world(settings, over_none).scene.ground != over_none.scene.ground);
+
+    RunSettings textured = settings;
+    textured.air.ground_shading = visuals::scene::GroundShading::Texture;
+    CHECK(shared_world(textured, first).scene.ground_texture);
+
+    settings.path.axes = "back,up,left";
+    CHECK(shared_world(settings, first).scene.models.front() != first.scene.models.front());
+    settings.path.axes = "auto";
+    settings.path.terrain_height_scale = 2.0;
+    CHECK(shared_world(settings, first).scene.ground != first.scene.ground);
+    settings.path.terrain_height_scale.reset();
+
+    write_file(shape, corners + "f 1 2 3\n");
+    age(shape);
+    age(settings.path.terrain);
+    const World rewritten = shared_world(settings, first);
+    CHECK(rewritten.scene.model_of(0).polygons.polygons.size() == 1);
+    CHECK(rewritten.scene.ground != first.scene.ground);
+}
+
+TEST_CASE("what a shared world's files name is loaded anew once it is written anew") {
+    const std::filesystem::path materials = tests::scratch_folder() / "wedge.mtl";
+    write_file(materials, "newmtl one\nKd 1 0 0\n");
+    const std::filesystem::path shape = wedge("mtllib wedge.mtl\nusemtl one\n");
+    const std::filesystem::path heights = rolling_ground("behind.tif", 0.0);
+    const std::filesystem::path map = tests::scratch_folder() / "map.vrt";
+    write_file(map, "<VRTDataset rasterXSize=\"257\" rasterYSize=\"257\"><GeoTransform>0, 101.5625, 0, 0, 0, "
+                    "-101.5625</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
+                    "<SourceFilename relativeToVRT=\"1\">behind.tif</SourceFilename><SourceBand>1</SourceBand>"
+                    "</SimpleSource></VRTRasterBand></VRTDataset>\n");
+    RunSettings settings;
+    settings.path.terrain = map.string();
+    settings.path.aircraft = {shape.string()};
+    const World first = ui::world::load_world(settings);
+    const World same = shared_world(settings, first);
+    CHECK(same.scene.ground == first.scene.ground);
+    CHECK(same.scene.models.front() == first.scene.models.front());
+
+    write_file(materials, "newmtl one\nKd 0 0 1\n");
+    age(materials);
+    rolling_ground("behind.tif", 500.0);
+    age(heights);
+    const World anew = shared_world(settings, first);
+    CHECK(anew.scene.models.front() != first.scene.models.front());
+    CHECK(*anew.scene.ground->height_at(0.0, 0.0) > *first.scene.ground->height_at(0.0, 0.0) + 400.0);
+}
+
+// What the tower's pictures show over whole flights, by rays of this test's own.
+
+namespace octant {
+
+namespace {
+
+/// How far a ray goes until ground stops it. Beyond the map the ground goes on at its border's height.
+std::optional<double> ground_along(
+    const visuals::landscape::Ground& ground, const glm::dvec3& from_m, const glm::dvec3& way, double reach_m) {
+    double height_m = 0.0;
+    for (double along_m = 4.0; along_m < reach_m; along_m += std::max(3.0, 0.01 * along_m)) {
+        const glm::dvec3 at_m = from_m + along_m * way;
+        height_m = ground.height_at(at_m.x, at_m.y).value_or(height_m);
+        if (at_m.z < height_m) { return along_m; }
+    }
+    return std::nullopt;
+}
+
+/// The share of a picture that shows sky, by seven by five rays.
+double sky_share(const visuals::landscape::Ground& ground, const visuals::scene::Camera& camera) {
+    constexpr double far_m = 30000.0;
+    const double half = std::tan(0.5 * camera.vertical_fov_rad);
+    int sky = 0;
+    int rays = 0;
+    for (int column = -3; column <= 3; ++column) {
+        for (int row = -2; row <= 2; ++row, ++rays) {
+            const glm::dvec3 way = camera.view_to_world *
+                                   glm::normalize(glm::dvec3(column / 3.5 * half * 16.0 / 9.0, row / 2.5 * half, -1.0));
+            const bool is_ground = way.z < -0.003 || ground_along(ground, camera.eye_m, way, far_m).has_value();
+            sky += is_ground ? 0 : 1;
+        }
+    }
+    return static_cast<double>(sky) / rays;
+}
+
+/// Counts of a flight's pictures, one a second.
+struct Pictures {
+    int all = 0;
+    int hidden = 0; ///< ground stands before the aircraft
+    int small = 0;  ///< the sphere around it fills less than 0.15 of the picture's height
+    int relief = 0; ///< a tenth of the picture is sky, a tenth ground
+    int no_sky = 0;
+};
+
+void count(const char* path, const char* aircraft, const char* terrain, Pictures& pictures) {
+    ui::settings::RunSettings settings;
+    settings.path.name = path;
+    settings.path.aircraft = {aircraft};
+    settings.path.terrain = terrain;
+    settings.view.kind = visuals::scene::View::Tower;
+    const ui::world::World world = ui::world::load_world(settings);
+    const visuals::landscape::Ground& ground = *world.scene.ground;
+    const double radius_m = world.scene.model_of(0).subject.radius_m;
+    const sim::Trajectory& flight = world.flight.trajectory;
+    for (double time_s = flight.start_s(); time_s < flight.end_s(); time_s += 1.0) {
+        const glm::dvec3 at_m = flight.state_at(time_s).position_m;
+        const visuals::scene::Camera camera = visuals::scene::tower_camera(world.points.tower, at_m, radius_m);
+        const double distance_m = glm::distance(camera.eye_m, at_m);
+        const glm::dvec3 way = (at_m - camera.eye_m) / distance_m;
+        const double size = radius_m / (distance_m * std::tan(0.5 * camera.vertical_fov_rad));
+        const double sky = sky_share(ground, camera);
+        ++pictures.all;
+        pictures.hidden += ground_along(ground, camera.eye_m, way, distance_m - radius_m) ? 1 : 0;
+        pictures.small += size < 0.15 ? 1 : 0;
+        pictures.relief += sky >= 0.1 && sky <= 0.9 ? 1 : 0;
+        pictures.no_sky += sky == 0.0 ? 1 : 0;
+    }
+}
+
+} // namespace
+
+TEST_CASE("over whole flights the tower sees the aircraft, large, and mostly relief and sky") {
+    Pictures pictures;
+    for (const char* path : {"straight", "jinking", "pop-up", "turn"}) {
+        count(path, "f15", "hills", pictures);
+        count(path, "500md", "canyon", pictures);
+    }
+    REQUIRE(pictures.all > 200);
+    INFO(pictures.small << " small, " << pictures.relief << " before relief and sky, " << pictures.no_sky
+                        << " without sky, of " << pictures.all);
+    CHECK(pictures.hidden == 0);
+    CHECK(pictures.small < 0.05 * pictures.all);
+    CHECK(pictures.relief > 0.7 * pictures.all);
+    CHECK(pictures.no_sky < 0.1 * pictures.all);
+}
+
+} // namespace octant

@@ -1,14 +1,23 @@
 #include "models/heights/local_frame.h"
 #include "sim/base/axes.h"
+#include "sim/links/cigi_host.h"
+#include "sim/links/udp_port.h"
 #include "ui/flight/live_flight.h"
+#include "ui/flight/sender.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
 
 using namespace octant;
 using namespace octant::ui::flight;
+namespace links = sim::links;
+using sim::links::CigiAtmosphere;
+using sim::links::CigiCelestial;
+using ui::flight::air_from_cigi;
 
 namespace {
 
@@ -22,9 +31,9 @@ ui::world::World level_world() {
 /// The same on a map of UTM about 49.3 N, 123.1 W.
 ui::world::World world_on_utm() {
     ui::world::World world = level_world();
-    world.ground_place = GeoPosition{49.3, -123.1};
-    world.ground_frame = models::heights::frame_of_ground(
-        models::heights::CoordinateSystem{"EPSG:32610", 492729.777625, 5460811.038490, 1.0}, world.ground_place);
+    world.ground.place = GeoPosition{49.3, -123.1};
+    world.ground.frame = models::heights::frame_of_ground(
+        models::heights::CoordinateSystem{"EPSG:32610", 492729.777625, 5460811.038490, 1.0}, world.ground.place);
     return world;
 }
 
@@ -136,4 +145,43 @@ TEST_CASE("a vehicle begins as high over made ground as it says when it moves, n
     fix.latitude_deg += 1.0; // it is put elsewhere
     fix.above_ground_m = 300.0;
     CHECK(place.world_position(key, fix).at_m.z == Approx(300.0));
+}
+
+TEST_CASE("a host's universal time is the sun's own at the place's longitude") {
+    const auto time_at = [](double longitude_deg, const CigiCelestial& celestial) {
+        return air_from_cigi({}, {}, celestial, GeoPosition{47.0, longitude_deg}).time;
+    };
+    CHECK(time_at(15.0, {true, 23, 30, 12312025}) == "2026-01-01T00:30");
+    CHECK(time_at(-90.0, {true, 3, 0, 3012024}) == "2024-02-29T21:00");
+    CHECK(time_at(0.0, {true, 12, 0, 6212026}) == "2026-06-21T12:00");
+    CHECK_FALSE(time_at(0.0, {false, 12, 0, 6212026}));
+    CHECK_FALSE(time_at(0.0, {true, 12, 0, 2302026}));
+    CHECK_FALSE(time_at(0.0, {true, 12, 0, 4000000000U}));
+}
+
+TEST_CASE("a host's visibility is kept within what can be seen, and what it did not tell stays") {
+    visuals::scene::AirSettings defaults;
+    defaults.time = "2026-01-01T09:00";
+    CHECK(air_from_cigi(defaults, CigiAtmosphere{true, 1500.0}, {}, {}).visibility_m == 1500.0);
+    CHECK(air_from_cigi(defaults, CigiAtmosphere{true, 0.0}, {}, {}).visibility_m == 50.0);
+    CHECK(air_from_cigi(defaults, CigiAtmosphere{true, 1e6}, {}, {}).visibility_m == 5e5);
+    CHECK(air_from_cigi(defaults, {}, {}, {}) == defaults);
+}
+
+TEST_CASE("a host does what else there is to do while it waits for an image generator") {
+    constexpr std::uint32_t loopback = 0x7f000001;
+    links::UdpPort generator(loopback, 0);
+    const std::uint16_t own = links::UdpPort(loopback, 0).port();
+    ui::flight::CigiChannels channels;
+    channels.add(fmt::format("cigi:127.0.0.1:{}:{}", generator.port(), own));
+    int done = 0;
+    const auto unanswered = channels.wait_for_first_frames([&] {
+        if (++done == 10) {
+            links::WireWriter start(links::ByteOrder::Big);
+            links::add_start_of_frame(start, {});
+            generator.send({loopback, own}, start.bytes());
+        }
+    });
+    CHECK(unanswered.empty());
+    CHECK(done >= 10);
 }
