@@ -190,7 +190,6 @@ void add(terrain::Conformity& sum, const terrain::Conformity& found) {
 TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check) {
     const std::unique_ptr<CrackFinder> pictures =
         check.draw_every > 0 ? std::make_unique<CrackFinder>(size_px, maker.ground().half_extent_m()) : nullptr;
-    terrain::ConformityCheck edges(maker.ground());
     GroundViewOptions seen;
     seen.size_px = size_px;
     seen.earth_radius_m = check.earth_radius_m;
@@ -202,7 +201,7 @@ TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check) {
         const terrain::MeshView view = mesh_view(random.camera, seen);
         const terrain::GroundMesh mesh =
             random.triangles ? maker.mesh_within(view, *random.triangles) : maker.mesh(view, random.coarseness);
-        const terrain::Conformity found = edges.check(mesh, view);
+        const terrain::Conformity found = terrain::check_conformity(maker.ground(), mesh, view);
         add(check_result.edges, found);
         int key_pixels = 0;
         if (pictures && check_result.views % check.draw_every == 0) {

@@ -39,7 +39,7 @@ Functions load_functions(ProcAddressLookup look_up_address) {
     load(gl.get_string, "glGetString", look_up_address);
     const GLubyte* const version = gl.get_string(GL_VERSION);
     require_gl_4_5(version == nullptr ? "no version" : reinterpret_cast<const char*>(version));
-#define OCTANT_GL_LOAD(member, type, name) load(gl.member, name, look_up_address);
+#define OCTANT_GL_LOAD(member, name) load(gl.member, "gl" #name, look_up_address);
     OCTANT_GL_FUNCTIONS(OCTANT_GL_LOAD)
 #undef OCTANT_GL_LOAD
     return gl;

@@ -8,42 +8,17 @@
 
 namespace octant::visuals::gl {
 
-Object make_buffer(const Functions& gl, const char* label) {
-    GLuint name = 0;
-    gl.create_buffers(1, &name);
-    label_object(gl, GL_BUFFER, name, label);
-    return {gl, name, [](const Functions& f, GLuint n) { f.delete_buffers(1, &n); }};
-}
-
-Object make_vertex_array(const Functions& gl, const char* label) {
-    GLuint name = 0;
-    gl.create_vertex_arrays(1, &name);
-    label_object(gl, GL_VERTEX_ARRAY, name, label);
-    return {gl, name, [](const Functions& f, GLuint n) { f.delete_vertex_arrays(1, &n); }};
-}
-
-Object make_framebuffer(const Functions& gl, const char* label) {
-    GLuint name = 0;
-    gl.create_framebuffers(1, &name);
-    label_object(gl, GL_FRAMEBUFFER, name, label);
-    return {gl, name, [](const Functions& f, GLuint n) { f.delete_framebuffers(1, &n); }};
-}
-
-Object make_renderbuffer(const Functions& gl, const char* label) {
-    GLuint name = 0;
-    gl.create_renderbuffers(1, &name);
-    label_object(gl, GL_RENDERBUFFER, name, label);
-    return {gl, name, [](const Functions& f, GLuint n) { f.delete_renderbuffers(1, &n); }};
-}
-
-Object make_texture(const Functions& gl, const char* label) {
-    GLuint name = 0;
-    gl.create_textures(GL_TEXTURE_2D, 1, &name);
-    label_object(gl, GL_TEXTURE, name, label);
-    return {gl, name, [](const Functions& f, GLuint n) { f.delete_textures(1, &n); }};
-}
-
 namespace {
+
+/// An object that one function of `Functions` creates and another one deletes; the first arguments of `create` are
+/// `target`.
+template <auto create, auto destroy, class... Target>
+Object make_object(const Functions& gl, GLenum kind, const char* label, Target... target) {
+    GLuint name = 0;
+    (gl.*create)(target..., 1, &name);
+    label_object(gl, kind, name, label);
+    return {gl, name, [](const Functions& of, GLuint gone) { (of.*destroy)(1, &gone); }};
+}
 
 std::string first_line(const std::string& text) { return printable(text.substr(0, text.find('\n'))); }
 
@@ -71,6 +46,23 @@ std::string with_definitions(const char* text, std::initializer_list<const char*
 }
 
 } // namespace
+
+Object make_buffer(const Functions& gl, const char* label) {
+    return make_object<&Functions::create_buffers, &Functions::delete_buffers>(gl, GL_BUFFER, label);
+}
+
+Object make_framebuffer(const Functions& gl, const char* label) {
+    return make_object<&Functions::create_framebuffers, &Functions::delete_framebuffers>(gl, GL_FRAMEBUFFER, label);
+}
+
+Object make_renderbuffer(const Functions& gl, const char* label) {
+    return make_object<&Functions::create_renderbuffers, &Functions::delete_renderbuffers>(gl, GL_RENDERBUFFER, label);
+}
+
+Object make_texture(const Functions& gl, const char* label) {
+    return make_object<&Functions::create_textures, &Functions::delete_textures>(
+        gl, GL_TEXTURE, label, GLenum{GL_TEXTURE_2D});
+}
 
 Object make_program(
     const Functions& gl, const char* name, const ProgramText& text, std::initializer_list<const char*> defined) {
@@ -114,28 +106,43 @@ void StreamBuffer::fill(std::span<const std::span<const std::byte>> pieces) {
     }
 }
 
-void add_vector_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset) {
-    gl.enable_vertex_array_attrib(array.name(), input);
-    gl.vertex_array_attrib_format(array.name(), input, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-    gl.vertex_array_attrib_binding(array.name(), input, 0);
+Object make_vertex_array(const Functions& gl, const char* label, GLuint indices,
+    std::initializer_list<VertexBuffer> vertices_and_instances, std::initializer_list<VertexInput> inputs) {
+    Object array =
+        make_object<&Functions::create_vertex_arrays, &Functions::delete_vertex_arrays>(gl, GL_VERTEX_ARRAY, label);
+    const GLuint name = array.name();
+    GLuint binding = 0;
+    for (const VertexBuffer& buffer : vertices_and_instances) {
+        gl.vertex_array_vertex_buffer(name, binding, buffer.name, 0, static_cast<GLsizei>(buffer.element_bytes));
+        if (binding > 0) { gl.vertex_array_binding_divisor(name, binding, 1); }
+        ++binding;
+    }
+    gl.vertex_array_element_buffer(name, indices);
+    for (const VertexInput& input : inputs) {
+        const auto offset = static_cast<GLuint>(input.offset);
+        gl.enable_vertex_array_attrib(name, input.place);
+        switch (input.kind) {
+        case VertexInput::Kind::Floats2:
+        case VertexInput::Kind::Floats3:
+            gl.vertex_array_attrib_format(
+                name, input.place, input.kind == VertexInput::Kind::Floats2 ? 2 : 3, GL_FLOAT, GL_FALSE, offset);
+            break;
+        case VertexInput::Kind::Colour:
+            gl.vertex_array_attrib_format(name, input.place, 4, GL_UNSIGNED_BYTE, GL_TRUE, offset);
+            break;
+        case VertexInput::Kind::Number:
+            gl.vertex_array_attrib_i_format(name, input.place, 1, GL_UNSIGNED_INT, offset);
+            break;
+        }
+        gl.vertex_array_attrib_binding(name, input.place, input.is_each ? 1 : 0);
+    }
+    return array;
 }
 
-void add_place_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset) {
-    gl.enable_vertex_array_attrib(array.name(), input);
-    gl.vertex_array_attrib_format(array.name(), input, 2, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-    gl.vertex_array_attrib_binding(array.name(), input, 0);
-}
-
-void add_colour_input(const Functions& gl, const Object& array, std::size_t offset, GLuint input, GLuint binding) {
-    gl.enable_vertex_array_attrib(array.name(), input);
-    gl.vertex_array_attrib_format(array.name(), input, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLuint>(offset));
-    gl.vertex_array_attrib_binding(array.name(), input, binding);
-}
-
-void add_number_input(const Functions& gl, const Object& array, GLuint input, GLuint binding, std::size_t offset) {
-    gl.enable_vertex_array_attrib(array.name(), input);
-    gl.vertex_array_attrib_i_format(array.name(), input, 1, GL_UNSIGNED_INT, static_cast<GLuint>(offset));
-    gl.vertex_array_attrib_binding(array.name(), input, binding);
-}
+StreamMesh::StreamMesh(const Functions& gl, const std::string& label, std::size_t first_capacity_bytes,
+    std::size_t vertex_bytes, std::initializer_list<VertexInput> inputs)
+    : vertices(gl, (label + ", vertices").c_str(), first_capacity_bytes),
+      indices(gl, (label + ", indices").c_str(), first_capacity_bytes),
+      array(make_vertex_array(gl, label.c_str(), indices.name(), {{vertices.name(), vertex_bytes}}, inputs)) {}
 
 } // namespace octant::visuals::gl

@@ -3,8 +3,10 @@
 #include "visuals/gl/functions.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace octant::visuals::gl {
@@ -45,7 +47,6 @@ private:
 // `label`: what debug messages call the object.
 
 Object make_buffer(const Functions& gl, const char* label);
-Object make_vertex_array(const Functions& gl, const char* label);
 Object make_framebuffer(const Functions& gl, const char* label);
 Object make_renderbuffer(const Functions& gl, const char* label);
 
@@ -68,7 +69,6 @@ Object make_program(
 /// for the picture before; its size only grows.
 class StreamBuffer {
 public:
-    /// `label`: what debug messages call it.
     StreamBuffer(const Functions& gl, const char* label, std::size_t first_capacity_bytes);
 
     GLuint name() const { return buffer_.name(); }
@@ -99,17 +99,44 @@ constexpr GLuint face_colour_input = 8;
 constexpr GLuint smooth_tint_input = 9;
 constexpr GLuint flat_tint_input = 10;
 
-/// Three floats at `offset` of each vertex of the array's buffer 0.
-void add_vector_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);
+/// An input of a vertex shader.
+struct VertexInput {
+    enum class Kind {
+        Floats2,
+        Floats3,
+        Colour, ///< four bytes, 255 read as 1
+        Number  ///< a 32-bit whole number
+    };
 
-/// Two floats at `offset` of each vertex of the array's buffer 0.
-void add_place_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);
+    GLuint place;
+    Kind kind;
+    std::size_t offset;   ///< in each element of the buffer, bytes
+    bool is_each = false; ///< read from the array's second buffer, which has an element for each instance
+};
 
-/// Four bytes at `offset` of each element of the array's buffer `binding`, 255 read as 1.
-void add_colour_input(
-    const Functions& gl, const Object& array, std::size_t offset, GLuint input = colour_input, GLuint binding = 0);
+/// A buffer that a vertex array reads.
+struct VertexBuffer {
+    GLuint name;
+    std::size_t element_bytes;
+};
 
-/// A 32-bit number at `offset` of each element of the array's buffer `binding`.
-void add_number_input(const Functions& gl, const Object& array, GLuint input, GLuint binding, std::size_t offset);
+/// A vertex array that reads vertices, and elements for each instance where there are any.
+Object make_vertex_array(const Functions& gl, const char* label, GLuint indices,
+    std::initializer_list<VertexBuffer> vertices_and_instances, std::initializer_list<VertexInput> inputs);
+
+/// The place of an index in a buffer of 32-bit indices, as draw calls take it.
+inline const void* index_offset(std::size_t first) {
+    return reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
+}
+
+/// Triangles that are uploaded anew for each picture.
+struct StreamMesh {
+    StreamBuffer vertices;
+    StreamBuffer indices;
+    Object array;
+
+    StreamMesh(const Functions& gl, const std::string& label, std::size_t first_capacity_bytes,
+        std::size_t vertex_bytes, std::initializer_list<VertexInput> inputs);
+};
 
 } // namespace octant::visuals::gl

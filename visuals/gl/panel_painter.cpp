@@ -31,23 +31,15 @@ Object make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, con
     return texture;
 }
 
-Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
-    Object array = make_vertex_array(gl, "panels");
-    gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(PanelVertex));
-    gl.vertex_array_element_buffer(array.name(), indices.name());
-    add_place_input(gl, array, position_input, offsetof(PanelVertex, at));
-    add_place_input(gl, array, atlas_input, offsetof(PanelVertex, atlas_at));
-    add_colour_input(gl, array, offsetof(PanelVertex, colour));
-    return array;
-}
-
 } // namespace
 
 PanelPainter::PanelPainter(Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
     : context_(context), gl_(context.current_functions()),
       program_(make_program(gl_, "panels", {panel_vert, panel_frag})), atlas_(make_atlas(gl_, atlas, size)),
-      vertices_(gl_, "panel vertices", first_capacity_bytes), indices_(gl_, "panel indices", first_capacity_bytes),
-      array_(make_array(gl_, vertices_, indices_)) {}
+      mesh_(gl_, "panels", first_capacity_bytes, sizeof(PanelVertex),
+          {{position_input, VertexInput::Kind::Floats2, offsetof(PanelVertex, at)},
+              {atlas_input, VertexInput::Kind::Floats2, offsetof(PanelVertex, atlas_at)},
+              {colour_input, VertexInput::Kind::Colour, offsetof(PanelVertex, colour)}}) {}
 
 PanelPainter::~PanelPainter() { context_.make_current(); }
 
@@ -66,7 +58,7 @@ void PanelPainter::begin(const PanelSurface& surface) {
     const glm::vec4 window(2.0F / surface.size.x, -2.0F / surface.size.y, 0.0F, 0.0F);
     gl_.program_uniform_4fv(program_.name(), window_uniform, 1, glm::value_ptr(window));
     gl_.bind_texture_unit(atlas_unit, atlas_.name());
-    gl_.bind_vertex_array(array_.name());
+    gl_.bind_vertex_array(mesh_.array.name());
 }
 
 void PanelPainter::end() {
@@ -76,8 +68,8 @@ void PanelPainter::end() {
 
 void PanelPainter::draw(
     std::span<const PanelVertex> vertices, std::span<const std::uint16_t> indices, std::span<const PanelDraw> draws) {
-    vertices_.fill({std::as_bytes(vertices)});
-    indices_.fill({std::as_bytes(indices)});
+    mesh_.vertices.fill({std::as_bytes(vertices)});
+    mesh_.indices.fill({std::as_bytes(indices)});
     const glm::vec2 px_per_unit = glm::vec2(surface_.size_px) / surface_.size;
     for (const PanelDraw& each : draws) {
         const glm::ivec2 least(glm::floor(each.least * px_per_unit));

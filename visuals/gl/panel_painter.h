@@ -58,9 +58,7 @@ private:
     const Functions& gl_;
     Object program_;
     Object atlas_;
-    StreamBuffer vertices_;
-    StreamBuffer indices_;
-    Object array_;
+    StreamMesh mesh_;
     PanelSurface surface_;
 };
 

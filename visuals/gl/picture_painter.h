@@ -37,7 +37,7 @@ private:
     void make_target();
     void blit(const glm::ivec2& window_px);
 
-    std::shared_ptr<WindowContext> context_; ///< goes after all that was made with it
+    std::shared_ptr<WindowContext> context_; ///< declared first, so that it is destroyed last
     const Functions& gl_;
     std::unique_ptr<SharedPicture> shared_;
     scene::PictureBytes own_; ///< where the display shares no memory

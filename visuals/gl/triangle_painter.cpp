@@ -8,6 +8,9 @@
 #include "visuals/scene/ground_texture.h"
 #include "visuals/scene/land_cover_contrast.h"
 
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/vec4.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,13 +30,6 @@ enum class TextureKind {
     Colours, ///< red, green, blue: 3 bytes a texel
     Slopes   ///< x and y of a normal: 2 bytes a texel
 };
-
-/// A texture with all its mip levels, filtered between them (trilinear), on a GPU also along the line of sight
-/// (anisotropic); beyond its edge it continues as at the edge. Throws Error when the driver has no memory for it.
-Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
-
-/// A texel for each kind (up) and pattern (right): the shares by which a colour changes.
-Object make_texture(const Functions& gl, const scene::LandCoverContrast& contrast);
 
 // Along the line of sight. Where a processor draws, any but 1 makes a frame 3 to 5 times slower.
 constexpr float max_anisotropy = 8.0F;
@@ -64,6 +60,8 @@ void set_filters(const Functions& gl, const Object& texture, GLenum beyond) {
     }
 }
 
+/// A texture with all its mip levels, filtered between them (trilinear), on a GPU also along the line of sight
+/// (anisotropic); beyond its edge it continues as at the edge. Throws Error when the driver has no memory for it.
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind) {
     const bool colours = kind == TextureKind::Colours;
     Object texture = make_texture(gl, colours ? "ground colours" : "ground slopes");
@@ -98,6 +96,7 @@ Object make_detail_texture(const Functions& gl) {
     return texture;
 }
 
+/// A texel for each land cover (up) and pattern value (right): the shares by which a colour changes.
 Object make_texture(const Functions& gl, const scene::LandCoverContrast& contrast) {
     Object texture = make_texture(gl, "contrast of ground's covers");
     // As the table has them, but from -1 on: one word is read for three shares.
@@ -121,25 +120,19 @@ constexpr GLuint normal_unit = 1;
 constexpr GLuint detail_unit = 2;
 constexpr GLuint contrast_unit = 3;
 constexpr GLint mesh_look_uniform = 8;
+constexpr GLint clip_per_px_uniform = 0; ///< of the overlay
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
-
-Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
-    Object array = make_vertex_array(gl, "ground and sky");
-    gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(ColourVertex));
-    gl.vertex_array_element_buffer(array.name(), indices.name());
-    add_vector_input(gl, array, position_input, offsetof(ColourVertex, position_m));
-    add_colour_input(gl, array, offsetof(ColourVertex, colour));
-    return array;
-}
+constexpr std::size_t overlay_capacity_bytes = std::size_t{1} << 12;
 
 } // namespace
 
 TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     : gl_(gl), state_(state), ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag})),
       sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}, detail_texture_(make_detail_texture(gl)),
-      vertices_(gl, "ground and sky vertices", first_capacity_bytes),
-      indices_(gl, "ground and sky indices", first_capacity_bytes), array_(make_array(gl, vertices_, indices_)) {}
+      mesh_(gl, "ground and sky", first_capacity_bytes, sizeof(ColourVertex),
+          {{position_input, VertexInput::Kind::Floats3, offsetof(ColourVertex, position_m)},
+              {colour_input, VertexInput::Kind::Colour, offsetof(ColourVertex, colour)}}) {}
 
 void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
     texture_ = {make_program_pair(gl_, "textured ground", {ground_textured_vert, ground_textured_frag}),
@@ -187,9 +180,9 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
     }
     const std::span shadow_vertices(plan.shadow_vertices);
     const std::span again(plan.repaint_indices);
-    vertices_.fill(
+    mesh_.vertices.fill(
         {std::as_bytes(plan.ground.vertices), std::as_bytes(shadow_vertices), std::as_bytes(plan.sky.vertices)});
-    indices_.fill({std::as_bytes(plan.ground.indices), std::as_bytes(again), std::as_bytes(plan.sky.indices)});
+    mesh_.indices.fill({std::as_bytes(plan.ground.indices), std::as_bytes(again), std::as_bytes(plan.sky.indices)});
     ground_ = {0, plan.ground.indices.size()};
     repaint_range_ = {ground_.count, again.size()};
     sky_ = {repaint_range_.first + repaint_range_.count, plan.sky.indices.size()};
@@ -207,12 +200,40 @@ void TrianglePainter::draw(const PaintStep& step, const scene::Clip* clip) {
     state_.use_depth(step.depth);
     state_.use_program(is_sky ? sky_programs_ : ground_programs(), clip);
     state_.cull_back_faces(false);
-    gl_.bind_vertex_array(array_.name());
+    gl_.bind_vertex_array(mesh_.array.name());
     gl_.draw_elements_base_vertex(GL_TRIANGLES, static_cast<GLsizei>(step.count), GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>((list.first + step.first) * sizeof(std::uint32_t)),
-        is_sky ? first_sky_vertex_ : 0);
+        index_offset(list.first + step.first), is_sky ? first_sky_vertex_ : 0);
     state_.count_draw_call();
     if (depth_only) { gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); }
+}
+
+OverlayPainter::OverlayPainter(const Functions& gl, DrawState& state)
+    : gl_(gl), state_(state), programs_{make_program(gl, "overlay", {overlay_vert, overlay_frag}), {}},
+      mesh_(gl, "overlay", overlay_capacity_bytes, sizeof(scene::OverlayVertex),
+          {{position_input, VertexInput::Kind::Floats2, offsetof(scene::OverlayVertex, at_px)},
+              {colour_input, VertexInput::Kind::Colour, offsetof(scene::OverlayVertex, colour)}}) {}
+
+void OverlayPainter::upload(const scene::OverlayDraw& overlay, const glm::ivec2& size_px) {
+    index_count_ = overlay.indices.size();
+    if (index_count_ == 0) { return; }
+    mesh_.vertices.fill({std::as_bytes(overlay.vertices)});
+    mesh_.indices.fill({std::as_bytes(overlay.indices)});
+    const glm::vec4 clip_per_px(2.0F / static_cast<float>(size_px.x), 2.0F / static_cast<float>(size_px.y), 0.0F, 0.0F);
+    gl_.program_uniform_4fv(programs_.unclipped.name(), clip_per_px_uniform, 1, glm::value_ptr(clip_per_px));
+}
+
+void OverlayPainter::draw(const scene::PaintStep& step) {
+    assert(std::size_t{step.first} + step.count <= index_count_);
+    if (step.count == 0) { return; }
+    state_.use_depth(step.depth);
+    state_.cull_back_faces(false);
+    state_.use_program(programs_);
+    state_.blend(true);
+    gl_.bind_vertex_array(mesh_.array.name());
+    gl_.draw_elements_base_vertex(
+        GL_TRIANGLES, static_cast<GLsizei>(step.count), GL_UNSIGNED_INT, index_offset(step.first), 0);
+    state_.blend(false);
+    state_.count_draw_call();
 }
 
 } // namespace octant::visuals::gl

@@ -5,6 +5,8 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_texture.h"
 
+#include <glm/vec2.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -64,13 +66,30 @@ private:
     bool shows_mesh_ = false;          ///< as the plan says
     bool is_textured_ = false;         ///< as the plan says
     bool has_polygon_numbers_ = false; ///< as the plan says
-    StreamBuffer vertices_;            ///< ground, shadows, sky
-    StreamBuffer indices_;             ///< ground, what is painted again, sky
-    Object array_;
+    StreamMesh mesh_;                  ///< vertices of ground, shadows and sky; indices of ground, repaint and sky
     Range ground_;
     Range repaint_range_;
     Range sky_;
     GLint first_sky_vertex_ = 0;
+};
+
+/// Draws steps of Overlay and Transparent: upload() once for each plan, then draw() for each step.
+class OverlayPainter {
+public:
+    OverlayPainter(const Functions& gl, DrawState& state);
+
+    /// For a viewport of this size in pixels.
+    void upload(const scene::OverlayDraw& overlay, const glm::ivec2& size_px);
+
+    /// A step of Overlay. Leaves blending off.
+    void draw(const scene::PaintStep& step);
+
+private:
+    const Functions& gl_;
+    DrawState& state_;
+    ProgramPair programs_; ///< never cut
+    StreamMesh mesh_;
+    std::size_t index_count_ = 0;
 };
 
 } // namespace octant::visuals::gl

@@ -449,11 +449,6 @@ void repair_tile(const TileCheck& is_intact, const GroundTiles& ground, TileId n
     TileRepair(is_intact, ground, number, bytes).repair();
 }
 
-std::span<const std::byte> tile_bytes(const GroundTiles& ground, int level, std::size_t tile) {
-    const GroundLayout::Level& at = ground.layout().level(level);
-    return ground.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
-}
-
 using TileKey = std::tuple<int, std::size_t, std::size_t>; ///< level, row, column
 
 struct DamageLog {
@@ -494,7 +489,7 @@ private:
         std::uint64_t checksum = 0;
         const std::size_t place = checksums_ + 8 * (index + 1); // the first is that of the bytes before the tiles
         std::memcpy(&checksum, std::as_const(*file_).bytes().data() + place, sizeof checksum);
-        return checksum_of(tile_bytes(ground_, level, tile)) == checksum;
+        return checksum_of(ground_.tile(level, tile)) == checksum;
     }
 
     void validate(int level, std::size_t tile) const override {
@@ -506,7 +501,7 @@ private:
             const GroundLayout::Level& at = ground_.layout().level(level);
             const auto across = static_cast<std::size_t>(at.tiles_across);
             log_tile_damage(path_, {level, tile / across, tile % across});
-            const std::span<const std::byte> bytes = tile_bytes(ground_, level, tile);
+            const std::span<const std::byte> bytes = ground_.tile(level, tile);
             const auto offset = static_cast<std::size_t>(bytes.data() - std::as_const(*file_).bytes().data());
             repair_tile([this](int l, std::size_t t) { return is_intact(l, t); }, ground_, {level, tile},
                 file_->writable_copy(offset, bytes.size()));

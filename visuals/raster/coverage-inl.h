@@ -26,256 +26,134 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // -- Coverage: which samples of a tile a triangle covers, a mask of sixteen bits for each pixel.
 
-using Bytes = hn::FixedTag<std::uint8_t, 16>; ///< a lane for each sample
+constexpr int block_px = 16;
 
-/// Where the lanes of a row cross an edge, less where the row's middle does, with what rounds a crossing up to a
-/// column: 2^-16 pixel. The same in all rows.
-template <class Words, std::size_t registers = SamplePattern::lanes / hn::MaxLanes(Words())>
-struct LaneOffsets;
-
-template <class Words>
-struct LaneOffsets<Words, 2> {
-    hn::Vec<Words> first, second;
-
-    HWY_INLINE LaneOffsets(std::int32_t slope_32nd, const SampleLanes& lanes) {
-        // Packing takes four lanes from each in turn.
-        const Words words;
-        const auto offsets = [&](std::size_t from) HWY_ATTR {
-            const hn::Half<Words> half;
-            const auto spread = [&](const std::int32_t* table) HWY_ATTR {
-                return hn::Combine(words, hn::Load(half, table + from + 8), hn::Load(half, table + from));
-            };
-            return hn::Add(
-                hn::Mul(spread(lanes.down.data()), hn::Set(words, slope_32nd)), spread(lanes.round_up.data()));
-        };
-        first = offsets(0);
-        second = offsets(4);
-    }
-
-    /// The first column whose sample does not lie left of the edge, 0..255, for each lane.
-    HWY_INLINE hn::Vec<Bytes> columns(std::int32_t x) const {
-        const Words words;
-        const auto middle = hn::Set(words, x);
-        return hn::DemoteTo(
-            Bytes(), hn::ReorderDemote2To(hn::Repartition<std::int16_t, Words>(),
-                         hn::ShiftRight<16>(hn::Add(middle, first)), hn::ShiftRight<16>(hn::Add(middle, second))));
-    }
-};
-
-template <class Words>
-struct LaneOffsets<Words, 4> {
-    hn::Vec<Words> first, second, third, fourth;
-
-    HWY_INLINE LaneOffsets(std::int32_t slope_32nd, const SampleLanes& lanes) {
-        const Words words;
-        const auto offsets = [&](std::size_t from) HWY_ATTR {
-            return hn::Add(hn::Mul(hn::Load(words, lanes.down.data() + from), hn::Set(words, slope_32nd)),
-                hn::Load(words, lanes.round_up.data() + from));
-        };
-        first = offsets(0);
-        second = offsets(4);
-        third = offsets(8);
-        fourth = offsets(12);
-    }
-
-    HWY_INLINE hn::Vec<Bytes> columns(std::int32_t x) const {
-        const hn::Repartition<std::int16_t, Words> shorts;
-        const hn::FixedTag<std::uint8_t, 8> half;
-        const auto middle = hn::Set(Words(), x);
-        const auto at = [&](hn::Vec<Words> offset) HWY_ATTR { return hn::ShiftRight<16>(hn::Add(middle, offset)); };
-        const auto low = hn::ReorderDemote2To(shorts, at(first), at(second));
-        const auto high = hn::ReorderDemote2To(shorts, at(third), at(fourth));
-        return hn::Combine(Bytes(), hn::DemoteTo(half, high), hn::DemoteTo(half, low));
-    }
-};
-
-/// An edge in a tile, row by row.
-struct EdgeStepper {
-    std::int64_t x;     ///< at the middle of the tile's first row, from its first column, 2^-32 pixel
-    std::int64_t slope; ///< x a row
-    LaneOffsets<hn::CappedTag<std::int32_t, 8>> offsets;
-
-    /// `top`: of the edge, 1/256 pixel.
-    HWY_INLINE EdgeStepper(const Edge& edge, std::int32_t top, const glm::ivec2& tile_px, const SampleLanes& lanes)
-        : slope(edge.slope), offsets(static_cast<std::int32_t>(edge.slope >> 21), lanes) {
-        // Less than the least distance of a crossing from a column's middle where it is not on it.
-        constexpr std::uint64_t on_it = std::uint64_t{1} << 10;
-        const auto rows = static_cast<std::uint64_t>(std::int64_t{tile_px.y - first_row_of(top)});
-        x = static_cast<std::int64_t>(static_cast<std::uint64_t>(edge.x) + static_cast<std::uint64_t>(slope) * rows -
-                                      (static_cast<std::uint64_t>(std::int64_t{tile_px.x}) << 32) - on_it);
-    }
-
-    HWY_INLINE std::int64_t at(int row) const {
-        return static_cast<std::int64_t>(
-            static_cast<std::uint64_t>(x) +
-            static_cast<std::uint64_t>(slope) * static_cast<std::uint64_t>(std::int64_t{row}));
-    }
-
-    HWY_INLINE hn::Vec<Bytes> columns(int row) const {
-        return offsets.columns(static_cast<std::int32_t>(at(row) >> 16));
-    }
-};
-
-/// Bounds the columns of each lane by a line, too.
-HWY_INLINE void bound_by(const ClipLine& line, const SampleLanes& lanes, const glm::ivec2& tile_px, std::int32_t row,
-    hn::Vec<Bytes>& least, hn::Vec<Bytes>& end) {
-    alignas(16) std::array<std::uint8_t, 16> line_min{};
-    alignas(16) std::array<std::uint8_t, 16> line_end{};
-    const double at_tile = line.c + line.a * tile_px.x + line.b * row;
-    for (std::size_t lane = 0; lane < 16; ++lane) {
-        const double here =
-            at_tile + line.b * static_cast<double>(lanes.y_px[lane]) + line.a * static_cast<double>(lanes.x_px[lane]);
-        line_end[lane] = tile_width;
-        if (line.a == 0.0) {
-            line_end[lane] = here >= 0.0 ? tile_width : 0;
-            continue;
-        }
-        const double at = std::clamp(-here / line.a, -1.0, 1.0 + tile_width);
-        if (line.a > 0.0) {
-            line_min[lane] = static_cast<std::uint8_t>(std::max(std::ceil(at), 0.0));
-        } else {
-            line_end[lane] = static_cast<std::uint8_t>(std::clamp(std::floor(at) + 1.0, 0.0, 1.0 * tile_width));
-        }
-    }
-    least = hn::Max(least, hn::Load(Bytes(), line_min.data()));
-    end = hn::Min(end, hn::Load(Bytes(), line_end.data()));
-}
-
-/// Columns of a row.
+/// Columns of a row that may be covered.
 struct RowSpan {
-    int first; ///< that may be covered
+    int first;
     int last;
-    int whole; ///< from here to `whole_end` - 1 all samples are
-    int whole_end;
 };
 
-/// Narrows a row to the columns that two edges cross or enclose, both of which go through the whole row.
-HWY_INLINE void narrow(const EdgeStepper& left, const EdgeStepper& right, int row, RowSpan& span) {
-    constexpr std::int64_t half_px = std::int64_t{1} << 31;
-    const std::int64_t left_reach = std::abs(left.slope) / 2 + half_px;
-    const std::int64_t right_reach = std::abs(right.slope) / 2 + half_px;
-    const std::int64_t left_x = left.at(row);
-    const std::int64_t right_x = right.at(row);
+/// Narrows a row to the columns that two edges cross or enclose, both of which go through the whole row. Edges are
+/// those of the tile's first column.
+HWY_INLINE void narrow(const MiddleEdge& left, const MiddleEdge& right, RowSpan& span) {
+    const auto reach = [](const MiddleEdge& edge) {
+        constexpr std::int64_t half_px = std::int64_t{1} << 31;
+        return std::abs(static_cast<std::int64_t>(edge.slope)) / 2 + half_px;
+    };
     const auto column = [](std::int64_t x) {
         return static_cast<int>(std::clamp<std::int64_t>(x >> 32, -1, tile_width));
     };
-    span.first = std::max(span.first, column(left_x - left_reach));
-    span.last = std::min(span.last, column(right_x + right_reach) + 1);
-    span.whole = std::max(span.first, column(left_x + left_reach) + 1);
-    span.whole_end = std::min(span.last + 1, column(right_x - right_reach));
+    span.first = std::max(span.first, column(static_cast<std::int64_t>(left.x) - reach(left)));
+    span.last = std::min(span.last, column(static_cast<std::int64_t>(right.x) + reach(right)) + 1);
 }
 
-/// Sixteen bytes as often as they fit.
-template <class Wide>
-HWY_INLINE hn::Vec<Wide> repeated(Wide wide, hn::Vec<Bytes> bytes) {
-    if constexpr (hn::MaxLanes(Wide()) == 16) {
-        return bytes;
-    } else {
-        const hn::Half<Wide> half;
-        const auto once = repeated(half, bytes);
-        return hn::Combine(wide, once, once);
+/// Finds the columns of each row that a triangle may cover, none where nearer ones cover them whole.
+HWY_INLINE void find_spans(const Triangle& triangle, const TileJob& job, const TileBox& box, TileBuffer& buffer) {
+    const glm::ivec2 first_px = job.first_px + glm::ivec2(0, box.first_row);
+    MiddleEdge whole(triangle.whole, triangle.top, first_px);
+    MiddleEdge upper(triangle.upper, triangle.top, first_px);
+    MiddleEdge lower(triangle.lower, triangle.middle, first_px);
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        const std::int32_t above = (job.first_px.y + row) * 256 - 128;
+        const std::int32_t below = above + 256;
+        const bool is_upper = below <= triangle.middle;
+        RowSpan span{box.left, box.right};
+        if (above >= triangle.top && below <= triangle.bottom && (is_upper || above >= triangle.middle)) {
+            const MiddleEdge& bent = is_upper ? upper : lower;
+            narrow(triangle.middle_is_left ? bent : whole, triangle.middle_is_left ? whole : bent, span);
+        }
+        Coverage::Row& places = buffer.coverage.rows[static_cast<std::size_t>(row)];
+        places.blocks = 0;
+        if (span.first <= span.last) {
+            const std::uint64_t columns = (~std::uint64_t{0} << span.first) & (~std::uint64_t{0} >> (63 - span.last));
+            const bool is_free = (columns & ~buffer.full[static_cast<std::size_t>(row)]) != 0;
+            places = {span.first, span.last, is_free ? (span.last - span.first) / block_px + 1 : 0};
+        }
+        for (MiddleEdge* edge : {&whole, &upper, &lower}) { edge->x += edge->slope; }
     }
 }
 
-/// Writes the masks of a row's blocks. Those within `span.whole` .. `whole_end` - 1 are known.
-HWY_INLINE void write_masks(
-    hn::Vec<Bytes> least, hn::Vec<Bytes> end, const RowSpan& span, int blocks, std::uint16_t* masks) {
-    const hn::CappedTag<std::uint8_t, 64> wide;
-    const hn::RebindToSigned<decltype(wide)> sign;
-    constexpr std::size_t at_once = hn::MaxLanes(wide) / SamplePattern::lanes;
-    // Compared as signed numbers, both less 128.
-    const auto half = hn::Set(Bytes(), 128);
-    const auto from_all = repeated(wide, hn::Add(least, half));
-    const auto count_all = hn::BitCast(sign, repeated(wide, hn::Sub(hn::SaturatedSub(end, least), half)));
-    const auto pixels = hn::ShiftRight<4>(lane_indices_from(wide, 0));
-    for (int block = 0; block < blocks; ++block) {
-        const int first = span.first + 16 * block;
-        std::uint16_t* const to = masks + 16 * block;
-        if (first >= span.whole && first + 16 <= span.whole_end) {
-            const hn::CappedTag<std::uint16_t, 16> px;
-            for (std::size_t i = 0; i < 16; i += hn::Lanes(px)) { hn::StoreU(hn::Set(px, 0xffff), px, to + i); }
-            continue;
-        }
-        const auto column = hn::Add(hn::Set(wide, static_cast<std::uint8_t>(first)), pixels);
-        const auto from_first = hn::Sub(column, from_all);
-        HWY_UNROLL(8)
-        for (std::size_t i = 0; i < 16; i += at_once) {
-            const auto at = hn::Add(from_first, hn::Set(wide, static_cast<std::uint8_t>(i)));
-            const auto covers = hn::Lt(hn::BitCast(sign, at), count_all);
-            hn::StoreMaskBits(sign, covers, reinterpret_cast<std::uint8_t*>(to + i));
+/// The pixels of a strip, for each sample, in which the sample lies on the inner side of all clip lines of a triangle.
+/// The strip begins at a column and row of the tile.
+HWY_INLINE LaneMasks pixels_within(
+    const TriangleExtra& extra, const SampleLanes& lanes, const glm::ivec2& tile_px, const glm::ivec2& strip) {
+    alignas(64) std::array<std::int32_t, SamplePattern::lanes> first;
+    alignas(64) std::array<std::int32_t, SamplePattern::lanes> end;
+    first.fill(0);
+    end.fill(tile_width);
+    for (int k = 0; k < extra.cut_count; ++k) {
+        const ClipLine& line = extra.cuts[static_cast<std::size_t>(k)];
+        const double at_tile = line.c + line.a * tile_px.x + line.b * (tile_px.y + strip.y);
+        for (std::size_t lane = 0; lane < SamplePattern::lanes; ++lane) {
+            const double here = at_tile + line.b * static_cast<double>(lanes.y_px[lane]) +
+                                line.a * static_cast<double>(lanes.x_px[lane]);
+            const double column = line.a == 0.0 ? 0.0 : std::clamp(-here / line.a, -1.0, 1.0 + tile_width);
+            if (line.a > 0.0) {
+                first[lane] = std::max(first[lane], static_cast<std::int32_t>(std::ceil(column)));
+            } else if (line.a < 0.0) {
+                end[lane] = std::min(end[lane], static_cast<std::int32_t>(std::floor(column)) + 1);
+            } else if (here < 0.0) {
+                end[lane] = 0;
+            }
         }
     }
-}
-
-/// How many lanes of a row lie above a place, 1/256 pixel.
-HWY_INLINE int lanes_above(std::int32_t y, std::int32_t row, const SampleLanes& lanes) {
-    const std::int32_t place = std::clamp(y - row * 256, -128, 128);
-    return lanes.lanes_above[static_cast<std::size_t>(place + 128)];
+    const auto columns_left = hn::Set(Lanes(), strip.x);
+    const LaneValues from = load_lanes(first.data());
+    const LaneValues to = load_lanes(end.data());
+    LaneMasks within;
+    for (std::size_t i = 0; i < lane_parts; ++i) {
+        within[i] = hn::AndNot(pixels_from(hn::Sub(to[i], columns_left)), pixels_from(hn::Sub(from[i], columns_left)));
+    }
+    return within;
 }
 
 /// Writes the masks of the samples that a triangle covers into TileBuffer::masks, for rows that are not covered whole
 /// by nearer ones.
 HWY_NOINLINE void cover(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const Triangle& triangle = *one.triangle;
-    const EdgeStepper whole(triangle.whole, triangle.top, job.first_px, lanes);
-    const EdgeStepper upper(triangle.upper, triangle.top, job.first_px, lanes);
-    const EdgeStepper lower(triangle.lower, triangle.middle, job.first_px, lanes);
-    const bool bends_left = triangle.middle_is_left;
-    const std::int32_t tile_row = job.first_px.y;
+    const TileBox box(triangle, job);
     Coverage& coverage = buffer.coverage;
-    coverage.first_row = std::max(triangle.first_row - tile_row, 0);
-    coverage.last_row = std::min(triangle.last_row - tile_row, job.size_px.y - 1);
-    const int left = std::max(triangle.left - job.first_px.x, 0);
-    const int right = std::min(triangle.right - job.first_px.x, job.size_px.x - 1);
-    const auto rows_of_it =
-        static_cast<std::uint32_t>((std::uint64_t{2} << coverage.last_row) - (std::uint64_t{1} << coverage.first_row));
-    if ((rows_of_it & ~buffer.full_rows) == 0) {
-        coverage.last_row = -1;
-        return;
-    }
+    coverage.first_row = box.first_row;
+    coverage.last_row = (box.rows() & ~buffer.full_rows) == 0 ? -1 : box.last_row;
+    if (coverage.last_row < 0) { return; }
+    find_spans(triangle, job, box, buffer);
     const bool is_cut = one.extra != nullptr && one.extra->cut_count > 0;
-    for (int at = coverage.first_row; at <= coverage.last_row; ++at) {
-        Coverage::Row& places = coverage.rows[static_cast<std::size_t>(at)];
-        places.blocks = 0;
-        const std::int32_t row = tile_row + at;
-        const std::int32_t above = row * 256 - 128;
-        const std::int32_t below = row * 256 + 128;
-        const bool is_upper = below <= triangle.middle;
-        const bool is_through =
-            above >= triangle.top && below <= triangle.bottom && (is_upper || above >= triangle.middle);
-        const EdgeStepper& bent = is_upper ? upper : lower;
-        RowSpan span{left, right, tile_width, 0};
-        if (is_through) {
-            narrow(bends_left ? bent : whole, bends_left ? whole : bent, at, span);
-            if (span.first > span.last) { continue; }
+    for (int left = box.left; left <= box.right; left += strip_px) {
+        const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+        StripCoverage strip(triangle, first_px, box.columns_of_strip(left), lanes);
+        for (int row = box.first_row; row <= box.last_row; ++row) {
+            const Coverage::Row& places = coverage.rows[static_cast<std::size_t>(row)];
+            if (places.blocks > 0 && places.first < left + strip_px && places.last >= left) {
+                LaneMasks pixels = strip.lanes();
+                if (is_cut) {
+                    const LaneMasks within = pixels_within(*one.extra, lanes, job.first_px, {left, row});
+                    for (std::size_t i = 0; i < lane_parts; ++i) { pixels[i] = hn::And(pixels[i], within[i]); }
+                }
+                const StripValues masks = samples_of_pixels(pixels);
+                std::uint16_t* const to =
+                    buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row + left;
+                for (std::size_t i = 0; i < strip_parts; ++i) { hn::StoreU(masks[i], Strip(), to + i * part_px); }
+                std::fill_n(to + strip_px, block_px, std::uint16_t{0}); // the last block may end beyond the strip
+            }
+            strip.next_row();
         }
-        const std::uint64_t columns = (~std::uint64_t{0} << span.first) & (~std::uint64_t{0} >> (63 - span.last));
-        if ((columns & ~buffer.full[static_cast<std::size_t>(at)]) == 0) { continue; }
-        places.first = span.first;
-        places.last = span.last;
-        places.blocks = (span.last - span.first) / 16 + 1;
-        auto bent_columns = bent.columns(at);
-        const auto whole_columns = whole.columns(at);
-        auto within = hn::Set(Bytes(), tile_width);
-        if (!is_through) {
-            const auto lane = lane_indices_from(Bytes(), 0);
-            const auto is_before = [&](std::int32_t y) HWY_ATTR {
-                return hn::Lt(lane, hn::Set(Bytes(), static_cast<std::uint8_t>(lanes_above(y, row, lanes))));
-            };
-            bent_columns = hn::IfThenElse(is_before(triangle.middle), upper.columns(at), lower.columns(at));
-            within = hn::IfThenElseZero(hn::AndNot(is_before(triangle.top), is_before(triangle.bottom)), within);
-        }
-        auto least = bends_left ? bent_columns : whole_columns;
-        auto end = hn::Min(bends_left ? whole_columns : bent_columns, within);
-        if (is_cut) {
-            for (int k = 0; k < one.extra->cut_count; ++k) {
-                bound_by(one.extra->cuts[static_cast<std::size_t>(k)], lanes, job.first_px, row, least, end);
+    }
+}
+
+/// Calls visit(column and row of the tile, number of the pixel, mask) for each pixel of which cover() found samples.
+template <class Visit>
+HWY_INLINE void for_each_covered(const TileJob& job, const TileBuffer& buffer, const Visit& visit) {
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * block_px, job.size_px.x);
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            if (masks[column] != 0) {
+                visit(glm::ivec2(column, row), static_cast<std::size_t>(row * tile_width + column), masks[column]);
             }
         }
-        if (is_cut) { span.whole_end = 0; }
-        write_masks(least, end, span, places.blocks,
-            buffer.masks.data() + static_cast<std::size_t>(at) * TileBuffer::mask_row +
-                static_cast<std::size_t>(span.first));
     }
 }
 
@@ -284,8 +162,6 @@ HWY_NOINLINE void cover(const TileTriangle& one, const TileJob& job, const Sampl
 using Pixels = hn::CappedTag<std::uint16_t, 16>;
 using PixelsSigned = hn::RebindToSigned<Pixels>;
 using Counts = hn::Vec<Pixels>;
-
-constexpr int block_px = 16;
 
 /// Takes the samples of a few pixels that are still free: how many for each, and none at all as `false`. Covers them.
 HWY_INLINE bool take_free(const std::uint16_t* masks, std::uint16_t* covered, Counts& counts, std::uint64_t& full) {
@@ -315,7 +191,7 @@ HWY_INLINE void add_gradient(const GradientStepper& walk, const ColourGradients&
     const auto steps = lane_indices_from(sign, pixel_in_block);
     const auto base = hn::Set(sign, static_cast<std::int16_t>(walk.base[k]));
     const auto raw = hn::Add(base, hn::Mul(steps, hn::Set(sign, walk.per_px[k])));
-    const auto level = hn::Min(hn::Max(raw, hn::Set(sign, gradients.least[k])), hn::Set(sign, gradients.most[k]));
+    const auto level = hn::Min(hn::Max(raw, hn::Set(sign, gradients.min[k])), hn::Set(sign, gradients.max[k]));
     // To 1/16 level from 0, rounded.
     const auto from_zero = hn::Add(hn::BitCast(px, level), hn::Set(px, 128 * 128 + 4));
     const auto colour = hn::ShiftRight<3>(from_zero);
@@ -510,23 +386,13 @@ HWY_INLINE void draw_pixel(std::uint32_t mask, float pixel_depth, const DepthSte
 HWY_INLINE void draw_by_depth(
     const TileTriangle& one, std::uint32_t name, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const DepthStepper walk(*one.extra, job, lanes);
-    const scene::DepthUse use = one.triangle->depth;
-    const Coverage& coverage = buffer.coverage;
-    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
-        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
-        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-        for (int column = places.first; column < end; ++column) {
-            const std::uint32_t mask = masks[column];
-            if (mask == 0) { continue; }
-            const auto sample = static_cast<std::size_t>(row * tile_width + column) * samples;
-            draw_pixel(
-                mask, walk.at(column, row), walk, use, name, buffer.depth.data() + sample, buffer.seen.data() + sample);
-        }
-    }
+    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
+        draw_pixel(mask, walk.at(at.x, at.y), walk, one.triangle->depth, name, buffer.depth.data() + pixel * samples,
+            buffer.seen.data() + pixel * samples);
+    });
 }
 
-/// The covered samples of a pixel where a clear triangle is nearer than what is there.
+/// The covered samples of a pixel where a transparent triangle is nearer than what is there.
 HWY_INLINE std::uint32_t nearer_samples(
     std::uint32_t mask, float pixel_depth, const DepthStepper& walk, const float* depth) {
     const Depths real;
@@ -540,29 +406,21 @@ HWY_INLINE std::uint32_t nearer_samples(
     return nearer & mask;
 }
 
-/// Notes where a clear triangle is seen: before its group, and not behind nearer ones.
+/// Records where a transparent triangle is seen: not behind nearer triangles of its group or of others.
 HWY_INLINE void record_transparent_surface(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const DepthStepper walk(*one.extra, job, lanes);
-    const Coverage& coverage = buffer.coverage;
-    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
-        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
-        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-        for (int column = places.first; column < end; ++column) {
-            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-            const auto free = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
-            if (free == 0) { continue; }
-            const std::uint32_t seen =
-                nearer_samples(free, walk.at(column, row), walk, buffer.depth.data() + pixel * samples);
-            if (seen != 0) {
-                buffer.transparent_pixels.push_back(
-                    {static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
-                        colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
-                        TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
-            }
+    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
+        const auto free = mask & ~std::uint32_t{buffer.covered[pixel]};
+        if (free == 0) { return; }
+        const std::uint32_t seen =
+            nearer_samples(free, walk.at(at.x, at.y), walk, buffer.depth.data() + pixel * samples);
+        if (seen != 0) {
+            buffer.transparent_pixels.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                colour_of(one, job, job.first_px.x + at.x, job.first_px.y + at.y),
+                TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
         }
-    }
+    });
 }
 
 /// The samples of a pixel that show a triangle of its group.
@@ -605,7 +463,7 @@ HWY_INLINE void paint_group(
     const GroupBox box = box_of(group, job);
     if (box.left > box.right || box.first_row > box.last_row) { return; }
     clear_group(box, buffer);
-    const std::size_t clear_before = buffer.transparent_pixels.size();
+    const std::size_t transparent_before = buffer.transparent_pixels.size();
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover(group[i], job, lanes, buffer);
         if (group[i].extra->opacity < 1.0F) {
@@ -614,7 +472,9 @@ HWY_INLINE void paint_group(
             draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
         }
     }
-    if (buffer.transparent_pixels.size() > clear_before) { buffer.group_first_transparent.push_back(clear_before); }
+    if (buffer.transparent_pixels.size() > transparent_before) {
+        buffer.group_first_transparent.push_back(transparent_before);
+    }
     // Each of its samples shows one triangle: they are coloured in any order.
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
@@ -626,29 +486,6 @@ HWY_INLINE void paint_group(
 // covers nothing: its uncovered samples are recorded, and blended when the colours behind it are known.
 
 HWY_INLINE bool is_transparent_fill(const TileTriangle& one) { return one.triangle->fill == Fill::Transparent; }
-
-/// A plane of levels along a row of pixels, as overlay_colour_of() has it.
-struct TransparentColourStep {
-    std::int32_t at;
-    std::int32_t per_px;
-    std::int32_t least;
-    std::int32_t most;
-
-    HWY_INLINE TransparentColourStep(const ColourGradients& gradients, std::size_t k, int column, int row)
-        : at(static_cast<std::int32_t>(
-              static_cast<std::uint32_t>(gradients.base[k]) + 256U +
-              static_cast<std::uint32_t>(gradients.per_x[k]) * static_cast<std::uint32_t>(column) +
-              static_cast<std::uint32_t>(gradients.per_y[k]) * static_cast<std::uint32_t>(row))),
-          per_px(gradients.per_x[k]), least(gradients.least[k]), most(gradients.most[k]) {}
-
-    /// In 1/16 level, so many pixels on.
-    HWY_INLINE std::uint32_t sixteenths(int pixels) const {
-        const auto here = static_cast<std::int32_t>(
-            static_cast<std::uint32_t>(at) + static_cast<std::uint32_t>(per_px) * static_cast<std::uint32_t>(pixels));
-        const std::int32_t level = std::clamp(here >> 9, least, most);
-        return static_cast<std::uint32_t>(level + 128 * 128 + 4) >> 3;
-    }
-};
 
 /// Joins two adjacent triangles of one pixel, so that no line shows where they meet.
 HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transparent) {
@@ -662,7 +499,7 @@ HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transp
     transparent.share = static_cast<std::uint16_t>(all);
 }
 
-/// Notes where veils that follow each other in the tile's list are seen.
+/// Records where transparent triangles that follow each other in the tile's list are seen.
 HWY_NOINLINE void record_transparent(
     std::span<const TileTriangle> transparents, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const std::size_t first = buffer.transparent_pixels.size();
@@ -670,43 +507,25 @@ HWY_NOINLINE void record_transparent(
     buffer.last_transparent.resize(TileBuffer::pixels, 0);
     for (const TileTriangle& one : transparents) {
         cover(one, job, lanes, buffer);
-        const Coverage& coverage = buffer.coverage;
-        for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
-            const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
-            const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-            const std::uint16_t* const masks =
-                buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-            const ColourGradients& gradients = one.triangle->gradients;
-            const int first_column = job.first_px.x + places.first;
-            const std::array<TransparentColourStep, 4> level{
-                TransparentColourStep(gradients, 0, first_column, job.first_px.y + row),
-                TransparentColourStep(gradients, 1, first_column, job.first_px.y + row),
-                TransparentColourStep(gradients, 2, first_column, job.first_px.y + row),
-                TransparentColourStep(gradients, 3, first_column, job.first_px.y + row)};
-            for (int column = places.first; column < end; ++column) {
-                const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-                const auto seen = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
-                if (seen == 0) { continue; }
-                const int on = column - places.first;
-                const auto alpha = (level[3].sixteenths(on) * 4096U + 2040U) / 4080U;
-                const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
-                if (share == 0) { continue; }
-                TransparentPixel transparent;
-                transparent.pixel = static_cast<std::uint16_t>(pixel);
-                transparent.mask = static_cast<std::uint16_t>(seen);
-                transparent.share = static_cast<std::uint16_t>(share);
-                for (std::size_t k = 0; k < 3; ++k) {
-                    transparent.colour[k] = static_cast<std::uint16_t>(level[k].sixteenths(on));
-                }
-                std::uint32_t& last = buffer.last_transparent[pixel];
-                if (last != 0 && (buffer.transparent_pixels[last - 1].mask & seen) == 0) {
-                    join(transparent, buffer.transparent_pixels[last - 1]);
-                } else {
-                    buffer.transparent_pixels.push_back(transparent);
-                    last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
-                }
+        for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
+            const auto seen = mask & ~std::uint32_t{buffer.covered[pixel]};
+            if (seen == 0) { return; }
+            const auto sixteenths = [&](std::size_t k) {
+                return sixteenths_of(one.triangle->gradients.level(k, job.first_px + at));
+            };
+            const auto alpha = (sixteenths(3) * 4096U + 2040U) / 4080U;
+            const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
+            if (share == 0) { return; }
+            const TransparentPixel transparent{static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                {sixteenths(0), sixteenths(1), sixteenths(2)}, static_cast<std::uint16_t>(share)};
+            std::uint32_t& last = buffer.last_transparent[pixel];
+            if (last != 0 && (buffer.transparent_pixels[last - 1].mask & seen) == 0) {
+                join(transparent, buffer.transparent_pixels[last - 1]);
+            } else {
+                buffer.transparent_pixels.push_back(transparent);
+                last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
             }
-        }
+        });
     }
     for (std::size_t i = first; i < buffer.transparent_pixels.size(); ++i) {
         buffer.last_transparent[buffer.transparent_pixels[i].pixel] = 0;

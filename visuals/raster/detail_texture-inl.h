@@ -134,8 +134,8 @@ private:
 
     static HWY_INLINE hn::Mask<PixelPairs> is_seen(
         hn::Vec<PixelPairs> own, hn::Vec<PixelPairs> above, hn::Vec<PixelPairs> before, hn::Vec<PixelPairs> next) {
-        const auto least = hn::Min(hn::Min(own, above), hn::Max(before, next));
-        return hn::Gt(least, hn::Zero(PixelPairs()));
+        const auto min = hn::Min(hn::Min(own, above), hn::Max(before, next));
+        return hn::Gt(min, hn::Zero(PixelPairs()));
     }
 
     static HWY_INLINE InverseDepthQuad between(hn::Vec<PixelPairs> own,
@@ -349,8 +349,8 @@ private:
         };
         const auto east2 = normal2(1, 2);
         const auto north2 = normal2(2, 0);
-        constexpr float least2 = scene::DetailPattern::min_upright_slope * scene::DetailPattern::min_upright_slope;
-        const auto is_steep = hn::Gt(hn::Add(east2, north2), hn::Mul(normal2(0, 1), pair_floats(least2)));
+        constexpr float min2 = scene::DetailPattern::min_upright_slope * scene::DetailPattern::min_upright_slope;
+        const auto is_steep = hn::Gt(hn::Add(east2, north2), hn::Mul(normal2(0, 1), pair_floats(min2)));
         const auto is_east = hn::Ge(east2, north2);
         upright_in_x_ = hn::And(is_steep, is_east);
         upright_in_y_ = hn::AndNot(is_east, is_steep);
@@ -362,12 +362,12 @@ private:
         using scene::DetailPattern;
         constexpr std::int32_t of_one = 127 << 23; // the bits of 1.0
         constexpr int levels = DetailPattern::levels_per_scale * (DetailPattern::scales - 1);
-        constexpr std::int32_t most = (levels << 24) - 1;
+        constexpr std::int32_t max = (levels << 24) - 1;
         constexpr float texels2_per_m2 = DetailPattern::texels_per_m * DetailPattern::texels_per_m;
         const auto texels2 = hn::Mul(width2_m, pair_floats(texels2_per_m2));
         const auto exponent = hn::Sub(hn::BitCast(PixelPairInts(), texels2), hn::Set(PixelPairInts(), of_one));
         level_ = hn::BitCast(
-            PixelPairBits(), hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), most)));
+            PixelPairBits(), hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), max)));
     }
 
     /// At odd scales the pattern is turned by a right angle, and leans the other way.

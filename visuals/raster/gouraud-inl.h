@@ -51,8 +51,8 @@ public:
         const glm::ivec2 at(first, job.first_px.y);
         first_cover_ = PackedGround::first_cover(triangle.gradients, at);
         cover_per_row_ = static_cast<std::uint32_t>(triangle.gradients.per_y[3]);
-        min_cover_ = hn::Set(Whole(), PackedGround::limit(triangle.gradients.least[3]));
-        max_cover_ = hn::Set(Whole(), PackedGround::limit(triangle.gradients.most[3]));
+        min_cover_ = hn::Set(Whole(), PackedGround::limit(triangle.gradients.min[3]));
+        max_cover_ = hn::Set(Whole(), PackedGround::limit(triangle.gradients.max[3]));
     }
 
     /// Writes it for those in even columns of an even row of the tile where samples are fresh.
@@ -61,7 +61,7 @@ public:
         const Bits bits;
         const float in_row = plane_.first + plane_.per_y * static_cast<float>(first_row_ + row);
         const auto raw = hn::Add(hn::Set(real, in_row), steps_);
-        const auto near = hn::Min(hn::Max(raw, hn::Set(real, plane_.least)), hn::Set(real, plane_.most));
+        const auto near = hn::Min(hn::Max(raw, hn::Set(real, plane_.min)), hn::Set(real, plane_.max));
         const auto cover_in_row =
             static_cast<std::int32_t>(first_cover_ + cover_per_row_ * static_cast<std::uint32_t>(row));
         const auto raw_cover = hn::Add(hn::Set(Whole(), cover_in_row), cover_steps_);
@@ -230,15 +230,15 @@ private:
 struct PairGradient {
     std::uint32_t at; ///< of the upper row's first column in the box, 2^-16 level
     std::uint32_t per_row;
-    hn::Vec<StripSigned> least;
-    hn::Vec<StripSigned> most;
+    hn::Vec<StripSigned> min;
+    hn::Vec<StripSigned> max;
     hn::Vec<StripSigned> steps;
 
     HWY_INLINE
     PairGradient(const ColourGradients& gradients, std::size_t k, const TileJob& job, const TileBox& box)
         : at(first_level(gradients, k, job.first_px + glm::ivec2(box.left, box.first_row))),
-          per_row(static_cast<std::uint32_t>(gradients.per_y[k])), least(hn::Set(StripSigned(), gradients.least[k])),
-          most(hn::Set(StripSigned(), gradients.most[k])) {
+          per_row(static_cast<std::uint32_t>(gradients.per_y[k])), min(hn::Set(StripSigned(), gradients.min[k])),
+          max(hn::Set(StripSigned(), gradients.max[k])) {
         const StripSigned sign;
         const auto columns = hn::And(lane_indices_from(sign, 0), hn::Set(sign, window_px - 1));
         steps = hn::Mul(columns, hn::Set(sign, gradients.per_column[k]));
@@ -251,7 +251,7 @@ struct PairGradient {
             return hn::Set(row, static_cast<std::int16_t>(static_cast<std::int32_t>(of_row) >> 9));
         };
         const auto both = hn::Combine(StripSigned(), first(at + per_row), first(at));
-        return hn::Min(hn::Max(hn::Add(both, steps), least), most);
+        return hn::Min(hn::Max(hn::Add(both, steps), min), max);
     }
 
     HWY_INLINE void next_rows() { at += 2 * per_row; }
@@ -449,17 +449,17 @@ HWY_NOINLINE void paint_gouraud(
     TileBox box(triangle, job);
     if ((box.rows() & ~buffer.full_rows) == 0) { return; }
     if constexpr (kind == PaintAs::Ground) {
-        box.left &= ~1; // where the ground is noted
+        box.left &= ~1; // where the ground is recorded
     }
     if constexpr (has_pairs_of_rows) {
-        if (!lanes.are_one && box.right - box.left < window_px) {
+        if (!lanes.is_single_sample && box.right - box.left < window_px) {
             if constexpr (kind == PaintAs::Ground) { box.first_row &= ~1; }
             paint_gouraud_in_pairs<kind>(triangle, job, lanes, box, buffer);
             return;
         }
     }
     for (int left = box.left; left <= box.right; left += strip_px) {
-        if (lanes.are_one) {
+        if (lanes.is_single_sample) {
             paint_strip_of_middles<kind>(triangle, job, box, left, buffer);
             continue;
         }

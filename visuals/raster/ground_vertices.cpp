@@ -1,6 +1,6 @@
 // Places and colours of the corners of ground, several at once. Compiled once for each instruction set; all give the
 // same bits, because real numbers are summed and multiplied one by one.
-#include "visuals/raster/ground_vertices.h"
+#include "visuals/raster/vertex_stage.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)

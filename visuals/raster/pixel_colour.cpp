@@ -1,7 +1,7 @@
 #include "visuals/raster/pixel_colour.h"
 
-#include "visuals/raster/texture_planes.h"
 #include "visuals/raster/triangle.h"
+#include "visuals/raster/triangle_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,37 +13,19 @@ namespace {
 
 constexpr double per_level = 16.0;
 constexpr double max_level = 255.0;
-constexpr double min_by_w = 1e-30;
+constexpr double min_inverse_w = 1e-30;
 
 std::uint16_t packed(double level) {
     return static_cast<std::uint16_t>(std::clamp(level, 0.0, max_level) * per_level + 0.5);
 }
 
-/// A level, 2^-16 from the level 128.
-std::int32_t level_at(const ColourGradients& levels, std::size_t i, int column, int row) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(levels.base[i]) +
-                                     static_cast<std::uint32_t>(levels.per_x[i]) * static_cast<std::uint32_t>(column) +
-                                     static_cast<std::uint32_t>(levels.per_y[i]) * static_cast<std::uint32_t>(row));
-}
-
-/// A level, 1/128 from the level 128, within the triangle's own.
-std::int32_t limited(const ColourGradients& levels, std::size_t i, int column, int row) {
-    const auto at = static_cast<std::uint32_t>(level_at(levels, i, column, row));
-    const std::int32_t value = static_cast<std::int32_t>(at + 256U) >> 9;
-    return std::clamp<std::int32_t>(value, levels.least[i], levels.most[i]);
-}
-
 PixelColour gouraud_colour(const Triangle& triangle, int column, int row) {
-    PixelColour colour;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t level = limited(triangle.gradients, i, column, row);
-        colour[i] = static_cast<std::uint16_t>((level + 128 * 128 + 4) >> 3);
-    }
-    return colour;
+    const auto part = [&](std::size_t i) { return sixteenths_of(triangle.gradients.level(i, {column, row})); };
+    return {part(0), part(1), part(2)};
 }
 
 double depth_of(const TriangleExtra& extra, int column, int row) {
-    return 1.0 / std::max(extra.over_w[4].at(column, row), min_by_w);
+    return 1.0 / std::max(extra.over_w[4].at(column, row), min_inverse_w);
 }
 
 PixelColour perspective_colour(const TileTriangle& one, int column, int row) {
@@ -52,7 +34,7 @@ PixelColour perspective_colour(const TileTriangle& one, int column, int row) {
     for (std::size_t i = 0; i < 3; ++i) {
         const ColourGradients& levels = one.triangle->gradients;
         const double level = one.extra->over_w[i].at(column, row) * w;
-        colour[i] = packed(std::clamp(level, levels.least[i] / 128.0 + 128.0, levels.most[i] / 128.0 + 128.0));
+        colour[i] = packed(std::clamp(level, levels.min[i] / 128.0 + 128.0, levels.max[i] / 128.0 + 128.0));
     }
     return colour;
 }
@@ -77,16 +59,17 @@ std::array<double, 3> texel_at(const LitGroundTexture::MipLevel& level, double x
     return sum;
 }
 
-/// What textured ground has at a pixel.
-struct TextureValues {
-    double x; ///< texels of the finest level
-    double y;
-    double light_left;
-    double haze_share;
-};
-
-PixelColour textured(const TextureValues& at, const MipSelection& chosen, const TileJob& job) {
+/// The colour of textured ground at a pixel: the mean over its places in the texture, under light and behind haze.
+PixelColour textured_colour(
+    const ColourGradients& planes, const MipSelection& chosen, const TileJob& job, const glm::ivec2& at) {
     const auto& levels = job.ground->levels();
+    const double fine_scale = static_cast<double>(std::uint64_t{1} << chosen.fine);
+    const auto place = [&](std::size_t i) { // texels of the finest level
+        return (static_cast<std::int32_t>(planes.wrapped(i, at)) / 65536.0 + 128.5) * fine_scale - 0.5;
+    };
+    const auto share = [&](std::size_t i) {
+        return (planes.level(i, at) / 128.0 + 128.0) / static_cast<double>(TexturePlanes::whole_share);
+    };
     const auto at_level = [&](std::size_t k, double x, double y) {
         const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
         return texel_at(levels[k], (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
@@ -94,8 +77,8 @@ PixelColour textured(const TextureValues& at, const MipSelection& chosen, const 
     std::array<double, 3> own{};
     for (int probe = 0; probe < chosen.probes; ++probe) {
         const double far = chosen.probes > 1 ? 2.0 * probe / (chosen.probes - 1) - 1.0 : 0.0;
-        const double x = at.x + far * static_cast<double>(chosen.reach[0]);
-        const double y = at.y + far * static_cast<double>(chosen.reach[1]);
+        const double x = place(0) + far * static_cast<double>(chosen.reach[0]);
+        const double y = place(1) + far * static_cast<double>(chosen.reach[1]);
         const std::array<double, 3> fine = at_level(chosen.fine, x, y);
         std::array<double, 3> coarse = fine;
         if (chosen.coarse_share > 0) { coarse = at_level(std::size_t{chosen.fine} + 1, x, y); }
@@ -106,39 +89,11 @@ PixelColour textured(const TextureValues& at, const MipSelection& chosen, const 
     }
     PixelColour colour;
     for (std::size_t i = 0; i < 3; ++i) {
-        const double lit = own[i] * std::clamp(at.light_left, 0.0, 1.0);
+        const double lit = own[i] * std::clamp(share(2), 0.0, 1.0);
         const auto haze = static_cast<double>(job.haze[static_cast<glm::length_t>(i)]);
-        colour[i] = packed(lit + std::clamp(at.haze_share, 0.0, 1.0) * (haze - lit));
+        colour[i] = packed(lit + std::clamp(share(3), 0.0, 1.0) * (haze - lit));
     }
     return colour;
-}
-
-PixelColour affine_texture_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
-    const Triangle& triangle = *one.triangle;
-    const double texel = static_cast<double>(std::uint64_t{1} << triangle.texture.fine);
-    const auto place = [&](std::size_t i) {
-        return (level_at(triangle.gradients, i, column, row) / 65536.0 + 128.5) * texel - 0.5;
-    };
-    const auto share = [&](std::size_t i) {
-        return (limited(triangle.gradients, i, column, row) / 128.0 + 128.0) /
-               static_cast<double>(TexturePlanes::whole_share);
-    };
-    return textured({place(0), place(1), share(2), share(3)}, triangle.texture, job);
-}
-
-PixelColour perspective_texture_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
-    const TriangleExtra& extra = *one.extra;
-    const double w = depth_of(extra, column, row);
-    const auto value = [&](std::size_t i) { return extra.over_w[i].at(column, row) * w; };
-    const double x = value(0);
-    const double y = value(1);
-    // How far the place moves in the texture from this pixel to the next ones.
-    const auto move = [&](double AttributePlane::*per_px) {
-        const double w_part = extra.over_w[4].*per_px;
-        return std::array{(extra.over_w[0].*per_px - x * w_part) * w, (extra.over_w[1].*per_px - y * w_part) * w};
-    };
-    const TexelDerivatives steps{move(&AttributePlane::per_x), move(&AttributePlane::per_y)};
-    return textured({x, y, value(2), value(3)}, select_mip_levels(steps, job.ground->levels().size()), job);
 }
 
 /// Six hues around the wheel, one a level, so that neighbours are far apart; 0..1.
@@ -257,9 +212,11 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
     case Fill::Perspective:
         return perspective_colour(one, column, row);
     case Fill::Texture:
-        return affine_texture_colour(one, job, column, row);
-    case Fill::TextureInPerspective:
-        return perspective_texture_colour(one, job, column, row);
+        return textured_colour(one.triangle->gradients, one.triangle->texture, job, {column, row});
+    case Fill::TextureInPerspective: {
+        const TexturePlanes planes = fit_texture_planes(*one.extra, {column, row, 1, 1}, job.ground->levels().size());
+        return textured_colour(planes.gradients, planes.mip_selection, job, {column, row});
+    }
     case Fill::MeshEdges:
         return wireframe_colour(one, job, column, row);
     case Fill::Lit:
@@ -274,7 +231,7 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
 std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row) {
     std::uint32_t colour = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::int32_t level = limited(one.triangle->gradients, i, column, row);
+        const std::int32_t level = one.triangle->gradients.level(i, {column, row});
         colour |= static_cast<std::uint32_t>((level + 128 * 128 + 64) >> 7) << (8 * i);
     }
     return colour;

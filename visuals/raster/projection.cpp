@@ -33,9 +33,9 @@ ClipPosition clip_position(const Projection& projection, const glm::vec3& positi
 void place(const Projection& projection, const ClipPosition& clip, ScreenVertex& vertex) {
     vertex.outcode = (clip.x < -clip.w ? left_of_view : 0U) | (clip.x > clip.w ? right_of_view : 0U) |
                      (clip.y > clip.w ? above_view : 0U) | (clip.y < -clip.w ? below_view : 0U);
-    const glm::vec2 most = projection.max_over_w * clip.w;
+    const glm::vec2 max = projection.max_over_w * clip.w;
     // Written so that what is no number counts as unplaced.
-    if (!(clip.w >= projection.near_m && std::abs(clip.x) <= most.x && std::abs(clip.y) <= most.y)) {
+    if (!(clip.w >= projection.near_m && std::abs(clip.x) <= max.x && std::abs(clip.y) <= max.y)) {
         vertex.outcode |= beyond_range;
         return;
     }
@@ -50,8 +50,8 @@ void place(const Projection& projection, const ClipPosition& clip, ScreenVertex&
 
 float exp_of_minus(float x) {
     constexpr float log2_of_e = 1.44269504F;
-    constexpr float most = 126.0F;
-    const float power = x * log2_of_e < most ? x * log2_of_e : most;
+    constexpr float max = 126.0F;
+    const float power = x * log2_of_e < max ? x * log2_of_e : max;
     const auto whole = static_cast<std::int32_t>(power);
     const float part = power - static_cast<float>(whole); // 0..1
     // 2^-part: the Taylor series of exp(-part * ln 2) about part = 1/2.

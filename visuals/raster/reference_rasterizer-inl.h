@@ -139,46 +139,38 @@ HWY_INLINE void paint_pixels_over(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     cover(one, job, lanes, buffer);
     const DepthRule rule(one.triangle->depth);
-    const Coverage& coverage = buffer.coverage;
-    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
-        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
-        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
-        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-        for (int column = places.first; column < end; ++column) {
-            if (masks[column] == 0) { continue; }
-            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-            const glm::ivec2 at = job.first_px + glm::ivec2(column, row);
-            if (rule.compares) {
-                const auto here =
-                    static_cast<float>(one.extra->depth.at(at.x, at.y) * static_cast<double>(one.extra->depth_share));
-                float& before = buffer.depth[pixel];
-                if (!(here > before || (rule.passes_equal && here == before))) { continue; }
-                before = rule.writes ? here : before;
-            }
-            if (!rule.colours) { continue; }
-            const PixelColour colour = colour_of(one, job, at.x, at.y);
-            buffer.covered[pixel] = 0xffff;
-            for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U); }
-            if (job.detail_texture != nullptr) {
-                const Triangle& triangle = *one.triangle;
-                buffer.sums[3][pixel] = triangle.has_detail_texture ? 0 : 16;
-                if (column % 2 == 0 && row % 2 == 0) {
-                    buffer.ground_of_row(row)[column / 2] =
-                        triangle.has_detail_texture ? ground_at(triangle, at.x, at.y) : 0;
-                }
+    for_each_covered(job, buffer, [&](const glm::ivec2& in_tile, std::size_t pixel, std::uint32_t /*mask*/) HWY_ATTR {
+        const glm::ivec2 at = job.first_px + in_tile;
+        if (rule.compares) {
+            const auto here =
+                static_cast<float>(one.extra->depth.at(at.x, at.y) * static_cast<double>(one.extra->depth_share));
+            float& before = buffer.depth[pixel];
+            if (!(here > before || (rule.passes_equal && here == before))) { return; }
+            before = rule.writes ? here : before;
+        }
+        if (!rule.colours) { return; }
+        const PixelColour colour = colour_of(one, job, at.x, at.y);
+        buffer.covered[pixel] = 0xffff;
+        for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U); }
+        if (job.detail_texture != nullptr) {
+            const Triangle& triangle = *one.triangle;
+            buffer.sums[3][pixel] = triangle.has_detail_texture ? 0 : 16;
+            if (in_tile.x % 2 == 0 && in_tile.y % 2 == 0) {
+                buffer.ground_of_row(in_tile.y)[in_tile.x / 2] =
+                    triangle.has_detail_texture ? ground_at(triangle, at.x, at.y) : 0;
             }
         }
-    }
+    });
 }
 
 HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
     return one.extra != nullptr && one.extra->opacity < 1.0F;
 }
 
-/// Whether a tile is painted so: because it is asked for, or because all of it is one group by depth with nothing
-/// behind or before it; never with clear surfaces, which are noted apart.
+/// Whether a tile is painted so: because the job says so, or because all of it is one group by depth with nothing
+/// behind or before it; never with transparent surfaces, which are recorded separately.
 HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
-    if (!lanes.are_one || job.triangles.empty()) { return false; }
+    if (!lanes.is_single_sample || job.triangles.empty()) { return false; }
     const std::uint16_t first = job.triangles.front().triangle->group;
     const bool one_group = first != 0 && first == job.triangles.back().triangle->group;
     const auto is_recorded_separately = [](const TileTriangle& one) HWY_ATTR {

@@ -91,7 +91,7 @@ private:
     glm::ivec2 size_px_{0};
     scene::Picture picture_;         ///< any other one between finish_and_read() and the next draw()
     std::uint8_t* pixels_ = nullptr; ///< of the picture at hand: the window's or those of picture_
-    bool targets_window_ = false;    ///< at the window
+    bool targets_window_ = false;
     bool is_drawn_to_window_ = false;
     int draw_calls_ = 0;
 };

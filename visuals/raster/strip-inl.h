@@ -105,8 +105,8 @@ HWY_INLINE hn::Vec<LaneBits> pixels_from(hn::Vec<Lanes> column) {
     if constexpr (HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86) {
         return hn::Shl(all, from); // nothing is left where it is 32 or more
     } else {
-        const auto most = hn::Set(bits, std::uint32_t{31});
-        return hn::IfThenZeroElse(hn::Gt(from, most), hn::Shl(all, hn::Min(from, most)));
+        const auto max = hn::Set(bits, std::uint32_t{31});
+        return hn::IfThenZeroElse(hn::Gt(from, max), hn::Shl(all, hn::Min(from, max)));
     }
 }
 
@@ -252,14 +252,6 @@ public:
         if constexpr (parts == strip_parts) { return samples_of_pixels(lanes()); }
     }
 
-    HWY_INLINE void next_row() {
-        whole_.x += whole_.slope;
-        upper_.x += upper_.slope;
-        lower_.x += lower_.slope;
-        for (std::size_t i = 0; i < lane_parts; ++i) { y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256)); }
-    }
-
-private:
     /// The pixels of the row at hand that each sample covers.
     HWY_INLINE LaneMasks lanes() const {
         const LaneBits bits;
@@ -279,6 +271,14 @@ private:
         return masks;
     }
 
+    HWY_INLINE void next_row() {
+        whole_.x += whole_.slope;
+        upper_.x += upper_.slope;
+        lower_.x += lower_.slope;
+        for (std::size_t i = 0; i < lane_parts; ++i) { y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256)); }
+    }
+
+private:
     LaneValues down_;
     LaneValues round_up_;
     LaneValues y_; ///< of the samples, from the first row's middle, 1/256 pixel
@@ -325,11 +325,9 @@ struct TileBox {
     }
 };
 
-/// A plane's level at a column and row of the picture, 2^-16 level, with what rounds it to 1/128.
+/// ColourGradients::wrapped() with what rounds it to 1/128 level.
 HWY_INLINE std::uint32_t first_level(const ColourGradients& gradients, std::size_t k, const glm::ivec2& at) {
-    return static_cast<std::uint32_t>(gradients.base[k]) + 256U +
-           static_cast<std::uint32_t>(gradients.per_x[k]) * static_cast<std::uint32_t>(at.x) +
-           static_cast<std::uint32_t>(gradients.per_y[k]) * static_cast<std::uint32_t>(at.y);
+    return gradients.wrapped(k, at) + 256U;
 }
 
 /// From 1/128 level, counted from the level 128, to 1/16 level from 0.
@@ -341,15 +339,15 @@ HWY_INLINE hn::Vec<Strip> from_level(hn::Vec<StripSigned> level) {
 struct StripGradient {
     std::uint32_t at; ///< where columns are counted from, 2^-16 level
     std::uint32_t per_row;
-    hn::Vec<StripSigned> least;
-    hn::Vec<StripSigned> most;
+    hn::Vec<StripSigned> min;
+    hn::Vec<StripSigned> max;
     std::array<hn::Vec<StripSigned>, strip_parts> steps;
 
     /// The strip begins some columns right of a pixel from which columns are counted.
     HWY_INLINE
     StripGradient(const ColourGradients& gradients, std::size_t k, const glm::ivec2& from_px, int columns_right)
         : at(first_level(gradients, k, from_px)), per_row(static_cast<std::uint32_t>(gradients.per_y[k])),
-          least(hn::Set(StripSigned(), gradients.least[k])), most(hn::Set(StripSigned(), gradients.most[k])) {
+          min(hn::Set(StripSigned(), gradients.min[k])), max(hn::Set(StripSigned(), gradients.max[k])) {
         const StripSigned sign;
         const auto per_column = hn::Set(sign, gradients.per_column[k]);
         for (std::size_t i = 0; i < strip_parts; ++i) {
@@ -362,7 +360,7 @@ struct StripGradient {
     HWY_INLINE hn::Vec<StripSigned> level(std::size_t part) const {
         const auto first = static_cast<std::int16_t>(static_cast<std::int32_t>(at) >> 9);
         const auto raw = hn::Add(hn::Set(StripSigned(), first), steps[part]);
-        return hn::Min(hn::Max(raw, least), most);
+        return hn::Min(hn::Max(raw, min), max);
     }
 
     /// In 1/16 level from 0.

@@ -11,8 +11,8 @@
 #endif
 
 #include "visuals/raster/strip-inl.h"
-#include "visuals/raster/texture_planes.h"
 #include "visuals/raster/tile.h"
+#include "visuals/raster/triangle_planes.h"
 
 #include <algorithm>
 #include <array>
@@ -348,18 +348,18 @@ HWY_INLINE hn::Vec<Strip> share_of(hn::Vec<StripSigned> level) {
 /// Light or haze along windows, as StripGradient.
 struct ShareSteps {
     hn::Vec<StripSigned> steps;
-    hn::Vec<StripSigned> least;
-    hn::Vec<StripSigned> most;
+    hn::Vec<StripSigned> min;
+    hn::Vec<StripSigned> max;
 
     HWY_INLINE ShareSteps(const ColourGradients& gradients, std::size_t k)
-        : least(hn::Set(StripSigned(), gradients.least[k])), most(hn::Set(StripSigned(), gradients.most[k])) {
+        : min(hn::Set(StripSigned(), gradients.min[k])), max(hn::Set(StripSigned(), gradients.max[k])) {
         const StripSigned sign;
         const auto px = hn::Set(sign, static_cast<std::int16_t>(texture_window_px - 1));
         steps = hn::Mul(hn::And(lane_indices_from(sign, 0), px), hn::Set(sign, gradients.per_column[k]));
     }
 
     HWY_INLINE hn::Vec<Strip> share(hn::Vec<StripSigned> first) const {
-        return share_of(hn::Min(hn::Max(hn::Add(first, steps), least), most));
+        return share_of(hn::Min(hn::Max(hn::Add(first, steps), min), max));
     }
 };
 
@@ -531,8 +531,8 @@ HWY_NOINLINE void colour_by_planes(const ColourGradients& gradients, const MipSe
     }
 }
 
-/// Colours a strip of a triangle in perspective, by planes over as many rows as the error allows, else by planes of
-/// their own for each window.
+/// Colours a strip of a triangle in perspective: by planes over all rows, over four or over one, as the error allows,
+/// else by planes of their own for each window.
 HWY_INLINE void colour_in_perspective(const TriangleExtra& extra, TexturedStrip& strip) {
     const TextureQueue& queue = strip.queue;
     const glm::ivec2 first_px = strip.first_px();
@@ -546,7 +546,7 @@ HWY_INLINE void colour_in_perspective(const TriangleExtra& extra, TexturedStrip&
     for (std::size_t begin = 0; begin < queue.count(); begin = end) {
         const std::size_t row = queue.row(begin);
         TexturePlanes planes = fit(0, row, columns, rows);
-        for (; !planes.is_accurate && rows > 1; planes = fit(0, row, columns, rows)) { rows /= 2; }
+        for (; !planes.is_accurate && rows > 1; planes = fit(0, row, columns, rows)) { rows = rows > 4 ? 4 : 1; }
         end = begin + 1;
         if (planes.is_accurate) {
             while (end < queue.count() && queue.row(end) < row + static_cast<std::size_t>(rows)) { ++end; }

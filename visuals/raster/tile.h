@@ -44,7 +44,7 @@ struct TileJob {
     /// TileBuffer::full of a row that is covered whole.
     std::uint64_t full_row() const { return ~std::uint64_t{0} >> (tile_width - size_px.x); }
 
-    /// TileBuffer::full_rows of a tile that is.
+    /// TileBuffer::full_rows of a tile that is covered whole.
     std::uint32_t full_rows() const { return ~std::uint32_t{0} >> (tile_height - size_px.y); }
 };
 
@@ -58,9 +58,7 @@ struct SampleLanes {
     alignas(64) std::array<std::int32_t, SamplePattern::lanes> round_up{};
     alignas(64) std::array<float, SamplePattern::lanes> x_px{};
     alignas(64) std::array<float, SamplePattern::lanes> y_px{};
-    /// How many lanes lie above a place, 1/256 pixel from the row's middle: entry 128 + place.
-    std::array<std::uint8_t, 257> lanes_above{};
-    bool are_one = false; ///< all lie in the pixel's middle
+    bool is_single_sample = false; ///< all lie in the pixel's middle
 };
 
 /// Pixels that TileBuffer::masks holds masks of: blocks of sixteen from the first column of each row on.
@@ -76,7 +74,7 @@ struct Coverage {
     std::array<Row, tile_height> rows;
 };
 
-/// What a clear triangle does to a pixel of a tile.
+/// What a transparent triangle does to a pixel of a tile.
 struct TransparentPixel {
     std::uint16_t pixel = 0;
     std::uint16_t mask = 0;                ///< samples where it is seen
@@ -111,16 +109,16 @@ struct TileBuffer {
     std::array<std::uint64_t, tile_height + 1> full{};
     std::uint32_t full_rows = 0; ///< a bit for each row that is covered whole
     /// Of the triangle at hand, what it covers; its rows leave room for blocks that end beyond.
-    static constexpr std::size_t mask_row = tile_width + 16;
+    static constexpr std::size_t mask_row = tile_width + 48;
     alignas(64) std::array<std::uint16_t, mask_row * tile_height + padding> masks{};
     Coverage coverage{};
     // Of groups that are drawn by depth: a value for each sample.
     std::vector<float> depth;
     std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
-    /// What is seen of clear triangles: those of the nearest group first, in a group in painting order.
+    /// What is seen of transparent triangles: those of the nearest group first, in a group in painting order.
     std::vector<TransparentPixel> transparent_pixels;
     std::vector<std::size_t> group_first_transparent; ///< of each group that has any
-    std::vector<std::uint32_t> last_transparent;      ///< of each pixel: place in `clear`, from 1; 0: none
+    std::vector<std::uint32_t> last_transparent;      ///< of each pixel: place in transparent_pixels, from 1; 0: none
     // Of the overlay: what waits to be blended.
     std::vector<std::uint16_t> pending;
     std::vector<std::uint32_t> pending_colours;

@@ -48,7 +48,7 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_NOINLINE void clear(const TileJob& job, TileBuffer& buffer) {
+HWY_NOINLINE void reset(const TileJob& job, TileBuffer& buffer) {
     buffer.covered.fill(0);
     for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k].fill(0); }
     if (job.detail_texture != nullptr) {
@@ -57,6 +57,8 @@ HWY_NOINLINE void clear(const TileJob& job, TileBuffer& buffer) {
     }
     buffer.full.fill(0);
     buffer.full_rows = 0;
+    buffer.transparent_pixels.clear();
+    buffer.group_first_transparent.clear();
 }
 
 /// Where red, green or blue lies in a pixel.
@@ -160,23 +162,23 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
     buffer.pending[pixel] = 0;
 }
 
-/// Blends one clear triangle over a pixel.
-HWY_INLINE void blend_transparent_pixel(const TileJob& job, const TransparentPixel& clear) {
+/// Blends one transparent triangle over a pixel.
+HWY_INLINE void blend_transparent_pixel(const TileJob& job, const TransparentPixel& transparent) {
     constexpr std::uint32_t whole = TransparentPixel::whole;
-    const std::uint32_t share = clear.share;
-    const int row = clear.pixel / tile_width;
-    const int column = clear.pixel % tile_width;
+    const std::uint32_t share = transparent.share;
+    const int row = transparent.pixel / tile_width;
+    const int column = transparent.pixel % tile_width;
     std::uint8_t* const to =
         job.rgba + static_cast<std::size_t>(row) * job.row_bytes + static_cast<std::size_t>(column) * 4;
     for (std::size_t k = 0; k < 3; ++k) {
         std::uint8_t& under = to[byte_of_colour(job, k)];
         const std::uint32_t there = under * std::uint32_t{16};
-        const std::uint32_t mixed = clear.colour[k] * share + there * (whole - share);
+        const std::uint32_t mixed = transparent.colour[k] * share + there * (whole - share);
         under = static_cast<std::uint8_t>((mixed + 8 * whole) / (16 * whole));
     }
 }
 
-/// Clear surfaces over the picture: the farthest group's first.
+/// Blends transparent surfaces over the picture, the farthest group first.
 HWY_INLINE void blend_transparent(const TileJob& job, const TileBuffer& buffer) {
     std::size_t end = buffer.transparent_pixels.size();
     for (std::size_t group = buffer.group_first_transparent.size(); group > 0; --group) {
@@ -196,25 +198,15 @@ HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, Tile
     buffer.pending_colours.resize(TileBuffer::pixels);
     for (const TileTriangle& one : job.overlay) {
         cover(one, job, lanes, buffer);
-        const Coverage& coverage = buffer.coverage;
-        for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
-            const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
-            const int end = std::min(places.first + places.blocks * block_px, job.size_px.x);
-            const std::uint16_t* const masks =
-                buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-            for (int column = places.first; column < end; ++column) {
-                const std::uint16_t mask = masks[column];
-                if (mask == 0) { continue; }
-                const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-                const std::uint32_t colour = overlay_colour_of(one, job.first_px.x + column, job.first_px.y + row);
-                if (buffer.pending[pixel] != 0 &&
-                    (buffer.pending_colours[pixel] != colour || (buffer.pending[pixel] & mask) != 0)) {
-                    blend(job, column, row, buffer);
-                }
-                buffer.pending[pixel] = static_cast<std::uint16_t>(buffer.pending[pixel] | mask);
-                buffer.pending_colours[pixel] = colour;
+        for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint16_t mask) HWY_ATTR {
+            const std::uint32_t colour = overlay_colour_of(one, job.first_px.x + at.x, job.first_px.y + at.y);
+            if (buffer.pending[pixel] != 0 &&
+                (buffer.pending_colours[pixel] != colour || (buffer.pending[pixel] & mask) != 0)) {
+                blend(job, at.x, at.y, buffer);
             }
-        }
+            buffer.pending[pixel] = static_cast<std::uint16_t>(buffer.pending[pixel] | mask);
+            buffer.pending_colours[pixel] = colour;
+        });
     }
     for (int row = 0; row < job.size_px.y; ++row) {
         for (int column = 0; column < job.size_px.x; ++column) {
@@ -236,8 +228,7 @@ HWY_INLINE void paint_one(const TileTriangle& one, const TileJob& job, const Sam
         } else {
             paint_gouraud<PaintAs::OtherThanGround>(*one.triangle, job, lanes, buffer);
         }
-    } else if (fill_with == Fill::Texture ||
-               (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0)) {
+    } else if (fill_with == Fill::Texture || (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0)) {
         paint_texture(one, job, lanes, buffer);
     } else {
         cover(one, job, lanes, buffer);
@@ -277,9 +268,7 @@ HWY_INLINE void paint_near_to_far(const TileJob& job, const SampleLanes& lanes, 
 }
 
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    clear(job, buffer);
-    buffer.transparent_pixels.clear();
-    buffer.group_first_transparent.clear();
+    reset(job, buffer);
     if (is_painted_over(job, lanes)) {
         paint_over(job, lanes, buffer);
     } else {
@@ -319,18 +308,12 @@ void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer
     HWY_DYNAMIC_DISPATCH(PaintTile)(job, lanes, buffer);
 }
 
-SampleLanes::SampleLanes(const SamplePattern& pattern) : are_one(pattern.reach == 0) {
+SampleLanes::SampleLanes(const SamplePattern& pattern) : is_single_sample(pattern.reach == 0) {
     for (std::size_t lane = 0; lane < SamplePattern::lanes; ++lane) {
         down[lane] = pattern.y[lane];
         round_up[lane] = 0xffff - pattern.x[lane] * (65536 / SamplePattern::unit);
         x_px[lane] = static_cast<float>(pattern.x[lane]) / SamplePattern::unit;
         y_px[lane] = static_cast<float>(pattern.y[lane]) / SamplePattern::unit;
-    }
-    for (std::int32_t place = -128; place <= 128; ++place) {
-        std::uint8_t& above = lanes_above[static_cast<std::size_t>(place + 128)];
-        for (const std::int32_t y : pattern.y) {
-            above = static_cast<std::uint8_t>(above + (y * 256 / SamplePattern::unit < place ? 1 : 0));
-        }
     }
 }
 

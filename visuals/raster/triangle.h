@@ -95,9 +95,27 @@ struct ColourGradients {
     alignas(16) std::array<std::int32_t, 4> per_y{};
     // 1/128 level, from the level 128 where it is none of a difference.
     std::array<std::int16_t, 4> per_column{}; ///< per_x
-    std::array<std::int16_t, 4> least{};      ///< within the triangle
-    std::array<std::int16_t, 4> most{};
+    std::array<std::int16_t, 4> min{};        ///< within the triangle
+    std::array<std::int16_t, 4> max{};
+
+    /// A value at a pixel of the picture, 2^-16 level from the level 128, wrapping.
+    std::uint32_t wrapped(std::size_t i, const glm::ivec2& at) const {
+        return static_cast<std::uint32_t>(base[i]) +
+               static_cast<std::uint32_t>(per_x[i]) * static_cast<std::uint32_t>(at.x) +
+               static_cast<std::uint32_t>(per_y[i]) * static_cast<std::uint32_t>(at.y);
+    }
+
+    /// The value in 1/128 level from the level 128, between least and most.
+    std::int32_t level(std::size_t i, const glm::ivec2& at) const {
+        const std::int32_t value = static_cast<std::int32_t>(wrapped(i, at) + 256U) >> 9;
+        return std::clamp<std::int32_t>(value, min[i], max[i]);
+    }
 };
+
+/// ColourGradients::level() in 1/16 level from 0.
+constexpr std::uint16_t sixteenths_of(std::int32_t level) {
+    return static_cast<std::uint16_t>((level + 128 * 128 + 4) >> 3);
+}
 
 /// A value over the picture: base + per_x * column + per_y * row, at pixel middles.
 struct AttributePlane {
@@ -121,8 +139,8 @@ struct InverseDepthPlane {
     float first = 0.0F;
     float per_x = 0.0F;
     float per_y = 0.0F;
-    float least = 0.0F;
-    float most = 0.0F;
+    float min = 0.0F;
+    float max = 0.0F;
 };
 
 /// How the colour of a triangle's pixels is found.
@@ -183,9 +201,7 @@ struct PackedGround {
 
     /// Levels' fourth value at a place, 2^-16 level from 0.
     static std::uint32_t first_cover(const ColourGradients& gradients, const glm::ivec2& at) {
-        return static_cast<std::uint32_t>(gradients.base[3]) + (128U << 16U) +
-               static_cast<std::uint32_t>(gradients.per_x[3]) * static_cast<std::uint32_t>(at.x) +
-               static_cast<std::uint32_t>(gradients.per_y[3]) * static_cast<std::uint32_t>(at.y);
+        return gradients.wrapped(3, at) + (128U << 16U);
     }
 
     /// Levels' least or most in the same unit.
@@ -197,11 +213,11 @@ inline std::uint32_t ground_at(const Triangle& triangle, int column, int row) {
     const InverseDepthPlane& plane = triangle.inverse_depth;
     const float in_row = plane.first + plane.per_y * static_cast<float>(row - triangle.first_row);
     const float value = in_row + static_cast<float>(column - triangle.left) * plane.per_x;
-    const float near = std::min(std::max(value, plane.least), plane.most);
+    const float near = std::min(std::max(value, plane.min), plane.max);
     const ColourGradients& gradients = triangle.gradients;
     const std::int32_t cover =
         std::clamp(static_cast<std::int32_t>(PackedGround::first_cover(gradients, {column, row})),
-            PackedGround::limit(gradients.least[3]), PackedGround::limit(gradients.most[3]));
+            PackedGround::limit(gradients.min[3]), PackedGround::limit(gradients.max[3]));
     return (std::bit_cast<std::uint32_t>(near) & ~PackedGround::cover_bits) |
            (static_cast<std::uint32_t>(cover) >> PackedGround::cover_shift);
 }

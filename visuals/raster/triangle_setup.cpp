@@ -1,7 +1,6 @@
 #include "visuals/raster/triangle_setup.h"
 
 #include "visuals/raster/projection.h"
-#include "visuals/raster/texture_planes.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/raster/triangle_planes.h"
 
@@ -197,8 +196,8 @@ Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, b
     if (correction * 255.0F <= min_correction) { return Fill::Gouraud; }
     float range = 0.0F;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto [least, most] = std::minmax({a->value[i], b->value[i], c->value[i]});
-        range = std::max(range, most - least);
+        const auto [min, max] = std::minmax({a->value[i], b->value[i], c->value[i]});
+        range = std::max(range, max - min);
     }
     return correction * range > min_correction ? Fill::Perspective : Fill::Gouraud;
 }

@@ -73,31 +73,31 @@ Light light_of(const scene::FramePlan& plan) {
         plan.haze.sunward_colour};
 }
 
-void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& look,
+void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& state,
     const Projection& projection, const Light& light, const VertexOutputs& to) {
     assert(to.vertices.size() == from.size() && to.flat.size() == from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
         const scene::ModelVertex& vertex = from[i];
-        const glm::mat4& turn = look.parts[vertex.part];
+        const glm::mat4& turn = state.parts[vertex.part];
         const glm::vec3 at_m = glm::vec3(turn * glm::vec4(vertex.position_m, 1.0F));
         to.clip[i] = clip_position(projection, at_m);
         place(projection, to.clip[i], to.vertices[i]);
         const std::uint32_t word = vertex.polygon / 32U;
-        const bool smooth = word < look.smooth.size() && (look.smooth[word] >> (vertex.polygon % 32U) & 1U) != 0;
+        const bool smooth = word < state.smooth.size() && (state.smooth[word] >> (vertex.polygon % 32U) & 1U) != 0;
         const Air air = air_before(at_m, light);
         const auto coloured = [&](std::uint32_t colour, std::uint32_t tint, const glm::vec3& normal) {
             const glm::vec3 outwards = glm::mat3(turn) * normal;
             return glm::mix(lit(tinted(colour, tint), outwards, light), air.rgb_255, air.share);
         };
-        set_three(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
+        set_three(coloured(vertex.colour, state.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;
         to.flat[i].is_back_facing = glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > min_turn * glm::length(at_m);
-        set_three(coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
+        set_three(coloured(vertex.face_colour, state.tints.flat, vertex.face_normal), to.flat[i].rgb);
         if (!to.lit.empty()) {
             LitVertex& lit = to.lit[i];
             set_three(glm::mat3(turn) * vertex.normal, lit.normal);
             set_three(-at_m, lit.to_eye);
-            set_three(tinted(vertex.colour, look.tints.smooth), lit.rgb);
+            set_three(tinted(vertex.colour, state.tints.smooth), lit.rgb);
             set_three(air.rgb_255 * air.share, lit.haze);
             lit.transmittance = 1.0F - air.share;
         }

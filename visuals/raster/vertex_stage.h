@@ -23,7 +23,8 @@ struct Light {
     glm::vec3 sunward_colour{0.0F}; ///< display values 0..1
 };
 
-// Where the fall of the haze's density is looked at as a straight line, and where it ends; powers of e.
+// Fall of the haze's density along a line of sight, as a power of e: below the minimum it is taken as linear, above the
+// maximum as the maximum.
 constexpr float min_haze_fall = 4e-3F;
 constexpr float max_haze_fall = 60.0F;
 
@@ -43,14 +44,22 @@ struct TexelTransform {
     glm::vec2 per_m{0.0F};
 };
 
-/// How the corners of one aircraft are turned and coloured.
+/// How the vertices of one aircraft are turned and coloured.
 struct AircraftDrawState {
     std::span<const glm::mat4> parts;
     std::span<const std::uint32_t> smooth; ///< words, from the aircraft's first
     scene::PolygonTints tints{};
 };
 
-void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& look,
+/// Vertices of ground, shadows and sky: their own colours behind haze, which the sky has in its colours already.
+void project_coloured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
+    const VertexOutputs& to);
+
+/// Vertices of ground that a texture colours.
+void project_textured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
+    const TexelTransform& to_texels, const VertexOutputs& to);
+
+void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& state,
     const Projection& projection, const Light& light, const VertexOutputs& to);
 
 } // namespace octant::visuals::raster

@@ -27,12 +27,11 @@
 //
 // There are no cracks, because critical values never decrease from a sample to one that needs it, to the last bit. An
 // edge's middle lies h from the centre it needs, and 2h - 1 + h = 3h - 1. A child's centre, with a box of 3h/2 - 1,
-// lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2
-// - 1 = 2h - 1. So the ends of boxes, which are whole numbers, are nested; subtracting the eye with
-// rounding keeps their order, and so do all steps from there to the critical value: maximum, minimum, sum and product
-// of non-negative numbers, and quotient. The bounds of a block contain those of finer blocks, and a box overlaps (a
-// common line does not count) no block that is not within one that the larger box overlaps. Errors are nested as
-// stored; those of curvature halve from each step to the next.
+// lies (h/2, h/2) from the middles it needs, and h/2 + (3h/2 - 1) = 2h - 1. So the ends of boxes, which are whole
+// numbers, are nested; subtracting the eye with rounding keeps their order, and so do all steps from there to the
+// critical value: maximum, minimum, sum and product of non-negative numbers, and quotient. The bounds of a block
+// contain those of finer blocks, and a box overlaps (a common line does not count) no block that is not within one that
+// the larger box overlaps. Errors are nested as stored; those of curvature halve from each step to the next.
 #include "visuals/terrain/bisection_criterion.h"
 
 #include "visuals/terrain/fan_triangles.h"
@@ -73,54 +72,6 @@ std::array<float, 16> min_by_reach(const NineBlocks& of) {
     return least;
 }
 
-} // namespace
-
-VerticalDistances vertical_distances(const GroundTiles& ground, const BlockIndex& block, const EyeElevation& eye) {
-    const int level = block.level;
-    const GroundLayout::Level& of_level = ground.layout().level(level);
-    NineBlocks gap{};
-    NineBlocks ahead{};
-    for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) {
-            const int c = block.column + i - 1;
-            const int r = block.row + j - 1;
-            const auto to = static_cast<std::size_t>(3 * j + i);
-            gap[to] = no_end;
-            ahead[to] = no_end;
-            if (c >= 0 && r >= 0 && c < of_level.columns && r < of_level.rows) {
-                const float low = ground.lowest_m(level, c, r) - eye.z_m;
-                const float high = ground.highest_m(level, c, r) - eye.z_m;
-                const float off = std::max({low, -high, 0.0F});
-                gap[to] = off * off;
-                ahead[to] = eye.ahead_up * (eye.ahead_up > 0.0F ? low : high);
-            }
-        }
-    }
-    VerticalDistances distances;
-    distances.lowest_m = ground.lowest_m(level, block.column, block.row);
-    distances.highest_m = ground.highest_m(level, block.column, block.row);
-    distances.squared_m2 = min_by_reach(gap);
-    distances.ahead_m = min_by_reach(ahead);
-    return distances;
-}
-
-void BoxErrorBound::set_direction(const glm::dvec3& ahead, double corner_cos) {
-    has_direction_ = ahead != glm::dvec3(0.0);
-    ahead_ = {static_cast<float>(ahead.x * spacing_m_), static_cast<float>(ahead.y * spacing_m_)};
-    const double level = std::hypot(ahead.x, ahead.y);
-    const double tilt = level > 0.0 ? std::abs(ahead.z) / level : 0.0;
-    aside_ = {static_cast<float>(-tilt * ahead.y * spacing_m_), static_cast<float>(tilt * ahead.x * spacing_m_)};
-    level_ = static_cast<float>(level);
-    corner_cos_squared_ = static_cast<float>(corner_cos * corner_cos);
-    const double corner = std::sqrt(1.0 - corner_cos * corner_cos) / corner_cos;
-    const double max_aside = std::abs(ahead.z) * corner;
-    max_aside_squared_ = static_cast<float>(max_aside * max_aside);
-    const double max_across = level + max_aside;
-    near_factor_ = static_cast<float>(1.0 / (max_across * max_across));
-}
-
-namespace {
-
 /// An eye farther from the field than this, in samples, is treated as being there, so that whole numbers of samples
 /// stay exact in float.
 constexpr double farthest_eye = 4194304.0;
@@ -147,6 +98,21 @@ int floor_to_sample(double place) {
 float largest(Float4 of) { return std::max({of[0], of[1], of[2], of[3]}); }
 
 } // namespace
+
+void BoxErrorBound::set_direction(const glm::dvec3& ahead, double corner_cos) {
+    has_direction_ = ahead != glm::dvec3(0.0);
+    ahead_ = {static_cast<float>(ahead.x * spacing_m_), static_cast<float>(ahead.y * spacing_m_)};
+    const double level = std::hypot(ahead.x, ahead.y);
+    const double tilt = level > 0.0 ? std::abs(ahead.z) / level : 0.0;
+    aside_ = {static_cast<float>(-tilt * ahead.y * spacing_m_), static_cast<float>(tilt * ahead.x * spacing_m_)};
+    level_ = static_cast<float>(level);
+    corner_cos_squared_ = static_cast<float>(corner_cos * corner_cos);
+    const double corner = std::sqrt(1.0 - corner_cos * corner_cos) / corner_cos;
+    const double max_aside = std::abs(ahead.z) * corner;
+    max_aside_squared_ = static_cast<float>(max_aside * max_aside);
+    const double max_across = level + max_aside;
+    near_factor_ = static_cast<float>(1.0 / (max_across * max_across));
+}
 
 BisectionCriterion::BisectionCriterion(const GroundTiles& ground)
     : ground_(&ground), reach_(ground.spacing_m()), range_level_(ground.layout().range_level()) {
@@ -208,7 +174,26 @@ float BisectionCriterion::root_error_m() const {
 }
 
 VerticalDistances BisectionCriterion::vertical_distances_of(int level, int column, int row) const {
-    return vertical_distances(*ground_, {level, column, row}, {eye_z_m_, static_cast<float>(view_.ahead.z)});
+    const GroundLayout::Level& of_level = ground_->layout().level(level);
+    const auto ahead_up = static_cast<float>(view_.ahead.z);
+    NineBlocks gap{};
+    NineBlocks ahead{};
+    gap.fill(no_end);
+    ahead.fill(no_end);
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) {
+            const int c = column + i - 1;
+            const int r = row + j - 1;
+            if (c < 0 || r < 0 || c >= of_level.columns || r >= of_level.rows) { continue; }
+            const float low = ground_->lowest_m(level, c, r) - eye_z_m_;
+            const float high = ground_->highest_m(level, c, r) - eye_z_m_;
+            const float off = std::max({low, -high, 0.0F});
+            gap[static_cast<std::size_t>(3 * j + i)] = off * off;
+            ahead[static_cast<std::size_t>(3 * j + i)] = ahead_up * (ahead_up > 0.0F ? low : high);
+        }
+    }
+    return {min_by_reach(gap), min_by_reach(ahead), ground_->lowest_m(level, column, row),
+        ground_->highest_m(level, column, row)};
 }
 
 FanCriticalValues BisectionCriterion::criticals_of(const NodeContext& place) const {

@@ -17,28 +17,12 @@ struct VerticalDistances {
     /// The smallest squared distance to the block and to some of its neighbours. The index is a sum: 1 includes those
     /// beyond its west side, 2 east, 4 south, 8 north.
     std::array<float, 16> squared_m2{};
-    /// The same for how far ahead of the eye the block's heights alone bring it, at least: their share of the depth in
-    /// the picture.
+    /// For the same neighbours the smallest vertical part of the depth: the height above the eye times the vertical
+    /// part of the direction of view, in metres. The depth of a place in the picture is this plus its horizontal part.
     std::array<float, 16> ahead_m{};
     float lowest_m = 0.0F; ///< The lowest of the block's own samples.
     float highest_m = 0.0F;
 };
-
-/// A node by its place.
-struct BlockIndex {
-    int level = 0;
-    int column = 0;
-    int row = 0;
-};
-
-/// The eye's height and the vertical part of its direction.
-struct EyeElevation {
-    float z_m = 0.0F;
-    float ahead_up = 0.0F; ///< The vertical part of the unit vector ahead; 0 for a view all around the eye.
-};
-
-/// The vertical distances of a block from an eye.
-VerticalDistances vertical_distances(const GroundTiles& ground, const BlockIndex& block, const EyeElevation& eye);
 
 /// Fast access to the numbers of a level of GroundTiles by node. The numbers of a node's fan lie close together.
 class LevelReader {
@@ -63,11 +47,9 @@ public:
     int rows() const { return at_.rows; }
 
     NodeSlot slot(int column, int row) const {
-        const auto tile =
-            static_cast<std::size_t>((row >> at_.tile_shift) * at_.tiles_across + (column >> at_.tile_shift));
+        const std::size_t tile = at_.tile_of(column, row);
         validator_->ensure_valid(level_, tile);
-        return {memory_ + at_.first_tile + tile * at_.tile_bytes,
-            static_cast<std::size_t>(((row & mask_) << at_.tile_shift) + (column & mask_))};
+        return {memory_ + at_.offset_of(tile), at_.node_in_tile(column, row)};
     }
 
     /// The error codes of the mid-points of a node's fan_edges.
@@ -125,13 +107,11 @@ private:
     }
 
     const std::uint8_t* error(const NodeSlot& slot, NodePart part, MorphMargin morph_margin) const {
-        const std::size_t plane = at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
-        return reinterpret_cast<const std::uint8_t*>(slot.tile) + plane + slot.node;
+        return reinterpret_cast<const std::uint8_t*>(slot.tile) + at_.error_offset(part, morph_margin, slot.node);
     }
 
     const std::int16_t* height(const NodeSlot& slot, NodePart part) const {
-        const std::size_t plane = static_cast<std::size_t>(part) * at_.tile_nodes;
-        return reinterpret_cast<const std::int16_t*>(slot.tile) + plane + slot.node;
+        return reinterpret_cast<const std::int16_t*>(slot.tile + at_.height_offset(part, slot.node));
     }
 
     NodeSlot east_of(const NodeSlot& own, int column, int row) const {
@@ -285,7 +265,7 @@ struct FanCriticalValues {
 /// Decides by screen-space error which samples of a ground belong to the mesh of a view.
 class BisectionCriterion {
 public:
-    /// The ground must outlive the rule.
+    /// The ground must outlive the criterion.
     explicit BisectionCriterion(const GroundTiles& ground);
 
     /// Sets the view for the following calls. Errors include this share, 0 to 1, of the full morph margin

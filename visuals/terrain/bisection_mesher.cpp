@@ -23,346 +23,13 @@
 // - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/bisection_mesher.h"
 
-#include "sim/base/units.h"
-#include "visuals/terrain/frustum.h"
-#include "visuals/terrain/tile_builder.h"
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <utility>
 
 namespace octant::visuals::terrain {
-
-// The smallest screen-space error that keeps a budget of triangles, exactly and in the same frame. It has no source. As
-// QuadtreeMesher does for its budget, it counts triangles as a function of the limit (find_limit), here over the
-// critical values of bisection_criterion.cpp.
-
-namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float min_limit = 1e-30F; ///< Below every critical value but the root's.
-/// The error that is tried first when there is no last frame.
-constexpr double first_look_px = 4.0;
-
-} // namespace
-
-double margin_share(const ErrorTarget& target) {
-    const bool has_budget = target.max_triangles < any_triangles;
-    const double share = target.error_px / full_margin_px * std::max(target.error_px / near_margin_px, 1.0);
-    return has_budget ? 1.0 : std::min(share, 1.0);
-}
-
-float BisectionSelection::limit_for(const ErrorTarget& target) {
-    assert(target.error_px >= 0.0 && target.max_triangles >= 1);
-    nodes_tested_ = 0;
-    geomorphs_ = target.geomorphs;
-    const float max_limit = std::max(rule_->limit_of(target.error_px), min_limit);
-    if (target.max_triangles >= any_triangles) {
-        start(max_limit);
-        visit<false>(root_visit());
-        return max_limit;
-    }
-    const CountSearch search{target.max_triangles, min_limit, max_limit,
-        last_error_px_ > 0.0 ? rule_->limit_of(last_error_px_) : 0.0F, rule_->limit_of(first_look_px)};
-    const float found = find_limit(search, steps_, [&](float low, float high, int max_triangles) {
-        start(high);
-        steps_.start(low, high);
-        max_triangles_ = max_triangles;
-        visit<true>(root_visit());
-        return has_steps_above_;
-    });
-    last_error_px_ = rule_->error_px_of(found);
-    return found;
-}
-
-void BisectionSelection::start(float high) {
-    count_ = 0;
-    next_node();
-    nodes_.front() = BisectionNode();
-    high_ = high;
-    has_steps_above_ = false;
-    distances_[0][0] = rule_->vertical_distances_of(0, 0, 0);
-}
-
-BisectionSelection::PendingNode BisectionSelection::root_visit() const {
-    PendingNode root;
-    root.place.distances = distances_[0].data();
-    root.planes = active_planes(rule_->view().frustum_normals);
-    root.error_m = rule_->root_error_m();
-    return root;
-}
-
-/// The index of a new node.
-inline std::size_t BisectionSelection::next_node() {
-    if (count_ == nodes_.size()) { nodes_.resize(2 * count_ + 1024); }
-    return count_++;
-}
-
-/// Surveys a node and all nodes below it that may be in the mesh, and returns its index. Counts triangles only if there
-/// is a budget.
-template <bool counting>
-std::uint32_t BisectionSelection::visit(const PendingNode& from) {
-    const std::size_t own = next_node();
-    if (counting && steps_.at_high() > max_triangles_) { return static_cast<std::uint32_t>(own); }
-    const FanCriticalValues criticals = rule_->criticals_of(from.place);
-    Children children;
-    if (from.place.level + 1 < rule_->ground().levels()) { test_children(from, children); }
-    BisectionNode* node = &nodes_[own];
-    node->middle = criticals.middle;
-    node->quadrant = criticals.quadrant;
-    node->child = {};
-    node->node_limit = from.node_limit;
-    node->column = static_cast<std::uint16_t>(from.place.column);
-    node->row = static_cast<std::uint16_t>(from.place.row);
-    node->level = static_cast<std::uint8_t>(from.place.level);
-    node->hidden = static_cast<std::uint8_t>(children.hidden);
-    std::array<int, 4> replaced = uncut_fan_triangles.of_quadrant;
-    if (counting) { count(from, *node, replaced); }
-    unsigned looked_at = 0;
-    for (unsigned q = 0; q < 4; ++q) { looked_at |= (criticals.quadrant[q] < high_ ? 1U : 0U) << q; }
-    for (unsigned left = looked_at & ~children.hidden; left != 0; left &= left - 1) {
-        const auto q = static_cast<unsigned>(std::countr_zero(left));
-        PendingNode next;
-        next.place = child_place(from.place, q);
-        if (next.place.level <= rule_->ground().layout().range_level()) {
-            next.place.distances = &distances_[static_cast<std::size_t>(next.place.level)][q];
-        }
-        next.planes = children.planes[q];
-        next.node_limit = criticals.quadrant[q];
-        next.error_m = criticals.quadrant_error_m[q];
-        next.replaced = replaced[q];
-        const std::uint32_t child = visit<counting>(next);
-        nodes_[own].child[q] = child;
-    }
-    return static_cast<std::uint32_t>(own);
-}
-
-/// A child's place, with the gaps of its parent.
-inline NodeContext BisectionSelection::child_place(const NodeContext& place, unsigned quadrant) {
-    return {place.level + 1, 2 * place.column + static_cast<int>(quadrant & 1U),
-        2 * place.row + static_cast<int>(quadrant >> 1U), place.distances};
-}
-
-/// Whether the field's border cuts a node.
-inline bool BisectionSelection::is_cut(const GroundLayout::Level& at, const NodeContext& place) const {
-    const GroundTiles& ground = rule_->ground();
-    return (place.column + 1) * at.edge >= ground.columns() || (place.row + 1) * at.edge >= ground.rows();
-}
-
-/// Finds out which children are hidden, and what they need from their parent.
-inline void BisectionSelection::test_children(const PendingNode& from, Children& children) {
-    const GroundLayout& layout = rule_->ground().layout();
-    const GroundLayout::Level& at = layout.level(from.place.level + 1);
-    const bool own_gaps = from.place.level < layout.range_level();
-    std::array<VerticalDistances, 4>& own = distances_[static_cast<std::size_t>(from.place.level) + 1];
-    for (unsigned q = 0; q < 4; ++q) {
-        const NodeContext place = child_place(from.place, q);
-        if (place.column >= at.columns || place.row >= at.rows) {
-            children.hidden |= 1U << q;
-            continue;
-        }
-        ++nodes_tested_;
-        const VerticalDistances* distances = from.place.distances;
-        if (own_gaps) {
-            own[q] = rule_->vertical_distances_of(place.level, place.column, place.row);
-            distances = &own[q];
-        }
-        if (from.planes != 0) {
-            // Where the border cuts a node, points on it are between samples of the padded square.
-            const bool moves = geomorphs_ || is_cut(at, place);
-            const float margin_m = moves ? from.error_m : 0.0F;
-            children.planes[q] = rule_->crossed_planes_of_node(place, *distances, margin_m, from.planes);
-            children.hidden |= children.planes[q] == outside_frustum ? 1U << q : 0U;
-        }
-    }
-}
-
-/// Adds the steps of a node's fan to the count. `replaced` is set to the triangles of its quadrants where the field's
-/// end cuts it.
-inline void BisectionSelection::count(
-    const PendingNode& from, const BisectionNode& node, std::array<int, 4>& replaced) {
-    for (unsigned k = 0; k < 4 && !has_steps_above_; ++k) {
-        has_steps_above_ =
-            (node.middle[k] >= high_ && node.middle[k] < infinite) ||
-            (node.quadrant[k] >= high_ && node.quadrant[k] < infinite && (unsigned{node.hidden} >> k & 1U) == 0);
-    }
-    const GroundTiles& ground = rule_->ground();
-    const FanSamples samples(ground, ground.layout().level(node.level).edge, node.column, node.row);
-    const std::array<float, 4> middle = {node.middle[0], node.middle[1], node.middle[2], node.middle[3]};
-    const FanLimits limits{node.node_limit, middle, node.hidden, from.replaced};
-    if (samples.is_cut()) {
-        const FanTriangles triangles = triangles_within_border(samples);
-        replaced = triangles.of_quadrant;
-        count_fan(limits, triangles, high_, steps_);
-    } else if (node.hidden != 0) {
-        count_fan(limits, uncut_fan_triangles, high_, steps_);
-    } else {
-        steps_.add(node.node_limit, 4 - from.replaced);
-        for (unsigned k = 0; k < 4; ++k) {
-            if (node.middle[k] < high_) { steps_.add(node.middle[k], 1); }
-        }
-    }
-}
-
-// A budget of triangles, spent so that vertices do not jump while the view turns. It has no source.
-//
-// Most triangles of a level view lie below the horizon, where much ground is in few rows of pixels. A view that looks
-// down steeply has none of them and could spend all of its budget on near ground: at a fifth of the error over rugged
-// ground. When it is pulled up, all of the horizon comes into the picture within a few degrees, and the error that
-// keeps the budget is five times larger a few frames later. Vertices move S pixels for a pixel of that change
-// (tile_builder.cpp).
-//
-// So the error of such a view is kept at or above that of the same view turned until its border reaches the band of far
-// ground, less a share of how far the picture moves in that turn. The band is not turned to but added: the frustum of
-// the turned view is widened until it contains all of the band. A larger frustum never needs a smaller error, so this
-// error is no less than that of any view on the way through the band, where the error that keeps the budget has its
-// peak at a place that only the ground knows. It becomes the view's own error, without a step, where the band is in the
-// picture. What a turn does to a vertex stays below S times that share of what it does to the picture.
-
-namespace {
-
-/// How far inside the picture's border the band's far end is in the widened view.
-constexpr double border_rad = rad_from_deg(1.0);
-/// Ground that is seen this much lower than the map's end counts as far where the view looks above the horizon.
-constexpr double far_ground_rad = rad_from_deg(4.0);
-/// The band's elevations are limited to these: where the map's end is near, it is near ground.
-constexpr double lowest_band_rad = rad_from_deg(-30.0);
-constexpr double highest_band_rad = rad_from_deg(15.0);
-/// A picture whose border is nearer to its middle than this is widened by a smaller share of itself, down to the least
-/// one: a zoomed view of a tower would need most triangles for what it does not show.
-constexpr double wide_view_rad = rad_from_deg(20.0);
-constexpr double min_widening = 0.1;
-/// How far vertices may move in a turn, as a share of how far that moves the picture.
-constexpr double max_vertex_motion_share = 0.056;
-
-/// The angle from the view's middle to the frustum's border in a direction square to `ahead`.
-double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
-    double min_rad = std::numeric_limits<double>::infinity();
-    for (const glm::dvec3& normal : view.frustum_normals) {
-        const double falling = -glm::dot(normal, towards);
-        if (falling > 0.0) { min_rad = std::min(min_rad, std::atan2(glm::dot(normal, view.ahead), falling)); }
-    }
-    return min_rad;
-}
-
-MeshView turned(const MeshView& view, const glm::dquat& turn) {
-    MeshView there = view;
-    there.ahead = turn * view.ahead;
-    for (glm::dvec3& normal : there.frustum_normals) { normal = turn * normal; }
-    return there;
-}
-
-/// Calls take(direction) for each corner of a frustum.
-template <typename Take>
-void for_each_corner(const std::array<glm::dvec3, 4>& normals, const Take& take) {
-    for (std::size_t a = 0; a < normals.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) {
-            for (const double sign : {1.0, -1.0}) {
-                const glm::dvec3 corner = sign * glm::cross(normals[a], normals[b]);
-                bool is_corner = true;
-                for (std::size_t k = 0; k < normals.size(); ++k) {
-                    is_corner &= k == a || k == b || glm::dot(normals[k], corner) > 0.0;
-                }
-                if (is_corner) { take(corner); }
-            }
-        }
-    }
-}
-
-/// The view with each plane of its frustum tilted outwards by as little as makes it contain the frustum turned by
-/// `turn`, at most until it is square to `ahead`.
-MeshView widened(const MeshView& view, const glm::dquat& turn) {
-    MeshView wide = view;
-    for (glm::dvec3& normal : wide.frustum_normals) {
-        double tilt_rad = 0.0;
-        for_each_corner(view.frustum_normals, [&](const glm::dvec3& corner) {
-            const glm::dvec3 there = turn * corner;
-            const double deep = std::max(glm::dot(view.ahead, there), 0.0);
-            tilt_rad = std::max(tilt_rad, std::atan2(-glm::dot(normal, there), deep));
-        });
-        if (tilt_rad > 0.0) { normal = glm::normalize(std::cos(tilt_rad) * normal + std::sin(tilt_rad) * view.ahead); }
-    }
-    return wide;
-}
-
-/// How far the ground reaches at least in directions that the picture may show, level.
-double min_reach_m(const MeshView& view, const glm::dvec2& half_m) {
-    const double corner_rad = std::acos(std::min(view.corner_cos, 1.0));
-    double min_m = std::numeric_limits<double>::infinity();
-    for (const double aside_rad : {-corner_rad, 0.0, corner_rad}) {
-        const double azimuth_rad = std::atan2(view.ahead.y, view.ahead.x) + aside_rad;
-        const glm::dvec2 along(std::cos(azimuth_rad), std::sin(azimuth_rad));
-        for (const int axis : {0, 1}) {
-            const double to_end_m = std::copysign(half_m[axis], along[axis]) - view.eye_m[axis];
-            if (along[axis] != 0.0) { min_m = std::min(min_m, to_end_m / along[axis]); }
-        }
-    }
-    return min_m;
-}
-
-} // namespace
-
-std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band) {
-    const glm::dvec3 level_axis = glm::cross(view.ahead, glm::dvec3(0.0, 0.0, 1.0));
-    const double level = glm::length(level_axis);
-    if (level < 1e-6) { return std::nullopt; }
-    const glm::dvec3 axis = level_axis / level;
-    const double own_rad = std::atan2(view.ahead.z, level);
-    const double middle_rad = 0.5 * (band.low_rad + band.high_rad);
-    const double way = own_rad < middle_rad ? 1.0 : -1.0;
-    const double to_border_rad = angle_to_border(view, way * glm::cross(axis, view.ahead));
-    const double margin_rad = std::min(border_rad, 0.5 * to_border_rad);
-    // A picture with the band's middle in its own middle shows all that counts of the band.
-    const double half_rad =
-        std::min(way > 0.0 ? band.high_rad - middle_rad : middle_rad - band.low_rad + far_ground_rad,
-            std::clamp(to_border_rad / wide_view_rad, min_widening, 1.0) * (to_border_rad - margin_rad));
-    const double whole_rad = way * (middle_rad - own_rad) + half_rad - to_border_rad + margin_rad;
-    if (!(whole_rad > 0.0)) { return std::nullopt; }
-    const double near_half_rad = std::min(way > 0.0 ? middle_rad - band.low_rad : band.high_rad - middle_rad, half_rad);
-    const double wide_rad = std::min(whole_rad, half_rad + near_half_rad + margin_rad);
-    const double moved_rad = whole_rad - wide_rad;
-    const MeshView there = turned(view, glm::angleAxis(way * moved_rad, axis));
-    return TurnedView{widened(there, glm::angleAxis(way * wide_rad, axis)), moved_rad};
-}
-
-HorizonError::HorizonError(const GroundTiles& ground)
-    : rule_(ground), survey_(rule_),
-      motion_share_(max_vertex_motion_share /
-                    static_cast<double>(far_morph_rate_on(ground.metadata().highest_m - ground.metadata().lowest_m))) {}
-
-ErrorTarget HorizonError::raise_to_horizon_error(const MeshView& view, const ErrorTarget& target) {
-    if (!target.geomorphs || target.max_triangles >= any_triangles) { return target; }
-    const auto there = turned_to_band(view, far_ground(view));
-    if (!there) { return target; }
-    rule_.set_view(there->view);
-    const double there_px = rule_.error_px_of(survey_.limit_for(target));
-    const double moved_px = view.focal_px * there->turned_rad;
-    ErrorTarget raise_to_horizon_error = target;
-    raise_to_horizon_error.error_px = std::max(target.error_px, there_px - motion_share_ * moved_px);
-    return raise_to_horizon_error;
-}
-
-/// Between which elevations ground at the map's end may be seen.
-ElevationBand HorizonError::far_ground(const MeshView& view) const {
-    const GroundTiles& ground = rule_.ground();
-    const double away_m = std::max(min_reach_m(view, ground.half_extent_m()), ground.spacing_m());
-    const double lowered_m = curvature_drop_m(away_m * away_m, view.earth_radius_m) + view.eye_m.z;
-    const auto elevation_rad = [&](float height_m) {
-        return std::clamp(
-            std::atan2(static_cast<double>(height_m) - lowered_m, away_m), lowest_band_rad, highest_band_rad);
-    };
-    // A degree more, because the picture's corners may show ends that are nearer.
-    const double low_rad = std::min(elevation_rad(ground.metadata().lowest_m), 0.0) - border_rad;
-    return {low_rad, std::max(elevation_rad(ground.metadata().highest_m), low_rad + border_rad)};
-}
 
 namespace {
 
@@ -384,7 +51,7 @@ constexpr std::array<std::uint8_t, 16> edges_of_visible = [] {
 } // namespace
 
 BisectionMesher::BisectionMesher(const GroundTiles& ground)
-    : ground_(&ground), rule_(ground), survey_(rule_), horizon_(ground),
+    : ground_(&ground), criterion_(ground), selection_(criterion_), horizon_(ground),
       border_vertices_(static_cast<std::size_t>(ground.rows()) + static_cast<std::size_t>(ground.columns())) {}
 
 GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target) {
@@ -392,15 +59,15 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
     has_mesh_ = false;
     view_ = view;
     target_ = target;
-    rule_.set_view(view, margin_share(target));
-    limit_ = survey_.limit_for(horizon_.raise_to_horizon_error(view, target));
-    nodes_ = survey_.nodes();
+    criterion_.set_view(view, margin_share(target));
+    limit_ = selection_.limit_for(horizon_.raise_to_horizon_error(view, target));
+    nodes_ = selection_.nodes();
     morph_limit_ = target.geomorphs ? limit_ : std::numeric_limits<float>::infinity();
     height_base_m_ = ground_->shape().height_base_m - view.eye_m.z;
     orders_ = painting_orders(view.order).data();
-    eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / ground_->spacing_m();
+    eye_ = glm::dvec2(-criterion_.west_m(), -criterion_.south_m()) / ground_->spacing_m();
     counters_ = {};
-    counters_.nodes_visited = survey_.nodes_tested();
+    counters_.nodes_visited = selection_.nodes_tested();
     has_drawn_heights_ = false;
     std::swap(vertices_, last_vertices_);
     std::swap(indices_, last_indices_);
@@ -409,7 +76,7 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
     emit(root);
     counters_.triangles = static_cast<int>(index_count_ / 3);
     mesh_ = {std::span(vertices_).first(vertex_count_), std::span(indices_).first(index_count_), counters_, 0.0,
-        rule_.error_px_of(limit_), std::span(morphs_).first(vertex_count_)};
+        criterion_.error_px_of(limit_), std::span(morphs_).first(vertex_count_)};
     has_mesh_ = true;
     return mesh_;
 }
@@ -433,7 +100,7 @@ void BisectionMesher::reserve() {
 
 /// The root's fan with its corners and centre.
 BisectionMesher::EmittedFan BisectionMesher::root_fan() {
-    const LevelReader& memory = rule_.memory(0);
+    const LevelReader& memory = criterion_.memory(0);
     const FanSamples samples(*ground_, memory.edge(), 0, 0);
     EmittedFan root;
     root.node = root_node;
@@ -464,11 +131,11 @@ inline float BisectionMesher::weight_of(float critical, const ShareBelow& share_
 /// Adds a vertex between its ends and its sample, lowered by the earth's curvature.
 inline std::uint32_t BisectionMesher::add_vertex(const NewVertex& made) {
     const std::uint32_t vertex = vertex_count_++;
-    const auto east_m = static_cast<float>(rule_.west_m() + made.at.column * ground_->spacing_m());
-    const auto north_m = static_cast<float>(rule_.south_m() + made.at.row * ground_->spacing_m());
+    const auto east_m = static_cast<float>(criterion_.west_m() + made.at.column * ground_->spacing_m());
+    const auto north_m = static_cast<float>(criterion_.south_m() + made.at.row * ground_->spacing_m());
     float height_m =
         static_cast<float>(height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
-    height_m -= rule_.drop_m(east_m, north_m);
+    height_m -= criterion_.drop_m(east_m, north_m);
     if (made.weight < 1.0F) {
         const float from_a = vertices_[made.parent_a].position_m.z;
         const float from_b = vertices_[made.parent_b].position_m.z;
@@ -490,7 +157,7 @@ bool BisectionMesher::is_drawn(const BisectionNode& node, unsigned quadrant) con
 /// Puts a node's triangles, and those of all nodes below it, into the mesh.
 void BisectionMesher::emit(EmittedFan& fan) {
     const BisectionNode& node = nodes_[fan.node];
-    const LevelReader& memory = rule_.memory(node.level);
+    const LevelReader& memory = criterion_.memory(node.level);
     const FanSamples samples(*ground_, memory.edge(), node.column, node.row);
     const LevelReader::NodeSlot slot = memory.slot(node.column, node.row);
     if (fan.node != root_node) { add_centre(samples, memory.centre_height(slot), fan); }
@@ -614,7 +281,7 @@ BisectionMesher::EmittedFan BisectionMesher::child_of(const EmittedFan& fan, uns
 inline void BisectionMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
     const BisectionNode& node = nodes_[fan.node];
     const float weight =
-        weight_of(node.node_limit, [&] { return rule_.share_below_centre(node.level, node.column, node.row); });
+        weight_of(node.node_limit, [&] { return criterion_.share_below_centre(node.level, node.column, node.row); });
     const NewVertex made{samples.padded(1, 1), fan.parent_a, fan.parent_b, height, weight};
     fan.ring[centre_of_ring] = add_vertex(made);
 }
@@ -631,7 +298,7 @@ inline void BisectionMesher::add_midpoints(
     }
     for (unsigned left = missing & middles & edges_of_visible[node.hidden]; left != 0; left &= left - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(left));
-        const std::int16_t height = rule_.memory(node.level).middle_height(slot, node.column, node.row, k);
+        const std::int16_t height = criterion_.memory(node.level).middle_height(slot, node.column, node.row, k);
         const std::uint32_t vertex = add_midpoint(samples, height, fan, k);
         fan.ring[2 * k + 1] = vertex;
         middle_vertex_[fan.beyond[k]][(k + 2) % 4] = vertex;
@@ -641,8 +308,8 @@ inline void BisectionMesher::add_midpoints(
 inline std::uint32_t BisectionMesher::add_midpoint(
     const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge) {
     const BisectionNode& node = nodes_[fan.node];
-    const float weight =
-        weight_of(node.middle[edge], [&] { return rule_.share_below_middle(node.level, node.column, node.row, edge); });
+    const float weight = weight_of(
+        node.middle[edge], [&] { return criterion_.share_below_middle(node.level, node.column, node.row, edge); });
     return add_vertex(
         {samples.padded_ring(2 * edge + 1), fan.ring[2 * edge], fan.ring[(2 * edge + 2) % 8], height, weight});
 }

@@ -2,11 +2,12 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/terrain/bisection_criterion.h"
+#include "visuals/terrain/bisection_selection.h"
 #include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/horizon_error.h"
 #include "visuals/terrain/paint_order.h"
-#include "visuals/terrain/step_function.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -16,157 +17,15 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::terrain {
 
-/// What is wanted of a mesh by screen-space error.
-struct ErrorTarget {
-    /// The target error, at or above zero. With 0 every sample is used that is not on a straight line.
-    double error_px = 1.0;
-    /// A larger error is allowed where this number would be exceeded; with any_triangles it never is.
-    int max_triangles = 32000;
-    bool geomorphs = true;
-
-    bool operator==(const ErrorTarget&) const = default;
-};
-
 /// With geomorphs a vertex is at its own sample when its error, as seen from its region of influence, is this many
 /// times the wanted one, or earlier where samples need it (bisection_mesher.cpp), and still between its ends when it is
 /// no more than the wanted one.
 inline constexpr float morph_ratio = 2.5F;
-
-inline constexpr int any_triangles = 1 << 30;
-
-/// The target error from which on vertices have the full morph margin (tile_builder.cpp) where that error is the same
-/// in every frame; below it, they move S full_margin_px pixels at most while a distance shrinks by a small share of
-/// itself, divided by that share. With 14, vertices jump by at most 0.25 px a frame along the four paths over three
-/// maps at 2 px, with 18 by 0.31 px.
-inline constexpr double full_margin_px = 14.0;
-
-/// Above this target error the share grows with its square. S grows with a sample's error, because a larger one moves
-/// farther off; but with a larger target error it moves as near as a smaller one did.
-inline constexpr double near_margin_px = 2.0;
-
-/// The share of the full morph margin that vertices get: 1 with a budget, because it changes the target error from
-/// frame to frame; otherwise proportional to the target error.
-double margin_share(const ErrorTarget& target);
-
-/// A node whose fan is in the mesh at some limits. Each member is the limit from which on that part exists.
-struct alignas(64) BisectionNode {
-    Float4 middle{};   ///< The mid-points of fan_edges.
-    Float4 quadrant{}; ///< The fans of the children.
-    /// The nodes of those children that were looked at; 0 = none.
-    std::array<std::uint32_t, 4> child{};
-    float node_limit = 0.0F; ///< The fan itself, by its centre.
-    std::uint16_t column = 0;
-    std::uint16_t row = 0;
-    std::uint8_t level = 0;
-    std::uint8_t hidden = 0; ///< The quadrants outside the frustum or the field.
-};
-
-/// Collects what a mesh by screen-space error consists of, and finds the error that spends a budget of triangles,
-/// exactly and before the mesh is made. It does for BisectionCriterion what QuadtreeSelection does for the paper's
-/// quadtree.
-class BisectionSelection {
-public:
-    /// The rule must outlive the survey.
-    explicit BisectionSelection(const BisectionCriterion& rule) : rule_(&rule) {}
-
-    /// The limit that belongs to the smallest error, at or above the target's, for which no larger error gives more
-    /// triangles than allowed. The root's fan is always in the mesh.
-    float limit_for(const ErrorTarget& target);
-
-    /// The nodes of all meshes up to the limit that was found, and some more: parents before children. Entry 0 stands
-    /// for no node; entry 1 is the root.
-    std::span<const BisectionNode> nodes() const { return std::span(nodes_).first(count_); }
-
-    int nodes_tested() const { return nodes_tested_; }
-
-private:
-    /// A node that is to be surveyed.
-    struct PendingNode {
-        NodeContext place;
-        unsigned planes = 0;     ///< The frustum planes that it may reach beyond.
-        float node_limit = 0.0F; ///< The critical value of its centre.
-        float error_m = 0.0F;    ///< The error of its centre.
-        int replaced = 0;        ///< How many triangles of its parent it replaces.
-    };
-
-    /// What was found out about the children of a node.
-    struct Children {
-        std::array<unsigned, 4> planes{};
-        unsigned hidden = 0;
-    };
-
-    void start(float high);
-    PendingNode root_visit() const;
-    std::size_t next_node();
-    template <bool counting>
-    std::uint32_t visit(const PendingNode& from);
-    static NodeContext child_place(const NodeContext& place, unsigned quadrant);
-    bool is_cut(const GroundLayout::Level& at, const NodeContext& place) const;
-    void test_children(const PendingNode& from, Children& children);
-    void count(const PendingNode& from, const BisectionNode& node, std::array<int, 4>& replaced);
-
-    const BisectionCriterion* rule_;
-    std::vector<BisectionNode> nodes_;
-    std::size_t count_ = 0;
-    StepFunction steps_;
-    std::array<std::array<VerticalDistances, 4>, 16> distances_; ///< By level and quadrant, during a walk.
-    float high_ = 0.0F;
-    /// Whether vertices of a quadrant's triangles may be drawn as far from their samples as the error of the parent's
-    /// centre, which all those that move need.
-    bool geomorphs_ = false;
-    int max_triangles_ = 0;        ///< A walk stops once it has counted more.
-    bool has_steps_above_ = false; ///< Something visible appears only above high_.
-    int nodes_tested_ = 0;
-    double last_error_px_ = 0.0; ///< 0 before the first call.
-};
-
-/// Elevations, in radians above level.
-struct ElevationBand {
-    double low_rad = 0.0;
-    double high_rad = 0.0; ///< At or above the low one.
-};
-
-/// A view that was turned about a level axis and then widened.
-struct TurnedView {
-    MeshView view;
-    double turned_rad = 0.0; ///< Without the widening; at or above zero.
-};
-
-/// The view, turned up or down until its border reaches a band, and widened until it contains the band on the way of
-/// the turn. Looking above the band, what lies 4 degrees below it belongs to it. A view whose border is in the band is
-/// only widened. Nothing where the band is in the picture already, and where the view has no direction or frustum or
-/// looks straight up or down.
-std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band);
-
-/// Finds the error below which a mesh with a budget must not be refined, so that vertices do not jump when the view
-/// turns to the horizon.
-class HorizonError {
-public:
-    /// The ground must outlive it.
-    explicit HorizonError(const GroundTiles& ground);
-    HorizonError(const HorizonError&) = delete;
-    HorizonError& operator=(const HorizonError&) = delete;
-    HorizonError(HorizonError&&) = delete;
-    HorizonError& operator=(HorizonError&&) = delete;
-    ~HorizonError() = default;
-
-    /// The target with its error raised to that one, whatever was asked before; unchanged without geomorphs or a
-    /// budget, and where the horizon is in the picture.
-    ErrorTarget raise_to_horizon_error(const MeshView& view, const ErrorTarget& target);
-
-private:
-    ElevationBand far_ground(const MeshView& view) const;
-
-    BisectionCriterion rule_;
-    BisectionSelection survey_;
-    double motion_share_; ///< How much the error may change in a turn, in pixels that it moves.
-};
 
 /// Makes the mesh of a ground by screen-space error, frame after frame in the same memory, with the triangles in the
 /// view's painting order. Its memory grows with the mesh, not with the ground.
@@ -267,8 +126,8 @@ private:
     void add_triangles_in(std::uint32_t node, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const GroundTiles* ground_;
-    BisectionCriterion rule_;
-    BisectionSelection survey_;
+    BisectionCriterion criterion_;
+    BisectionSelection selection_;
     HorizonError horizon_;
     MeshView view_; ///< The view of the last mesh.
     ErrorTarget target_;

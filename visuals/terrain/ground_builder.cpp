@@ -38,10 +38,6 @@ HeightRange range_of(std::span<const std::int16_t> numbers) {
     return range;
 }
 
-std::size_t tiles_of(const GroundLayout::Level& level) {
-    return static_cast<std::size_t>(level.tiles_across) * static_cast<std::size_t>(level.tiles_up);
-}
-
 } // namespace
 
 GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, double highest_m) {
@@ -157,26 +153,26 @@ void GroundAssembler::write_coarser_ranges(int level) {
 
 std::size_t GroundAssembler::tiles() const {
     std::size_t count = 0;
-    for (int level = 0; level < layout_.levels(); ++level) { count += tiles_of(layout_.level(level)); }
+    for (int level = 0; level < layout_.levels(); ++level) { count += layout_.level(level).tile_count(); }
     return count;
 }
 
 std::size_t GroundAssembler::build(std::size_t first, std::size_t wanted, const TileSink& sink) {
     int level = layout_.levels() - 1;
     std::size_t begin = 0;
-    while (first >= begin + tiles_of(layout_.level(level))) {
-        begin += tiles_of(layout_.level(level));
+    while (first >= begin + layout_.level(level).tile_count()) {
+        begin += layout_.level(level).tile_count();
         --level;
         assert(level >= 0);
     }
     const GroundLayout::Level& at = layout_.level(level);
-    const std::size_t count = std::min(wanted, begin + tiles_of(at) - first);
-    const std::size_t coarser = tiles() - begin - tiles_of(at);
+    const std::size_t count = std::min(wanted, begin + at.tile_count() - first);
+    const std::size_t coarser = tiles() - begin - at.tile_count();
     parallel_for(count, threads_, [&](std::size_t index, std::size_t worker) {
         const std::size_t tile = first + index - begin;
         const auto across = static_cast<std::size_t>(at.tiles_across);
         const TileIndex place{level, static_cast<int>(tile % across), static_cast<int>(tile / across)};
-        sink(coarser + tile, at.first_tile + tile * at.tile_bytes, builders_[worker].build(place));
+        sink(coarser + tile, at.offset_of(tile), builders_[worker].build(place));
     });
     return first + count;
 }

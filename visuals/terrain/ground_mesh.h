@@ -87,9 +87,8 @@ struct GroundFan {
     std::uint16_t column = 0;
     std::uint16_t row = 0;
     std::uint8_t level = 0;
-    std::uint8_t split = 0;       ///< Quadrants that are left to a child's own fan, drawn unless hidden.
-    std::uint8_t hidden = 0;      ///< Quadrants outside the frustum or the field.
-    bool crosses_frustum = false; ///< It is not known to be wholly inside the frustum.
+    std::uint8_t split = 0;  ///< Quadrants that are left to a child's own fan, drawn unless hidden.
+    std::uint8_t hidden = 0; ///< Quadrants outside the frustum or the field.
 };
 
 } // namespace octant::visuals::terrain

@@ -54,14 +54,22 @@ void GroundPrefetcher::fetch(glm::dvec2 place_m, const std::stop_token& stop) {
         const GroundLayout::Level& at = ground_.layout().level(level);
         Window& known = requested_windows_[static_cast<std::size_t>(level)];
         const Window window = window_around(at, place_m);
-        for_new_tiles(
-            at, window, known, [](std::size_t /*tile*/, std::span<const std::byte> b) { advise(b, MADV_WILLNEED); });
-        for_new_tiles(at, window, known, [&](std::size_t tile, std::span<const std::byte> bytes) {
-            if (!stop.stop_requested()) {
-                advise(bytes, MADV_POPULATE_READ); // before the guard, which makes others wait
-                ground_.validator().ensure_valid(level, tile);
+        std::vector<std::size_t> tiles;
+        for (int row = window.south; row < window.north; ++row) {
+            for (int column = window.west; column < window.east; ++column) {
+                if (column >= known.west && column < known.east && row >= known.south && row < known.north) {
+                    continue;
+                }
+                tiles.push_back(static_cast<std::size_t>(row) * static_cast<std::size_t>(at.tiles_across) +
+                                static_cast<std::size_t>(column));
             }
-        });
+        }
+        for (const std::size_t tile : tiles) { advise(ground_.tile(level, tile), MADV_WILLNEED); }
+        for (const std::size_t tile : tiles) {
+            if (stop.stop_requested()) { return; }
+            advise(ground_.tile(level, tile), MADV_POPULATE_READ); // before the validator, which makes others wait
+            ground_.validator().ensure_valid(level, tile);
+        }
         known = window;
     }
 }
@@ -80,19 +88,6 @@ GroundPrefetcher::Window GroundPrefetcher::window_around(const GroundLayout::Lev
         std::min(at.tiles_across, tile_of(column + reach_nodes, at.tiles_across) + 1),
         std::max(0, tile_of(row - reach_nodes, at.tiles_up)),
         std::min(at.tiles_up, tile_of(row + reach_nodes, at.tiles_up) + 1)};
-}
-
-template <class Visit>
-void GroundPrefetcher::for_new_tiles(
-    const GroundLayout::Level& at, const Window& window, const Window& known, const Visit& visit) const {
-    for (int row = window.south; row < window.north; ++row) {
-        for (int column = window.west; column < window.east; ++column) {
-            if (column >= known.west && column < known.east && row >= known.south && row < known.north) { continue; }
-            const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(at.tiles_across) +
-                                     static_cast<std::size_t>(column);
-            visit(tile, ground_.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes));
-        }
-    }
 }
 
 } // namespace octant::visuals::terrain

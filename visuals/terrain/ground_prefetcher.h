@@ -13,7 +13,7 @@
 namespace octant::visuals::terrain {
 
 /// Fetches from the disk, on a thread of its own, the tiles around a place before they are needed, and has the ground's
-/// guard test them, so that drawing seldom waits for either.
+/// validator check them, so that drawing seldom waits for either.
 class GroundPrefetcher {
 public:
     /// On every level tiles are asked for up to this many nodes away from the place.
@@ -43,10 +43,6 @@ private:
     void run(const std::stop_token& stop);
     void fetch(glm::dvec2 place_m, const std::stop_token& stop);
     Window window_around(const GroundLayout::Level& at, glm::dvec2 place_m) const;
-    /// Calls visit(tile, bytes) for the tiles of a window that are not in `known`.
-    template <class Visit>
-    void for_new_tiles(
-        const GroundLayout::Level& at, const Window& window, const Window& known, const Visit& visit) const;
 
     const GroundTiles& ground_;
     std::vector<Window> requested_windows_; ///< For each level what was asked for last.

@@ -68,8 +68,7 @@ GroundLayout::GroundLayout(int columns, int rows, bool has_both_margins) : has_b
     end = rounded_up(end, page_bytes);
     for (Level& level : levels_) {
         level.first_tile = end;
-        end +=
-            level.tile_bytes * static_cast<std::size_t>(level.tiles_across) * static_cast<std::size_t>(level.tiles_up);
+        end += level.tile_bytes * level.tile_count();
     }
     total_bytes_ = end;
 }

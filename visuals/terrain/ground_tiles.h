@@ -118,7 +118,8 @@ public:
         /// The offset of the Wests of column `columns`: int16 by row.
         std::size_t east_heights = 0;
         std::array<std::size_t, 2> east_errors{}; ///< Their errors by MorphMargin: bytes by row.
-        /// The offset of the HeightRanges of all nodes, row after row; only for edges >= 32 and level 0.
+        /// The offset of the height ranges of all nodes, a HeightRange each, row after row; only for edges >= 32 and
+        /// level 0.
         std::size_t ranges = 0;
 
         std::size_t tile_count() const {
@@ -134,6 +135,19 @@ public:
         std::size_t node_in_tile(int column, int row) const {
             const int mask = (1 << tile_shift) - 1;
             return static_cast<std::size_t>(((row & mask) << tile_shift) + (column & mask));
+        }
+
+        /// The offset of a tile.
+        std::size_t offset_of(std::size_t tile) const { return first_tile + tile * tile_bytes; }
+
+        /// The offset in a tile of a node's stored height.
+        std::size_t height_offset(NodePart part, std::size_t node) const {
+            return sizeof(std::int16_t) * (static_cast<std::size_t>(part) * tile_nodes + node);
+        }
+
+        /// The offset in a tile of the code of a node's error.
+        std::size_t error_offset(NodePart part, MorphMargin morph_margin, std::size_t node) const {
+            return errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)] + node;
         }
     };
 
@@ -255,6 +269,10 @@ public:
     /// The bytes of a tile may be read after validator().ensure_valid() has returned for it.
     std::span<const std::byte> memory() const { return memory_; }
 
+    std::span<const std::byte> tile(int level, std::size_t index) const {
+        return memory_.subspan(layout_.level(level).offset_of(index), layout_.level(level).tile_bytes);
+    }
+
     const TileValidator& validator() const { return *validator_; }
 
     int levels() const { return layout_.levels(); }
@@ -295,8 +313,7 @@ public:
         const GroundLayout::Level& at = layout_.level(level);
         if (row == at.rows) { return heights_at(at.north_heights)[column]; }
         if (column == at.columns) { return heights_at(at.east_heights)[row]; }
-        const NodeOffset place = place_of(level, column, row);
-        return heights_at(place.tile)[static_cast<std::size_t>(part) * at.tile_nodes + place.node];
+        return *heights_at(valid_tile(level, column, row) + at.height_offset(part, at.node_in_tile(column, row)));
     }
 
     /// The height of any sample (asserted to be one).
@@ -324,17 +341,12 @@ private:
                                         static_cast<std::size_t>(column)];
     }
 
-    /// The offset of a node's tile, and the place of the node in it.
-    struct NodeOffset {
-        std::size_t tile;
-        std::size_t node;
-    };
-
-    NodeOffset place_of(int level, int column, int row) const {
+    /// The offset of a node's tile, which may then be read.
+    std::size_t valid_tile(int level, int column, int row) const {
         const GroundLayout::Level& at = layout_.level(level);
         const std::size_t tile = at.tile_of(column, row);
         validator_->ensure_valid(level, tile);
-        return {at.first_tile + tile * at.tile_bytes, at.node_in_tile(column, row)};
+        return at.offset_of(tile);
     }
 
     const std::uint8_t* stored_error(int level, NodePart part, int column, int row, MorphMargin morph_margin) const {
@@ -342,9 +354,8 @@ private:
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(memory_.data());
         if (row == at.rows) { return bytes + at.north_errors[static_cast<std::size_t>(morph_margin)] + column; }
         if (column == at.columns) { return bytes + at.east_errors[static_cast<std::size_t>(morph_margin)] + row; }
-        const NodeOffset place = place_of(level, column, row);
-        return bytes + place.tile + at.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)] +
-               place.node;
+        return bytes + valid_tile(level, column, row) +
+               at.error_offset(part, morph_margin, at.node_in_tile(column, row));
     }
 
     GroundShape shape_;

@@ -83,10 +83,10 @@ struct Slope {
 };
 
 Slope slope_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const double signed_area2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (signed_area2 == 0.0) { return {}; }
-    return {((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / signed_area2,
-        ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / signed_area2};
+    const double area2 = octant::signed_area2(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
+    if (area2 == 0.0) { return {}; }
+    return {((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / area2,
+        ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / area2};
 }
 
 /// The part of a row of samples that lies within a triangle in plan.
@@ -266,13 +266,35 @@ void ProjectedErrorMeter::count_uncovered(Band& band, const Picture& picture) co
 // Tests that a mesh of the ground is conforming, by matching edges: the property that the paper's fans and the
 // bisection promise, and that cracks violate.
 //
-// Edges are kept by their vertices' numbers in an open hash table. An edge with a single triangle is allowed at the
-// field's border and where the frustum does not see it. A vertex inside an edge leaves that edge open, so that only
-// open edges need to be compared with vertices, and only with those of open edges.
+// Edges are sorted by their vertices' numbers. An edge with a single triangle is allowed at the field's border and
+// where the frustum does not see it. A vertex inside an edge leaves that edge open, so that only open edges need to be
+// compared with vertices, and only with those of open edges.
 
 namespace {
 
-constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ULL;
+/// A triangle's side, by its vertices' numbers.
+struct Edge {
+    std::uint32_t low;
+    std::uint32_t high;
+    bool is_forward; ///< from low to high
+
+    bool joins_same(const Edge& other) const { return low == other.low && high == other.high; }
+
+    auto operator<=>(const Edge&) const = default;
+};
+
+/// All edges of a mesh, sorted.
+std::vector<Edge> edges_of(const GroundMesh& mesh) {
+    std::vector<Edge> edges;
+    edges.reserve(mesh.indices.size());
+    for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
+        const std::uint32_t from = mesh.indices[k];
+        const std::uint32_t to = mesh.indices[k % 3 == 2 ? k - 2 : k + 1];
+        edges.push_back({std::min(from, to), std::max(from, to), from < to});
+    }
+    std::ranges::sort(edges);
+    return edges;
+}
 
 /// Whether any part of a line (relative to the eye) is inside the frustum by more than rounding.
 bool is_seen(const glm::dvec3& a_m, const glm::dvec3& b_m, const MeshView& view) {
@@ -296,6 +318,41 @@ bool is_seen(const glm::dvec3& a_m, const glm::dvec3& b_m, const MeshView& view)
 /// An order of positions: west before east, then south before north.
 bool before(const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
+/// Vertices by their places in samples east and north.
+using Places = std::vector<glm::dvec2>;
+
+/// Counts vertices strictly inside open edges.
+int count_t_junctions(const std::vector<Edge>& open, const Places& places) {
+    std::vector<std::uint32_t> sorted;
+    for (const Edge& edge : open) {
+        sorted.push_back(edge.low);
+        sorted.push_back(edge.high);
+    }
+    const auto by_place = [&](std::uint32_t a, std::uint32_t b) { return before(places[a], places[b]); };
+    std::ranges::sort(sorted, by_place);
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    int corners = 0;
+    for (const Edge& edge : open) {
+        const auto [first, end] = std::minmax(edge.low, edge.high, by_place);
+        for (auto at = std::upper_bound(sorted.begin(), sorted.end(), first, by_place);
+             at != sorted.end() && before(places[*at], places[end]); ++at) {
+            corners += octant::signed_area2(places[first], places[end], places[*at]) == 0.0 ? 1 : 0;
+        }
+    }
+    return corners;
+}
+
+/// Counts vertices of triangles at places that another one has.
+int count_duplicates(const GroundMesh& mesh, const Places& places) {
+    std::vector<std::uint32_t> used(mesh.indices.begin(), mesh.indices.end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    std::ranges::sort(used, [&](std::uint32_t a, std::uint32_t b) { return before(places[a], places[b]); });
+    int doubled = 0;
+    for (std::size_t k = 1; k < used.size(); ++k) { doubled += places[used[k]] == places[used[k - 1]] ? 1 : 0; }
+    return doubled;
+}
+
 } // namespace
 
 std::string Conformity::text() const {
@@ -304,119 +361,42 @@ std::string Conformity::text() const {
         open_edges, t_junctions, overlapping_edges, inverted_triangles, duplicate_vertices);
 }
 
-ConformityCheck::ConformityCheck(const GroundSamples& ground)
-    : spacing_m_(ground.spacing_m()), half_extent_m_(ground.half_extent_m()),
-      last_(ground.columns() - 1, ground.rows() - 1) {}
-
-Conformity ConformityCheck::check(const GroundMesh& mesh, const MeshView& view) {
-    Conformity found;
-    locate_vertices(mesh, view);
-    match_edges(mesh, found);
-    open_.clear();
-    for (const Edge& edge : edges_) {
-        if (edge.mesh != mesh_) { continue; }
-        found.overlapping_edges += edge.forward > 1 || edge.back > 1 ? 1 : 0;
-        if (edge.forward + edge.back != 1 || on_border(places_[edge.low], places_[edge.high])) { continue; }
-        open_.push_back(edge);
-        const bool seen = is_seen(
-            glm::dvec3(mesh.vertices[edge.low].position_m), glm::dvec3(mesh.vertices[edge.high].position_m), view);
-        found.open_edges += seen ? 1 : 0;
-    }
-    found.t_junctions = count_t_junctions();
-    found.duplicate_vertices = duplicate_vertices();
-    return found;
-}
-
-/// Snaps all vertices to the grid.
-void ConformityCheck::locate_vertices(const GroundMesh& mesh, const MeshView& view) {
-    places_.clear();
+Conformity check_conformity(const GroundSamples& ground, const GroundMesh& mesh, const MeshView& view) {
+    Places places; // snapped to the grid
     for (const models::ColourVertex& vertex : mesh.vertices) {
         const glm::dvec2 world_m = glm::dvec2(vertex.position_m) + glm::dvec2(view.eye_m);
-        places_.push_back(
-            glm::round((world_m + half_extent_m_) * (snap_steps_per_sample / spacing_m_)) / snap_steps_per_sample);
+        places.push_back(glm::round((world_m + ground.half_extent_m()) * (snap_steps_per_sample / ground.spacing_m())) /
+                         snap_steps_per_sample);
     }
-}
-
-/// Enters all edges into the hash table and counts turned triangles.
-void ConformityCheck::match_edges(const GroundMesh& mesh, Conformity& found) {
-    const std::size_t wanted = std::bit_ceil(2 * mesh.indices.size() + 2);
-    if (edges_.size() < wanted) {
-        edges_.assign(wanted, {});
-        mesh_ = 0;
-    }
-    ++mesh_;
-    used_.assign(mesh.vertices.size(), 0);
-    for (const std::uint32_t vertex : mesh.indices) { used_[vertex] = 1; }
+    Conformity found;
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-        const std::uint32_t a = mesh.indices[k];
-        const std::uint32_t b = mesh.indices[k + 1];
-        const std::uint32_t c = mesh.indices[k + 2];
-        found.inverted_triangles += octant::signed_area2(places_[a], places_[b], places_[c]) > 0.0 ? 0 : 1;
-        add_edge(a, b);
-        add_edge(b, c);
-        add_edge(c, a);
+        const double area2 =
+            octant::signed_area2(places[mesh.indices[k]], places[mesh.indices[k + 1]], places[mesh.indices[k + 2]]);
+        found.inverted_triangles += area2 > 0.0 ? 0 : 1;
     }
-}
-
-void ConformityCheck::add_edge(std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t low = std::min(from, to);
-    const std::uint32_t high = std::max(from, to);
-    const std::size_t mask = edges_.size() - 1;
-    const std::uint64_t mixed = (std::uint64_t{low} << 32U | std::uint64_t{high}) * hash_factor;
-    std::size_t slot = static_cast<std::size_t>(mixed >> 32U) & mask;
-    while (edges_[slot].mesh == mesh_ && (edges_[slot].low != low || edges_[slot].high != high)) {
-        slot = (slot + 1) & mask;
-    }
-    Edge& edge = edges_[slot];
-    if (edge.mesh != mesh_) { edge = {low, high, mesh_, 0, 0}; }
-    std::uint16_t& way = from == low ? edge.forward : edge.back;
-    ++way;
-}
-
-bool ConformityCheck::on_border(const glm::dvec2& a, const glm::dvec2& b) const {
-    return (a.x == b.x && (a.x == 0.0 || a.x == last_.x)) || (a.y == b.y && (a.y == 0.0 || a.y == last_.y));
-}
-
-/// Counts used vertices at positions that another vertex has.
-int ConformityCheck::duplicate_vertices() {
-    constexpr std::uint32_t free_slot = ~std::uint32_t{0};
-    const std::size_t mask = std::bit_ceil(2 * places_.size() + 2) - 1;
-    slots_.assign(mask + 1, free_slot);
-    int doubled = 0;
-    for (std::uint32_t k = 0; k < places_.size(); ++k) {
-        if (used_[k] == 0) { continue; }
-        const glm::dvec2 part = places_[k] * snap_steps_per_sample;
-        const auto east = static_cast<std::uint64_t>(static_cast<std::int64_t>(part.x));
-        const auto north = static_cast<std::uint64_t>(static_cast<std::int64_t>(part.y));
-        auto slot = static_cast<std::size_t>((east << 32U ^ north) * hash_factor >> 32U) & mask;
-        while (slots_[slot] != free_slot && places_[slots_[slot]] != places_[k]) { slot = (slot + 1) & mask; }
-        doubled += slots_[slot] == free_slot ? 0 : 1;
-        slots_[slot] = k;
-    }
-    return doubled;
-}
-
-/// Counts vertices strictly inside open edges.
-int ConformityCheck::count_t_junctions() {
-    sorted_.clear();
-    for (const Edge& edge : open_) {
-        sorted_.push_back(edge.low);
-        sorted_.push_back(edge.high);
-    }
-    const auto by_place = [&](std::uint32_t a, std::uint32_t b) { return before(places_[a], places_[b]); };
-    std::sort(sorted_.begin(), sorted_.end(), by_place);
-    sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
-    int corners = 0;
-    for (const Edge& edge : open_) {
-        const bool turned = before(places_[edge.high], places_[edge.low]);
-        const std::uint32_t first = turned ? edge.high : edge.low;
-        const std::uint32_t end = turned ? edge.low : edge.high;
-        auto at = std::upper_bound(sorted_.begin(), sorted_.end(), first, by_place);
-        for (; at != sorted_.end() && before(places_[*at], places_[end]); ++at) {
-            corners += octant::signed_area2(places_[first], places_[end], places_[*at]) == 0.0 ? 1 : 0;
+    const glm::dvec2 last(ground.columns() - 1, ground.rows() - 1);
+    const auto on_border = [&](const glm::dvec2& a, const glm::dvec2& b) {
+        return (a.x == b.x && (a.x == 0.0 || a.x == last.x)) || (a.y == b.y && (a.y == 0.0 || a.y == last.y));
+    };
+    const std::vector<Edge> edges = edges_of(mesh);
+    std::vector<Edge> open;
+    for (std::size_t k = 0; k < edges.size();) {
+        std::size_t end = k;
+        std::array<int, 2> ways{};
+        for (; end < edges.size() && edges[end].joins_same(edges[k]); ++end) { ++ways[edges[end].is_forward ? 1 : 0]; }
+        found.overlapping_edges += ways[0] > 1 || ways[1] > 1 ? 1 : 0;
+        const auto& [low, high, is_forward] = edges[k];
+        if (end - k == 1 && !on_border(places[low], places[high])) {
+            open.push_back(edges[k]);
+            const bool seen =
+                is_seen(glm::dvec3(mesh.vertices[low].position_m), glm::dvec3(mesh.vertices[high].position_m), view);
+            found.open_edges += seen ? 1 : 0;
         }
+        k = end;
     }
-    return corners;
+    found.t_junctions = count_t_junctions(open, places);
+    found.duplicate_vertices = count_duplicates(mesh, places);
+    return found;
 }
 
 // Point location in a mesh of very different triangles: a hashed hierarchical grid, in which every triangle is entered

@@ -2,8 +2,8 @@
 // Flickering Effect", equations (1) and (3) and steps 3 and 4 of section 2; fans after S. Roettger, W. Heidrich, P.
 // Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous Levels of Detail for Height Fields".
 //
-// Step 3 walks down the tree from the root and collects the nodes that are split (visit, add); step 4 emits a full or
-// partial fan for each of them (add_triangles below). A fan leaves out the mid-points of edges beyond which the
+// Step 3 walks down the tree from the root and collects the nodes that are split (QuadtreeSelection, add()); step 4
+// emits a full or partial fan for each of them (emit()). A fan leaves out the mid-points of edges beyond which the
 // neighbour is coarser, so that there are no cracks.
 //
 // Deviations:
@@ -32,40 +32,6 @@
 
 namespace octant::visuals::terrain {
 
-double resolution_for_target(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail,
-    double target_triangles, double max_resolution) {
-    double low = mesher.tree().options().min_resolution;
-    double high = std::max(max_resolution, low);
-    double best = low;
-    double best_miss = std::numeric_limits<double>::infinity();
-    const auto too_many = [&](double resolution) {
-        QuadtreeDetail tried = detail;
-        tried.resolution = resolution;
-        const double over = mesher.count(view, tried).counters.triangles - target_triangles;
-        if (std::abs(over) < best_miss) {
-            best_miss = std::abs(over);
-            best = resolution;
-        }
-        return over > 0.0;
-    };
-    if (too_many(low) || !too_many(high)) { return best; }
-    for (int step = 0; step < 22 && best_miss > 0.0; ++step) {
-        const double middle = std::sqrt(low * high);
-        (too_many(middle) ? high : low) = middle;
-    }
-    return best;
-}
-
-double triangle_count_slope(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail) {
-    constexpr double share = 0.02;
-    QuadtreeDetail nearby_detail = detail;
-    nearby_detail.resolution = detail.resolution * (1.0 + share);
-    const int more = mesher.count(view, nearby_detail).counters.triangles;
-    nearby_detail.resolution = detail.resolution * (1.0 - share);
-    const int fewer = mesher.count(view, nearby_detail).counters.triangles;
-    return (more - fewer) / (2.0 * share * detail.resolution);
-}
-
 // Which nodes of the restricted quadtree split: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize
 // Flickering Effect", equations (1) and (3).
 //
@@ -89,8 +55,7 @@ constexpr double height_margin_m = 1e-6;
 QuadtreeCriterion::QuadtreeCriterion(const Quadtree& tree) : tree_(&tree) {
     for (int level = 0; level < tree.levels(); ++level) {
         const auto edge = static_cast<float>(tree.edge_samples(level));
-        levels_.push_back({tree.edge_samples(level), tree.columns(level), tree.rows(level), tree.index_of(level, 0, 0),
-            edge, 0.5F * edge});
+        levels_.push_back({tree.edge_samples(level), tree.columns(level), tree.rows(level), edge, 0.5F * edge});
     }
 }
 
@@ -150,20 +115,9 @@ NodeBox QuadtreeCriterion::box_of(const GroundFan& node) const {
 }
 
 unsigned QuadtreeCriterion::crossed_planes_of_node(const GroundFan& node, unsigned planes) const {
-    const models::heights::HeightField& field = tree_->field();
-    const QuadtreeNode& bounds = tree_->nodes()[node.node];
-    const int edge = levels_[node.level].edge;
-    const int west = node.column * edge;
-    const int south = node.row * edge;
-    const int east = std::min(west + edge, field.columns() - 1);
-    const int north = std::min(south + edge, field.rows() - 1);
-    const double half_spacing_m = 0.5 * field.spacing_m();
-    const double low_m = tree_->lowest_m(bounds) - view_.eye_m.z;
-    const double high_m = tree_->highest_m(bounds) - view_.eye_m.z;
-    const glm::dvec3 centre_m(
-        west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m, 0.5 * (low_m + high_m));
-    const glm::dvec3 half_m((east - west) * half_spacing_m, (north - south) * half_spacing_m, 0.5 * (high_m - low_m));
-    return crossed_planes(view_.frustum_normals, planes, centre_m, half_m);
+    const NodeBox box = box_of(node);
+    return crossed_planes(
+        view_.frustum_normals, planes, 0.5 * (box.min_m + box.max_m) - view_.eye_m, 0.5 * (box.max_m - box.min_m));
 }
 
 // The resolution C that spends a budget of triangles, exactly and in the frame in which it is spent: equations (1) and
@@ -190,38 +144,43 @@ GroundFan child_of(const GroundFan& fan, unsigned quadrant) {
 
 } // namespace
 
-float QuadtreeSelection::limit_for(const QuadtreeCriterion& rule, const TriangleBudget& budget) {
+float QuadtreeSelection::limit_for(const QuadtreeCriterion& criterion, const TriangleBudget& budget) {
     assert(budget.triangles >= 1);
-    rule_ = &rule;
+    criterion_ = &criterion;
     nodes_tested_ = 0;
-    const float last = last_resolution_ > 0.0 ? rule.limit_squared(last_resolution_) : 0.0F;
-    const CountSearch search{
-        budget.triangles, rule.limit_squared(0.0), rule.limit_squared(budget.max_resolution), last, first_look};
+    const float last = last_resolution_ > 0.0 ? criterion.limit_squared(last_resolution_) : 0.0F;
+    const CountSearch search{budget.triangles, criterion.limit_squared(0.0),
+        criterion.limit_squared(budget.max_resolution), last, first_look};
     const float found = find_limit(
-        search, steps_, [&](float low, float high, int max_triangles) { return survey(low, high, max_triangles); });
-    last_resolution_ = rule.resolution_of(found);
+        search, steps_, [&](float low, float high, int max_triangles) { return walk(low, high, max_triangles); });
+    last_resolution_ = criterion.resolution_of(found);
     return found;
 }
 
+void QuadtreeSelection::collect(const QuadtreeCriterion& criterion, float limit) {
+    criterion_ = &criterion;
+    nodes_tested_ = 0;
+    walk(limit, limit, std::numeric_limits<int>::max());
+}
+
 /// Walks the tree and collects nodes and steps below `high`. Returns whether there is more above it.
-bool QuadtreeSelection::survey(float low, float high, int max_triangles) {
+bool QuadtreeSelection::walk(float low, float high, int max_triangles) {
     nodes_.clear();
     steps_.start(low, high);
     high_ = high;
     max_triangles_ = max_triangles;
     has_steps_above_ = false;
     PendingNode root;
-    root.planes = active_planes(rule_->view().frustum_normals);
+    root.planes = active_planes(criterion_->view().frustum_normals);
     visit(root);
     return has_steps_above_;
 }
 
-/// Surveys a node and the nodes below it.
+/// Collects a node and the nodes below it.
 void QuadtreeSelection::visit(const PendingNode& from) {
     if (steps_.at_high() > max_triangles_) { return; }
     SelectedNode node;
     node.fan = from.fan;
-    node.fan.crosses_frustum = from.planes != 0;
     node.node_limit = from.node_limit;
     node.split.fill(unbounded);
     std::array<unsigned, 4> planes{};
@@ -230,7 +189,7 @@ void QuadtreeSelection::visit(const PendingNode& from) {
         const FanEdge& edge = fan_edges[k];
         node.middle[k] = std::min({from.beyond[k], node.split[edge.quadrant_a], node.split[edge.quadrant_b]});
     }
-    const FanSamples samples(tree_->field(), rule_->level(node.fan.level).edge, node.fan.column, node.fan.row);
+    const FanSamples samples(tree_->field(), criterion_->level(node.fan.level).edge, node.fan.column, node.fan.row);
     FanTriangles cut_triangles;
     const FanTriangles* triangles = &uncut_fan_triangles;
     if (samples.is_cut()) {
@@ -257,8 +216,9 @@ void QuadtreeSelection::visit(const PendingNode& from) {
 /// reach beyond.
 void QuadtreeSelection::test_quadrants(const PendingNode& from, SelectedNode& node, std::array<unsigned, 4>& planes) {
     const int level = from.fan.level + 1;
-    const QuadtreeCriterion::Level& at = rule_->level(level);
-    const std::array<float, 4> critical = rule_->critical_squared_of_four(level, 2 * from.fan.column, 2 * from.fan.row);
+    const QuadtreeCriterion::Level& at = criterion_->level(level);
+    const std::array<float, 4> critical =
+        criterion_->critical_squared_of_four(level, 2 * from.fan.column, 2 * from.fan.row);
     for (unsigned q = 0; q < 4; ++q) {
         const auto bit = static_cast<std::uint8_t>(1U << q);
         GroundFan child = child_of(from.fan, q);
@@ -269,8 +229,8 @@ void QuadtreeSelection::test_quadrants(const PendingNode& from, SelectedNode& no
         ++nodes_tested_;
         node.split[q] = std::max(node.node_limit, critical[q]);
         if (from.planes != 0) {
-            child.node = rule_->node_at(level, child.column, child.row);
-            planes[q] = rule_->crossed_planes_of_node(child, from.planes);
+            child.node = criterion_->node_at(level, child.column, child.row);
+            planes[q] = criterion_->crossed_planes_of_node(child, from.planes);
             node.fan.hidden |= planes[q] == outside_frustum ? bit : std::uint8_t{0};
         }
     }
@@ -283,11 +243,11 @@ QuadtreeSelection::PendingNode QuadtreeSelection::child_pending(
     next.fan = child_of(from.fan, quadrant);
     const int column = next.fan.column;
     const int row = next.fan.row;
-    next.fan.node = rule_->node_at(next.fan.level, column, row);
+    next.fan.node = criterion_->node_at(next.fan.level, column, row);
     next.node_limit = node.split[quadrant];
     const bool east = (quadrant & 1U) != 0;
     const bool north = (quadrant & 2U) != 0;
-    const QuadtreeCriterion::Level& at = rule_->level(next.fan.level);
+    const QuadtreeCriterion::Level& at = criterion_->level(next.fan.level);
     next.beyond[east ? 3 : 1] = east || column + 1 < at.columns ? node.split[quadrant ^ 1U] : 0.0F;
     next.beyond[north ? 0 : 2] = north || row + 1 < at.rows ? node.split[quadrant ^ 2U] : 0.0F;
     const std::size_t side = east ? 1 : 3;
@@ -300,14 +260,14 @@ QuadtreeSelection::PendingNode QuadtreeSelection::child_pending(
 /// The limit above which a neighbouring node is in the mesh; 0 where the field ends there. `parent` is the limit of
 /// that node's parent.
 float QuadtreeSelection::neighbour_limit(float parent, int level, int column, int row) const {
-    const QuadtreeCriterion::Level& at = rule_->level(level);
+    const QuadtreeCriterion::Level& at = criterion_->level(level);
     if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) { return 0.0F; }
     if (parent >= high_) { return unbounded; }
-    return std::max(parent, rule_->critical_squared(level, column, row));
+    return std::max(parent, criterion_->critical_squared(level, column, row));
 }
 
 QuadtreeMesher::QuadtreeMesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
-    : tree_(&tree), rule_(tree), survey_(tree), in_mesh_(tree.nodes().size(), 0) {
+    : tree_(&tree), criterion_(tree), selection_(tree) {
     set_colours(colours);
     assert(tree.levels() <= 16);
 }
@@ -319,80 +279,65 @@ void QuadtreeMesher::set_colours(std::span<const std::uint32_t> colours) {
 }
 
 GroundMesh QuadtreeMesher::mesh(const MeshView& view, const QuadtreeDetail& detail) {
-    collect(view, detail);
+    collect(view, detail, nullptr);
     return counted_mesh();
 }
 
 GroundMesh QuadtreeMesher::mesh_within(
     const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
-    collect_within(view, detail, budget);
+    collect(view, detail, &budget);
     return counted_mesh();
 }
 
 CountedMesh QuadtreeMesher::count(const MeshView& view, const QuadtreeDetail& detail) {
-    collect(view, detail);
+    collect(view, detail, nullptr);
     return count_fans();
 }
 
 CountedMesh QuadtreeMesher::count_within(
     const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
-    collect_within(view, detail, budget);
+    collect(view, detail, &budget);
     return count_fans();
 }
 
-/// Fills fans_ with the nodes of the mesh at a given C.
-void QuadtreeMesher::collect(const MeshView& view, const QuadtreeDetail& detail) {
-    rule_.set_view(view, detail);
-    limit_ = rule_.limit_squared(detail.resolution);
-    resolution_ = std::max(detail.resolution, tree_->options().min_resolution);
-    start(view);
-    visit({}, active_planes(view.frustum_normals));
-    for (std::size_t k = 0; k < fans_.size(); ++k) {
-        fan_records_[k].middles = static_cast<std::uint8_t>(midpoints_of(fans_[k]));
+/// Fills fans_ with the nodes of the mesh at the C of `detail`, or at the largest C that a budget allows.
+void QuadtreeMesher::collect(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget* budget) {
+    criterion_.set_view(view, detail);
+    if (budget != nullptr) {
+        limit_ = selection_.limit_for(criterion_, *budget);
+        resolution_ = criterion_.resolution_of(limit_);
+    } else {
+        limit_ = criterion_.limit_squared(detail.resolution);
+        resolution_ = std::max(detail.resolution, tree_->options().min_resolution);
+        selection_.collect(criterion_, limit_);
     }
-    for (const GroundFan& fan : fans_) { in_mesh_[fan.node] = 0; }
-}
-
-/// Fills fans_ with the nodes of the mesh at the largest C that the budget allows.
-void QuadtreeMesher::collect_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget) {
-    rule_.set_view(view, detail);
-    limit_ = survey_.limit_for(rule_, budget);
-    resolution_ = rule_.resolution_of(limit_);
-    start(view);
-    counters_.nodes_visited = survey_.nodes_tested();
-    for (const SelectedNode& node : survey_.nodes()) {
-        if (node.node_limit >= limit_) { continue; }
-        GroundFan fan = node.fan;
-        unsigned middles = 0;
-        for (unsigned k = 0; k < 4; ++k) {
-            fan.split |= static_cast<std::uint8_t>(node.split[k] < limit_ ? 1U << k : 0U);
-            middles |= node.middle[k] < limit_ ? 1U << k : 0U;
-        }
-        add(fan, middles);
-    }
-}
-
-/// Prepares for a new mesh.
-void QuadtreeMesher::start(const MeshView& view) {
     fans_.clear();
     fan_records_.clear();
     counters_ = {};
+    counters_.nodes_visited = selection_.nodes_tested();
     is_collected_ = true;
     orders_ = painting_orders(view.order).data();
-    eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / tree_->field().spacing_m();
+    eye_ = glm::dvec2(-criterion_.west_m(), -criterion_.south_m()) / tree_->field().spacing_m();
+    for (const SelectedNode& node : selection_.nodes()) {
+        if (node.node_limit < limit_) { add(node); }
+    }
 }
 
-/// Adds a node that is in the mesh to fans_, after its parent. Returns its index.
-std::size_t QuadtreeMesher::add(const GroundFan& fan, unsigned middles) {
-    const std::size_t own = fans_.size();
-    last_fan_of_level_[fan.level] = static_cast<std::uint32_t>(own);
+/// Adds a node that is in the mesh to fans_, after its parent.
+void QuadtreeMesher::add(const SelectedNode& node) {
+    GroundFan fan = node.fan;
+    unsigned middles = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+        fan.split |= static_cast<std::uint8_t>(node.split[k] < limit_ ? 1U << k : 0U);
+        middles |= node.middle[k] < limit_ ? 1U << k : 0U;
+    }
+    last_fan_of_level_[fan.level] = static_cast<std::uint32_t>(fans_.size());
     if (fan.level > 0) {
         const unsigned quadrant = (fan.column & 1U) | (fan.row & 1U) << 1U;
         fan_records_[last_fan_of_level_[fan.level - 1U]].child[quadrant] = last_fan_of_level_[fan.level];
     }
     fans_.push_back(fan);
     fan_records_.emplace_back().middles = static_cast<std::uint8_t>(middles);
-    return own;
 }
 
 GroundMesh QuadtreeMesher::counted_mesh() {
@@ -403,76 +348,6 @@ GroundMesh QuadtreeMesher::counted_mesh() {
     counters_.triangles = static_cast<int>(index_count_ / 3);
     return {std::span(vertices_).first(vertex_count_), std::span(indices_).first(index_count_), counters_, resolution_,
         0.0, {}};
-}
-
-/// Whether a node is in the unculled mesh: it and all of its ancestors are switched on.
-bool QuadtreeMesher::is_split(int level, int column, int row) const {
-    for (; level > 0; --level) {
-        if (!is_split_by_distance(level, column, row)) { return false; }
-        column /= 2;
-        row /= 2;
-    }
-    return true;
-}
-
-/// Adds a node and all nodes that are split below it to fans_. `planes` are the frustum planes that the node's box may
-/// reach beyond.
-void QuadtreeMesher::visit(GroundFan fan, unsigned planes) {
-    fan.crosses_frustum = planes != 0;
-    in_mesh_[fan.node] = 1;
-    const std::size_t own = add(fan, 0);
-    const int below = fan.level + 1;
-    if (below == tree_->levels()) { return; }
-    const QuadtreeCriterion::Level& next = rule_.level(below);
-    std::array<GroundFan, 4> children;
-    std::array<unsigned, 4> child_planes{};
-    for (unsigned q = 0; q < 4; ++q) {
-        const int column = 2 * fan.column + static_cast<int>(q & 1U);
-        const int row = 2 * fan.row + static_cast<int>(q >> 1U);
-        const auto quadrant = static_cast<std::uint8_t>(1U << q);
-        if (column >= next.columns || row >= next.rows) {
-            fan.hidden |= quadrant;
-            continue;
-        }
-        GroundFan& child = children[q];
-        child.node = rule_.node_at(below, column, row);
-        child.column = static_cast<std::uint16_t>(column);
-        child.row = static_cast<std::uint16_t>(row);
-        child.level = static_cast<std::uint8_t>(below);
-        ++counters_.nodes_visited;
-        child_planes[q] = planes == 0 ? 0 : rule_.crossed_planes_of_node(child, planes);
-        if (child_planes[q] == outside_frustum) { fan.hidden |= quadrant; }
-        if (is_split_by_distance(below, column, row)) { fan.split |= quadrant; }
-    }
-    fans_[own] = fan;
-    const unsigned drawn = fan.split & ~static_cast<unsigned>(fan.hidden);
-    for (unsigned q = 0; q < 4; ++q) {
-        if ((drawn >> q & 1U) != 0) { visit(children[q], child_planes[q]); }
-    }
-}
-
-/// Whether the node beyond an edge is in the mesh, or the field ends there.
-bool QuadtreeMesher::has_neighbour(const GroundFan& fan, int east, int north) const {
-    const QuadtreeCriterion::Level& at = rule_.level(fan.level);
-    const int column = fan.column + east;
-    const int row = fan.row + north;
-    if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) { return true; }
-    const std::ptrdiff_t step = east + static_cast<std::ptrdiff_t>(north) * at.columns;
-    if (in_mesh_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(fan.node) + step)] != 0) { return true; }
-    return fan.crosses_frustum && is_split(fan.level, column, row);
-}
-
-/// The set of edges that have a mid-point, as bits by fan_edges.
-unsigned QuadtreeMesher::midpoints_of(const GroundFan& fan) const {
-    unsigned middles = 0;
-    for (unsigned k = 0; k < 4; ++k) {
-        const FanEdge& edge = fan_edges[k];
-        if ((fan.split & (1U << edge.quadrant_a | 1U << edge.quadrant_b)) != 0 ||
-            has_neighbour(fan, edge.beyond_east, edge.beyond_north)) {
-            middles |= 1U << k;
-        }
-    }
-    return middles;
 }
 
 // Puts the collected fans into the mesh as triangles, in painting order (step 4 there), and finds triangles again by
@@ -514,12 +389,12 @@ CountedMesh QuadtreeMesher::count_fans() {
 unsigned QuadtreeMesher::triangle_count_of(std::size_t own) const {
     const GroundFan& fan = fans_[own];
     const unsigned covered = fan.split | fan.hidden;
-    const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
+    const FanSamples samples(tree_->field(), criterion_.level(fan.level).edge, fan.column, fan.row);
     if (!samples.is_cut()) {
         return static_cast<unsigned>(std::popcount(orders_[0].triangles(fan_records_[own].middles, covered)));
     }
-    const PartList row =
-        parts_of_cut_fan(samples, parts_of(fan_records_[own].middles, covered, 0), glm::dvec2(0.0), rule_.view().order);
+    const PartList row = parts_of_cut_fan(
+        samples, parts_of(fan_records_[own].middles, covered, 0), glm::dvec2(0.0), criterion_.view().order);
     return row.count;
 }
 
@@ -530,7 +405,7 @@ void QuadtreeMesher::emit(std::uint32_t own, EmittedFan* parent, unsigned quadra
     place.triangles.first = static_cast<std::uint32_t>(index_count_ / 3);
     const unsigned covered = fan.split | fan.hidden;
     const unsigned children = fan.split & ~unsigned{fan.hidden};
-    const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
+    const FanSamples samples(tree_->field(), criterion_.level(fan.level).edge, fan.column, fan.row);
     const GridSample centre = samples.at(1, 1);
     const glm::dvec2 eye = eye_ - glm::dvec2(centre.column, centre.row);
     const unsigned coinciding = (samples.columns_coincide() ? 1U : 0U) | (samples.rows_coincide() ? 2U : 0U);
@@ -540,7 +415,7 @@ void QuadtreeMesher::emit(std::uint32_t own, EmittedFan* parent, unsigned quadra
     emitted.vertex.fill(no_vertex);
     if (samples.is_cut()) {
         const PartList row =
-            parts_of_cut_fan(samples, parts_of(place.middles, covered, children), eye, rule_.view().order);
+            parts_of_cut_fan(samples, parts_of(place.middles, covered, children), eye, criterion_.view().order);
         bool any = false;
         for (unsigned k = 0; k < row.count; ++k) {
             emit_part(emitted, row.part[k]);
@@ -617,9 +492,9 @@ inline std::uint32_t QuadtreeMesher::add_vertex(GridSample at) {
     const models::heights::HeightField& field = tree_->field();
     const double height_m = static_cast<double>(field.height_m(at.column, at.row));
     const std::ptrdiff_t sample = static_cast<std::ptrdiff_t>(at.row) * field.columns() + at.column;
-    vertices_[vertex_count_] = {glm::vec3(static_cast<float>(rule_.west_m() + at.column * field.spacing_m()),
-                                    static_cast<float>(rule_.south_m() + at.row * field.spacing_m()),
-                                    static_cast<float>(height_m - rule_.view().eye_m.z)),
+    vertices_[vertex_count_] = {glm::vec3(static_cast<float>(criterion_.west_m() + at.column * field.spacing_m()),
+                                    static_cast<float>(criterion_.south_m() + at.row * field.spacing_m()),
+                                    static_cast<float>(height_m - criterion_.view().eye_m.z)),
         colours_[static_cast<std::size_t>(sample)]};
     return vertex_count_++;
 }
@@ -630,7 +505,7 @@ void QuadtreeMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32
 
 void QuadtreeMesher::add_triangles_in(
     std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
-    const NodeBox box = rule_.box_of(fans_[own]);
+    const NodeBox box = criterion_.box_of(fans_[own]);
     if (!wanted(box.min_m, box.max_m)) { return; }
     const unsigned drawn = fans_[own].split & ~unsigned{fans_[own].hidden};
     std::array<std::uint32_t, 4> children = fan_records_[own].child;
@@ -639,6 +514,42 @@ void QuadtreeMesher::add_triangles_in(
         fan_records_[own].triangles, children, [&](std::uint32_t child) { return fan_records_[child].triangles; },
         [&](std::uint32_t triangle) { triangles.push_back(triangle); },
         [&](std::uint32_t child) { add_triangles_in(child, wanted, triangles); });
+}
+
+// Searches over N(C), for the first picture and for studies.
+
+double resolution_for_target(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail,
+    double target_triangles, double max_resolution) {
+    double low = mesher.tree().options().min_resolution;
+    double high = std::max(max_resolution, low);
+    double best = low;
+    double best_miss = std::numeric_limits<double>::infinity();
+    const auto too_many = [&](double resolution) {
+        QuadtreeDetail tried = detail;
+        tried.resolution = resolution;
+        const double over = mesher.count(view, tried).counters.triangles - target_triangles;
+        if (std::abs(over) < best_miss) {
+            best_miss = std::abs(over);
+            best = resolution;
+        }
+        return over > 0.0;
+    };
+    if (too_many(low) || !too_many(high)) { return best; }
+    for (int step = 0; step < 22 && best_miss > 0.0; ++step) {
+        const double middle = std::sqrt(low * high);
+        (too_many(middle) ? high : low) = middle;
+    }
+    return best;
+}
+
+double triangle_count_slope(QuadtreeMesher& mesher, const MeshView& view, const QuadtreeDetail& detail) {
+    constexpr double share = 0.02;
+    QuadtreeDetail nearby_detail = detail;
+    nearby_detail.resolution = detail.resolution * (1.0 + share);
+    const int more = mesher.count(view, nearby_detail).counters.triangles;
+    nearby_detail.resolution = detail.resolution * (1.0 - share);
+    const int fewer = mesher.count(view, nearby_detail).counters.triangles;
+    return (more - fewer) / (2.0 * share * detail.resolution);
 }
 
 } // namespace octant::visuals::terrain

@@ -29,17 +29,16 @@ struct NodeBox {
 /// Which nodes of a quadtree a view switches on, and which it cannot see.
 class QuadtreeCriterion {
 public:
-    /// What the rule must know of a level of the tree.
+    /// What the criterion must know of a level of the tree.
     struct Level {
-        int edge;          ///< In samples.
-        int columns;       ///< In nodes.
-        int rows;          ///< In nodes.
-        std::size_t first; ///< The index of its first node.
+        int edge;    ///< In samples.
+        int columns; ///< In nodes.
+        int rows;    ///< In nodes.
         float edge_samples;
         float half_edge_samples;
     };
 
-    /// The tree must outlive the rule.
+    /// The tree must outlive the criterion.
     explicit QuadtreeCriterion(const Quadtree& tree);
 
     /// Takes a view; `detail.resolution` is not used.
@@ -52,11 +51,8 @@ public:
     const Level& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
 
     /// The index of a node in Quadtree::nodes().
-    std::uint32_t node_at(int level_index, int column, int row) const {
-        const Level& at = levels_[static_cast<std::size_t>(level_index)];
-        return static_cast<std::uint32_t>(at.first +
-                                          static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
-                                          static_cast<std::size_t>(column));
+    std::uint32_t node_at(int level, int column, int row) const {
+        return static_cast<std::uint32_t>(tree_->index_of(level, column, row));
     }
 
     /// The x coordinate of the field's west border relative to the eye.
@@ -127,7 +123,7 @@ struct SelectedNode {
     std::array<float, 4> middle{}; ///< The mid-points of its fan_edges.
 };
 
-/// Finds the resolution C at which a mesh has a given number of triangles, before the mesh is made.
+/// Collects the nodes of a mesh, and finds the resolution C at which it has a given number of triangles.
 ///
 /// The number of triangles at any C is known exactly: a node adds one triangle for each of its sides; the mid-point of
 /// a side replaces that triangle by one for each adjoining quadrant that is not hidden; a quadrant that splits takes
@@ -135,20 +131,23 @@ struct SelectedNode {
 /// which this happens. The last call only makes the walk short; the answer does not depend on it.
 class QuadtreeSelection {
 public:
-    /// The tree must outlive the survey.
+    /// The tree must outlive the selection.
     explicit QuadtreeSelection(const Quadtree& tree) : tree_(&tree) {}
 
     /// The largest limit, at most that of `budget.max_resolution`, up to which no mesh has more than `budget.triangles`
     /// triangles; the limit of the tree's smallest C where even that one has more.
-    float limit_for(const QuadtreeCriterion& rule, const TriangleBudget& budget);
+    float limit_for(const QuadtreeCriterion& criterion, const TriangleBudget& budget);
 
-    /// The nodes of all meshes up to the limit that was found, and some more: parents before children.
+    /// Collects the nodes of the mesh at a given limit.
+    void collect(const QuadtreeCriterion& criterion, float limit);
+
+    /// The nodes of all meshes up to the limit that was found or given, and some more: parents before children.
     std::span<const SelectedNode> nodes() const { return nodes_; }
 
     int nodes_tested() const { return nodes_tested_; }
 
 private:
-    /// A node that is to be surveyed.
+    /// A node that is to be visited.
     struct PendingNode {
         GroundFan fan;
         unsigned planes = 0;     ///< The frustum planes that its box may reach beyond.
@@ -158,14 +157,14 @@ private:
         int replaced = 0; ///< How many triangles of its parent it replaces.
     };
 
-    bool survey(float low, float high, int max_triangles);
+    bool walk(float low, float high, int max_triangles);
     void visit(const PendingNode& from);
     void test_quadrants(const PendingNode& from, SelectedNode& node, std::array<unsigned, 4>& planes);
     PendingNode child_pending(const PendingNode& from, const SelectedNode& node, unsigned quadrant) const;
     float neighbour_limit(float parent, int level, int column, int row) const;
 
     const Quadtree* tree_;
-    const QuadtreeCriterion* rule_ = nullptr;
+    const QuadtreeCriterion* criterion_ = nullptr;
     std::vector<SelectedNode> nodes_;
     StepFunction steps_;
     float high_ = 0.0F;
@@ -220,11 +219,6 @@ public:
     const Quadtree& tree() const { return *tree_; }
 
 private:
-    /// Whether a node is switched on by its own f < 1, equation (3).
-    bool is_split_by_distance(int level, int column, int row) const {
-        return rule_.critical_squared(level, column, row) < limit_;
-    }
-
     static constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
 
     /// Where a fan is in the mesh.
@@ -250,12 +244,8 @@ private:
         std::array<std::uint32_t, 9> vertex;
     };
 
-    bool is_split(int level, int column, int row) const;
-    void visit(GroundFan fan, unsigned planes);
-    std::size_t add(const GroundFan& fan, unsigned middles);
-    void start(const MeshView& view);
-    void collect(const MeshView& view, const QuadtreeDetail& detail);
-    void collect_within(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget& budget);
+    void collect(const MeshView& view, const QuadtreeDetail& detail, const TriangleBudget* budget);
+    void add(const SelectedNode& node);
     CountedMesh count_fans();
     unsigned triangle_count_of(std::size_t own) const;
     void reserve();
@@ -265,15 +255,13 @@ private:
     std::uint32_t vertex_of(EmittedFan& fan, std::size_t place);
     std::uint32_t middle_vertex(const EmittedFan& fan, std::size_t edge);
     std::uint32_t add_vertex(GridSample at);
-    unsigned midpoints_of(const GroundFan& fan) const;
-    bool has_neighbour(const GroundFan& fan, int east, int north) const;
     void add_triangles_in(std::uint32_t fan, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const Quadtree* tree_;
     std::span<const std::uint32_t> colours_;
 
-    QuadtreeCriterion rule_;
-    QuadtreeSelection survey_;
+    QuadtreeCriterion criterion_;
+    QuadtreeSelection selection_;
     float limit_ = 0.0F;        ///< QuadtreeCriterion::limit_squared of the mesh.
     double resolution_ = 0.0;   ///< C of the mesh.
     bool is_collected_ = false; ///< fans_ are those of a mesh that is to be made.
@@ -284,7 +272,6 @@ private:
     std::array<std::uint32_t, 16> last_fan_of_level_{};
     const PartOrder* orders_ = nullptr; ///< The painting_orders of the view.
     glm::dvec2 eye_{0.0};               ///< In samples east and north of the field's first sample.
-    std::vector<std::uint8_t> in_mesh_; ///< One flag for each node; all are 0 between frames.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
     std::uint32_t vertex_count_ = 0;

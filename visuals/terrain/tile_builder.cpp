@@ -385,6 +385,13 @@ DiamondRow TileBuilder::lattice_row(int column, int row, int count) const {
     return {lattice_ + up * pitch_ + across, pitch_, extent_.half / extent_.stride, count};
 }
 
+/// The code of a node's centre in a finished tile; those of the nodes east of it in the tile follow.
+const std::byte& TileBuilder::centre_code(
+    const GroundLayout::Level& level, int column, int row, MorphMargin morph_margin) const {
+    const std::size_t in_tile = level.error_offset(NodePart::Centre, morph_margin, level.node_in_tile(column, row));
+    return memory_[level.offset_of(level.tile_of(column, row)) + in_tile];
+}
+
 /// Copies the codes of the centres one level finer from finished tiles.
 void TileBuilder::fetch_children(MorphMargin morph_margin) {
     if (level_ + 1 == layout_.levels()) { return; }
@@ -400,13 +407,9 @@ void TileBuilder::fetch_children(MorphMargin morph_margin) {
         for (int column = west; column < east;) {
             const int in_tile = column & (tile_nodes_edge - 1);
             const int count = std::min(tile_nodes_edge - in_tile, east - column);
-            const std::size_t tile = index_of(column >> finer.tile_shift, row >> finer.tile_shift, finer.tiles_across);
-            const std::size_t node = index_of(in_tile, row & (tile_nodes_edge - 1), tile_nodes_edge);
-            const std::byte* const codes = memory_.data() + finer.first_tile + tile * finer.tile_bytes +
-                                           finer.errors[static_cast<std::size_t>(morph_margin)][0];
             std::memcpy(&children[index_of(
                             column - 2 * extent_.first_column + 1, row - 2 * extent_.first_row + 1, children_edge)],
-                codes + node, static_cast<std::size_t>(count));
+                &centre_code(finer, column, row, morph_margin), static_cast<std::size_t>(count));
             column += count;
         }
     }
@@ -419,10 +422,10 @@ std::int16_t TileBuilder::height(int column, int row) const {
 
 void TileBuilder::write_heights() {
     const TileExtent& e = extent_;
-    auto* const tile = reinterpret_cast<std::int16_t*>(tile_.data());
-    const auto part = [&](std::size_t which, int from_west, int from_south) {
+    const auto part = [&](NodePart which, int from_west, int from_south) {
         for (int row = 0; row < e.rows; ++row) {
-            std::int16_t* const out = tile + which * e.at.tile_nodes + index_of(0, row, 1 << e.at.tile_shift);
+            auto* const out =
+                reinterpret_cast<std::int16_t*>(&tile_[e.at.height_offset(which, e.at.node_in_tile(0, row))]);
             const int up = 2 * (e.first_row + row) + from_south;
             const int across = 2 * e.first_column + from_west;
             const int left = heights_.columns - 1 - across * e.half;
@@ -434,24 +437,23 @@ void TileBuilder::write_heights() {
             for (int column = copied; column < e.columns; ++column) { out[column] = height(across + 2 * column, up); }
         }
     };
-    part(static_cast<std::size_t>(0), 1, 1);
-    part(static_cast<std::size_t>(1), 1, 0);
-    part(static_cast<std::size_t>(2), 0, 1);
+    part(NodePart::Centre, 1, 1);
+    part(NodePart::South, 1, 0);
+    part(NodePart::West, 0, 1);
 }
 
 void TileBuilder::write_errors(MorphMargin morph_margin) {
     const TileExtent& e = extent_;
     const Codes& own = codes_with(morph_margin);
-    const auto part = [&](std::size_t which, const std::vector<std::uint8_t>& codes, int pitch) {
-        std::byte* const out = tile_.data() + e.at.errors[static_cast<std::size_t>(morph_margin)][which];
+    const auto part = [&](NodePart which, const std::vector<std::uint8_t>& codes, int pitch) {
         for (int row = 0; row < e.rows; ++row) {
-            std::memcpy(out + index_of(0, row, 1 << e.at.tile_shift), &codes[index_of(0, row, pitch)],
-                static_cast<std::size_t>(e.columns));
+            std::memcpy(&tile_[e.at.error_offset(which, morph_margin, e.at.node_in_tile(0, row))],
+                &codes[index_of(0, row, pitch)], static_cast<std::size_t>(e.columns));
         }
     };
-    part(0, own.centres, e.columns);
-    part(1, own.souths, e.columns);
-    part(2, own.wests, e.columns + 1);
+    part(NodePart::Centre, own.centres, e.columns);
+    part(NodePart::South, own.souths, e.columns);
+    part(NodePart::West, own.wests, e.columns + 1);
 }
 
 /// Writes the strips beyond the last row and column of nodes, where this tile borders on them.
@@ -547,14 +549,10 @@ void TileBuilder::fetch_lattice_errors() {
 std::uint8_t TileBuilder::largest_code(int level, int column, int row) const {
     const GroundLayout::Level& finer = layout_.level(level);
     const int across = 1 << (level - level_);
-    const int mask = (1 << finer.tile_shift) - 1;
     std::uint8_t largest = 0;
     for (int y = std::max(row, 0) * across; y < std::min((row + 1) * across, finer.rows); ++y) {
         for (int x = std::max(column, 0) * across; x < std::min((column + 1) * across, finer.columns); ++x) {
-            const std::size_t tile = index_of(x >> finer.tile_shift, y >> finer.tile_shift, finer.tiles_across);
-            const std::byte* const codes = memory_.data() + finer.first_tile + tile * finer.tile_bytes +
-                                           finer.errors[static_cast<std::size_t>(MorphMargin::None)][0];
-            largest = std::max(largest, static_cast<std::uint8_t>(codes[index_of(x & mask, y & mask, mask + 1)]));
+            largest = std::max(largest, static_cast<std::uint8_t>(centre_code(finer, x, y, MorphMargin::None)));
         }
     }
     return largest;
@@ -597,9 +595,9 @@ void TileBuilder::raise_to_margin(
     const int up = edges.to_end[1];
     const int count = static_cast<int>(below.size());
     // So many have both ends within the field.
-    const int morph_margin = heights_.columns - 1 - across - edges.column;
+    const int columns_left = heights_.columns - 1 - across - edges.column;
     const bool low = edges.row + up < heights_.rows;
-    const int inside = low && morph_margin >= 0 ? std::min(count, morph_margin / edges.step + 1) : 0;
+    const int inside = low && columns_left >= 0 ? std::min(count, columns_left / edges.step + 1) : 0;
     const std::int16_t* middle =
         inside > 0 ? &heights_.numbers[index_of(edges.column, edges.row, heights_.columns)] : nullptr;
     const std::ptrdiff_t climb = std::ptrdiff_t{up} * heights_.columns;

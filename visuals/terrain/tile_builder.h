@@ -111,8 +111,8 @@ struct TileIndex {
     int row = 0;
 };
 
-/// How far a vertex may move at most, in target errors, while the target error changes by a small share of itself,
-/// divided by that share: S of ground with this relief (tile_builder.cpp).
+/// The largest S of ground with this relief. S = |d offset / d ln(target error)| / target error, where the offset is
+/// how far a vertex is from its sample; tile_builder.cpp derives it.
 float far_morph_rate_on(float relief_m);
 
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer level around it. There
@@ -166,6 +166,7 @@ private:
 
     void choose_lattice();
     DiamondRow lattice_row(int column, int row, int count) const;
+    const std::byte& centre_code(const GroundLayout::Level& level, int column, int row, MorphMargin morph_margin) const;
     void fetch_children(MorphMargin morph_margin);
     void fetch_lattice_errors();
     std::uint8_t largest_code(int level, int column, int row) const;

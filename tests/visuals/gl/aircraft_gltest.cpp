@@ -15,8 +15,7 @@ TEST_CASE("back faces of aircraft are not drawn, those of ground and sky are") {
     turned_away.add({}, 10.0F, red, false);
     const glm::mat4 flipped = glm::rotate(ahead(10.0F), 3.14159265F, glm::vec3(0.0F, 1.0F, 0.0F));
     for (const HiddenSurfaceMode mode : all_modes) {
-        scene::FramePlan plan = empty_plan();
-        plan.ground = turned_away.draw();
+        scene::FramePlan plan = plan_of(turned_away);
         CHECK(middle(studio.picture(plan, mode)) == red_px);
         plan.ground = {};
         set_square(plan, 0, flipped);
@@ -70,8 +69,7 @@ TEST_CASE("with depth an aircraft behind a wall of ground is hidden, else it is 
     Triangles wall;
     wall.add({}, 20.0F, blue);
     for (const HiddenSurfaceMode mode : all_modes) {
-        scene::FramePlan plan = empty_plan();
-        plan.ground = wall.draw();
+        scene::FramePlan plan = plan_of(wall);
         set_square(plan, 0, ahead(20.5F));
         CHECK(middle(studio.picture(plan, mode)) == (mode == HiddenSurfaceMode::ByDepth ? blue_px : red_px));
         set_square(plan, 0, ahead(19.5F));
@@ -97,12 +95,9 @@ TEST_CASE("of aircraft the last in the list is on top, unless depth decides") {
 TEST_CASE("within an aircraft the last polygon is on top, unless depth decides") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);
-    const scene::ModelBuffers behind = square_model(green);
-    for (scene::ModelVertex vertex : behind.vertices) {
-        vertex.position_m.z = -0.25F;
-        model.vertices.push_back(vertex);
-    }
-    for (const std::uint32_t index : behind.indices) { model.indices.push_back(index + 4); }
+    scene::ModelBuffers behind = square_model(green);
+    for (scene::ModelVertex& vertex : behind.vertices) { vertex.position_m.z = -0.25F; }
+    append(model, behind);
     studio.renderer().load_models({&model, 1});
     scene::FramePlan plan = empty_plan();
     add_square(plan, 0, ahead(10.0F));
@@ -115,8 +110,7 @@ TEST_CASE("an aircraft is drawn from its own model and its own range of indices"
     Studio studio;
     scene::ModelBuffers two_colours = square_model(red);
     const scene::ModelBuffers other = square_model(blue);
-    two_colours.vertices.insert(two_colours.vertices.end(), other.vertices.begin(), other.vertices.end());
-    two_colours.indices.insert(two_colours.indices.end(), {4, 5, 6, 4, 6, 7});
+    append(two_colours, other);
     const std::array<scene::ModelBuffers, 2> models{square_model(green), two_colours};
     studio.renderer().load_models(models);
     scene::FramePlan plan = empty_plan();
@@ -133,12 +127,7 @@ TEST_CASE("an aircraft is drawn from its own model and its own range of indices"
 TEST_CASE("an aircraft of several ranges is drawn by them in their order") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);
-    for (const auto& colour : {green, blue}) {
-        const scene::ModelBuffers other = square_model(colour);
-        const auto first = static_cast<std::uint32_t>(model.vertices.size());
-        model.vertices.insert(model.vertices.end(), other.vertices.begin(), other.vertices.end());
-        for (const std::uint32_t index : other.indices) { model.indices.push_back(first + index); }
-    }
+    for (const auto& colour : {green, blue}) { append(model, square_model(colour)); }
     const std::array<scene::ModelBuffers, 2> models{square_model(green), model};
     studio.renderer().load_models(models);
     scene::FramePlan plan = empty_plan();
@@ -156,13 +145,12 @@ TEST_CASE("an aircraft of several ranges is drawn by them in their order") {
 TEST_CASE("each part of an aircraft turns with its own matrix") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);
-    const scene::ModelBuffers blade = square_model(green);
-    for (scene::ModelVertex vertex : blade.vertices) {
+    scene::ModelBuffers blade = square_model(green);
+    for (scene::ModelVertex& vertex : blade.vertices) {
         vertex.position_m *= glm::vec3(0.2F, 1.0F, 1.0F);
         vertex.part = 1;
-        model.vertices.push_back(vertex);
     }
-    model.indices.insert(model.indices.end(), {4, 5, 6, 4, 6, 7});
+    append(model, blade);
     const std::array<scene::ModelBuffers, 2> models{square_model(blue), model};
     studio.renderer().load_models(models);
     for (const HiddenSurfaceMode mode : all_modes) {

@@ -140,7 +140,7 @@ TEST_CASE("textured ground that is painted again is cut by its planes") {
     CHECK(pixel(picture, 2, 61) == Pixel{0, 0, 0, 255});
 }
 
-TEST_CASE("renderers on a processor are told from GPUs by their names") {
+TEST_CASE("renderers on a processor differ from GPUs by their names") {
     CHECK(gl::is_software_device("llvmpipe (LLVM 15.0.6, 256 bits)"));
     CHECK(gl::is_software_device("softpipe"));
     CHECK_FALSE(gl::is_software_device("NVIDIA H200/PCIe/SSE2"));

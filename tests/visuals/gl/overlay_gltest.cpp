@@ -32,22 +32,6 @@ struct Overlay {
     scene::OverlayDraw draw() const { return {vertices, indices}; }
 };
 
-int differing(const scene::Picture& a, const scene::Picture& b, int tolerance) {
-    int pixels = 0;
-    for (int row = 0; row < a.height; ++row) {
-        for (int column = 0; column < a.width; ++column) {
-            const Pixel one = pixel(a, column, row);
-            const Pixel other = pixel(b, column, row);
-            bool differs = false;
-            for (std::size_t part = 0; part < 4; ++part) {
-                differs = differs || std::abs(one[part] - other[part]) > tolerance;
-            }
-            pixels += differs ? 1 : 0;
-        }
-    }
-    return pixels;
-}
-
 scene::Picture part_of(const scene::Picture& picture, const scene::PixelRect& rect) {
     scene::Picture part;
     part.width = rect.width;

@@ -57,7 +57,7 @@ TEST_CASE("aircraft and ground are painted in the order of the steps") {
     CHECK(count_of(picture, red_px) == 0);
 }
 
-TEST_CASE("a clear surface is blended where it is nearest and hides nothing by its depth") {
+TEST_CASE("a transparent surface is blended where it is nearest and hides nothing by its depth") {
     Studio studio;
     load_squares(studio, true);
     scene::FramePlan plan = empty_plan();
@@ -73,7 +73,7 @@ TEST_CASE("a clear surface is blended where it is nearest and hides nothing by i
     const scene::Picture picture = studio.picture(plan);
     CHECK(pixel(picture, 4, 4) == red_px);
     CHECK(pixel(picture, 18, 20) == Pixel{191, 64, 0, 255});
-    CHECK(pixel(picture, 32, 32) == blue_px); // nearer than the clear one
+    CHECK(pixel(picture, 32, 32) == blue_px); // nearer than the transparent one
     CHECK(pixel(picture, 18, 32) == blue_px); // farther, drawn after it
 }
 
@@ -166,20 +166,10 @@ TEST_CASE("ground painted again cut by a plane has the colours that it has whole
     plan.steps = {{Content::GroundRepaint, 0, count, 0}};
     const scene::Picture twice = studio.picture(plan);
     // Cutting adds corners, rounded to 1/256 pixel: edges may move by a pixel, colours by a step.
-    int other = 0;
-    for (std::size_t i = 0; i < once.rgba.size(); ++i) {
-        other += std::abs(int{once.rgba[i]} - int{twice.rgba[i]}) > 1 ? 1 : 0;
-    }
-    CHECK(other == 0);
+    CHECK(differing(once, twice, 1) == 0);
     plan.ground = {plan.ground.vertices, {}};
     const scene::Picture right = studio.picture(plan);
-    const int unlike = [&] {
-        int found = 0;
-        for (std::size_t i = 0; i < once.rgba.size(); i += 4) {
-            found += std::abs(int{once.rgba[i]} - int{right.rgba[i]}) > 1 ? 1 : 0;
-        }
-        return found;
-    }();
+    const int unlike = differing(once, right, 1);
     CHECK(unlike > side_px * side_px / 8); // the plane does cut
     CHECK(unlike < side_px * side_px * 7 / 8);
 }
@@ -281,8 +271,7 @@ TEST_CASE("slivers of ground keep their numbers to the last bit") {
             slivers.indices.push_back(static_cast<std::uint32_t>(slivers.indices.size()));
         }
     }
-    scene::FramePlan plan = empty_plan();
-    plan.ground = slivers.draw();
+    scene::FramePlan plan = plan_of(slivers);
     plan.ground_has_polygon_numbers = true;
     const scene::Picture picture = studio.picture(plan);
     const int right = count_of(picture, {0xe2, 0xbd, 0x1e, 255});

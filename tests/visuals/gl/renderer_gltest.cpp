@@ -22,8 +22,7 @@ TEST_CASE("the first row of the picture is its top, the first column its left") 
     Studio studio;
     Triangles ground;
     ground.add({-1.0F, 0.0F, 1.0F, 1.0F}, 100.0F, red).add({-1.0F, -1.0F, 0.0F, 0.0F}, 100.0F, green);
-    scene::FramePlan plan = empty_plan();
-    plan.ground = ground.draw();
+    scene::FramePlan plan = plan_of(ground);
     const scene::Picture picture = studio.picture(plan);
     CHECK(pixel(picture, 0, 0) == red_px);
     CHECK(pixel(picture, 63, 31) == red_px);
@@ -38,8 +37,7 @@ TEST_CASE("with depth a nearer ground triangle hides a farther one, whichever is
         Triangles ground;
         ground.add({}, nearer_first ? 10.0F : 20.0F, nearer_first ? red : green)
             .add({}, nearer_first ? 20.0F : 10.0F, nearer_first ? green : red);
-        scene::FramePlan plan = empty_plan();
-        plan.ground = ground.draw();
+        scene::FramePlan plan = plan_of(ground);
         CHECK(middle(studio.picture(plan, HiddenSurfaceMode::ByDepth)) == red_px);
     }
 }
@@ -48,8 +46,7 @@ TEST_CASE("without depth the ground is painted in its order, whatever is nearer"
     Studio studio;
     Triangles ground;
     ground.add({}, 10.0F, red).add({}, 20.0F, green);
-    scene::FramePlan plan = empty_plan();
-    plan.ground = ground.draw();
+    scene::FramePlan plan = plan_of(ground);
     CHECK(middle(studio.picture(plan)) == green_px);
 }
 
@@ -61,8 +58,7 @@ TEST_CASE("reversed depth tells 1 cm apart at 5 km") {
         Triangles ground;
         ground.add({}, nearer_first ? 5000.0F : 5000.01F, nearer_first ? red : green)
             .add({}, nearer_first ? 5000.01F : 5000.0F, nearer_first ? green : red);
-        scene::FramePlan plan = empty_plan();
-        plan.ground = ground.draw();
+        scene::FramePlan plan = plan_of(ground);
         const scene::Picture picture = studio.picture(plan, HiddenSurfaceMode::ByDepth);
         CHECK(count_of(picture, red_px) == side_px * side_px);
     }
@@ -72,8 +68,7 @@ TEST_CASE("what is nearer than the near plane is cut off, what is a million km a
     Studio studio;
     Triangles ground;
     ground.add({-1.0F, -1.0F, 0.0F, 1.0F}, 0.4F, red).add({0.0F, -1.0F, 1.0F, 1.0F}, 1e9F, green);
-    scene::FramePlan plan = empty_plan();
-    plan.ground = ground.draw();
+    scene::FramePlan plan = plan_of(ground);
     const scene::Picture picture = studio.picture(plan, HiddenSurfaceMode::ByDepth);
     CHECK(pixel(picture, 10, 32) == grey_px);
     CHECK(pixel(picture, 50, 32) == green_px);

@@ -71,8 +71,7 @@ TEST_CASE("a shadow is hidden by ground and aircraft in front of it") {
     ground.add({-1.0F, -1.0F, 0.0F, 1.0F}, 10.0F, green).add({}, 10.1F, blue);
     Triangles shadow;
     shadow.add({-0.5F, -0.5F, 0.5F, 0.5F}, 10.1F, grey);
-    scene::FramePlan plan = empty_plan();
-    plan.ground = ground.draw();
+    scene::FramePlan plan = plan_of(ground);
     plan.shadow_vertices = shadow.vertices;
     for (const std::uint32_t corner : shadow.indices) { plan.repaint_indices.push_back(corner + 8); }
     CHECK(count_of(studio.picture(plan, HiddenSurfaceMode::ByDepth, 6), grey_px) == 16 * 32);

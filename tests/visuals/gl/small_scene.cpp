@@ -31,6 +31,12 @@ scene::ModelBuffers box_model(const glm::vec3& half_m) {
 
 } // namespace
 
+void append(scene::ModelBuffers& model, const scene::ModelBuffers& other) {
+    const auto first = static_cast<std::uint32_t>(model.vertices.size());
+    model.vertices.insert(model.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const std::uint32_t index : other.indices) { model.indices.push_back(first + index); }
+}
+
 scene::FramePlan framed(scene::FramePlan plan, HiddenSurfaceMode mode, int shadow_indices) {
     using Content = scene::PaintStep::Content;
     using scene::DepthUse;
@@ -84,6 +90,22 @@ int count_of(const scene::Picture& picture, const Pixel& colour) {
         }
     }
     return count;
+}
+
+int differing(const scene::Picture& a, const scene::Picture& b, int tolerance) {
+    int pixels = 0;
+    for (int row = 0; row < a.height; ++row) {
+        for (int column = 0; column < a.width; ++column) {
+            const Pixel one = pixel(a, column, row);
+            const Pixel other = pixel(b, column, row);
+            bool differs = false;
+            for (std::size_t part = 0; part < 4; ++part) {
+                differs = differs || std::abs(one[part] - other[part]) > tolerance;
+            }
+            pixels += differs ? 1 : 0;
+        }
+    }
+    return pixels;
 }
 
 FullScene::FullScene() : models_{box_model({6.0F, 1.0F, 1.5F}), box_model({1.0F, 5.0F, 0.2F})} {

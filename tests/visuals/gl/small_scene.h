@@ -74,6 +74,9 @@ inline scene::ModelBuffers square_model(const glm::vec3& colour) {
     return model;
 }
 
+/// Appends another model's polygons.
+void append(scene::ModelBuffers& model, const scene::ModelBuffers& other);
+
 /// The steps of a whole picture for a plan. In order: sky, ground, the plan's own steps, overlay. By depth: all its
 /// aircraft and meshes, ground, the last `shadow_indices` of repaint_indices as shadows, sky, overlay.
 scene::FramePlan framed(
@@ -89,6 +92,13 @@ inline scene::FramePlan empty_plan() {
     plan.ambient = glm::vec3(1.0F);
     plan.sunlight = glm::vec3(0.0F);
     plan.smooth = {0};
+    return plan;
+}
+
+/// Ground before grey background.
+inline scene::FramePlan plan_of(const Triangles& ground) {
+    scene::FramePlan plan = empty_plan();
+    plan.ground = ground.draw();
     return plan;
 }
 
@@ -168,6 +178,9 @@ void load_squares(Studio& studio, bool as_meshes = false);
 
 /// Number of pixels of that colour.
 int count_of(const scene::Picture& picture, const Pixel& colour);
+
+/// Number of pixels of which a part differs by more than `tolerance`.
+int differing(const scene::Picture& a, const scene::Picture& b, int tolerance);
 
 /// Hash of the picture of FullScene, drawn in order and by depth.
 std::uint64_t hash_of_full_scene(Studio& studio);

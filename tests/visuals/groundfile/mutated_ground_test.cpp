@@ -20,7 +20,7 @@ namespace {
 
 using std::filesystem::path;
 using terrain::BisectionMesher;
-using terrain::ConformityCheck;
+using terrain::check_conformity;
 using terrain::GroundMesh;
 using terrain::GroundSamples;
 using terrain::MeshView;
@@ -60,7 +60,7 @@ std::string faults_of_mesh(const GroundTiles& ground) {
     view.focal_px = 800.0;
     BisectionMesher mesher(ground);
     const GroundMesh mesh = mesher.mesh(view, {0.5, terrain::any_triangles, true});
-    const terrain::Conformity found = ConformityCheck(GroundSamples(ground)).check(mesh, view);
+    const terrain::Conformity found = check_conformity(GroundSamples(ground), mesh, view);
     return found.is_conforming() ? "" : found.text();
 }
 

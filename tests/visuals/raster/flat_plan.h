@@ -11,6 +11,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace octant::visuals::raster {
@@ -21,6 +23,14 @@ struct FlatTriangle {
     std::array<float, 3> depth_m{10.0F, 10.0F, 10.0F};
     std::array<std::uint32_t, 3> colour{0xffffffffU, 0xffffffffU, 0xffffffffU};
 };
+
+/// A rectangle of ground from the picture's upper left corner on, cut into cells of two triangles each. Its inverse
+/// depth, 1/m, is a function of the place in pixels.
+std::vector<FlatTriangle> sheet(const glm::ivec2& size_px, const glm::ivec2& cell_px,
+    const std::function<double(const glm::dvec2&)>& inverse_depth, std::uint32_t colour = 0xffffffffU);
+
+/// Appends a square that faces +z to a model, two triangles.
+void add_square(scene::ModelBuffers& model, float half_m, float z_m, std::uint32_t colour);
 
 /// A plan that paints triangles of ground, in their order, before a black background. It owns what the plan's spans
 /// point at: it stays where it is.
@@ -51,12 +61,15 @@ scene::DetailTexture strong_detail();
 
 /// The plan's picture.
 scene::Picture drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads = 1,
-    const scene::GroundTexture* texture = nullptr);
+    const scene::GroundTexture* texture = nullptr, std::span<const scene::ModelBuffers> models = {});
 
 /// A whole number 0 .. most - 1.
 std::uint64_t below(RandomGenerator& dice, std::uint64_t most);
 
 /// Red, green and blue of a pixel.
 glm::ivec3 pixel(const scene::Picture& picture, int x, int y);
+
+/// How many pixels have a colour.
+int count_of(const scene::Picture& picture, const glm::ivec3& colour);
 
 } // namespace octant::visuals::raster

@@ -21,24 +21,11 @@ struct LeaningNormals {
     scene::FramePlan plan;
 
     LeaningNormals() {
-        constexpr std::array<glm::vec2, 4> corners{
-            glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)};
-        const float lean = std::sqrt(3.0F) / 2.0F;
-        for (const glm::vec2& corner : corners) {
-            scene::ModelVertex vertex;
-            vertex.position_m = glm::vec3(10.0F * corner, -10.0F);
-            vertex.normal = glm::vec3(lean * glm::normalize(corner), 0.5F);
-            vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
-            vertex.colour = 0xff404040U;
-            vertex.face_colour = 0xff404040U;
-            model.vertices.push_back(vertex);
+        add_square(model, 10.0F, -10.0F, 0xff404040U);
+        for (scene::ModelVertex& vertex : model.vertices) {
+            vertex.normal = glm::vec3(std::sqrt(3.0F) / 2.0F * glm::normalize(glm::vec2(vertex.position_m)), 0.5F);
         }
-        model.indices = {0, 1, 2, 0, 2, 3};
-        plan.view_to_clip = glm::mat4(0.0F);
-        plan.view_to_clip[0][0] = 1.0F;
-        plan.view_to_clip[1][1] = 1.0F;
-        plan.view_to_clip[2][3] = -1.0F;
-        plan.view_to_clip[3][2] = 1.0F;
+        plan = FlatPlan(size_px).plan();
         plan.to_sun = glm::vec3(0.0F, 0.0F, 1.0F);
         plan.ambient = glm::vec3(0.25F);
         plan.sunlight = glm::vec3(0.5F);
@@ -49,12 +36,7 @@ struct LeaningNormals {
     }
 
     scene::Picture picture(int samples, int threads = 1) const {
-        Renderer renderer(std::make_shared<ThreadPool>(threads), size_px, samples);
-        renderer.load_models({&model, 1});
-        scene::Picture result;
-        renderer.draw(plan);
-        renderer.finish_and_read(result);
-        return result;
+        return drawn(plan, size_px, samples, threads, nullptr, std::span(&model, 1));
     }
 };
 

@@ -19,11 +19,9 @@ constexpr glm::ivec3 red_px{255, 0, 0};
 constexpr glm::ivec3 green_px{0, 255, 0};
 
 /// Two triangles that fill a rectangle.
-std::vector<FlatTriangle> rectangle(glm::vec2 least, glm::vec2 most, std::uint32_t colour, float depth_m) {
-    FlatTriangle lower;
-    lower.at_px = {least, glm::vec2(most.x, least.y), most};
-    FlatTriangle upper;
-    upper.at_px = {least, most, glm::vec2(least.x, most.y)};
+std::vector<FlatTriangle> rectangle(glm::vec2 min, glm::vec2 max, std::uint32_t colour, float depth_m) {
+    FlatTriangle lower{{min, glm::vec2(max.x, min.y), max}};
+    FlatTriangle upper{{min, max, glm::vec2(min.x, max.y)}};
     for (FlatTriangle* const one : {&lower, &upper}) {
         one->depth_m.fill(depth_m);
         one->colour.fill(colour);
@@ -48,15 +46,6 @@ void light_evenly(scene::FramePlan& frame, std::uint32_t smooth) {
 void paint_triangle(scene::FramePlan& frame, std::uint32_t first_index) {
     frame.aircraft = {{.model = 0, .first_index = first_index, .index_count = 3}};
     frame.steps.push_back({PaintStep::Content::Aircraft, 0, 1});
-}
-
-scene::Picture drawn_with(const scene::ModelBuffers& model, const scene::FramePlan& frame, int samples) {
-    Renderer renderer(std::make_shared<ThreadPool>(1), size_px, samples);
-    renderer.load_models(std::span(&model, 1));
-    renderer.draw(frame);
-    scene::Picture picture;
-    renderer.finish_and_read(picture);
-    return picture;
 }
 
 } // namespace
@@ -126,11 +115,7 @@ TEST_CASE("both sides of a cut make the whole, through the eye or not") {
         plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 0);
         plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 1);
         const scene::Picture picture = drawn(plan.plan(), size_px, samples);
-        int whole = 0;
-        for (int y = 0; y < size_px.y; ++y) {
-            for (int x = 0; x < size_px.x; ++x) { whole += pixel(picture, x, y) == red_px ? 1 : 0; }
-        }
-        CHECK(whole == size_px.x * size_px.y);
+        CHECK(count_of(picture, red_px) == size_px.x * size_px.y);
         // Each side alone is not.
         FlatPlan half(size_px);
         half.plan().clips = plan.plan().clips;
@@ -161,7 +146,7 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
     scene::FramePlan& frame = plan.plan();
     light_evenly(frame, GENERATE(0U, 2U));
     paint_triangle(frame, 3); // the second one
-    const scene::Picture picture = drawn_with(model, frame, 16);
+    const scene::Picture picture = drawn(frame, size_px, 16, 1, nullptr, std::span(&model, 1));
     CHECK(pixel(picture, 36, 60) == (frame.smooth[0] == 0 ? red_px : green_px));
     CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
 }
@@ -184,28 +169,14 @@ TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding tur
         scene::FramePlan& frame = plan.plan();
         light_evenly(frame, 0U);
         paint_triangle(frame, 0);
-        const scene::Picture picture = drawn_with(model, frame, 1);
-        int drawn_px = 0;
-        for (int y = 0; y < size_px.y; ++y) {
-            for (int x = 0; x < size_px.x; ++x) { drawn_px += pixel(picture, x, y) == red_px ? 1 : 0; }
-        }
-        CHECK((drawn_px > 0) == (outwards >= 0.0F));
+        const scene::Picture picture = drawn(frame, size_px, 1, 1, nullptr, std::span(&model, 1));
+        CHECK((count_of(picture, red_px) > 0) == (outwards >= 0.0F));
     }
 }
 
 TEST_CASE("a transparent surface is blended over what is seen behind it, none over what is nearer") {
     scene::ModelBuffers model;
-    for (const std::uint32_t colour : {red, green, 0xffff0000U}) {
-        const auto first = static_cast<std::uint32_t>(model.vertices.size());
-        for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-            scene::ModelVertex vertex;
-            vertex.position_m = glm::vec3(at, 0.0F);
-            vertex.normal = vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
-            vertex.colour = vertex.face_colour = colour;
-            model.vertices.push_back(vertex);
-        }
-        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) { model.indices.push_back(first + corner); }
-    }
+    for (const std::uint32_t colour : {red, green, 0xffff0000U}) { add_square(model, 1.0F, 0.0F, colour); }
     const auto ahead = [](float ahead_m, float scale) {
         glm::mat4 place(scale);
         place[3] = glm::vec4(0.0F, 0.0F, -ahead_m, 1.0F);
@@ -228,7 +199,7 @@ TEST_CASE("a transparent surface is blended over what is seen behind it, none ov
     if (!shares_depth) { // painted over all
         frame.steps.push_back({Content::Aircraft, 2, 1});
     }
-    const scene::Picture picture = drawn_with(model, frame, samples);
+    const scene::Picture picture = drawn(frame, size_px, samples, 1, nullptr, std::span(&model, 1));
     CAPTURE(samples, shares_depth);
     CHECK(pixel(picture, 4, 4) == red_px);
     CHECK(pixel(picture, 18, 20) == glm::ivec3(191, 64, 0));

@@ -14,7 +14,7 @@ using scene::PaintStep;
 
 namespace {
 
-constexpr glm::ivec2 veil_size_px(64, 64);
+constexpr glm::ivec2 area_size_px(64, 64);
 
 FlatTriangle over_all(std::uint32_t colour) {
     FlatTriangle triangle;
@@ -43,9 +43,9 @@ constexpr std::uint32_t whole_red = 0xff0000ffU;
 
 } // namespace
 
-TEST_CASE("a veil is blended over what is painted before it and hidden by what comes after") {
+TEST_CASE("a transparent area is blended over what is painted before it and hidden by what comes after") {
     for (const int samples : {1, 4, 16}) {
-        FlatPlan plan(veil_size_px);
+        FlatPlan plan(area_size_px);
         Sheet sheet;
         sheet.add({}, half_white);
         plan.paint({over_all(whole_red)});
@@ -54,26 +54,26 @@ TEST_CASE("a veil is blended over what is painted before it and hidden by what c
         FlatTriangle corner = over_all(0xff00ff00U);
         corner.at_px = {glm::vec2(30, 0), glm::vec2(64, 0), glm::vec2(64, 34)};
         plan.paint({corner});
-        const scene::Picture picture = drawn(plan.plan(), veil_size_px, samples);
+        const scene::Picture picture = drawn(plan.plan(), area_size_px, samples);
         CHECK(pixel(picture, 20, 30) == glm::ivec3(255, 128, 128));
         CHECK(pixel(picture, 1, 1) == glm::ivec3(255, 0, 0));
         CHECK(pixel(picture, 55, 12) == glm::ivec3(0, 255, 0));
     }
 }
 
-TEST_CASE("no line shows where the triangles of a veil meet") {
-    FlatPlan plan(veil_size_px);
+TEST_CASE("no line shows where the triangles of a transparent area meet") {
+    FlatPlan plan(area_size_px);
     Sheet sheet;
     sheet.add({}, 0xe0ffffffU);
     plan.plan().overlay = {sheet.vertices, sheet.indices};
     plan.plan().steps.push_back({PaintStep::Content::Transparent, 0, 6});
-    const scene::Picture picture = drawn(plan.plan(), veil_size_px, 16);
+    const scene::Picture picture = drawn(plan.plan(), area_size_px, 16);
     for (int along = 12; along < 45; ++along) { CHECK(pixel(picture, along, along) == glm::ivec3(224)); }
 }
 
-TEST_CASE("veils over one another are blended in their order") {
+TEST_CASE("transparent areas over one another are blended in their order") {
     for (const bool white_last : {false, true}) {
-        FlatPlan plan(veil_size_px);
+        FlatPlan plan(area_size_px);
         Sheet sheet;
         sheet.add({}, white_last ? half_black : half_white);
         sheet.add({}, white_last ? half_white : half_black);
@@ -81,24 +81,24 @@ TEST_CASE("veils over one another are blended in their order") {
         plan.plan().overlay = {sheet.vertices, sheet.indices};
         plan.plan().steps.push_back({PaintStep::Content::Transparent, 0, 6});
         plan.plan().steps.push_back({PaintStep::Content::Transparent, 6, 6});
-        const glm::ivec3 seen = pixel(drawn(plan.plan(), veil_size_px, 16), 30, 30);
+        const glm::ivec3 seen = pixel(drawn(plan.plan(), area_size_px, 16), 30, 30);
         CHECK(seen.x == Approx(white_last ? 191 : 127).margin(1));
         CHECK(seen.y == Approx(white_last ? 128 : 64).margin(1));
     }
 }
 
-TEST_CASE("what lies over the picture lies over its veils") {
-    FlatPlan plan(veil_size_px);
+TEST_CASE("what lies over the picture lies over its transparent areas") {
+    FlatPlan plan(area_size_px);
     Sheet sheet;
     sheet.add({}, half_white);
     sheet.add({}, 0xff0000ffU);
     plan.plan().overlay = {sheet.vertices, sheet.indices};
     plan.plan().steps.push_back({PaintStep::Content::Overlay, 6, 6});
     plan.plan().steps.insert(plan.plan().steps.begin(), {PaintStep::Content::Transparent, 0, 6});
-    CHECK(pixel(drawn(plan.plan(), veil_size_px, 16), 30, 30) == glm::ivec3(255, 0, 0));
+    CHECK(pixel(drawn(plan.plan(), area_size_px, 16), 30, 30) == glm::ivec3(255, 0, 0));
 }
 
-TEST_CASE("many veils among triangles have the same bytes on any number of threads") {
+TEST_CASE("many transparent areas among triangles have the same bytes on any number of threads") {
     constexpr glm::ivec2 size_px(200, 150);
     RandomGenerator dice(5);
     FlatPlan plan(size_px);

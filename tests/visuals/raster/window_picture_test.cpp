@@ -45,20 +45,6 @@ void paint_some(FlatPlan& plan) {
     plan.plan().background = glm::vec3(0.9F, 0.5F, 0.1F);
 }
 
-/// An orange square, a quarter opaque.
-scene::ModelBuffers pane() {
-    scene::ModelBuffers model;
-    for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-        scene::ModelVertex vertex;
-        vertex.position_m = glm::vec3(at, -4.0F);
-        vertex.normal = vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
-        vertex.colour = vertex.face_colour = 0xff0080ffU;
-        model.vertices.push_back(vertex);
-    }
-    model.indices = {0, 1, 2, 0, 2, 3};
-    return model;
-}
-
 void add_pane(scene::FramePlan& plan) {
     plan.ambient = glm::vec3(1.0F);
     plan.smooth = {~0U};
@@ -83,7 +69,8 @@ TEST_CASE("a picture in a window's memory is the one that is read, blue first") 
     plan.plan().overlay = {words, indices};
     const auto window = std::make_shared<KeptPicture>();
     Renderer renderer(std::make_shared<ThreadPool>(1), window_px, 16, window);
-    const scene::ModelBuffers model = pane();
+    scene::ModelBuffers model;
+    add_square(model, 1.0F, -4.0F, 0xff0080ffU); // orange, drawn a quarter opaque
     renderer.load_models(std::span(&model, 1));
     const auto draw = [&] {
         renderer.draw(plan.plan());

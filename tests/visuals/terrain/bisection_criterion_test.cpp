@@ -1,4 +1,4 @@
-#include "tests/visuals/terrain/error_ground.h"
+#include "tests/visuals/terrain/ground_check.h"
 
 #include <catch2/catch.hpp>
 
@@ -59,20 +59,15 @@ struct AllCriticals {
     std::vector<int> rows;
 };
 
-struct Size {
-    int columns;
-    int rows;
-};
-
 } // namespace
 
 TEST_CASE("critical values never shrink from a sample to one that needs it, to the last bit") {
-    constexpr std::array<Size, 5> sizes = {{{129, 129}, {257, 65}, {100, 70}, {37, 210}, {33, 33}}};
+    constexpr std::array<FieldSize, 5> sizes = {{{129, 129}, {257, 65}, {100, 70}, {37, 210}, {33, 33}}};
     long tested = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         Numbers numbers(seed);
-        const Size& size = sizes[seed % sizes.size()];
-        ErrorGround ground(any_field(size.columns, size.rows, numbers));
+        const FieldSize& size = sizes[seed % sizes.size()];
+        ErrorGround ground(any_field(size, numbers));
         BisectionCriterion rule(ground.tiles);
         MeshView view = any_view(numbers, ground.field);
         if (numbers.coin()) {

@@ -1,6 +1,5 @@
 #include "models/heights/height_field_import.h"
 #include "tests/real_files.h"
-#include "tests/visuals/terrain/both_meshes.h"
 #include "tests/visuals/terrain/ground_check.h"
 #include "visuals/terrain/quadtree_mesher.h"
 
@@ -59,7 +58,7 @@ TEST_CASE("a budget is kept by hand's count on four quadrants") {
 TEST_CASE("the counted steps are those of the meshes, for all grounds, views and fans") {
     int within = 0;
     int spent = 0;
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 80; ++seed) {
         Numbers numbers(seed);
         const int columns = 20 + static_cast<int>(numbers.next() % 110);
         const int rows = 20 + static_cast<int>(numbers.next() % 110);
@@ -84,51 +83,8 @@ TEST_CASE("the counted steps are those of the meshes, for all grounds, views and
             }
         }
     }
-    CHECK(within > 1500);
-    CHECK(spent > 400);
-}
-
-TEST_CASE("a mesh within a budget does not depend on the meshes before") {
-    Ground ground = wide_ground();
-    Numbers numbers(5);
-    for (int frame = 0; frame < 150; ++frame) {
-        const MeshView view = random_view(numbers, ground.field);
-        const TriangleBudget budget{200 + static_cast<int>(numbers.next() % 20000), numbers.coin() ? 500.0 : 30.0};
-        const QuadtreeDetail detail{0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
-        QuadtreeMesher fresh(ground.tree, ground.colours);
-        const MeshCopy expected(fresh.mesh_within(view, detail, budget));
-        REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
-        REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
-    }
-}
-
-TEST_CASE("along a path every mesh spends its budget to a few triangles") {
-    Ground ground = wide_ground();
-    const QuadtreeDetail detail{0.0, 20.0, FanKind::Partial};
-    double missing = 0.0;
-    for (int frame = 0; frame < 300; ++frame) {
-        const GroundMesh mesh = ground.mesher.mesh_within(circling(frame), detail, wide_budget);
-        REQUIRE(mesh.counters.triangles <= wide_budget.triangles);
-        REQUIRE(mesh.counters.triangles >= wide_budget.triangles - 30);
-        missing += wide_budget.triangles - mesh.counters.triangles;
-    }
-    CHECK(missing / 300 < 0.002 * wide_budget.triangles);
-}
-
-TEST_CASE("a view that swings from ground to sky and back spends its budget at once") {
-    Ground ground = wide_ground();
-    const QuadtreeDetail detail{0.0, 20.0, FanKind::Partial};
-    for (int swing = 0; swing < 10; ++swing) {
-        for (int frame = 0; frame < 3; ++frame) {
-            const GroundMesh sky = ground.mesher.mesh_within(into_the_sky(), detail, wide_budget);
-            REQUIRE(sky.counters.triangles < 20);
-            REQUIRE(sky.resolution == 500.0);
-        }
-        const GroundMesh mesh = ground.mesher.mesh_within(circling(swing), detail, wide_budget);
-        REQUIRE(mesh.counters.triangles <= wide_budget.triangles);
-        REQUIRE(mesh.counters.triangles >= wide_budget.triangles - 30);
-        REQUIRE(mesh.counters.nodes_visited < 20 * wide_budget.triangles);
-    }
+    CHECK(within > 800);
+    CHECK(spent > 200);
 }
 
 TEST_CASE("a larger budget never coarsens the mesh") {
@@ -162,9 +118,9 @@ TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent")
         Ground ground(octant::models::heights::read_height_field(*file, {30.0, 1.0}));
         for (const int triangles : {20000, 32000}) {
             double missing = 0.0;
-            int least = triangles;
-            for (int frame = 0; frame < 100; ++frame) {
-                const double angle = frame * 0.01;
+            int min = triangles;
+            for (int frame = 0; frame < 40; ++frame) {
+                const double angle = frame * 0.025;
                 const glm::dvec2 at_m =
                     0.5 * ground.field.half_extent_m() * glm::dvec2(std::cos(angle), std::sin(angle));
                 const double ground_m = ground.field.height_at(at_m.x, at_m.y).value_or(0.0);
@@ -172,12 +128,12 @@ TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent")
                 const int got = ground.mesher.mesh_within(view, {0.0, 20.0, FanKind::Partial}, {triangles, 500.0})
                                     .counters.triangles;
                 REQUIRE(got <= triangles);
-                least = std::min(least, got);
+                min = std::min(min, got);
                 missing += triangles - got;
             }
             INFO(name);
-            CHECK(missing / 100 < 0.0005 * triangles);
-            CHECK(least > 0.999 * triangles);
+            CHECK(missing / 40 < 0.0005 * triangles);
+            CHECK(min > 0.999 * triangles);
         }
     }
 }

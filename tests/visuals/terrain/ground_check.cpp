@@ -1,11 +1,16 @@
 #include "tests/visuals/terrain/ground_check.h"
 
+#include "sim/base/plane.h"
+
 #include <catch2/catch.hpp>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -13,6 +18,11 @@
 namespace octant::visuals::terrain::test {
 
 namespace {
+
+template <typename Item>
+bool same_bytes(const std::vector<Item>& a, const std::vector<Item>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
+}
 
 std::size_t sample_count(int columns, int rows) {
     return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
@@ -253,6 +263,165 @@ MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, 
     view.frustum_normals = {glm::normalize(ahead * wide + right), glm::normalize(ahead * wide - right),
         glm::normalize(ahead * tall + up), glm::normalize(ahead * tall - up)};
     return view;
+}
+
+MeshView circling(int frame) {
+    const double angle = frame * 0.02;
+    return camera_view({70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
+}
+
+MeshView into_the_sky() { return camera_view({0.0, 0.0, 200.0}, 0.3, 1.2, 0.9); }
+
+Corners corners_of(const GroundMesh& mesh, std::size_t triangle) {
+    Corners corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = glm::dvec3(mesh.vertices[mesh.indices[3 * triangle + k]].position_m);
+    }
+    return corners;
+}
+
+bool reaches_into(const Corners& corners, const MeshView& view) {
+    constexpr int parts = 5;
+    for (int i = 0; i <= parts; ++i) {
+        for (int j = 0; i + j <= parts; ++j) {
+            const glm::dvec3 point = corners[0] + (corners[1] - corners[0]) * (1.0 * i / parts) +
+                                     (corners[2] - corners[0]) * (1.0 * j / parts);
+            if (std::all_of(view.frustum_normals.begin(), view.frustum_normals.end(),
+                    [&](const glm::dvec3& normal) { return glm::dot(normal, point) >= 0.0; })) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool SearchBox::meets(const glm::dvec3& min_m, const glm::dvec3& max_m) const {
+    const glm::dvec3 above = max_m - (middle_m - half_m);
+    const glm::dvec3 below = middle_m + half_m - min_m;
+    return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0.0;
+}
+
+long checked_count_in(
+    const SearchBox& box, const GroundMesh& mesh, const glm::dvec3& eye_m, std::span<const std::uint32_t> found) {
+    constexpr double rounding_m = 1e-4; // positions are floats
+    REQUIRE(std::adjacent_find(found.begin(), found.end(), std::greater_equal<>()) == found.end());
+    REQUIRE((found.empty() || 3 * found.back() < mesh.indices.size()));
+    long count = 0;
+    for (std::uint32_t triangle = 0; 3 * triangle < mesh.indices.size(); ++triangle) {
+        const auto [a, b, c] = corners_of(mesh, triangle);
+        const glm::dvec3 min_m = glm::min(a, glm::min(b, c)) + eye_m + rounding_m;
+        const glm::dvec3 max_m = glm::max(a, glm::max(b, c)) + eye_m - rounding_m;
+        if (box.meets(min_m, max_m)) {
+            ++count;
+            REQUIRE(std::binary_search(found.begin(), found.end(), triangle));
+        }
+    }
+    return count;
+}
+
+MeshCopy::MeshCopy(const GroundMesh& mesh)
+    : vertices(mesh.vertices.begin(), mesh.vertices.end()), morphs(mesh.morphs.begin(), mesh.morphs.end()),
+      indices(mesh.indices.begin(), mesh.indices.end()), triangles(mesh.counters.triangles), fans(mesh.counters.fans),
+      resolution(mesh.resolution), error_px(mesh.error_px) {}
+
+bool MeshCopy::operator==(const MeshCopy& other) const {
+    return same_bytes(vertices, other.vertices) && same_bytes(morphs, other.morphs) && indices == other.indices &&
+           triangles == other.triangles && fans == other.fans && resolution == other.resolution &&
+           error_px == other.error_px;
+}
+
+models::heights::HeightField ErrorGround::stored_field(const GroundTiles& tiles) {
+    std::vector<float> heights_m;
+    for (int row = 0; row < tiles.rows(); ++row) {
+        for (int column = 0; column < tiles.columns(); ++column) { heights_m.push_back(tiles.height_m(column, row)); }
+    }
+    return {tiles.columns(), tiles.rows(), tiles.spacing_m(), std::move(heights_m)};
+}
+
+models::heights::HeightField any_field(const FieldSize& size, Numbers& numbers) {
+    const auto [columns, rows] = size;
+    switch (numbers.next() % 6) {
+    case 0:
+        return level_field(columns, rows);
+    case 1:
+    case 2:
+        return spiky_field(columns, rows, numbers.next());
+    default:
+        return rough_field(columns, rows, numbers.next());
+    }
+}
+
+MeshView any_view(Numbers& numbers, const models::heights::HeightField& field) {
+    MeshView view = random_view(numbers, field);
+    view.focal_px = numbers.between(200.0, 2000.0);
+    view.earth_radius_m = numbers.coin() ? 0.0 : numbers.between(300.0, 3000.0);
+    return view;
+}
+
+double any_error_px(Numbers& numbers) { return std::exp(numbers.between(std::log(0.5), std::log(300.0))); }
+
+std::vector<SampleTriangle> origin_triangles(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
+    REQUIRE(mesh.morphs.size() == mesh.vertices.size());
+    std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
+    for (const std::uint32_t vertex : mesh.indices) { used[vertex] = 1; }
+    std::vector<std::uint32_t> samples;
+    std::vector<std::uint32_t> used_samples;
+    bool in_place = true;
+    for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+        const VertexMorph& origin = mesh.morphs[k];
+        const glm::dvec3 sample_m = field.sample_m(origin.column, origin.row) - eye_m;
+        const glm::vec3& drawn_m = mesh.vertices[k].position_m;
+        samples.push_back(static_cast<std::uint32_t>(origin.row * field.columns() + origin.column));
+        if (used[k] != 0) {
+            in_place = in_place && std::abs(static_cast<double>(drawn_m.x) - sample_m.x) < 1e-3 &&
+                       std::abs(static_cast<double>(drawn_m.y) - sample_m.y) < 1e-3;
+            used_samples.push_back(samples.back());
+        }
+    }
+    REQUIRE(in_place);
+    std::vector<SampleTriangle> triangles;
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        triangles.push_back(
+            smallest_first(samples[mesh.indices[k]], samples[mesh.indices[k + 1]], samples[mesh.indices[k + 2]]));
+    }
+    std::sort(used_samples.begin(), used_samples.end());
+    REQUIRE(std::adjacent_find(used_samples.begin(), used_samples.end()) == used_samples.end());
+    return triangles;
+}
+
+std::vector<double> drawn_heights_m(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
+    std::vector<double> heights_m(static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()),
+        std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        std::array<glm::dvec3, 3> corners{};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::uint32_t vertex = mesh.indices[k + j];
+            const VertexMorph& origin = mesh.morphs[vertex];
+            corners[j] = {origin.column, origin.row, static_cast<double>(mesh.vertices[vertex].position_m.z) + eye_m.z};
+        }
+        const auto [a, b, c] = corners;
+        const auto area2 = [](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
+            return signed_area2(glm::dvec2(p), glm::dvec2(q), glm::dvec2(r));
+        };
+        const double whole = area2(a, b, c);
+        const auto min = [](double p, double q, double r) { return static_cast<int>(std::min({p, q, r})); };
+        const auto max = [](double p, double q, double r) { return static_cast<int>(std::max({p, q, r})); };
+        for (int row = min(a.y, b.y, c.y); row <= max(a.y, b.y, c.y); ++row) {
+            for (int column = min(a.x, b.x, c.x); column <= max(a.x, b.x, c.x); ++column) {
+                const glm::dvec3 at(column, row, 0.0);
+                const double of_a = area2(at, b, c);
+                const double of_b = area2(at, c, a);
+                const double of_c = area2(at, a, b);
+                if (std::min({of_a, of_b, of_c}) >= 0.0) {
+                    heights_m[static_cast<std::size_t>(row * field.columns() + column)] =
+                        (of_a * a.z + of_b * b.z + of_c * c.z) / whole;
+                }
+            }
+        }
+    }
+    return heights_m;
 }
 
 } // namespace octant::visuals::terrain::test

@@ -1,13 +1,29 @@
 #pragma once
 
+#include "models/colour_vertex.h"
 #include "models/heights/height_field.h"
+#include "visuals/terrain/bisection_mesher.h"
+#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/quadtree_mesher.h"
 
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
+// What tests of meshes by resolution and of meshes by screen-space error share.
 namespace octant::visuals::terrain::test {
+
+/// Samples of a field.
+struct FieldSize {
+    int columns;
+    int rows;
+};
 
 /// Small generator of numbers that are the same everywhere.
 class Numbers {
@@ -95,5 +111,77 @@ long wrongly_ordered_rays(
 
 /// Frustum of a camera: yaw counter-clockwise from east, pitch upward.
 MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, double fov_rad);
+
+/// On a circle low over a ground of 257 by 257 samples, 1 m apart.
+MeshView circling(int frame);
+
+MeshView into_the_sky();
+
+/// A triangle's corners, eye subtracted.
+using Corners = std::array<glm::dvec3, 3>;
+
+Corners corners_of(const GroundMesh& mesh, std::size_t triangle);
+
+/// Any of 21 points spread over a triangle is inside the frustum.
+bool reaches_into(const Corners& corners, const MeshView& view);
+
+/// A box, world axes, in which triangles are looked for.
+struct SearchBox {
+    glm::dvec3 middle_m;
+    glm::dvec3 half_m;
+
+    /// Whether it meets another.
+    bool meets(const glm::dvec3& min_m, const glm::dvec3& max_m) const;
+};
+
+/// How many triangles of a mesh meet the box. Fails the test unless `found` are numbers of the mesh's triangles,
+/// ascending, and those are among them.
+long checked_count_in(
+    const SearchBox& box, const GroundMesh& mesh, const glm::dvec3& eye_m, std::span<const std::uint32_t> found);
+
+/// What a copy of a mesh is compared by.
+struct MeshCopy {
+    explicit MeshCopy(const GroundMesh& mesh);
+    bool operator==(const MeshCopy& other) const;
+
+    std::vector<models::ColourVertex> vertices;
+    std::vector<VertexMorph> morphs;
+    std::vector<std::uint32_t> indices;
+    int triangles;
+    int fans;
+    double resolution;
+    double error_px;
+};
+
+/// A ground with errors, the field of its stored heights and a mesher.
+struct ErrorGround {
+    explicit ErrorGround(const models::heights::HeightField& made)
+        : tiles(make_ground_tiles(made)), field(stored_field(tiles)), mesher(tiles) {}
+
+    static models::heights::HeightField stored_field(const GroundTiles& tiles);
+
+    GroundTiles tiles;
+    models::heights::HeightField field;
+    BisectionMesher mesher;
+};
+
+/// Level, rough or spiky ground of any size.
+models::heights::HeightField any_field(const FieldSize& size, Numbers& numbers);
+
+/// A view as random_view; half of them over a small curved earth.
+MeshView any_view(Numbers& numbers, const models::heights::HeightField& field);
+
+/// An error that such grounds are meshed at.
+double any_error_px(Numbers& numbers);
+
+/// The mesh in whole samples by its origins, in drawing order. Fails the test where vertices of triangles are not in
+/// plan where their samples are, or two at the same one.
+std::vector<SampleTriangle> origin_triangles(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
+
+/// Height of the mesh as drawn above datum at every sample of the field, row after row; not a number where there is no
+/// triangle.
+std::vector<double> drawn_heights_m(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 
 } // namespace octant::visuals::terrain::test

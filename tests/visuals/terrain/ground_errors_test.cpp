@@ -173,10 +173,10 @@ private:
     const ErrorCodes& meaning_;
     double factor_;
     int root_edge_;
-    std::array<std::vector<std::uint8_t>, 2> codes_; ///< By Room.
+    std::array<std::vector<std::uint8_t>, 2> codes_; ///< By MorphMargin.
 };
 
-/// Calls check(code, room, sample, half) for each stored error of a ground.
+/// Calls check(code, morph margin, sample, half) for each stored error of a ground.
 template <typename Check>
 void for_each_error(const GroundTiles& ground, const Check& check) {
     for (int level = 0; level < ground.levels(); ++level) {
@@ -201,12 +201,11 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
 /// Number of samples whose stored error is not that of the definition, rounding aside.
 int wrong_errors(const models::heights::HeightField& field) {
     const GroundTiles ground = make_ground_tiles(field);
-    const PlainErrors least(field, ground.codes(), 1.0 - 1e-6);
-    const PlainErrors most(field, ground.codes(), 1.0 + 1e-6);
+    const PlainErrors min(field, ground.codes(), 1.0 - 1e-6);
+    const PlainErrors max(field, ground.codes(), 1.0 + 1e-6);
     int wrong = 0;
     for_each_error(ground, [&](std::uint8_t code, MorphMargin morph_margin, Point sample, int /*half*/) {
-        wrong +=
-            code < least.code(sample.x, sample.y, morph_margin) || code > most.code(sample.x, sample.y, morph_margin);
+        wrong += code < min.code(sample.x, sample.y, morph_margin) || code > max.code(sample.x, sample.y, morph_margin);
     });
     return wrong;
 }
@@ -216,7 +215,7 @@ int errors_too_small(const models::heights::HeightField& field) {
     const GroundTiles ground = make_ground_tiles(field);
     const PlainErrors plain(field, ground.codes(), 1.0);
     int wrong = 0;
-    for_each_error(ground, [&](std::uint8_t code, MorphMargin /*room*/, Point sample, int half) {
+    for_each_error(ground, [&](std::uint8_t code, MorphMargin /*morph_margin*/, Point sample, int half) {
         const double own_m = plain.own(sample, half, Look::AtAll);
         wrong += static_cast<double>(ground.codes().metres(code)) < own_m * (1.0 - 1e-6);
     });
@@ -225,7 +224,7 @@ int errors_too_small(const models::heights::HeightField& field) {
 
 } // namespace
 
-TEST_CASE("errors are the largest deviations in the diamonds, saturated with room to move and without") {
+TEST_CASE("errors are the largest deviations in the diamonds, saturated with and without morph margin") {
     for (const int size : {3, 5, 9, 17, 33, 65, 129}) {
         INFO(size);
         CHECK(wrong_errors(rough_field(size, size, static_cast<unsigned>(size))) == 0);

@@ -1,5 +1,7 @@
 #include "tests/visuals/terrain/pixel_errors.h"
 
+#include "sim/base/plane.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace octant::visuals::terrain::test {
 namespace {
 
 double area2(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    return signed_area2(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
 }
 
 /// The samples of a ground as a picture shows them.

@@ -208,3 +208,25 @@ TEST_CASE("a settled resolution meets the triangle target at once") {
     CHECK(resolution_for_target(ground.mesher, view, detail, 1.0, 1000.0) == 2.0);
     CHECK(resolution_for_target(ground.mesher, view, detail, 1e6, 1000.0) == 1000.0);
 }
+
+TEST_CASE("the check of painting orders finds two triangles the wrong way round") {
+    Ground ground(rough_field(33, 33, 4));
+    MeshView view;
+    view.eye_m = {3.3, -40.0, 10.0};
+    const GroundMesh mesh = ground.mesher.mesh(view, {3.0, 2.0, FanKind::Partial});
+    auto triangles = sample_triangles(mesh, ground.field, view.eye_m);
+    REQUIRE(wrongly_ordered_rays(triangles, ground.field, view.eye_m) == 0);
+    std::swap(triangles.front(), triangles.back());
+    CHECK(wrongly_ordered_rays(triangles, ground.field, view.eye_m) > 0);
+}
+
+TEST_CASE("eight triangles around a centre come from opposite the eye round to it") {
+    Ground ground(level_field(3, 3));
+    MeshView view;
+    view.eye_m = {-2.0, -5.0, 1.0}; // sees the half of the south side that is in the west
+    const GroundMesh mesh = ground.mesher.mesh(view, {2.0, 1.0, FanKind::Partial});
+    REQUIRE(mesh.counters.triangles == 8);
+    const auto triangles = sample_triangles(mesh, ground.field, view.eye_m);
+    CHECK(triangles.front() == SampleTriangle{4, 8, 7}); // centre, north-east, north
+    CHECK(triangles.back() == SampleTriangle{0, 1, 4});  // south-west, south, centre
+}

@@ -1,5 +1,5 @@
-// The fine pattern of ground, once for each pixel: scene::Grain. What follows from the pattern's
-// shape is written as numbers: scene::GrainPattern, scene::CoverContrast.
+// The detail texture of ground, once for each pixel: scene::DetailTexture. What follows from the pattern's
+// shape is written as numbers: scene::DetailPattern, scene::LandCoverContrast.
 #include "picture.glsl"
 
 layout(binding = 2) uniform sampler2D pattern;

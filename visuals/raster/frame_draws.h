@@ -1,0 +1,82 @@
+#pragma once
+
+#include "visuals/raster/lit_ground_texture.h"
+#include "visuals/raster/triangle_setup.h"
+#include "visuals/raster/vertex_stage.h"
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/model_buffers.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// Triangles of one slice, and so of one task, at most.
+constexpr std::size_t batch_triangles = 2048;
+
+/// What the triangles of a picture are made from.
+struct FrameInput {
+    const scene::FramePlan& plan;
+    std::span<const scene::ModelBuffers> models;
+    LitGroundTexture* ground = nullptr; ///< none loaded
+    glm::ivec2 size_px{0};
+};
+
+/// Corners that are placed alike, and where they go in the list of all corners.
+struct VertexBlock {
+    enum class Kind { Ground, Textured, Sky, Aircraft } kind = Kind::Ground;
+    std::span<const models::ColourVertex> coloured;
+    std::span<const scene::ModelVertex> of_model;
+    AircraftDrawState state;
+    std::size_t first = 0;
+    std::size_t first_flat = 0; ///< among those of aircraft alone
+};
+
+/// Triangles of one step.
+struct DrawSlice {
+    std::span<const std::uint32_t> indices;
+    DrawStyle style;
+    // What is added to an index for its place, which may be less than nothing.
+    std::int64_t first_vertex = 0; ///< among all corners
+    std::int64_t first_flat = 0;   ///< among those of aircraft
+    bool is_aircraft = false;
+};
+
+/// The steps of a plan as slices in painting order, and the corners that they name. Spans point into the plan and the
+/// models.
+class FrameDraws {
+public:
+    void collect(const FrameInput& input);
+
+    const std::vector<VertexBlock>& blocks() const { return blocks_; }
+
+    const std::vector<DrawSlice>& slices() const { return slices_; }
+
+    std::size_t vertex_count() const { return vertex_count_; }
+
+    std::size_t flat_vertex_count() const { return flat_vertex_count_; }
+
+private:
+    void add_step(const FrameInput& input, const scene::PaintStep& step, DrawStyle style);
+    void add_on_ground(VertexBlock::Kind ground, std::span<const models::ColourVertex> corners);
+    void add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style);
+    VertexBlock& add_block(VertexBlock::Kind kind, std::size_t corners);
+    void add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
+    void add_mesh(std::span<const std::span<const std::uint32_t>> ranges, std::span<const scene::ModelVertex> vertices,
+        const AircraftDrawState& state, const DrawStyle& style);
+    void add_slice(const DrawSlice& slice);
+
+    std::vector<VertexBlock> blocks_;
+    std::vector<DrawSlice> slices_;
+    std::size_t vertex_count_ = 0;
+    std::size_t flat_vertex_count_ = 0;
+    std::int64_t first_sky_ = 0;
+    bool has_own_colours_ = false; ///< some triangles on textured ground have colours of their own
+    std::vector<std::span<const std::uint32_t>> ranges_; ///< of the aircraft at hand
+};
+
+} // namespace octant::visuals::raster

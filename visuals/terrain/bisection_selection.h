@@ -1,0 +1,115 @@
+#pragma once
+
+#include "visuals/terrain/bisection_criterion.h"
+#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/step_function.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// ErrorTarget::max_triangles without a limit.
+inline constexpr int any_triangles = 1 << 30;
+
+/// What is wanted of a mesh by screen-space error.
+struct ErrorTarget {
+    /// The target error, at or above zero. With 0 every sample is used that is not on a straight line.
+    double error_px = 1.0;
+    /// A larger error is allowed where this number would be exceeded; with any_triangles it never is.
+    int max_triangles = 32000;
+    bool geomorphs = true;
+
+    bool operator==(const ErrorTarget&) const = default;
+};
+
+/// The target error from which on vertices have the full morph margin where that error is the same in every frame. S,
+/// the speed of a vertex, is how far it moves in target errors while a distance shrinks by a small share of itself,
+/// divided by that share (tile_builder.cpp). Below this target error S full_margin_px is the largest speed in pixels.
+/// With 14, vertices jump by at most 0.25 px a frame along the four paths over three maps at 2 px, with 18 by 0.31 px.
+inline constexpr double full_margin_px = 14.0;
+
+/// Above this target error the share grows with its square. S grows with a sample's error, because a larger one moves
+/// farther off; but with a larger target error it moves as near as a smaller one did.
+inline constexpr double near_margin_px = 2.0;
+
+/// The share of the full morph margin that vertices get: 1 with a budget, because it changes the target error from
+/// frame to frame; otherwise proportional to the target error.
+double margin_share(const ErrorTarget& target);
+
+/// A node whose fan is in the mesh at some limits. Each member is the limit from which on that part exists.
+struct alignas(64) BisectionNode {
+    Float4 middle{};   ///< The mid-points of fan_edges.
+    Float4 quadrant{}; ///< The fans of the children.
+    /// The nodes of those children that were looked at; 0 = none.
+    std::array<std::uint32_t, 4> child{};
+    float node_limit = 0.0F; ///< The fan itself, by its centre.
+    std::uint16_t column = 0;
+    std::uint16_t row = 0;
+    std::uint8_t level = 0;
+    std::uint8_t hidden = 0; ///< The quadrants outside the frustum or the field.
+};
+
+/// Collects what a mesh by screen-space error consists of, and finds the error that spends a budget of triangles,
+/// exactly and before the mesh is made. It does for BisectionCriterion what QuadtreeSelection does for the paper's
+/// quadtree.
+class BisectionSelection {
+public:
+    /// The criterion must outlive the selection.
+    explicit BisectionSelection(const BisectionCriterion& criterion) : criterion_(&criterion) {}
+
+    /// The limit that belongs to the smallest error, at or above the target's, for which no larger error gives more
+    /// triangles than allowed. The root's fan is always in the mesh.
+    float limit_for(const ErrorTarget& target);
+
+    /// The nodes of all meshes up to the limit that was found, and some more: parents before children. Entry 0 stands
+    /// for no node; entry 1 is the root.
+    std::span<const BisectionNode> nodes() const { return std::span(nodes_).first(count_); }
+
+    int nodes_tested() const { return nodes_tested_; }
+
+private:
+    /// A node that is to be visited.
+    struct PendingNode {
+        NodeContext place;
+        unsigned planes = 0;     ///< The frustum planes that it may reach beyond.
+        float node_limit = 0.0F; ///< The critical value of its centre.
+        float error_m = 0.0F;    ///< The error of its centre.
+        int replaced = 0;        ///< How many triangles of its parent it replaces.
+    };
+
+    /// What was found out about the children of a node.
+    struct Children {
+        std::array<unsigned, 4> planes{};
+        unsigned hidden = 0;
+    };
+
+    void start(float high);
+    PendingNode root_visit() const;
+    std::size_t next_node();
+    template <bool counting>
+    std::uint32_t visit(const PendingNode& from);
+    static NodeContext child_place(const NodeContext& place, unsigned quadrant);
+    bool is_cut(const GroundLayout::Level& at, const NodeContext& place) const;
+    void test_children(const PendingNode& from, Children& children);
+    void count(const PendingNode& from, const BisectionNode& node, std::array<int, 4>& replaced);
+
+    const BisectionCriterion* criterion_;
+    std::vector<BisectionNode> nodes_;
+    std::size_t count_ = 0;
+    StepFunction steps_;
+    std::array<std::array<VerticalDistances, 4>, 16> distances_; ///< By level and quadrant, during a walk.
+    float high_ = 0.0F;
+    /// With geomorphs a vertex is drawn off its sample, by at most the error of the centre of its node's parent. The
+    /// box of a node is then larger by that error when it is tested against the frustum.
+    bool geomorphs_ = false;
+    int max_triangles_ = 0;        ///< A walk stops once it has counted more.
+    bool has_steps_above_ = false; ///< Something visible appears only above high_.
+    int nodes_tested_ = 0;
+    double last_error_px_ = 0.0; ///< 0 before the first call.
+};
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "visuals/terrain/bisection_selection.h"
+#include "visuals/terrain/ground_mesh.h"
+
+#include <optional>
+
+namespace octant::visuals::terrain {
+
+/// Elevations, in radians above level.
+struct ElevationBand {
+    double low_rad = 0.0;
+    double high_rad = 0.0; ///< At or above the low one.
+};
+
+/// A view that was turned about a level axis and then widened.
+struct TurnedView {
+    MeshView view;
+    double turned_rad = 0.0; ///< Without the widening; at or above zero.
+};
+
+/// The view, turned up or down until its border reaches a band, and widened until it contains the band on the way of
+/// the turn. Looking above the band, what lies 4 degrees below it belongs to it. A view whose border is in the band is
+/// only widened. Nothing where the band is in the picture already, and where the view has no direction or frustum or
+/// looks straight up or down.
+std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band);
+
+/// Finds the error below which a mesh with a budget must not be refined, so that vertices do not jump when the view
+/// turns to the horizon.
+class HorizonError {
+public:
+    /// The ground must outlive it.
+    explicit HorizonError(const GroundTiles& ground);
+    HorizonError(const HorizonError&) = delete;
+    HorizonError& operator=(const HorizonError&) = delete;
+    HorizonError(HorizonError&&) = delete;
+    HorizonError& operator=(HorizonError&&) = delete;
+    ~HorizonError() = default;
+
+    /// The target with its error raised to that one, whatever was asked before; unchanged without geomorphs or a
+    /// budget, and where the horizon is in the picture.
+    ErrorTarget raise_to_horizon_error(const MeshView& view, const ErrorTarget& target);
+
+private:
+    ElevationBand far_ground(const MeshView& view) const;
+
+    BisectionCriterion criterion_;
+    BisectionSelection selection_;
+    double motion_share_; ///< How much the error may change in a turn, in pixels that it moves.
+};
+
+} // namespace octant::visuals::terrain
