@@ -419,8 +419,8 @@ bool is_ellipsoidal(SpatialReferenceHandle system) {
 void note_ellipsoid(const path& file, HeightRaster& raster) {
     if (raster.system && raster.ellipsoid.is_earth() && is_ellipsoidal(raster.system.get())) {
         note(file, raster,
-            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: --water-level METRES "
-            "says where");
+            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: "
+            "--ground-look water-level=METRES says where");
     }
 }
 

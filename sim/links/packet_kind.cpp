@@ -130,30 +130,30 @@ std::optional<Protocol> protocol_of(PacketKind kind) {
 std::string_view text_of(PacketKind kind) {
     switch (kind) {
     case PacketKind::Fdm:
-        return "this is FlightGear FDM; --fdm-port [5550] says where it is read";
+        return "this is FlightGear FDM; --ports fdm [5550] says where it is read";
     case PacketKind::SwappedFdm:
         return "this is FlightGear FDM in little-endian byte order, which is not supported: "
                "FGNetFDM "
                "is big-endian (network order), so its sender has to swap the bytes of each number";
     case PacketKind::Cigi3:
-        return "this is a CIGI 3 host; --cigi-port [8004] says where it is read";
+        return "this is a CIGI 3 host; --ports cigi [8004] says where it is read";
     case PacketKind::OlderCigi:
         return "this is a host of CIGI 1 or 2, which is not supported: set it to CIGI 3.3";
     case PacketKind::Cigi4:
         return "this is a CIGI 4 host, which is not supported: set it to CIGI 3.3";
     case PacketKind::MavLink:
-        return "this is MAVLink; --mavlink-port [14550] says where it is read";
+        return "this is MAVLink; --ports mavlink [14550] says where it is read";
     case PacketKind::Dis:
-        return "this is DIS; --dis-port [3000] says where it is read";
+        return "this is DIS; --ports dis [3000] says where it is read";
     case PacketKind::XPlane:
-        return "this is X-Plane DATA or RREF; --xplane-port [49003] says where it is read";
+        return "this is X-Plane DATA or RREF; --ports xplane [49003] says where it is read";
     case PacketKind::OtherXPlane:
         return "this is an X-Plane message other than DATA and RREF, which is not supported";
     case PacketKind::ForeFlight:
         return "this is position output for tablets (XGPS, XATT), which is not supported: X-Plane "
                "sends DATA, too";
     case PacketKind::Nmea:
-        return "this is NMEA 0183, which is not supported: --lines-port takes lines of numbers";
+        return "this is NMEA 0183, which is not supported: --ports lines takes lines of numbers";
     case PacketKind::Acmi:
         return "this is Tacview text, which is not read live: octant fly FILE.acmi flies it";
     }

@@ -23,9 +23,9 @@ triangles = 3000
 terrain = "background60"
 [vary]
 path = ["straight", "turn"]
-order-method = ["tree", "cells"]
+order-method = ["exact", "cells"]
 EOF
-"$octant" sweep "$folder/eight.toml" --out "$folder/$study" --share-cores --quiet || fail "the sweep failed"
+"$octant" sweep "$folder/eight.toml" --out "$folder/$study" --batch share-cores --quiet || fail "the sweep failed"
 runs=("$folder/$study"/runs/*)
 "$octant" report "${runs[0]}" --out "$folder/report-1.html" --quiet || fail "report of one"
 "$octant" report "${runs[0]}" "${runs[2]}" --out "$folder/report-2.html" --quiet || fail "report of two"

@@ -39,7 +39,7 @@ wait_for_done() { # FOLDER COUNT PROCESS: until so many flights are done, while 
 }
 
 fly_locally() {
-  "$octant" sweep "$scratch/many.toml" --out "$scratch/local" --share-cores --quiet ||
+  "$octant" sweep "$scratch/many.toml" --out "$scratch/local" --batch share-cores --quiet ||
     fail "the local sweep failed"
   [[ $(hashes "$scratch/local" | sort -u | wc -l) -eq 48 ]] || fail "expected 48 flights done locally"
 }

@@ -48,7 +48,7 @@ for tenth in {1..100}; do
   sleep 0.1
 done 2>/dev/null
 "$octant" sweep "$scratch/many.toml" --out "$scratch/parallel-runs" --on parallel \
-  --hosts "$scratch/machines.txt" --retries 3 --quiet &
+  --batch "hosts=$scratch/machines.txt,retries=3" --quiet &
 sweep=$!
 wait_for_done "$scratch/parallel-runs" 8 "$sweep"
 kill_server "${servers[1]}"
@@ -56,6 +56,6 @@ echo "a machine died after $(done_in "$scratch/parallel-runs") flights"
 wait "$sweep" || fail "the sweep by GNU parallel ended with $?: $(tail -n 5 "$scratch"/parallel-runs/logs/parallel.log)"
 compare_with_local "$scratch/parallel-runs"
 head -n 1 "$scratch/machines.txt" >"$scratch/machine.txt"
-end_by_signal "$scratch/parallel-ended" --on parallel --hosts "$scratch/machine.txt"
+end_by_signal "$scratch/parallel-ended" --on parallel --batch "hosts=$scratch/machine.txt"
 grep -lq '"stopped"' "$scratch"/parallel-ended/runs/*/run.json || fail "no flight ended in order"
 echo "48 of 48 flights, each as locally; a signal ends a sweep in order"

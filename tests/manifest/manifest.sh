@@ -66,8 +66,8 @@ if [ "$mode" = whole ]; then
   exit 0
 fi
 flight f15-detailed-tower pop-up --aircraft f15-detailed --terrain canyon --view tower $small --frames 20
-flight everything turn --aircraft f15 --aircraft 500md=straight --effects --clouds 0.4 --airfield --path-ribbon --inset cockpit $small --frames 20
-flight paper-terrain jinking --mesh printed --detail damped --control-a 1000 --triangles 4000 $small --frames 20
+flight everything turn --aircraft f15 --aircraft 500md=straight --effects --clouds 0.4 --show airfield,path-ribbon --inset cockpit $small --frames 20
+flight paper-terrain jinking --terrain-lod paper --triangles 4000 $small --frames 20
 flight paper-order straight --order-method paper --shading-rule paper --smooth-share 0.5 $small --frames 20
 flight divided straight --order-seconds 0.001 $small --frames 20
 flight depth-buffer straight --hidden-surface depth-buffer --samples 4 $small --frames 20
@@ -111,7 +111,7 @@ files terrain/canyon terrain make --kind canyon --size 257 --seed 7 --out out/ma
 mv out/made.tif made.tif
 files terrain/ground terrain import made.tif --out out/made.ground
 files terrain/mesh terrain mesh made.tif --eye 0,0,900 --look 500,500,0 --triangles 5000 --out out/mesh.ply
-files terrain/mesh-paper terrain mesh made.tif --eye 0,0,900 --look 500,500,0 --mesh printed --triangles 5000 --out out/mesh.ply
+files terrain/mesh-paper terrain mesh made.tif --eye 0,0,900 --look 500,500,0 --terrain-lod paper --triangles 5000 --out out/mesh.ply
 
 "$octant" study simplification --paper-only --out study-simplification --quiet >text 2>notes
 sed -i 's/,[^,]*$//' study-simplification/table-2.csv # its last column holds times

@@ -3,7 +3,9 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
+#include "ui/command_line/help.h"
 #include "ui/report/packed_recording.h"
 #include "visuals/groundfile/ground_file.h"
 
@@ -91,7 +93,6 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
 
 namespace {
 
-constexpr int column_width = 34;
 constexpr int unlimited_words = CLI::detail::expected_max_vector_size;
 
 void count_words(CLI::Option& option, const Option& row) {
@@ -110,25 +111,12 @@ void count_words(CLI::Option& option, const Option& row) {
 }
 
 CLI::Option* add_option(CLI::App& app, const Option& row) {
-    if (row.arity == Arity::None) {
-        const std::string meaning =
-            row.shown_default.empty() ? row.meaning : fmt::format("{} [{}]", row.meaning, row.shown_default);
-        return app.add_flag(row.name, meaning)->group(row.heading);
-    }
-    CLI::Option* const option = app.add_option(row.name, CLI::callback_t(), row.meaning);
-    option->type_name(row.form)->required(row.required);
+    if (row.arity == Arity::None) { return app.add_flag(row.name); }
+    CLI::Option* const option = app.add_option(row.name, CLI::callback_t());
+    option->required(row.required);
     count_words(*option, row);
-    return option->default_str(row.shown_default)->group(row.heading);
+    return option;
 }
-
-/// Help without the library's mark of names that unset a flag, as in "--no-sky{false}": it reads as if a word followed
-/// them.
-class HelpFormatter final : public CLI::Formatter {
-public:
-    std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
-        return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
-    }
-};
 
 bool is_truth(std::string_view word) { return word == "true" || word == "false"; }
 
@@ -143,24 +131,24 @@ class Parser {
 public:
     explicit Parser(const Program& program) : program_(program), app_(program.about) {
         app_.set_version_flag("--version", program.version);
-        app_.formatter(std::make_shared<HelpFormatter>());
-        app_.get_formatter()->column_width(column_width);
-        app_.footer(program.footer);
+        app_.set_help_all_flag("--help-all", ""); // before the commands, which inherit it
         add_commands(app_, program.commands, program.name);
-        app_.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     }
 
     /// Throws CLI::ParseError where the line is wrong or asks for help.
     void parse(int argument_count, const char* const* arguments) { app_.parse(argument_count, arguments); }
 
-    std::string help() const { return with_single_gaps(app_.help()); }
-
-    std::string help_of_all() const {
-        std::string text = app_.help();
-        for (const Parsed& parsed : parsed_) {
-            if (parsed.command->program.empty()) { text += fmt::format("\n\n{}", parsed.app->help(parsed.before)); }
+    /// The help of the command that the line names, or of the program. `all` adds rarely used options, and to the help
+    /// of the program that of every command.
+    std::string help(bool all) const {
+        const Parsed* const parsed = named();
+        if (parsed != nullptr) { return command_help(*parsed->command, parsed->before, all); }
+        std::string text = program_help(program_);
+        if (!all) { return text; }
+        for (const Parsed& each : parsed_) {
+            if (each.command->program.empty()) { text += "\n\n" + command_help(*each.command, each.before, true); }
         }
-        return with_single_gaps(text);
+        return text;
     }
 
     /// What is wrong with the line, where parse() found `fault`.
@@ -169,7 +157,7 @@ public:
         const std::vector<Command>& commands = parsed == nullptr ? program_.commands : parsed->command->commands;
         if (!commands.empty()) {
             const std::string name = parsed == nullptr ? "" : full_name(*parsed) + ": ";
-            return name + option_of_other_command_error(commands, first_extra(line));
+            return name + expected_command_error(commands, first_extra(line));
         }
         if (is(fault, CLI::ExitCodes::ExtrasError)) {
             return fmt::format("{}: {}", full_name(*parsed), unexpected_word_error(*parsed, line));
@@ -203,15 +191,16 @@ public:
             }
         }
         for (const auto& [row, words] : readings) { row->read(words); }
+        const bool is_quiet =
+            std::ranges::any_of(readings, [](const auto& each) { return each.first->name == "--quiet"; });
+        for (const auto& [row, words] : readings) {
+            const std::string note = row->note ? row->note(words) : std::string();
+            if (!note.empty()) { base::print_note(is_quiet, "note: " + note); }
+        }
         return parsed.command->run;
     }
 
 private:
-    /// The library leaves two lines empty between headings.
-    static std::string with_single_gaps(std::string help) {
-        return CLI::detail::find_and_replace(std::move(help), "\n\n\n", "\n\n");
-    }
-
     /// A command and what the library knows of it.
     struct Parsed {
         const Command* command = nullptr;
@@ -223,8 +212,7 @@ private:
     void add_commands(CLI::App& app, const std::vector<Command>& commands, const std::string& before) {
         app.require_subcommand(1);
         for (const Command& command : commands) {
-            Parsed parsed{&command, app.add_subcommand(command.name, command.summary), {}, before};
-            parsed.app->footer(command.footer);
+            Parsed parsed{&command, app.add_subcommand(command.name), {}, before};
             for (const Option& row : command.options) { parsed.options.push_back(add_option(*parsed.app, row)); }
             parsed_.push_back(parsed);
             if (!command.commands.empty()) { add_commands(*parsed.app, command.commands, before + " " + command.name); }
@@ -261,7 +249,7 @@ private:
         return found == line.end() ? std::string() : *found;
     }
 
-    static std::string option_of_other_command_error(const std::vector<Command>& commands, const std::string& got) {
+    static std::string expected_command_error(const std::vector<Command>& commands, const std::string& got) {
         Words names;
         for (const Command& command : commands) { names.push_back(command.name); }
         return fmt::format("expected a command ({}), got {}{}", fmt::join(names, ", "),
@@ -272,8 +260,9 @@ private:
         const std::string got = first_extra(line);
         if (!got.starts_with('-')) { return fmt::format("expected no further argument, got '{}'", printable(got)); }
         Words names{"--help"};
-        for (const CLI::Option* const option : parsed.options) {
-            for (const std::string& name : option->get_lnames()) { names.push_back("--" + name); }
+        for (std::size_t i = 0; i < parsed.options.size(); ++i) {
+            if (parsed.command->options[i].shown == Shown::Never) { continue; }
+            for (const std::string& option : parsed.options[i]->get_lnames()) { names.push_back("--" + option); }
         }
         const std::string name = got.substr(0, got.find('='));
         return fmt::format("expected one of its options, got {}{}", printable(got), did_you_mean(name, names));
@@ -388,8 +377,8 @@ std::function<void()> parse_command_line(const Program& program, int argument_co
     try {
         parser.parse(argument_count, arguments);
         return parser.chosen_action(line);
-    } catch (const CLI::CallForHelp&) { return printing(parser.help()); } catch (const CLI::CallForAllHelp&) {
-        return printing(parser.help_of_all());
+    } catch (const CLI::CallForHelp&) { return printing(parser.help(false)); } catch (const CLI::CallForAllHelp&) {
+        return printing(parser.help(true));
     } catch (const CLI::CallForVersion& version) {
         return printing(fmt::format("{}\n", version.what()));
     } catch (const CLI::ParseError& fault) { throw Error(parser.parse_error_text(fault, line)); }
@@ -410,10 +399,14 @@ int print_error(const std::string& program, const std::string& line) {
 int run_command(const Program& program, int argument_count, const char* const* arguments) {
     int code = 0;
     try {
-        parse_command_line(program, argument_count, arguments)();
-    } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
-        return code; // which the signal replaces
+        const std::function<void()> command = parse_command_line(program, argument_count, arguments);
+        command();
+    } catch (const CheckFailed&) {
+        code = exit_check_failed;
+    } catch (const base::StoppedBySignal&) {
+        return code; // exit_by_received_signal() ends the program by the signal
     }
+    // Damaged tiles of ground files were drawn without detail: the pictures are not those that were asked for.
     for (const std::string& line : visuals::groundfile::tile_damage_messages()) {
         std::fputs(fmt::format("{}: {}\n", program.name, line).c_str(), stderr);
         code = exit_check_failed;

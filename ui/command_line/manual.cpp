@@ -39,14 +39,17 @@ std::string in_roff(std::string_view text) {
 void add_options(const Command& command, std::string& page) {
     std::string heading;
     for (const Option& option : command.options) {
-        if (option.heading.empty()) { continue; }
+        if (option.shown == Shown::Never) { continue; }
         if (option.heading != heading) {
             heading = option.heading;
             page += fmt::format(".PP\n.I {}\n", in_roff(heading));
         }
         page += fmt::format(".TP\n.B {}", in_roff(option.name));
         page += option.form.empty() ? "\n" : fmt::format(" {}\n", in_roff(option.form));
-        page += in_roff(option.meaning);
+        std::string_view separator;
+        for (const std::string_view line : split_lines(option.meaning)) {
+            page += fmt::format("{}{}", std::exchange(separator, "\n.br\n"), in_roff(line));
+        }
         page += option.shown_default.empty() ? "\n" : fmt::format(" [{}]\n", in_roff(option.shown_default));
     }
 }
@@ -81,7 +84,7 @@ std::string option_words(const Option& option) {
 void add_case(const Command& command, const std::string& before, std::string& text) {
     const std::string name = before.empty() ? command.name : before + " " + command.name;
     std::string words = "--help";
-    for (const Option& option : command.options) { words += option.heading.empty() ? "" : option_words(option); }
+    for (const Option& option : command.options) { words += option.shown == Shown::Never ? "" : option_words(option); }
     for (const Command& each : command.commands) { words += " " + each.name; }
     text += fmt::format("    '{}') words=\"{}\" ;;\n", name, words);
     for (const Command& each : command.commands) { add_case(each, name, text); }

@@ -21,6 +21,13 @@ enum class Arity {
     OneOrMore,  ///< one or more words, each time that the option is given
 };
 
+/// Which help shows an option. Manual page and completions show all but hidden ones.
+enum class Shown {
+    InHelp,    ///< --help and --help-all
+    InHelpAll, ///< --help-all
+    Never,     ///< an old name or an internal option
+};
+
 /// One row of a command's table: an option, a flag or an argument without dashes.
 struct Option {
     /// "--out", a flag's "--vsync,!--no-vsync", an argument's "terrain".
@@ -34,7 +41,11 @@ struct Option {
     std::string shown_default = {}; ///< in help; empty = none
     bool required = false;
     int words_per_use = 1;           ///< number of words that must be given together
-    std::string heading = "Options"; ///< above the option in help; empty = the option is not shown
+    std::string heading = "Options"; ///< above the option in help
+    Shown shown = Shown::InHelp;
+    /// Returns a note for the words that were given, for example that the option has a new name; empty = none. Notes
+    /// are printed unless --quiet is given.
+    std::function<std::string(const Words&)> note = {};
 };
 
 /// The option with this default in help.
@@ -43,8 +54,28 @@ Option with_shown_default(std::string shown_default, Option option);
 /// The option as a required one.
 Option required(Option option);
 
+/// --json and --quiet of a command.
+Option json_option(bool& value);
+Option quiet_option(bool& value);
+
 /// The option left out of help, manual page and completions.
 Option hidden(Option option);
+
+/// The option under an old name, which works until version 1.1: hidden, with a note that names the new form.
+Option old_name(Option option, std::string new_form);
+
+/// The option shown by --help-all only.
+Option advanced(Option option);
+
+/// One key of a family of options.
+struct FamilyKey {
+    std::string key;
+    Option option; ///< as it was before it had a family
+};
+
+/// Adds one option `family.name` that reads "KEY=VALUE,..." for several rarely used options; flags are read as "KEY"
+/// and "no-KEY". Help lists the keys below family.meaning. The options under their own names are added as old names.
+void add_family(std::vector<Option>& table, Option family, std::vector<FamilyKey> keys);
 
 /// A flag that sets `value` to true; names that begin with ! set it to false.
 Option flag(std::string names, std::string meaning, bool& value);

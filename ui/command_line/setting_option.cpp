@@ -1,13 +1,19 @@
 #include "ui/command_line/setting_option.h"
 
-#include "ui/settings/settings_fields.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_file.h"
 #include "ui/settings/settings_text.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::command_line {
 
@@ -16,37 +22,53 @@ using settings::SettingInfo;
 
 namespace {
 
-/// Makes an option of each setting that it is shown.
-class OptionAdder {
-public:
-    explicit OptionAdder(std::vector<Option>& options) : options_(options) {}
+/// The option of a setting, with the built-in names of those that have some.
+template <class Value>
+Option option_of(const SettingInfo& info, Value& value) {
+    return value_option(info, value, info.name == "path" ? "" : "--");
+}
 
-    template <class Value>
-    void operator()(const SettingInfo& info, Value& value) {
-        options_.push_back(option_of(info, value));
-        options_.back().heading = settings::name_of(info.group);
-    }
+Option option_of(const SettingInfo& info, bool& value) {
+    return with_shown_default(
+        value ? "true" : "false", flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value));
+}
 
-private:
-    template <class Value>
-    static Option option_of(const SettingInfo& info, Value& value) {
-        return value_option(info, value, info.name == "path" ? "" : "--");
-    }
+Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
+    return with_shown_default(values.front(), list_option(fmt::format("--{}", info.name), std::string(info.form),
+                                                  std::string(info.meaning), Arity::Repeatable, values));
+}
 
-    static Option option_of(const SettingInfo& info, bool& value) {
-        return with_shown_default(value ? "true" : "false",
-            flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value));
-    }
-
-    static Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
-        return with_shown_default(values.front(), list_option(fmt::format("--{}", info.name), std::string(info.form),
-                                                      std::string(info.meaning), Arity::Repeatable, values));
-    }
-
-    std::vector<Option>& options_;
+/// Settings that are keys of one option.
+struct SettingFamily {
+    std::string_view name;
+    std::string_view form;
+    std::string_view meaning;
+    settings::SettingGroup group;
+    std::vector<std::pair<std::string_view, std::string_view>> keys; ///< key and name of the setting
 };
 
-/// Makes each of these options note its name when it is read.
+const std::vector<SettingFamily>& setting_families() {
+    using settings::SettingGroup;
+    static const std::vector<SettingFamily> families{
+        {"--show", "[no-]KEY,...", "what the picture shows:", SettingGroup::View,
+            {{"head-up-display", "head-up-display"}, {"path-ribbon", "path-ribbon"}, {"shadows", "shadows"},
+                {"relief-shadows", "relief-shadows"}, {"roads", "roads"}, {"airfield", "airfield"},
+                {"mesh", "show-mesh"}, {"model", "show-model"}}},
+        {"--paper-shading", "KEY=VALUE,...", "shading rule of the paper:", SettingGroup::Shading,
+            {{"near", "shading-near"}, {"far", "shading-far"}, {"device-ratio", "device-ratio"}}},
+        {"--terrain-mesh", "[no-]KEY,...", "properties of the terrain mesh:", SettingGroup::Ground,
+            {{"geomorphs", "geomorphs"}, {"ahead", "mesh-ahead"}, {"curvature", "earth-curvature"}}},
+        {"--haze", "KEY=VALUE,...", "haze, besides --visibility:", SettingGroup::Air,
+            {{"height", "haze-height"}, {"colour", "background"}}},
+        {"--ground-look", "KEY=VALUE,...", "appearance of the ground:", SettingGroup::Air,
+            {{"palette", "palette"}, {"shading", "ground-shading"}, {"water-level", "water-level"}}}};
+    return families;
+}
+
+/// Settings that the program sets itself for others of its processes, or that only limit internal work.
+constexpr std::array<std::string_view, 3> internal_settings{"part", "order-seconds", "raster-threads"};
+
+/// Makes these options append their names to `given` when they are read.
 void record_given_options(std::span<Option> options, std::vector<std::string>& given) {
     for (Option& option : options) {
         const std::string name = option.name.substr(0, option.name.find(','));
@@ -57,17 +79,62 @@ void record_given_options(std::span<Option> options, std::vector<std::string>& g
     }
 }
 
+/// Puts options that belong to a family into it.
+void join_families(std::vector<Option>& table, std::vector<Option> options) {
+    std::vector<std::vector<FamilyKey>> members(setting_families().size());
+    for (Option& option : options) {
+        const std::string name = option.name.substr(0, option.name.find(','));
+        bool has_family = false;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            for (const auto& [key, setting] : setting_families()[i].keys) {
+                if (name != fmt::format("--{}", setting)) { continue; }
+                members[i].push_back({std::string(key), option});
+                has_family = true;
+            }
+        }
+        if (!has_family) { table.push_back(std::move(option)); }
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (members[i].empty()) { continue; }
+        const SettingFamily& family = setting_families()[i];
+        add_family(table,
+            {.name = std::string(family.name),
+                .form = std::string(family.form),
+                .meaning = std::string(family.meaning),
+                .heading = std::string(settings::name_of(family.group)),
+                .shown = Shown::InHelpAll},
+            std::move(members[i]));
+    }
+}
+
 } // namespace
 
-void add_setting_options(std::vector<Option>& options, RunSettings& settings, std::vector<std::string>* given) {
-    const std::size_t own = options.size();
-    options.push_back({.name = "--settings",
+void add_setting_options(std::vector<Option>& table, RunSettings& settings, std::vector<std::string>* given,
+    std::span<const std::string_view> without) {
+    table.push_back({.name = "--settings",
         .form = "FILE",
-        .meaning = "read settings from FILE or from a recording (run.json, folder or packed file); other options "
-                   "override them",
+        .meaning = "read settings from a file or a recording; other options override them",
         .read = [&settings](const Words& words) { settings = settings::read_settings(words.front()); }});
-    settings::visit_settings(settings, OptionAdder(options));
-    if (given != nullptr) { record_given_options(std::span(options).subspan(own), *given); }
+    std::vector<Option> options;
+    const auto is_left_out = [&](std::string_view name) { return std::ranges::find(without, name) != without.end(); };
+    settings::visit_settings(settings, [&](const SettingInfo& info, auto& value) {
+        if (is_left_out(info.name)) { return; }
+        Option option = option_of(info, value);
+        if (!info.known.empty()) {
+            option.meaning = fmt::format("{}; {}", fmt::join(info.known, ", "), option.meaning);
+        }
+        option.heading = settings::name_of(info.group);
+        option.shown = info.common ? Shown::InHelp : Shown::InHelpAll;
+        if (std::ranges::find(internal_settings, info.name) != internal_settings.end()) { option.shown = Shown::Never; }
+        options.push_back(std::move(option));
+    });
+    settings::visit_old_rows([&](const auto& row) {
+        options.push_back(old_name(value_option(row, row.of(settings)),
+            row.name == "mesh" ? "--terrain-lod screen-error, exact or paper[:roughness=midpoint]"
+                               : fmt::format("--terrain-lod paper:{}={}", row.meaning, row.form)));
+    });
+    if (given != nullptr) { record_given_options(options, *given); }
+    join_families(table, std::move(options));
 }
 
 namespace {

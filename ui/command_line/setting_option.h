@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,9 +42,10 @@ Option value_option(const settings::FieldInfo& info, Value& value, std::string_v
 
 /// Adds --settings FILE and then one option for every setting, each under the heading of its group. The file is read
 /// first, so that the others override it. The path is the argument without dashes. The names of given options are
-/// appended to `given` unless it is null.
-void add_setting_options(
-    std::vector<Option>& options, settings::RunSettings& settings, std::vector<std::string>* given = nullptr);
+/// appended to `given` unless it is null. Settings whose names are in `without` get no option. Rarely used settings are
+/// keys of a family (add_family); old names of settings are read, with a note.
+void add_setting_options(std::vector<Option>& table, settings::RunSettings& settings,
+    std::vector<std::string>* given = nullptr, std::span<const std::string_view> without = {});
 
 /// What map files do not say: --terrain-spacing, --height-scale, --terrain-system, --void and
 /// --band. Every command that reads maps has them.

@@ -4,8 +4,8 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/command_line.h"
 #include "ui/command_line/setting_option.h"
@@ -149,9 +149,9 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
              fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")), options.model),
             text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
             method_option(options.method),
-            value_option({"order-seconds", "SECONDS", "approximate time limit of the search; then polygons are split",
-                             0.001, 3600},
-                options.order.seconds),
+            hidden(value_option({"order-seconds", "SECONDS",
+                                    "approximate time limit of the search; then polygons are split", 0.001, 3600},
+                options.order.seconds)),
             text_option("--order-cache", "DIR", "folder where painting orders are cached", options.cache),
             value_option(
                 {"min-distance", "RADII",
@@ -182,8 +182,7 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
             with_shown_default(fmt::format("{}", default_rays),
                 value_option(
                     {"rays", "N", "number of test rays, also without --check; 0 = none", 0, 1e9}, options.rays)),
-            flag("--json", "print the results as JSON", options.json),
-            flag("--quiet", "print no progress and no notes", options.quiet)});
+            json_option(options.json), quiet_option(options.quiet)});
 }
 
 void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& options) {

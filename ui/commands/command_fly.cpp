@@ -42,7 +42,7 @@ struct FlyOptions {
     flight::RecordOptions record;
     std::optional<flight::Replay> replay;
     std::vector<std::string> send;  ///< to whom
-    std::vector<std::string> given; ///< names of the options that stand there and set something
+    std::vector<std::string> given; ///< names of the setting options on the command line
     bool json = false;
     bool quiet = false;
     bool if_new = false;
@@ -82,7 +82,7 @@ void check_options(const FlyOptions& options) {
     }
 }
 
-/// Makes the session repeat the recording's rows. Throws Error when they do not fit it.
+/// Makes the session repeat the quality targets of the recording's frames. Throws Error if they do not fit it.
 void start_replay(const flight::Replay& replay, flight::Session& session, bool quiet) {
     flight::check_frames(replay, session.frames());
     if (static_cast<int>(replay.quality_targets.size()) < session.frames()) {
@@ -168,7 +168,7 @@ void fly(FlyOptions options) {
     const flight::FlightResult end = recorder.finish(session, stopped);
     if (session.shading() && !options.replay) { base::print_note(options.quiet, shading_note(*session.shading())); }
     for (const std::string& note : end.notes) { base::print_note(options.quiet, note); }
-    for (const std::string& missing_programs : end.missing_programs) { base::print_note(false, missing_programs); }
+    for (const std::string& warning : end.missing_programs) { base::print_note(false, warning); }
     if (end.statistics.frames == 0) {
         base::print_note(options.quiet,
             fmt::format(
@@ -186,12 +186,12 @@ void fly(FlyOptions options) {
 std::vector<Option> options_of(FlyOptions& options) {
     std::vector<Option> table = {
         text_option("--record", "DIR", "folder for the recording and its report", options.record.folder),
-        text_option("--video", "FILE.mp4", "write a video (needs ffmpeg; frame times then include the encoder's load)",
-            options.record.video),
+        text_option("--video", "FILE.mp4", "write a video (needs ffmpeg)", options.record.video),
         {.name = "--replay",
             .form = "DIR",
-            .meaning = "repeat the recording in DIR (a folder or packed file) frame by frame and check that states and "
-                       "pictures are identical; exit code 1 if they differ or the recording is incomplete",
+            .meaning =
+                "repeat a recording frame by frame and check that states and pictures are identical; exit code 1 "
+                "if not",
             .read =
                 [&options](const Words& words) {
                     const std::filesystem::path folder = report::recording_folder(words.front());
@@ -199,18 +199,18 @@ std::vector<Option> options_of(FlyOptions& options) {
                     options.record.replay_of = folder;
                     options.settings = settings::read_settings(folder / "run.json");
                 }},
-        list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
-            "send the aircraft of each frame to another program, in real time; repeatable. fdm: the first aircraft as "
-            "FlightGear native FDM; xplane: the first aircraft as X-Plane DATA; dis: all aircraft as DIS entity "
-            "states; cigi:HOST:PORT[:OWN]: all aircraft and the camera to a CIGI image generator that answers to port "
-            "OWN [8005]; each frame waits for its picture, so that several generators show the same frame; "
-            "tacview:PORT: serve Tacview real-time telemetry",
-            Arity::Repeatable, options.send),
+        advanced(list_option("--send", "PROTOCOL:HOST:PORT",
+            "send the aircraft of each frame to another program, in real time; repeatable\n"
+            "fdm: the first aircraft as FlightGear native FDM; xplane: as X-Plane DATA\n"
+            "dis: all aircraft as DIS entity states; tacview:PORT: serve Tacview real-time telemetry\n"
+            "cigi:HOST:PORT[:OWN]: all aircraft and the camera to a CIGI image generator that answers to port OWN "
+            "[8005]; each frame waits for its picture, so that several generators show the same frame",
+            Arity::Repeatable, options.send)),
         hidden(text_option("--swept", "HOW", "internal: how octant sweep shares the machine, for the report",
             options.record.batch_context)),
-        flag("--if-new", "skip the flight if DIR already contains a recording of exactly this run", options.if_new),
-        flag("--json", "print the summary as JSON", options.json),
-        flag("--quiet", "print no progress and no notes", options.quiet)};
+        advanced(flag(
+            "--if-new", "skip the flight if DIR already contains a recording of exactly this run", options.if_new)),
+        json_option(options.json), quiet_option(options.quiet)};
     add_setting_options(table, options.settings, &options.given);
     return table;
 }
@@ -223,16 +223,9 @@ Command fly_command() {
         .summary = "Flies a path without a window, as fast as possible, and records it",
         .options = options_of(*options),
         .footer = "Examples:\n"
-                  "  octant fly straight\n"
-                  "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
-                  "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
-                  "turn.mp4\n"
-                  "  octant fly --settings my-flight/run.json --record the-same\n"
-                  "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
-                  "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
-                  "  octant fly --replay fitted\n"
-                  "  octant fly turn --send fdm:127.0.0.1:5550\n"
-                  "  octant fly turn --send cigi:127.0.0.1:8004 --send cigi:127.0.0.1:8014",
+                  "  octant fly pop-up --aircraft f15 --terrain canyon --record my-flight\n"
+                  "  octant fly turn --terrain map.tif --height-mode follow --video turn.mp4\n"
+                  "  octant fly --settings my-flight/run.json --record the-same",
         .run = [options] { fly(*options); }};
 }
 

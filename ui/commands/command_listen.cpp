@@ -1,10 +1,11 @@
 #include "sim/base/error.h"
+#include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
-#include "ui/base/data_files.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
+#include "ui/commands/window_options.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/listener.h"
 #include "ui/flight/sender.h"
@@ -49,42 +50,48 @@ struct ListenOptions {
     bool quiet = false;
 };
 
-/// Settings that say something about a path of our own.
-constexpr std::array<std::string_view, 9> path_only_settings{"path", "--heading", "--height-mode",
-    "--lenient,!--no-lenient", "--start", "--frame-per-sample,!--no-frame-per-sample", "--realtime,!--no-realtime",
-    "--mesh-ahead,!--no-mesh-ahead", "--path-ribbon,!--no-path-ribbon"};
+/// Settings of a path that the program flies itself.
+constexpr std::array<std::string_view, 9> path_only_settings{
+    "path", "heading", "height-mode", "lenient", "start", "frame-per-sample", "realtime", "mesh-ahead", "path-ribbon"};
 
-/// Where packets come from.
-std::vector<Option> port_options(flight::LiveInputOptions& input) {
-    return {text_option("--bind", "ADDRESS",
-                "IPv4 address of this machine to listen on; 0.0.0.0 = all addresses, reachable from other machines",
-                input.bind),
-        value_option({"fdm-port", "PORT",
-                         "UDP port for FlightGear's FGNetFDM; 0 = any free one, -1 = closed [5550; none with "
-                         "--channel]",
-                         -1, 65535},
-            input.fdm_port),
-        value_option({"mavlink-port", "PORT", "UDP port for MAVLink 1 and 2; -1 = closed [14550; none with --channel]",
-                         -1, 65535},
-            input.mavlink_port),
-        value_option(
-            {"dis-port", "PORT", "UDP port for DIS entity states; -1 = closed [3000; none with --channel]", -1, 65535},
-            input.dis_port),
-        value_option({"xplane-port", "PORT",
-                         "UDP port for X-Plane's DATA (groups 3, 17, 18, 20 and 21) and RREF; -1 = closed "
-                         "[49003; none with --channel]",
-                         -1, 65535},
-            input.xplane_port),
-        text_option("--xplane", "HOST[:PORT]",
-            "request motion data from the X-Plane at this address [port 49000]; not needed if X-Plane already sends "
-            "DATA",
-            input.xplane_host),
-        value_option(
-            {"cigi-port", "PORT", "UDP port for CIGI 3.3 hosts, as their image generator; -1 = closed", -1, 65535},
-            input.cigi_port),
-        text_option("--cigi-host", "HOST:PORT", "address that receives Start of Frame and responses", input.cigi_host),
-        value_option(
-            {"lines-port", "PORT", "TCP port for lines of named columns; -1 = closed", -1, 65535}, input.lines_port)};
+/// Options that only --help-all shows.
+constexpr std::array<std::string_view, 14> rarely_used{"--window", "--xplane", "--step", "--entities", "--vehicles",
+    "--channel", "--frames", "--adapt", "--shading", "--triangles", "--error-px", "--place", "--renderer",
+    "--terrain-lod"};
+
+/// UDP and TCP ports, the address to listen on and hosts to contact.
+void add_port_options(std::vector<Option>& table, flight::LiveInputOptions& input) {
+    table.insert(table.end(),
+        {text_option("--bind", "ADDRESS",
+             "IPv4 address of this machine to listen on; 0.0.0.0 = all addresses, reachable from other machines",
+             input.bind),
+            text_option("--xplane", "HOST[:PORT]",
+                "request motion data from the X-Plane at this address [port 49000]; not needed if X-Plane sends DATA",
+                input.xplane_host)});
+    const auto port = [](std::string_view name, std::string_view meaning, auto& value) {
+        return value_option({name, "PORT", meaning, -1, 65535}, value);
+    };
+    add_family(table,
+        {.name = "--ports",
+            .form = "KEY=PORT,...",
+            .meaning = "ports to listen on; 0 = any free one, -1 = closed; with --channel only CIGI is open"},
+        {{"fdm", port("fdm-port", "UDP, FlightGear's FGNetFDM [5550]", input.fdm_port)},
+            {"mavlink", port("mavlink-port", "UDP, MAVLink 1 and 2 [14550]", input.mavlink_port)},
+            {"dis", port("dis-port", "UDP, DIS entity states [3000]", input.dis_port)},
+            {"xplane", port("xplane-port", "UDP, X-Plane's DATA (groups 3, 17, 18, 20 and 21) and RREF [49003]",
+                           input.xplane_port)},
+            {"cigi", port("cigi-port", "UDP, CIGI 3.3 hosts, as their image generator", input.cigi_port)},
+            {"lines", port("lines-port", "TCP, lines of named columns", input.lines_port)}});
+}
+
+/// What a CIGI host gets and which of its views is shown.
+void add_cigi_options(std::vector<Option>& table, flight::ListenerOptions& listener) {
+    add_family(table, {.name = "--cigi", .form = "KEY=VALUE,...", .meaning = "CIGI host:", .shown = Shown::InHelpAll},
+        {{"host", text_option("--cigi-host", "HOST:PORT", "address that receives Start of Frame and responses",
+                      listener.input.cigi_host)},
+            {"view", value_option({"cigi-view", "N",
+                                      "view to show, with the next one in the --inset [the lowest number]", 0, 65535},
+                         listener.live.view)}});
 }
 
 void read_packet_source(const std::string& from, flight::LiveInputOptions& input) {
@@ -104,8 +111,7 @@ void read_packet_source(const std::string& from, flight::LiveInputOptions& input
 Option from_option(flight::LiveInputOptions& input) {
     return {.name = "--from",
         .form = "-|ADDRESS",
-        .meaning = "-: read lines with named columns from standard input only and open no ports; an IPv4 address: "
-                   "accept packets of this machine only",
+        .meaning = "-: only lines of named columns from standard input; an IPv4 address: only packets of this machine",
         .read = [&input](const Words& words) { read_packet_source(words.front(), input); }};
 }
 
@@ -133,10 +139,6 @@ std::vector<Option> view_options(ListenOptions& options) {
             "aircraft of CIGI entity types: tables [[entity]] with type, aircraft and count; replaces --aircraft",
             options.entities),
         value_option(
-            {"cigi-view", "N", "CIGI view to show, with the next one in the --inset [the view with the lowest number]",
-                0, 65535},
-            options.listener.live.view),
-        value_option(
             {"delay", "S",
                 "display delay in seconds: 0 extrapolates by velocity, larger values interpolate between packets", 0.0,
                 5.0},
@@ -147,30 +149,17 @@ void append(std::vector<Option>& table, std::vector<Option> more) {
     std::ranges::move(more, std::back_inserter(table));
 }
 
-/// The settings that say nothing about a path of our own.
-std::vector<Option> settings_of_live(settings::RunSettings& settings) {
-    std::vector<Option> table;
-    add_setting_options(table, settings);
-    std::erase_if(table, [](const Option& option) {
-        return std::ranges::find(path_only_settings, option.name) != path_only_settings.end();
-    });
-    return table;
-}
-
 std::vector<Option> options_of(ListenOptions& options) {
     options.settings.path.name = settings::live_path;
     flight::ListenerOptions& listener = options.listener;
-    std::vector<Option> table = {flag("--headless", "no window: pictures, video and recording alone", options.headless),
-        text_option("--record", "DIR",
-            "write the recording and its report into this folder; in a window its view stays as it is until F9 ends it",
+    std::vector<Option> table = {flag("--headless", "no window: only pictures, video and recording", options.headless),
+        text_option("--record", "DIR", "folder for the recording and its report; in a window until F9 ends it",
             options.record.folder),
         text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", options.record.video),
-        flag("--json", "with --headless: summary as JSON, with every vehicle and what its packets were", options.json),
-        flag("--full-screen", "fill the screen (F11)", options.window.full_screen),
-        flag("--vsync,!--no-vsync", "limit to the display's refresh rate",
-            options.window.vsync),
-        flag("--panels,!--no-panels", "begin with panels shown (Tab)", options.window.panels)};
-    append(table, port_options(listener.input));
+        json_option(options.json), quiet_option(options.quiet)};
+    add_window_options(table, options.window, nullptr);
+    add_port_options(table, listener.input);
+    add_cigi_options(table, listener);
     table.push_back(from_option(listener.input));
     table.push_back(flag("--step",
         "with --headless: render one picture for each packet that moves something, without delay", listener.live.step));
@@ -183,11 +172,12 @@ std::vector<Option> options_of(ListenOptions& options) {
                          "height above our ground equals the sender's [msl on a georeferenced map, else "
                          "offset]"},
             listener.live.height));
-    append(table, {list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
-                       "forward the aircraft of each picture to another program, as octant fly --send; repeatable",
-                       Arity::Repeatable, options.send),
-                      flag("--quiet", "print no notes", options.quiet)});
-    append(table, settings_of_live(options.settings));
+    table.push_back(advanced(list_option("--send", "PROTOCOL:HOST:PORT",
+        "forward aircraft to another program, as octant fly --send", Arity::Repeatable, options.send)));
+    add_setting_options(table, options.settings, nullptr, path_only_settings);
+    for (Option& option : table) {
+        if (std::ranges::find(rarely_used, option.name) != rarely_used.end()) { option.shown = Shown::InHelpAll; }
+    }
     return table;
 }
 
@@ -298,7 +288,7 @@ void listen_without_window(const ListenOptions& options) {
     HeadlessListener run(options);
     const flight::FlightResult end = run.fly();
     for (const std::string& note : end.notes) { base::print_note(options.quiet, note); }
-    for (const std::string& missing_programs : end.missing_programs) { base::print_note(false, missing_programs); }
+    for (const std::string& warning : end.missing_programs) { base::print_note(false, warning); }
     for (const sim::links::PacketReport& form : run.traffic().packet_reports()) {
         if (form.is_wrong) {
             base::print_note(options.quiet,
@@ -324,12 +314,7 @@ void listen_in_window(ListenOptions options) {
     options.window.record = options.record.folder;
     options.window.quiet = options.quiet;
     window::Viewer viewer(options.window);
-    const base::StopSignals stop_signals;
-    int frames = 0;
-    while (viewer.run_frame() && !base::StopSignals::received()) {
-        if (options.window.settings.time.frames && ++frames >= *options.window.settings.time.frames) { break; }
-    }
-    if (const auto report = viewer.finish_recording()) { base::print_note(options.quiet, *report); }
+    run_viewer(viewer, options.settings.time.frames, options.quiet);
 }
 
 void listen(ListenOptions options) {
@@ -367,18 +352,10 @@ Command listen_command() {
             "numbers",
         .options = options_of(*options),
         .footer = "Examples:\n"
-                  "  octant listen\n"
                   "  octant listen --terrain map.tif --view cockpit --delay 0.1\n"
                   "  octant listen --headless --seconds 60 --record my-flight --video flight.mp4\n"
                   "  my-script | octant listen --from - --headless --step --record steps\n"
-                  "JSBSim: JSBSim --script=... --realtime --logdirectivefile=FILE, in FILE:\n"
-                  "  <output name=\"127.0.0.1\" type=\"FLIGHTGEAR\" port=\"5550\" "
-                  "protocol=\"UDP\" rate=\"60\"/>\n"
-                  "ArduPilot: sim_vehicle.py -v ArduPlane\n"
-                  "FlightGear: fgfs --native-fdm=socket,out,60,127.0.0.1,5550,udp\n"
-                  "X-Plane: data output by UDP of groups 3, 17, 18, 20 and 21 to port 49003; or "
-                  "octant listen --xplane HOST\n"
-                  "Ctrl-C ends it; a recording is then completed.",
+                  "Ctrl-C ends it and completes the recording. How other programs are set up: sim/links/README.md.",
         .run = [options] { listen(*options); }};
 }
 

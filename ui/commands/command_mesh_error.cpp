@@ -2,8 +2,8 @@
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
 #include "sim/base/thread_pool.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
@@ -205,14 +205,14 @@ std::vector<Option> options_of(MeshErrorOptions& options) {
             "the original: " + world::built_in_mesh_names() + " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
             options.a)),
         required(text_option("B", "MESH", "mesh to compare with A", options.b)),
-        value_option(
+        hidden(value_option(
             {"tightness", "RATIO", "largest allowed ratio of the upper to the lower bound of the Hausdorff distance",
                 1.000001, 100},
-            options.tightness),
+            options.tightness)),
         value_option(
             {"samples", "N", "number of sample points in each direction, for rms and mean", 1, 1e9}, options.samples),
         value_option({"threads", "N", "number of threads [all processors]", 1, 256}, options.threads),
-        flag("--json", "print the results as JSON", options.json), flag("--quiet", "print no progress", options.quiet)};
+        json_option(options.json), quiet_option(options.quiet)};
 }
 
 } // namespace

@@ -5,8 +5,8 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "ui/base/progress.h"
 #include "ui/base/json_value.h"
+#include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/png_file.h"
 #include "ui/world/aircraft_loader.h"
@@ -274,8 +274,7 @@ Command model_info_command() {
                 "write a picture with views from the left, above and ahead; the nose points left", options->picture),
             text_option("--axes", "X,Y,Z|auto",
                 "directions of the file's x, y and z axes: right, left, up, down, forward, back", options->axes),
-            flag("--json", "print the results as JSON", options->json),
-            flag("--quiet", "print no notes", options->quiet)},
+            json_option(options->json), quiet_option(options->quiet)},
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
                   "(red green blue) and how often, vertex_colours, picture.\n"

@@ -233,15 +233,15 @@ void add_method_options(std::vector<Option>& table, RefineOptions& options) {
                          flag("--no-repair", "do not repair flipped faces", options.no_repair),
                          text_option("--save", "FILE.pm", "output file of the progressive mesh", options.save),
                          text_option("--out", "FILE", "output file of the active mesh", options.out),
-                         choice_option("--colour-by", "WHAT",
-                             "vertex colours of --out: region (one colour per active vertex) or level (by the number "
-                             "of original vertices that it stands for)",
-                             {"none", "region", "level"}, options.colour_by),
-                         text_option("--out-partition", "FILE",
-                             "output file of the original mesh, coloured by active vertex", options.partition),
                          text_option("--nodes", "FILE", "output file of the list of active nodes", options.nodes),
-                         flag("--json", "print the results as JSON", options.json),
-                         flag("--quiet", "print no progress and no notes", options.input.quiet)});
+                         json_option(options.json), quiet_option(options.input.quiet)});
+    add_family(table, {.name = "--colours", .form = "KEY=VALUE,...", .meaning = "pictures of the active vertices:"},
+        {{"by", choice_option("--colour-by", "WHAT",
+                    "vertex colours of --out: region (one colour per active vertex) or level (by the number of "
+                    "original vertices that it stands for)",
+                    {"none", "region", "level"}, options.colour_by)},
+            {"partition", text_option("--out-partition", "FILE",
+                              "output file of the original mesh, coloured by active vertex", options.partition)}});
 }
 
 } // namespace

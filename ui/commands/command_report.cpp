@@ -97,7 +97,7 @@ Command report_command() {
                 "exit code 1 when a statistic of a recording exceeds that of the first recording by more than N %",
                 options->gate),
             flag("--json", "print the statistics of each recording as JSON", options->json),
-            flag("--quiet", "print no notes", options->quiet)},
+            quiet_option(options->quiet)},
         .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
                   "written and says so.\n"
                   "Examples:\n"
@@ -139,9 +139,8 @@ Command pack_command() {
         .summary = "Packs a recording into one file that can be reported and replayed on any machine",
         .options = {required(text_option("folder", "DIR", "folder of the recording", options->folder)),
             with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
-            flag("--with-terrain", "include the terrain file", options->with_terrain),
-            flag("--json", "print the result as JSON", options->json),
-            flag("--quiet", "print no notes", options->quiet)},
+            flag("--with-terrain", "include the terrain file", options->with_terrain), json_option(options->json),
+            quiet_option(options->quiet)},
         .footer = "Examples:\n"
                   "  octant pack my-flight --out my-flight.zip\n"
                   "On any machine then: octant report my-flight.zip --out page.html; and octant fly\n"

@@ -143,8 +143,8 @@ void check_goals(const SimplifyArguments& command) {
 /// Options that have no effect in one of the ways to simplify.
 void check_unused_options(const SimplifyArguments& command) {
     const NamedFlag uv_error{"--uv-error", command.uv_error > 0.0};
-    const NamedFlag normal_error{"--normal-error", command.normal_error > 0.0};
-    const NamedFlag colour_error{"--colour-error", command.colour_error > 0.0};
+    const NamedFlag normal_error{"--attribute-error normal", command.normal_error > 0.0};
+    const NamedFlag colour_error{"--attribute-error colour", command.colour_error > 0.0};
     const NamedFlag effort{"--effort", command.effort >= 0};
     const NamedFlag steps{"--steps", command.steps >= 0};
     const NamedFlag max_seconds{"--max-seconds", command.max_seconds > 0.0};
@@ -227,20 +227,23 @@ std::vector<Option> goal_options(SimplifyArguments& command) {
 }
 
 void add_bound_options(std::vector<Option>& table, SimplifyArguments& command) {
-    add_group(table, "Attribute error bounds",
+    const std::string heading = "Attribute error bounds";
+    add_group(table, heading,
         {value_option({"uv-error", "U", "largest error of texture coordinates; 1 = the width of the texture [no bound]",
                           1e-9, 1e9},
-             command.uv_error),
-            value_option(
-                {"normal-error", "DEGREES", "largest error of normals [no bound]", 0.01, 180}, command.normal_error),
-            value_option(
-                {"colour-error", "SHARE", "largest error of colours: a distance in RGB, each 0..1 [no bound]", 1e-4, 2},
-                command.colour_error),
-            value_option({"colour-weight", "W",
-                             "distance that a colour difference of 1 is worth, in bounding box diagonals [0.015; "
-                             "methods of the paper 0.1]",
-                             0, 1000},
-                command.colour_weight)});
+            command.uv_error)});
+    add_family(table,
+        {.name = "--attribute-error", .form = "KEY=VALUE,...", .meaning = "other attributes:", .heading = heading},
+        {{"normal", value_option({"normal-error", "DEGREES", "largest error of normals [no bound]", 0.01, 180},
+                        command.normal_error)},
+            {"colour", value_option({"colour-error", "SHARE",
+                                        "largest error of colours: a distance in RGB, each 0..1 [no bound]", 1e-4, 2},
+                           command.colour_error)},
+            {"colour-weight", value_option({"colour-weight", "W",
+                                               "distance that a colour difference of 1 is worth, in bounding box "
+                                               "diagonals [0.015; methods of the paper 0.1]",
+                                               0, 1000},
+                                  command.colour_weight)}});
 }
 
 void add_constraint_options(std::vector<Option>& table, SimplifyArguments& command) {
@@ -251,8 +254,8 @@ void add_constraint_options(std::vector<Option>& table, SimplifyArguments& comma
             flag("--keep-topology",
                 "keep all parts, holes and handles, even if the goal is then out of reach; implied by --chain",
                 command.keep_topology),
-            flag("--keep-seams-apart", "weld only vertices whose positions and colours are identical",
-                command.keep_seams_apart),
+            hidden(flag("--keep-seams-apart", "weld only vertices whose positions and colours are identical",
+                command.keep_seams_apart)),
             flag("--lock-border",
                 "do not move vertices of open borders, even if the goal is then out of reach; implies --keep-topology",
                 command.lock_border),
@@ -297,8 +300,7 @@ void add_work_options(std::vector<Option>& table, SimplifyArguments& command) {
             flag("--chain", "write levels of detail, each with half the triangles, to OUT.chain", command.chain),
             text_option("--polygons", "FILE.obj", "with --chain: polygon model to use instead of the last level",
                 command.polygons),
-            flag("--json", "print the results as JSON", command.json),
-            flag("--quiet", "print no progress and no notes", command.quiet)});
+            json_option(command.json), quiet_option(command.quiet)});
 }
 
 constexpr const char* simplify_footer =

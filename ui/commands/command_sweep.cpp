@@ -231,10 +231,10 @@ void check_engine(const SweepOptions& options) {
         throw Error(fmt::format("{}: expected --on {} beside it, got {}", option, engines, options.on));
     };
     const bool slurm = options.on == "slurm";
-    if (options.tasks && !slurm) { refuse("--tasks", "slurm"); }
+    if (options.tasks && !slurm) { refuse("--batch tasks", "slurm"); }
     if (!options.engine.sbatch_options.empty() && !slurm) { refuse("--sbatch", "slurm"); }
-    if (options.hosts && options.on != "parallel") { refuse("--hosts", "parallel"); }
-    if (options.minutes && options.on == "local") { refuse("--minutes", "slurm or parallel"); }
+    if (options.hosts && options.on != "parallel") { refuse("--batch hosts", "parallel"); }
+    if (options.minutes && options.on == "local") { refuse("--batch minutes", "slurm or parallel"); }
 }
 
 void run_sweep(const SweepOptions& options) {
@@ -265,52 +265,64 @@ void run_sweep(const SweepOptions& options) {
 
 } // namespace
 
+namespace {
+
+std::vector<Option> options_of(SweepOptions& options) {
+    std::vector<Option> table{required(text_option("file", "FILE.toml", "parameter table of the batch", options.file)),
+        with_shown_default("the sweep's name",
+            text_option("--out", "DIR", "output folder for recordings, logs and the report", options.out)),
+        flag("--list", "print the names of the flights without running them", options.list),
+        choice_option("--on", "ENGINE",
+            "where flights run: local (processes on this machine), slurm (a job array) or parallel (GNU parallel over "
+            "ssh); all machines must see the folder under the same name",
+            {"local", "slurm", "parallel"}, options.on),
+        value_option(
+            {"jobs", "N", "number of flights run at once: on this machine, on each machine, or of the job array", 1,
+                10000},
+            options.jobs),
+        value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
+            options.split),
+        flag("--video", "write a video of each flight to videos/NAME.mp4", options.engine.videos),
+        list_option("--sbatch", "OPTION", "further option for sbatch, such as --sbatch=--partition=long; repeatable",
+            Arity::Repeatable, options.engine.sbatch_options),
+        json_option(options.json), quiet_option(options.engine.quiet)};
+    add_family(table, {.name = "--batch", .form = "KEY=VALUE,...", .meaning = "how flights run:"},
+        {{"retries",
+             value_option({"retries", "N", "number of times a failed flight is repeated", 0, 100}, options.retries)},
+            {"share-cores", flag("--share-cores",
+                                "run several flights at once on one machine; their frame times then affect each other",
+                                options.engine.share_cores)},
+            {"tasks",
+                value_option(
+                    {"tasks", "N", "slurm: number of tasks of the job array [one per flight, at most 1000]", 1, 100000},
+                    options.tasks)},
+            {"minutes",
+                value_option({"minutes", "N", "slurm, parallel: time limit of a task or a flight [60]", 1, 100000},
+                    options.minutes)},
+            {"hosts", text_option("--hosts", "FILE", "parallel: file with the names of the machines (--sshloginfile)",
+                          options.hosts)},
+            {"program", with_shown_default("this one",
+                            text_option("--program", "FILE",
+                                "path of the octant program on the machines that run the flights", options.program))}});
+    return table;
+}
+
+} // namespace
+
 Command sweep_command() {
     auto options = std::make_shared<SweepOptions>();
     return {.name = "sweep",
         .summary = "Runs a batch of flights from a parameter table and writes one report",
-        .options = {required(text_option("file", "FILE.toml", "parameter table of the batch", options->file)),
-            with_shown_default("the sweep's name",
-                text_option("--out", "DIR", "output folder for recordings, logs and the report", options->out)),
-            flag("--list", "print the names of the flights without running them", options->list),
-            choice_option("--on", "ENGINE",
-                "where flights run: local (processes on this machine), slurm (a job array) or parallel (GNU parallel "
-                "over ssh); all machines must see the folder under the same name",
-                {"local", "slurm", "parallel"}, options->on),
-            value_option({"retries", "N", "number of times a failed flight is repeated", 0, 100}, options->retries),
-            flag("--share-cores",
-                "run several flights at once on one machine; their frame times then affect each other",
-                options->engine.share_cores),
-            value_option(
-                {"jobs", "N", "number of flights run at once: on this machine, on each machine, or of the job array", 1,
-                    10000},
-                options->jobs),
-            value_option({"tasks", "N", "number of tasks of the job array [one per flight, at most 1000]", 1, 100000},
-                options->tasks),
-            value_option(
-                {"minutes", "N", "slurm, parallel: time limit in minutes of a task or a flight [60]", 1, 100000},
-                options->minutes),
-            value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
-                options->split),
-            flag("--video", "write a video of each flight to videos/NAME.mp4", options->engine.videos),
-            list_option("--sbatch", "OPTION",
-                "further option for sbatch, such as --sbatch=--partition=long; repeatable", Arity::Repeatable,
-                options->engine.sbatch_options),
-            text_option("--hosts", "FILE", "parallel: file with the names of the machines, as for --sshloginfile",
-                options->hosts),
-            with_shown_default(
-                "this one", text_option("--program", "FILE",
-                                "path of the octant program on the machines that run the flights", options->program)),
-            flag("--json", "print the results as JSON", options->json),
-            flag("--quiet", "print no progress and no notes", options->engine.quiet)},
+        .options = options_of(*options),
         .footer = "Examples:\n"
                   "  octant sweep budgets.toml --list\n"
                   "  octant sweep budgets.toml --out budgets\n"
-                  "  octant sweep budgets.toml --on slurm --minutes 30 --sbatch=--partition=long\n"
-                  "  octant sweep budgets.toml --on parallel --hosts machines.txt\n"
-                  "  octant sweep long.toml --split 4 --share-cores --video\n"
-                  "Flights that are done are not flown again. Exit code 1: some failed, or runs that\n"
-                  "differ in nothing did not show the same.",
+                  "  octant sweep budgets.toml --on slurm --batch minutes=30 --sbatch=--partition=long\n"
+                  "  octant sweep budgets.toml --on parallel --batch hosts=machines.txt\n"
+                  "  octant sweep long.toml --split 4 --batch share-cores --video\n"
+                  "Flights that are done are not flown again. Exit code 1: a flight failed, or flights with the same "
+                  "settings "
+                  "have different hashes.",
         .run = [options] { run_sweep(*options); }};
 }
 

@@ -14,8 +14,8 @@
 #include "ui/commands/commands.h"
 #include "ui/report/png_file.h"
 #include "ui/report/table.h"
-#include "ui/settings/path_fields.h"
-#include "ui/settings/terrain_name.h"
+#include "ui/settings/setting_rows.h"
+#include "ui/settings/settings_check.h"
 #include "ui/terrain/error_tables.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/map_picture.h"
@@ -54,11 +54,6 @@ void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions&
     add_file_options(table, options.files);
 }
 
-Option curved_option(bool& curved) {
-    return flag("--curved",
-        "include earth curvature: lower the ground by d^2 / 2R, as flights do (screen-error meshes only)", curved);
-}
-
 void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
     constexpr double far_m = 1e7;
     table.insert(table.end(),
@@ -69,32 +64,43 @@ void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& op
                              -far_m, far_m},
                 options.look_m),
             value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, options.size_px),
-            value_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg),
-            curved_option(options.curved)});
+            value_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg)});
 }
 
-void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
+/// What refines the mesh, without its budget.
+void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options, bool& curved) {
+    visuals::scene::TerrainLod& lod = options.lod;
+    table.push_back(
+        value_option({"terrain-lod", "KIND[:KEY=VALUE,...]",
+                         "screen-error (longest-edge bisection by error in pixels), or the paper's quadtree: "
+                         "exact (midpoint roughness) or paper (printed roughness); keys: fans=partial|full, "
+                         "roughness-c=C (weight of the roughness), resolution-c=C"},
+            lod));
     table.insert(table.end(),
-        {value_option({"mesh", "KIND",
-                          "terrain LOD metric: screen-error (pixels, longest-edge bisection), or the paper's quadtree "
-                          "with midpoint or printed roughness"},
-             options.mesh),
-            value_option({"fans", "KIND", "midpoint and printed: triangle fans, partial or full"}, options.fans),
-            value_option({"roughness-c", "C", "midpoint and printed: weight of the roughness [20; 5]", 0.0, 1e5},
-                options.roughness_c),
-            flag("--geomorphs,!--no-geomorphs",
-                "interpolate vertices that enter the mesh, as flights do; otherwise every vertex has its own height "
-                "[false]",
-                options.geomorphs)});
+        {old_name(value_option({"mesh", "KIND", ""}, lod.metric), "--terrain-lod screen-error, exact or paper"),
+            old_name(value_option({"fans", "KIND", ""}, lod.fans), "--terrain-lod exact:fans=KIND"),
+            old_name(
+                value_option({"roughness-c", "C", "", 0.0, 1e5}, lod.roughness_c), "--terrain-lod exact:roughness-c=C"),
+            old_name(value_option({"resolution-c", "C", "", 1.0, 1e5}, lod.resolution_c),
+                "--terrain-lod exact:resolution-c=C")});
+    add_family(table, {.name = "--terrain-mesh", .form = "KEY,...", .meaning = "properties of a screen-error mesh:"},
+        {{"geomorphs",
+             flag("--geomorphs,!--no-geomorphs",
+                 "interpolate vertices that enter the mesh, as flights do; otherwise every vertex has its own height",
+                 options.geomorphs)},
+            {"curvature",
+                flag("--curved", "lower the ground by d^2 / 2R for earth curvature, as flights do", curved)}});
 }
 
-void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
+/// The view, the mesh and its budget.
+void add_drawn_mesh_options(
+    std::vector<Option>& table, terrain::GroundViewOptions& view, terrain::GroundMeshOptions& mesh) {
+    add_view_options(table, view);
+    add_mesh_options(table, mesh, view.curved);
     table.insert(table.end(),
-        {value_option({"error-px", "PIXELS", "screen-error: refine until the error is at most this", 0.001, 1e4},
-             options.error_px),
-            value_option({"triangles", "N", "refine to at most this many triangles", 1, 1e8}, options.triangles),
-            value_option({"resolution-c", "C", "midpoint and printed: resolution parameter C", 1.0, 1e5},
-                options.resolution_c)});
+        {value_option(
+             {"error-px", "PIXELS", "screen-error: refine until the error is at most this", 0.001, 1e4}, mesh.error_px),
+            value_option({"triangles", "N", "refine to at most this many triangles", 1, 1e8}, mesh.triangles)});
 }
 
 std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes) {
@@ -256,9 +262,8 @@ Command terrain_import_command() {
                         "overlap",
                         Arity::OneOrMore, options.inputs)),
             required(text_option("--out", "FILE.ground", "output file", options.out)),
-            value_option({"threads", "N", "that build", 1, 256}, options.threads),
-            flag("--json", "figures as JSON on stdout", options.json),
-            flag("--quiet", "print no notes", options.quiet)},
+            value_option({"threads", "N", "that build", 1, 256}, options.threads), json_option(options.json),
+            quiet_option(options.quiet)},
         .footer = "A stopped import goes on from FILE.ground.part when it is called again.\n"
                   "Examples:\n  octant terrain import west.tif east.tif --out both.ground\n  octant "
                   "terrain import tiles/ --out region.ground",
@@ -302,13 +307,10 @@ void write_mesh(MeshOptions options) {
 std::vector<Option> options_of(MeshOptions& options) {
     std::vector<Option> table;
     add_terrain_options(table, options.view);
-    add_view_options(table, options.view);
-    add_mesh_options(table, options.mesh);
-    add_detail_options(table, options.mesh);
+    add_drawn_mesh_options(table, options.view, options.mesh);
     table.insert(table.end(), {required(text_option("--out", "FILE.ply", "output file", options.out)),
                                   flag("--ascii", "write text instead of little-endian binary", options.ascii),
-                                  flag("--json", "print the results as JSON", options.json),
-                                  flag("--quiet", "print no notes", options.quiet)});
+                                  json_option(options.json), quiet_option(options.quiet)});
     return table;
 }
 
@@ -357,21 +359,21 @@ void show_error(ErrorOptions options) {
 std::vector<Option> options_of(ErrorOptions& options) {
     std::vector<Option> table;
     add_terrain_options(table, options.view);
-    add_view_options(table, options.view);
-    add_mesh_options(table, options.mesh);
-    add_detail_options(table, options.mesh);
-    table.insert(table.end(),
-        {value_option(
-             {"solve", "PIXELS", "find the coarsest mesh whose 99.9th error percentile is at most this", 0.001, 1e4},
-             options.target_error_px),
-            text_option("--eye-points", "FILE",
-                "CSV table of views with the columns map,x_m,y_m,agl_m,heading_deg,pitch_deg", options.eye_points),
-            text_option("--map", "NAME",
-                "use the table rows with this map name [name of the terrain file without ending]", options.map),
-            flag(
-                "--compare", "with --solve: also measure Roettger's rule, with full and partial fans", options.compare),
-            flag("--json", "print the results as JSON", options.json),
-            flag("--quiet", "print no progress", options.quiet)});
+    add_drawn_mesh_options(table, options.view, options.mesh);
+    add_family(table,
+        {.name = "--study", .form = "KEY[=VALUE],...", .meaning = "many views, and the mesh that meets an error:"},
+        {{"solve", value_option({"solve", "PIXELS",
+                                    "find the coarsest mesh whose 99.9th error percentile is at most this", 0.001, 1e4},
+                       options.target_error_px)},
+            {"eye-points",
+                text_option("--eye-points", "FILE",
+                    "CSV table of views with the columns map,x_m,y_m,agl_m,heading_deg,pitch_deg", options.eye_points)},
+            {"map",
+                text_option("--map", "NAME",
+                    "use the table rows with this map name [name of the terrain file without ending]", options.map)},
+            {"compare", flag("--compare", "with solve: also measure Roettger's rule, with full and partial fans",
+                            options.compare)}});
+    table.insert(table.end(), {json_option(options.json), quiet_option(options.quiet)});
     return table;
 }
 
@@ -380,9 +382,8 @@ Command terrain_error_command() {
     return {.name = "error",
         .summary = "Measures the screen-space distance of meshes from the full-resolution terrain",
         .options = options_of(*options),
-        .footer = "Example:\n  octant terrain error canyon --eye 0,0,900 --look 3000,2000,300 "
-                  "--triangles 20000\n  octant terrain error map.tif --eye-points points.csv "
-                  "--solve 1 --compare",
+        .footer = "Examples:\n  octant terrain error canyon --eye 0,0,900 --look 3000,2000,300 --triangles 20000\n"
+                  "  octant terrain error map.tif --eye 0,0,2000 --look 3000,2000,300 --study solve=1",
         .run = [options] { show_error(*options); }};
 }
 
@@ -476,10 +477,8 @@ std::vector<Option> options_of(QueryOptions& options) {
                 options.flat),
             flag("--as-drawn", "query the mesh drawn from --eye instead of the full-resolution terrain",
                 options.as_drawn)});
-    add_view_options(table, options.view);
-    add_mesh_options(table, options.mesh);
-    add_detail_options(table, options.mesh);
-    table.push_back(flag("--json", "print the results as JSON instead of CSV", options.json));
+    add_drawn_mesh_options(table, options.view, options.mesh);
+    table.push_back(json_option(options.json));
     return table;
 }
 
@@ -509,7 +508,7 @@ void check(CheckOptions options) {
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     ui::terrain::TerrainCheck asked = options.check;
     asked.earth_radius_m = options.view.earth_radius_m;
-    asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;
+    asked.by_error = visuals::scene::ground_metric(options.mesh.lod) == visuals::scene::GroundMetric::ScreenError;
     const ui::terrain::TerrainCheckResult check_result = ui::terrain::check_terrain(*maker, asked);
     if (options.json) {
         base::JsonValue results;
@@ -539,15 +538,16 @@ std::vector<Option> options_of(CheckOptions& options) {
     ui::terrain::TerrainCheck& asked = options.check;
     std::vector<Option> table;
     add_terrain_options(table, options.view);
-    add_mesh_options(table, options.mesh);
+    add_mesh_options(table, options.mesh, options.view.curved);
     table.insert(table.end(),
-        {value_option({"views", "N", "number of random views", 1, 1e8}, asked.views),
+        {value_option({"frames", "N", "number of random views", 1, 1e8}, asked.views),
+            old_name(value_option({"views", "N", "", 1, 1e8}, asked.views), "--frames"),
             value_option({"seed", "S", "random seed", 0, 1e9}, asked.seed),
-            value_option({"every", "N", "mesh only every Nth view", 1, 1e6}, asked.every),
-            value_option({"draw-every", "N", "also draw every Nth meshed view over a key colour; 0 = none", 0, 1e6},
-                asked.draw_every),
-            curved_option(options.view.curved), flag("--json", "print the results as JSON", options.json),
-            flag("--quiet", "print no progress", asked.quiet)});
+            hidden(value_option({"every", "N", "mesh only every Nth view", 1, 1e6}, asked.every)),
+            hidden(
+                value_option({"draw-every", "N", "also draw every Nth meshed view over a key colour; 0 = none", 0, 1e6},
+                    asked.draw_every)),
+            json_option(options.json), quiet_option(asked.quiet)});
     return table;
 }
 
@@ -557,7 +557,7 @@ Command terrain_check_command() {
         .summary = "Checks the meshes of random views for cracks and holes, by edges and by pictures",
         .options = options_of(*options),
         .footer = "Exit code 1 when there is a crack or a hole.\n"
-                  "Example:\n  octant terrain check canyon --views 10000 --seed 1",
+                  "Example:\n  octant terrain check canyon --frames 10000 --seed 1",
         .run = [options] { check(*options); }};
 }
 
@@ -663,8 +663,9 @@ Command info_command() {
                 "write a picture of the terrain from above with a height legend; numbered red rings mark the locations "
                 "of the notes",
                 options->picture),
-            flag("--json", "print the results as JSON", options->json),
-            flag("--verify", "check the whole imported ground file for damage", options->verify)},
+            json_option(options->json),
+            flag("--check", "check the whole imported ground file for damage", options->verify),
+            old_name(flag("--verify", "", options->verify), "--check")},
         .footer = "Example:\n  octant terrain info map.tif --json",
         .run = [options] { show(*options); }};
     add_file_options(command.options, options->files);
@@ -677,11 +678,11 @@ Command make_command() {
         .summary = "Generates a procedural terrain from a seed and writes it as GeoTIFF",
         .options = {text_option("--kind", "KIND", "hills (gentle) or canyon (rugged)", options->kind),
             value_option({"size", "N", "number of samples per side", 2, 20000}, options->made.size),
-            value_option({"spacing", "METRES", "sample spacing in metres", 0.1, 1000}, options->made.spacing_m),
+            value_option({"terrain-spacing", "METRES", "sample spacing in metres", 0.1, 1000}, options->made.spacing_m),
+            old_name(value_option({"spacing", "METRES", "", 0.1, 1000}, options->made.spacing_m), "--terrain-spacing"),
             value_option({"seed", "S", "random seed", 0, 1e9}, options->seed),
-            required(text_option("--out", "FILE.tif", "output file", options->out)),
-            flag("--json", "print the results as JSON", options->json),
-            flag("--quiet", "print no notes", options->quiet)},
+            required(text_option("--out", "FILE.tif", "output file", options->out)), json_option(options->json),
+            quiet_option(options->quiet)},
         .footer = "Example:\n  octant terrain make --kind canyon --size 2049 --seed 7 --out made.tif",
         .run = [options] { make(*options); }};
 }

@@ -6,6 +6,7 @@
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/window_options.h"
 #include "ui/report/statistics.h"
 #include "ui/window/viewer.h"
 #include "ui/world/input_files.h"
@@ -116,12 +117,7 @@ void view(const ViewOptions& options, const std::vector<std::string>& given, boo
     for (const std::string& note : world::near_detail_warnings(world, options.settings.ground, given)) {
         base::print_note(quiet, "note: " + note);
     }
-    const base::StopSignals stop_signals;
-    int frames = 0;
-    while (viewer.run_frame() && !base::StopSignals::received()) {
-        if (options.settings.time.frames && ++frames >= *options.settings.time.frames) { break; }
-    }
-    if (const auto report = viewer.finish_recording()) { base::print_note(quiet, *report); }
+    run_viewer(viewer, options.settings.time.frames, quiet);
 }
 
 struct ViewWork {
@@ -151,22 +147,17 @@ void view_or_bench(ViewWork work) {
 
 std::vector<Option> options_of(ViewWork& work) {
     ViewOptions& view = work.view;
-    std::vector<Option> table = {flag("--by-hand", "start in manual flight", view.by_hand),
-        flag("--full-screen", "fill the screen (F11)", view.full_screen),
-        flag("--vsync,!--no-vsync", "limit to the display's refresh rate", view.vsync),
-        flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels),
+    std::vector<Option> table = {flag("--by-hand", "start under manual control", view.by_hand),
         text_option("--record", "DIR", "record from the first frame into this folder", view.record),
-        with_shown_default(view.recordings_folder.string(),
-            text_option(
-                "--records-into", "DIR", "where recordings (F9) and screenshots (F12) go", view.recordings_folder)),
-        value_option({"bench", "FRAMES",
-                         "time so many frames without a window, with its panels hidden and with panels open, "
-                         "in turn",
-                         1, 100000},
-            work.bench),
-        list_option("--send", "fdm|dis|xplane|cigi|tacview:HOST:PORT",
-            "send each picture's aircraft to another program, as octant fly --send", Arity::Repeatable, view.send),
-        flag("--json", "the times of --bench as JSON", work.json), flag("--quiet", "no notes", work.quiet)};
+        advanced(value_option(
+            {"bench", "FRAMES", "time N frames without a window, with hidden panels and with open panels, in turn", 1,
+                100000},
+            work.bench)),
+        advanced(list_option("--send", "PROTOCOL:HOST:PORT", "send aircraft to another program, as octant fly --send",
+            Arity::Repeatable, view.send)),
+        json_option(work.json), quiet_option(work.quiet)};
+    add_window_options(table, view, &view.recordings_folder);
+    table.back().shown = Shown::InHelpAll;
     add_setting_options(table, view.settings, &work.given);
     return table;
 }
@@ -185,10 +176,9 @@ Command view_command() {
                   "  octant view pop-up --aircraft f15 --terrain map.tif --view cockpit\n"
                   "  octant view --by-hand --aircraft 500md --view chase --inset tower\n"
                   "  octant view --settings my-flight/run.json\n"
-                  "Of the settings, rate, seconds, pictures, warm-up and realtime count when a "
-                  "recording is flown\n"
-                  "again by octant fly; --frames closes the window after so many.\n"
-                  "No display? octant fly needs none.",
+                  "rate, seconds, pictures, warm-up and realtime count when octant fly repeats a recording; --frames "
+                  "closes the "
+                  "window after N frames. octant fly needs no display.",
         .run = [work] { view_or_bench(*work); }};
 }
 

@@ -191,8 +191,8 @@ struct AttributeBound {
 
 std::array<AttributeBound, 3> bounds_of(const SimplifyArguments& command) {
     return {{{"texture coordinates", "--uv-error", "uv_error", command.uv_error},
-        {"normals", "--normal-error", "normal_error", command.normal_error},
-        {"colours", "--colour-error", "colour_error", command.colour_error}}};
+        {"normals", "--attribute-error normal", "normal_error", command.normal_error},
+        {"colours", "--attribute-error colour", "colour_error", command.colour_error}}};
 }
 
 /// A number among named figures; 0 where there is none.
@@ -626,8 +626,13 @@ std::string level_command(const SimplifyArguments& command, std::size_t faces) {
     add("--method", !command.method.empty(), command.method);
     add("--effort", command.effort >= 0, command.effort);
     add("--steps", command.steps >= 0, command.steps);
-    add("--colour-weight", command.colour_weight >= 0.0, command.colour_weight);
-    for (const AttributeBound& bound : bounds_of(command)) { add(bound.option, bound.wanted > 0.0, bound.wanted); }
+    if (command.colour_weight >= 0.0) {
+        text += fmt::format(" --attribute-error colour-weight={}", command.colour_weight);
+    }
+    for (const AttributeBound& bound : bounds_of(command)) {
+        const char separator = bound.option == "--uv-error" ? ' ' : '=';
+        if (bound.wanted > 0.0) { text += fmt::format(" {}{}{}", bound.option, separator, bound.wanted); }
+    }
     add("--keep-shells", command.keep_shells);
     add("--keep-topology", command.keep_topology);
     add("--keep-seams-apart", command.keep_seams_apart);

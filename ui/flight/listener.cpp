@@ -32,12 +32,14 @@ LiveInput::LiveInput(const LiveInputOptions& options) : bind_(options.bind) {
             Peer{ports_.size(), links::peer_from_text("--xplane",
                                     has_port ? options.xplane_host
                                              : fmt::format("{}:{}", options.xplane_host, links::xplane_request_port))};
-        if (options.xplane_port.value_or(0) < 0) { throw Error("--xplane: expected an open --xplane-port, got -1"); }
+        if (options.xplane_port.value_or(0) < 0) {
+            throw Error("--xplane: expected an open port in --ports xplane, got -1");
+        }
     }
     open(links::Protocol::XPlane,
         options.xplane_port.value_or(xplane_ ? int{links::xplane_port} : default_port(links::xplane_port)));
     if (options.cigi_port >= 0) {
-        cigi_ = Peer{ports_.size(), links::peer_from_text("--cigi-host", options.cigi_host)};
+        cigi_ = Peer{ports_.size(), links::peer_from_text("--cigi host", options.cigi_host)};
         open(links::Protocol::Cigi, options.cigi_port);
     }
     if (!options.only_from.empty()) { only_from_ = links::address_from_text("--from", options.only_from); }

@@ -8,7 +8,7 @@
 #include "ui/flight/session.h"
 #include "ui/flight/simulation.h"
 #include "ui/report/frame_record.h"
-#include "ui/settings/enum_names.h"
+#include "ui/settings/settings_text.h"
 #include "ui/world/world.h"
 #include "visuals/scene/settings.h"
 

@@ -1,7 +1,7 @@
 // Changed settings during a flight. All work that may fail comes first: loading, the work of threads, the memory of the
 // renderer. The changes that cannot be undone come after it.
 #include "ui/flight/session.h"
-#include "ui/settings/settings_change.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/flight.h"
 #include "ui/world/scene_ground.h"

@@ -4,6 +4,8 @@
 #include "sim/height_mode.h"
 #include "visuals/scene/settings.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +19,16 @@ enum class ContextKind { OsMesa, Egl, Window };
 
 /// The name of a path that others fly: aircraft stand at its place until somebody moves them.
 inline constexpr std::string_view live_path = "live";
+
+/// Values of --order-cache that are no folders: the user's own cache, and none.
+inline constexpr std::string_view user_order_cache = "user";
+inline constexpr std::string_view no_order_cache = "none";
+inline constexpr std::array built_in_order_caches{user_order_cache, no_order_cache};
+
+/// Whether a value of --order-cache is a folder.
+constexpr bool is_order_cache_folder(std::string_view value) {
+    return std::ranges::find(built_in_order_caches, value) == built_in_order_caches.end();
+}
 
 /// Which path is flown, by which aircraft, over which ground.
 struct PathSettings {
@@ -44,6 +56,7 @@ struct PathSettings {
     /// Without it, paths are lifted clear of the ground, and tracks that know their place fly at the heights that they
     /// give.
     std::optional<sim::HeightMode> height_mode;
+    /// Whether legs are limited to the aircraft's abilities, with a note, instead of being refused.
     bool lenient = false;
 
     bool operator==(const PathSettings&) const = default;
@@ -78,10 +91,9 @@ struct DrawingSettings {
     bool operator==(const DrawingSettings&) const = default;
 };
 
-/// Everything that decides what a run shows: what a picture shows (the parts of scene::Settings), the flight, its
-/// frames and who draws them. A run is repeated by repeating its RunSettings. Each field has a row
-/// (ui/settings/README.md) from which its option, its file entry and its widget are made. What only says where results
-/// go is not here.
+/// Everything that decides what a run shows. Inherits view, surface, shading, ground, air and adapt from
+/// scene::Settings. A run is repeated by repeating its RunSettings. Each field has a row (setting_rows.h) from which
+/// its option, its file entry and its widget are made. Output files are not settings.
 struct RunSettings : visuals::scene::Settings {
     PathSettings path;
     TimeSettings time;
@@ -90,8 +102,7 @@ struct RunSettings : visuals::scene::Settings {
     bool operator==(const RunSettings&) const = default;
 };
 
-/// Settings of what is measured: the ground as it is given, without the detail and the scenery that are made up near
-/// the eye.
+/// Default settings for measurements: without procedural detail, scenery and roads.
 inline RunSettings measurement_settings() {
     RunSettings settings;
     settings.ground.near_detail = false;

@@ -5,15 +5,26 @@
 #include "sim/base/text_file.h"
 #include "sim/sun_position.h"
 #include "ui/settings/frame_part.h"
-#include "ui/settings/settings_fields.h"
-#include "ui/settings/terrain_name.h"
+#include "ui/settings/setting_rows.h"
+#include "visuals/groundfile/ground_file.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <type_traits>
 
 namespace octant::ui::settings {
+
+bool is_built_in_ground(const std::string& name) {
+    return std::ranges::find(built_in_terrains, name) != built_in_terrains.end();
+}
+
+bool is_imported_ground(const std::string& name_or_file) {
+    return !is_built_in_ground(name_or_file) && visuals::groundfile::is_ground_file(name_or_file);
+}
+
+bool has_no_detail_levels(const std::string& terrain) { return terrain == "background60" || terrain == "none"; }
 
 namespace scene = visuals::scene;
 
@@ -54,17 +65,17 @@ void check_shading(const scene::ShadingSettings& shading, const scene::Adaptatio
         adapt.shading || shading.device_ratio || shading.smooth_share < 1.0 || shading.rule == scene::HybridRule::Paper;
     if (by_share && shading.kind != scene::AircraftShading::Hybrid) {
         throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
-                    "--device-ratio or --shading-rule paper, got another one");
+                    "--paper-shading device-ratio or --shading-rule paper, got another one");
     }
     if (shading.far_m <= shading.near_m) {
-        throw Error(fmt::format(
-            "--shading-far: expected more than --shading-near ({}), got {}", shading.near_m, shading.far_m));
+        throw Error(
+            fmt::format("--paper-shading far: expected more than near ({}), got {}", shading.near_m, shading.far_m));
     }
 }
 
 void check_terrain_adaptation(const scene::GroundSettings& ground, const std::string& terrain) {
-    if (ground.detail != scene::DetailControl::Exact) {
-        throw Error("--adapt terrain: expected --detail exact beside it, got another control");
+    if (ground.lod.control != scene::DetailControl::Exact) {
+        throw Error("--adapt terrain: expected --terrain-lod screen-error or exact, got another control");
     }
     if (has_no_detail_levels(terrain)) {
         throw Error(fmt::format("--adapt terrain: expected ground with levels of detail, got {}", terrain));
@@ -72,21 +83,20 @@ void check_terrain_adaptation(const scene::GroundSettings& ground, const std::st
 }
 
 void check_ground(const scene::GroundSettings& ground, const std::string& terrain) {
-    const bool by_error = scene::ground_metric(ground) == scene::GroundMetric::ScreenError;
-    scene::GroundSettings unasked = ground;
-    unasked.mesh.reset();
-    if (ground.mesh == scene::GroundMetric::ScreenError &&
-        scene::ground_metric(unasked) != scene::GroundMetric::ScreenError) {
-        throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
-                    "--propagation, got one that only --mesh midpoint or printed has");
+    const bool by_error = scene::ground_metric(ground.lod) == scene::GroundMetric::ScreenError;
+    scene::TerrainLod without_metric = ground.lod;
+    without_metric.metric.reset();
+    if (by_error && scene::ground_metric(without_metric) != scene::GroundMetric::ScreenError) {
+        throw Error(
+            "--mesh screen-error: expected --detail exact without --roughness-c, --fans or --propagation, got one "
+            "that only --terrain-lod exact or paper has");
     }
     if (!by_error && is_imported_ground(terrain)) {
-        throw Error(fmt::format("{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
-                                "roughness",
-            printable(terrain)));
+        throw Error(fmt::format(
+            "{}: expected --terrain-lod screen-error for an imported ground, got another one", printable(terrain)));
     }
     if (!by_error && ground.error_px) {
-        throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
+        throw Error("--error-px: expected --terrain-lod screen-error, got another one");
     }
 }
 
@@ -95,10 +105,10 @@ void check_ground_texture(const scene::AirSettings& air, const std::string& terr
     const bool textured = draped || air.ground_shading == scene::GroundShading::Texture;
     if (textured && has_no_detail_levels(terrain)) {
         throw Error(fmt::format("{}: expected ground with heights (hills, canyon or a file), got --terrain {}",
-            draped ? "--drape" : "--ground-shading texture", printable(terrain)));
+            draped ? "--drape" : "--ground-look shading=texture", printable(terrain)));
     }
     if (draped && air.ground_shading == scene::GroundShading::Vertex) {
-        throw Error("--drape: expected --ground-shading texture or auto beside it, got vertex");
+        throw Error("--drape: expected --ground-look shading=texture or auto beside it, got vertex");
     }
 }
 
@@ -112,9 +122,9 @@ void check_transparency(const RunSettings& settings) {
     };
     refuse_depth("--clouds", settings.air.clouds > 0.0);
     refuse_depth("--effects", settings.surface.effects);
-    refuse_depth("--path-ribbon", settings.view.path_ribbon);
+    refuse_depth("--show path-ribbon", settings.view.path_ribbon);
     if (settings.view.path_ribbon && settings.path.name == live_path) {
-        throw Error("--path-ribbon: expected a path or a track, got what others fly");
+        throw Error("--show path-ribbon: expected a path or a track, got what others fly");
     }
 }
 

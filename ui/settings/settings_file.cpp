@@ -5,8 +5,7 @@
 #include "ui/base/json_value.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/run_file.h"
-#include "ui/settings/settings_by_name.h"
-#include "ui/settings/settings_fields.h"
+#include "ui/settings/setting_rows.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -108,14 +107,16 @@ RunSettings read_settings(const std::filesystem::path& given) {
     }
     RunSettings settings;
     std::set<std::string, std::less<>> known;
-    visit_settings(settings, [&](const SettingInfo& info, auto& value) {
-        known.insert(std::string(info.name));
-        const auto found = json.find(std::string(info.name));
+    const auto read_row = [&](const auto& row) {
+        known.insert(std::string(row.name));
+        const auto found = json.find(std::string(row.name));
         if (found == json.end()) { return; }
         try {
-            read_field(info, *found, value);
-        } catch (const Error& fault) { throw_error_at(path, line_of_key(text, info.name), fault.what()); }
-    });
+            read_field(row, *found, row.of(settings));
+        } catch (const Error& fault) { throw_error_at(path, line_of_key(text, row.name), fault.what()); }
+    };
+    visit_rows(read_row);
+    visit_old_rows(read_row);
     for (const auto& [key, value] : json.items()) {
         if (!known.contains(key)) {
             throw_error_at(

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "ui/settings/enum_names.h"
 #include "ui/settings/settings.h"
 #include "visuals/draworder/order_method.h"
 
@@ -8,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +17,80 @@
 #include <vector>
 
 namespace octant::ui::settings {
+
+/// One value of an enumeration with the name that people write for it.
+template <class Enum>
+struct EnumName {
+    Enum value;
+    std::string_view name;
+};
+
+template <class Enum>
+EnumName(Enum, std::string_view) -> EnumName<Enum>;
+
+/// The names of an enumeration's values: an array of Named, specialised for each enumeration. The order of its rows
+/// does not matter. A value without a name, or with two, does not compile.
+template <class Enum>
+inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
+
+/// A name that older versions wrote for a value; read until version 1.1, with a note that says its `meaning`.
+template <class Enum>
+struct OldEnumName {
+    std::string_view name;
+    Enum value;
+    std::string_view meaning;
+};
+
+template <class Enum>
+OldEnumName(std::string_view, Enum, std::string_view) -> OldEnumName<Enum>;
+
+/// Old names of an enumeration's values: an array of OldEnumName, specialised for the few that have some.
+template <class Enum>
+inline constexpr std::array<OldEnumName<Enum>, 0> old_enum_names{};
+
+/// Whether the enumeration declares an enumerator of this value. C++20 cannot ask that, but GCC and Clang say it where
+/// they print a template's argument: as "Enum::Name", else as "(Enum)7".
+template <auto value>
+consteval bool is_enumerator() {
+    std::string_view text = __PRETTY_FUNCTION__;
+    text.remove_prefix(text.rfind("value = "));
+    const std::size_t bracket = text.rfind(')');
+    return bracket == std::string_view::npos || text.substr(bracket + 1).starts_with("::");
+}
+
+/// Whether the rows name each enumerator once, for an enumeration that counts from 0.
+template <class Enum>
+consteval bool names_each_value_once() {
+    constexpr std::size_t count = enum_names<Enum>.size();
+    std::array<int, count + 1> rows{};
+    for (const EnumName<Enum>& row : enum_names<Enum>) {
+        const auto value = static_cast<std::size_t>(row.value);
+        if (value >= count || rows[value] > 0) { return false; }
+        rows[value] = 1;
+    }
+    return !is_enumerator<static_cast<Enum>(count)>();
+}
+
+/// The names in the order of their values.
+template <class Enum>
+inline constexpr auto names_by_value = [] {
+    static_assert(names_each_value_once<Enum>(), "enum_names must name each enumerator once");
+    std::array<std::string_view, enum_names<Enum>.size()> names;
+    for (const EnumName<Enum>& row : enum_names<Enum>) { names[static_cast<std::size_t>(row.value)] = row.name; }
+    return names;
+}();
+
+/// The names of all values, each at the index of its value.
+template <class Enum>
+constexpr std::span<const std::string_view> names_of() {
+    return names_by_value<Enum>;
+}
+
+/// The name of one value, which must be an enumerator.
+template <class Enum>
+requires std::is_enum_v<Enum>
+
+constexpr std::string_view name_of(Enum value) { return names_by_value<Enum>.at(static_cast<std::size_t>(value)); }
 
 // Names of the values of every enumeration that settings use, as people write them.
 
@@ -102,8 +176,10 @@ inline constexpr std::array enum_names<visuals::draworder::OrderMethod>{
 template <>
 inline constexpr std::array old_enum_names<visuals::draworder::OrderMethod>{
     OldEnumName{"tree", visuals::draworder::OrderMethod::Exact, "the old name of exact"},
-    OldEnumName{"cells", visuals::draworder::OrderMethod::Exact, "only studied now (octant draw-order); exact is used"},
-    OldEnumName{"bsp", visuals::draworder::OrderMethod::Exact, "only studied now (octant draw-order); exact is used"}};
+    OldEnumName{
+        "cells", visuals::draworder::OrderMethod::Exact, "only studied now (octant study draw-order); exact is used"},
+    OldEnumName{
+        "bsp", visuals::draworder::OrderMethod::Exact, "only studied now (octant study draw-order); exact is used"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::draworder::OrderSource>{
@@ -147,6 +223,7 @@ std::string text_of(const glm::dvec3& value);
 std::string text_of(const glm::vec3& colour);
 std::string text_of(const visuals::scene::Adaptation& adapt);
 std::string text_of(const models::heights::VoidValues& voids);
+std::string text_of(const visuals::scene::TerrainLod& lod);
 
 /// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and then leaves the value as it was.
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value);
@@ -158,6 +235,7 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& valu
 void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour);
 void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::Adaptation& adapt);
 void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidValues& voids);
+void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::TerrainLod& lod);
 
 /// Throws Error "NAME: expected ..., got ..." for a number that `info.allowed_values` does not list.
 void check_listed(const FieldInfo& info, int value);

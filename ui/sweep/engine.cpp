@@ -107,7 +107,7 @@ public:
         if (options_.jobs == 0) { options_.jobs = options_.share_cores ? cores : 1; }
         if (options_.jobs > 1 && !options_.share_cores) {
             throw Error(
-                fmt::format("--jobs: expected --share-cores beside more than one at a time, as frame times then "
+                fmt::format("--jobs: expected --batch share-cores beside more than one at a time, as frame times then "
                             "depend on each other, got {} without it",
                     options_.jobs));
         }

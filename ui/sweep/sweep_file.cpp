@@ -5,7 +5,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/aircraft_entry.h"
-#include "ui/settings/settings_by_name.h"
+#include "ui/settings/setting_rows.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
-#include "ui/settings/terrain_name.h"
+#include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/terrain/ground_builder.h"

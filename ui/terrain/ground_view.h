@@ -35,13 +35,10 @@ struct GroundViewOptions {
 
 /// Kind and resolution of a terrain mesh.
 struct GroundMeshOptions {
-    visuals::scene::GroundMetric mesh = visuals::scene::GroundMetric::ScreenError;
-    visuals::scene::GroundFans fans = visuals::scene::GroundFans::Partial;
-    std::optional<double> roughness_c; ///< as in Settings
+    visuals::scene::TerrainLod lod; ///< of its control only resolution_c counts
     bool geomorphs = false;
     std::optional<double> error_px;
     std::optional<int> triangles;
-    std::optional<double> resolution_c;
 };
 
 /// Eye and look as options say. Throws Error when one is missing or both are the same point.

@@ -27,14 +27,15 @@ std::vector<std::uint32_t> no_colours(int columns, int rows) {
 class QuadtreeMaker final : public MeshMaker {
 public:
     QuadtreeMaker(const models::heights::HeightField& field, const GroundMeshOptions& options)
-        : tree_(field, {.roughness = options.mesh == scene::GroundMetric::Printed ? terrain::Roughness::Printed
-                                                                                  : terrain::Roughness::Midpoint}),
+        : tree_(field, {.roughness = scene::ground_metric(options.lod) == scene::GroundMetric::Printed
+                                         ? terrain::Roughness::Printed
+                                         : terrain::Roughness::Midpoint}),
           colours_(no_colours(field.columns(), field.rows())), mesher_(tree_, colours_) {
         constexpr double midpoint_weight = 20.0;
         constexpr double printed_weight = 5.0;
-        detail_.roughness_weight = options.roughness_c.value_or(
-            options.mesh == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans = options.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
+        detail_.roughness_weight = options.lod.roughness_c.value_or(
+            scene::ground_metric(options.lod) == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
+        detail_.fans = options.lod.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
     }
 
     terrain::GroundSamples ground() const override { return terrain::GroundSamples(tree_.field()); }
@@ -95,21 +96,23 @@ private:
 } // namespace
 
 std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
-    if (options.mesh == scene::GroundMetric::ScreenError) { return std::make_unique<ErrorMaker>(ground, options); }
+    if (scene::ground_metric(options.lod) == scene::GroundMetric::ScreenError) {
+        return std::make_unique<ErrorMaker>(ground, options);
+    }
     if (ground.field() == nullptr) {
-        throw Error("--mesh: expected screen-error for an imported ground, got another kind");
+        throw Error("--terrain-lod: expected screen-error for an imported ground, got another kind");
     }
     return std::make_unique<QuadtreeMaker>(*ground.field(), options);
 }
 
 terrain::GroundMesh mesh_from_options(
     MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
-    const bool by_error = options.mesh == scene::GroundMetric::ScreenError;
+    const bool by_error = scene::ground_metric(options.lod) == scene::GroundMetric::ScreenError;
     if (options.triangles) { return maker.mesh_within(view, *options.triangles); }
     if (by_error && options.error_px) { return maker.mesh(view, *options.error_px); }
-    if (!by_error && options.resolution_c) { return maker.mesh(view, 1.0 / *options.resolution_c); }
+    if (!by_error && options.lod.resolution_c > 0.0) { return maker.mesh(view, 1.0 / options.lod.resolution_c); }
     throw Error(by_error ? "expected --triangles N or --error-px E, got neither"
-                         : "expected --triangles N or --resolution-c C for this mesh, got neither");
+                         : "expected --triangles N or --terrain-lod KIND:resolution-c=C for this mesh, got neither");
 }
 
 std::string ply_of(const visuals::terrain::GroundMesh& mesh, const glm::dvec3& eye_m, bool ascii) {

@@ -8,7 +8,7 @@
 #include "ui/flight/frame_renderer.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/aircraft_entry.h"
-#include "ui/settings/path_fields.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/window/key_map.h"
 #include "ui/window/panel_widgets.h"
 #include "ui/window/setting_widgets.h"
@@ -402,8 +402,8 @@ void timing_panel(ViewState& state) {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> controls{"show-mesh", "mesh", "detail", "triangles", "error-px", "adapt",
-    "geomorphs", "mesh-ahead", "earth-curvature", "fans", "resolution-c", "roughness-c", "control-a", "control-r"};
+constexpr std::array<std::string_view, 8> controls{
+    "show-mesh", "terrain-lod", "triangles", "error-px", "adapt", "geomorphs", "mesh-ahead", "earth-curvature"};
 
 void count_plot(std::span<const FrameRecord> records) {
     int most = 1;

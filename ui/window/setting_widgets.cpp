@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/settings/aircraft_entry.h"
-#include "ui/settings/settings_fields.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/window/panel_widgets.h"
 
 #include <imgui.h>
@@ -198,6 +198,16 @@ bool edit(const settings::SettingInfo& info, models::heights::VoidValues& voids)
         return true;
     } catch (const Error&) {
         return false; // as typed in part, or nothing typed
+    }
+}
+
+bool edit(const settings::SettingInfo& info, visuals::scene::TerrainLod& lod) {
+    const auto typed = typed_text("##value", settings::text_of(lod), info.form);
+    try {
+        if (typed) { settings::read_setting(info, *typed, lod); }
+        return typed.has_value();
+    } catch (const Error&) {
+        return false; // typed in part
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/settings/setting_row.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings.h"
 
 #include <span>
@@ -51,7 +51,7 @@ std::string comma_separated(std::span<const std::string> names);
 /// Splits a line at commas. Removes blanks around names and empty names.
 std::vector<std::string> split_at_commas(std::string_view text);
 
-// Widgets made from the rows of all settings (ui/settings/settings_fields.h), to be called between ImGui::NewFrame and
+// Widgets made from the rows of all settings (ui/settings/setting_rows.h), to be called between ImGui::NewFrame and
 // ImGui::Render. A change takes effect at once; text, and settings that reload something, on Enter. Values stay within
 // their limits.
 

@@ -10,7 +10,7 @@
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/aircraft_entry.h"
-#include "ui/settings/settings_change.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_file.h"
 #include "ui/window/gui.h"
 #include "ui/window/key_map.h"

@@ -16,7 +16,7 @@
 #include "sim/base/text_scanner.h"
 #include "ui/base/data_files.h"
 #include "ui/base/stopwatch.h"
-#include "ui/settings/order_cache_name.h"
+#include "ui/settings/settings.h"
 #include "ui/world/input_files.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/draworder/ordered_model.h"

@@ -20,7 +20,7 @@
 #include "sim/trajectory.h"
 #include "ui/base/data_files.h"
 #include "ui/report/zip_file.h"
-#include "ui/settings/terrain_name.h"
+#include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/nature/runway.h"

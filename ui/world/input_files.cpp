@@ -11,8 +11,8 @@
 #include "sim/base/text_scanner.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/aircraft_entry.h"
-#include "ui/settings/order_cache_name.h"
-#include "ui/settings/terrain_name.h"
+#include "ui/settings/settings.h"
+#include "ui/settings/settings_check.h"
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>

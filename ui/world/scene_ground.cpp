@@ -14,7 +14,7 @@
 #include "sim/base/text_file.h"
 #include "sim/sun_position.h"
 #include "ui/base/data_files.h"
-#include "ui/settings/terrain_name.h"
+#include "ui/settings/settings_check.h"
 #include "ui/world/input_files.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/landscape/ground_palette.h"
@@ -229,7 +229,7 @@ SceneGround ground_of_field(
     const std::int64_t filled_voids = field.filled_voids;
     const settings::RunSettings own = with_ground_defaults(settings, field.place);
     SceneGround loaded = with_texture_and_notes(
-        scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
+        scene::ground_metric(settings.ground.lod) == scene::GroundMetric::ScreenError
             ? landscape::make_bisection_ground(terrain::make_ground_tiles(field), own.air, runway)
             : landscape::make_quadtree_ground(std::move(field), own.ground, own.air, runway),
         filled_voids, own, device);

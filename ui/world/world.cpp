@@ -371,7 +371,7 @@ std::string reason_for_no_near_detail(const World& world, const visuals::scene::
     if (world.scene.ground->spacing_m() <= 0.0) {
         return fmt::format("{} has no samples between which there could be any", world.ground.name);
     }
-    if (visuals::scene::ground_metric(settings) != visuals::scene::GroundMetric::ScreenError) {
+    if (visuals::scene::ground_metric(settings.lod) != visuals::scene::GroundMetric::ScreenError) {
         return "only ground that is refined by screen-error shows any";
     }
     return {};
@@ -388,14 +388,14 @@ std::vector<std::string> near_detail_warnings(
                                      ? fmt::format("nothing grows or is built on {}", name_of_body(below))
                                      : "";
     std::vector<std::string> notes;
-    const auto note = [&](const std::string& option, bool is_on, const std::string& reason) {
-        if (is_on && !reason.empty() && std::ranges::find(given, option) != given.end()) {
-            notes.push_back(fmt::format("{} shows nothing: {}", option, reason));
+    const auto note = [&](const std::string& setting, bool is_on, const std::string& reason) {
+        if (is_on && !reason.empty() && std::ranges::find(given, "--" + setting) != given.end()) {
+            notes.push_back(fmt::format("{} shows nothing: {}", setting, reason));
         }
     };
-    note("--near-detail", settings.near_detail, why);
-    note("--scenery", settings.scenery, why.empty() ? textured : why);
-    note("--roads", settings.roads, why.empty() ? textured : why);
+    note("near-detail", settings.near_detail, why);
+    note("scenery", settings.scenery, why.empty() ? textured : why);
+    note("roads", settings.roads, why.empty() ? textured : why);
     return notes;
 }
 

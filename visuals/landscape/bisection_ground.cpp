@@ -423,7 +423,7 @@ public:
     }
 
     bool has_mesh_settings(const scene::GroundSettings& settings) const override {
-        return ground_metric(settings) == scene::GroundMetric::ScreenError;
+        return ground_metric(settings.lod) == scene::GroundMetric::ScreenError;
     }
 
     std::shared_ptr<const Ground> with_settings(

@@ -26,19 +26,19 @@ constexpr double midpoint_weight = 20.0;
 constexpr double printed_weight = 5.0;
 constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for which C is meant
 
-terrain::QuadtreeOptions quadtree_options(const scene::GroundSettings& settings) {
-    return {.roughness = ground_metric(settings) == scene::GroundMetric::Printed ? terrain::Roughness::Printed
-                                                                                 : terrain::Roughness::Midpoint,
-        .propagation = settings.propagation == scene::Propagation::Printed ? terrain::RoughnessPropagation::Printed
-                                                                           : terrain::RoughnessPropagation::CrackFree};
+terrain::QuadtreeOptions quadtree_options(const scene::TerrainLod& lod) {
+    return {.roughness = ground_metric(lod) == scene::GroundMetric::Printed ? terrain::Roughness::Printed
+                                                                            : terrain::Roughness::Midpoint,
+        .propagation = lod.propagation == scene::Propagation::Printed ? terrain::RoughnessPropagation::Printed
+                                                                      : terrain::RoughnessPropagation::CrackFree};
 }
 
 /// Without the target, which comes with each request.
-terrain::ControlSettings control_settings(const scene::GroundSettings& settings) {
+terrain::ControlSettings control_settings(const scene::TerrainLod& lod) {
     terrain::ControlSettings control;
-    control.triangles_per_resolution = settings.control_a;
-    control.averaged_frames = settings.control_r;
-    switch (settings.detail) {
+    control.triangles_per_resolution = lod.control_a;
+    control.averaged_frames = lod.control_r;
+    switch (lod.control) {
     case scene::DetailControl::Previous:
         control.method = terrain::ControlMethod::Previous;
         break;
@@ -46,7 +46,7 @@ terrain::ControlSettings control_settings(const scene::GroundSettings& settings)
         control.method = terrain::ControlMethod::Printed;
         break;
     case scene::DetailControl::Damped: // as printed where its a is given
-        control.method = settings.control_a > 0.0 ? terrain::ControlMethod::Damped : terrain::ControlMethod::Tuned;
+        control.method = lod.control_a > 0.0 ? terrain::ControlMethod::Damped : terrain::ControlMethod::Tuned;
         break;
     case scene::DetailControl::Exact:
     case scene::DetailControl::Fixed:
@@ -102,19 +102,20 @@ public:
     }
 
     bool has_mesh_settings(const scene::GroundSettings& settings) const override {
-        const terrain::QuadtreeOptions wanted = quadtree_options(settings);
-        return ground_metric(settings) != scene::GroundMetric::ScreenError &&
+        const terrain::QuadtreeOptions wanted = quadtree_options(settings.lod);
+        return ground_metric(settings.lod) != scene::GroundMetric::ScreenError &&
                wanted.roughness == tree_->options().roughness && wanted.propagation == tree_->options().propagation;
     }
 
     std::shared_ptr<const Ground> with_settings(
         const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
-        if (ground_metric(ground) == scene::GroundMetric::ScreenError) {
+        if (ground_metric(ground.lod) == scene::GroundMetric::ScreenError) {
             return make_bisection_ground(terrain::make_ground_tiles(*field_), air, runway());
         }
         return std::make_shared<QuadtreeGround>(field_,
-            has_mesh_settings(ground) ? tree_
-                                      : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground)),
+            has_mesh_settings(ground)
+                ? tree_
+                : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground.lod)),
             air, runway());
     }
 
@@ -139,14 +140,14 @@ public:
     void apply_settings(const MeshSettings& settings) override {
         GroundMesher::apply_settings(settings);
         const scene::GroundSettings& ground = settings.ground;
-        control_ = control_settings(ground);
-        exact_ = ground.detail == scene::DetailControl::Exact;
-        fixed_resolution_ = ground.detail == scene::DetailControl::Fixed;
-        first_resolution_ = ground.resolution_c;
+        control_ = control_settings(ground.lod);
+        exact_ = ground.lod.control == scene::DetailControl::Exact;
+        fixed_resolution_ = ground.lod.control == scene::DetailControl::Fixed;
+        first_resolution_ = ground.lod.resolution_c;
         order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack : terrain::PaintOrder::BackToFront;
-        detail_.roughness_weight = ground.roughness_c.value_or(
-            ground_metric(ground) == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans = ground.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
+        detail_.roughness_weight = ground.lod.roughness_c.value_or(
+            ground_metric(ground.lod) == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
+        detail_.fans = ground.lod.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
         if (fixed_resolution_ && first_resolution_ > 0.0) {
             state_ = terrain::initial_state(first_resolution_, control_);
         }
@@ -228,7 +229,7 @@ std::shared_ptr<const Ground> make_quadtree_ground(models::heights::HeightField 
     const scene::GroundSettings& ground, const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway) {
     auto shared = std::make_shared<const models::heights::HeightField>(std::move(field));
-    auto tree = std::make_shared<const terrain::Quadtree>(*shared, quadtree_options(ground));
+    auto tree = std::make_shared<const terrain::Quadtree>(*shared, quadtree_options(ground.lod));
     return std::make_shared<QuadtreeGround>(std::move(shared), std::move(tree), air, std::move(runway));
 }
 

@@ -195,7 +195,8 @@ public:
         const Scene& scene = before->scene_;
         const scene::Settings& settings = before->settings_;
         before->reuse_mesher();
-        const bool settled = before->is_settled_ && scene::same_detail_control(settings.ground, before->control_);
+        const bool settled =
+            before->is_settled_ && scene::same_detail_control(settings.ground.lod, before->control_.lod);
         std::unique_ptr<landscape::GroundMesher> mesher = std::move(before->mesher_);
         before.reset();
         auto impl = std::make_unique<Impl>(scene, settings, std::move(mesher));

@@ -105,13 +105,28 @@ struct ShadingSettings {
     bool operator==(const ShadingSettings&) const = default;
 };
 
-/// How the ground is refined.
-struct GroundSettings {
-    /// How the ground is meshed; nothing = as ground_metric says.
-    std::optional<GroundMetric> mesh;
+/// What refines the terrain mesh (--terrain-lod). All but `metric` are of the paper's quadtree.
+struct TerrainLod {
+    /// Nothing = as ground_metric() says.
+    std::optional<GroundMetric> metric;
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
-    DetailControl detail = DetailControl::Exact;
+    DetailControl control = DetailControl::Exact;
+    /// C of the first frame; 0 = the one that meets the triangle budget.
+    double resolution_c = 0.0;
+    /// c, the weight of roughness. Nothing: 20 for midpoint, 5 for printed.
+    std::optional<double> roughness_c;
+    /// The paper's a, triangles per unit of C; 0 = from the terrain's own gain.
+    double control_a = 0.0;
+    /// The paper's r, the number of earlier frames that the damping averages.
+    int control_r = 4;
+
+    bool operator==(const TerrainLod&) const = default;
+};
+
+/// How the ground is refined.
+struct GroundSettings {
+    TerrainLod lod;
     /// The triangles aimed at; nothing = 20,000, or without end where error_px is given.
     std::optional<int> triangles;
     /// By screen error: the ground is refined no further than this; nothing = 0.25.
@@ -122,14 +137,6 @@ struct GroundSettings {
     bool mesh_async = true;
     /// By screen error: distant ground and aircraft sink.
     bool earth_curvature = true;
-    /// C of the first frame; 0 = the one that meets the triangle target.
-    double resolution_c = 0.0;
-    /// c, the weight of roughness. Nothing: 20 for midpoint, 5 for printed.
-    std::optional<double> roughness_c;
-    /// The paper's a, triangles per unit of C; 0 = from the terrain's own gain.
-    double control_a = 0.0;
-    /// The paper's r, the number of earlier frames that the damping looks back at.
-    int control_r = 4;
     /// By screen error: near the eye the ground has detail between its samples.
     bool near_detail = true;
     /// By screen error: trees and houses stand near the eye.
@@ -189,16 +196,15 @@ struct Settings {
 
 /// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point roughness where
 /// something is asked for that only it has.
-inline GroundMetric ground_metric(const GroundSettings& settings) {
-    const bool uses_paper_quadtree = settings.detail != DetailControl::Exact || settings.roughness_c ||
-                                     settings.fans != GroundFans::Partial ||
-                                     settings.propagation != Propagation::CrackFree;
-    return settings.mesh.value_or(uses_paper_quadtree ? GroundMetric::Midpoint : GroundMetric::ScreenError);
+inline GroundMetric ground_metric(const TerrainLod& lod) {
+    const bool uses_paper_quadtree = lod.control != DetailControl::Exact || lod.roughness_c ||
+                                     lod.fans != GroundFans::Partial || lod.propagation != Propagation::CrackFree;
+    return lod.metric.value_or(uses_paper_quadtree ? GroundMetric::Midpoint : GroundMetric::ScreenError);
 }
 
 /// Whether the detail of the ground is controlled alike, so that one goes on where the other was.
-inline bool same_detail_control(const GroundSettings& a, const GroundSettings& b) {
-    return a.detail == b.detail && a.resolution_c == b.resolution_c;
+inline bool same_detail_control(const TerrainLod& a, const TerrainLod& b) {
+    return a.control == b.control && a.resolution_c == b.resolution_c;
 }
 
 /// A triangle target beyond all meshes.

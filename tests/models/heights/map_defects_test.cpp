@@ -364,7 +364,7 @@ TEST_CASE("heights above the ellipsoid are told, as a system of three axes says 
     const std::vector<MapNote> notes = read_written(raster).notes;
     REQUIRE(notes.size() == 1);
     CHECK(has(notes.front().text, "heights count from the ellipsoid"));
-    CHECK(has(notes.front().text, "--water-level"));
+    CHECK(has(notes.front().text, "water-level"));
     raster.system = "EPSG:4326+5773"; // EGM 96
     CHECK(read_written(raster).notes.empty());
 }

@@ -122,11 +122,11 @@ TEST_CASE("messages of CIGI 4 that differ in length are one line") {
 }
 
 TEST_CASE("a packet at another port than its own is told where it is read") {
-    const std::map<Protocol, std::string> options{{Protocol::Fdm, "this is FlightGear FDM; --fdm-port [5550]"},
-        {Protocol::MavLink, "this is MAVLink; --mavlink-port [14550]"},
-        {Protocol::Dis, "this is DIS; --dis-port [3000]"},
-        {Protocol::Cigi, "this is a CIGI 3 host; --cigi-port [8004]"},
-        {Protocol::XPlane, "this is X-Plane DATA or RREF; --xplane-port [49003]"}};
+    const std::map<Protocol, std::string> options{{Protocol::Fdm, "this is FlightGear FDM; --ports fdm [5550]"},
+        {Protocol::MavLink, "this is MAVLink; --ports mavlink [14550]"},
+        {Protocol::Dis, "this is DIS; --ports dis [3000]"},
+        {Protocol::Cigi, "this is a CIGI 3 host; --ports cigi [8004]"},
+        {Protocol::XPlane, "this is X-Plane DATA or RREF; --ports xplane [49003]"}};
     for (const auto& [own, packet] : right_packets()) {
         for (const auto& [port, unused] : options) {
             LiveTraffic traffic = traffic_of(port, packet, 3);

@@ -67,9 +67,10 @@ Seen seen(std::vector<std::string> options) {
     std::vector<std::string> arguments = flight();
     arguments.insert(arguments.begin(), "fly");
     arguments.insert(arguments.end(), options.begin(), options.end());
-    arguments.insert(arguments.end(), {"--view", "free", "--eye", above(-150.0, 60.0), "--look", above(250.0, 0.0),
-                                          "--size", "320x240", "--samples", "1", "--visibility", "0", "--frames", "1",
-                                          "--pictures", "1", "--no-roads", "--quiet", "--record", folder.string()});
+    arguments.insert(
+        arguments.end(), {"--view", "free", "--eye", above(-150.0, 60.0), "--look", above(250.0, 0.0), "--size",
+                             "320x240", "--samples", "1", "--visibility", "0", "--frames", "1", "--pictures", "1",
+                             "--show", "no-roads", "--quiet", "--record", folder.string()});
     const tests::ProgramRun run = tests::run_octant(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
@@ -98,8 +99,8 @@ TEST_CASE("a runway with markings is seen by each renderer, on textured ground t
         for (const char* const shading : {"vertex", "texture"}) {
             for (const char* const surface : {"octant", "depth-buffer"}) {
                 INFO(renderer << ' ' << shading << ' ' << surface);
-                const Seen there = seen(
-                    {"--airfield", "--renderer", renderer, "--ground-shading", shading, "--hidden-surface", surface});
+                const Seen there = seen({"--show", "airfield", "--renderer", renderer, "--ground-look",
+                    std::string("shading=") + shading, "--hidden-surface", surface});
                 CHECK(there.asphalt + there.paint == Approx(runway_px).epsilon(0.03));
                 CHECK(there.paint > runway_px / 8.0);
                 CHECK(there.paint < runway_px / 4.0);
@@ -110,8 +111,8 @@ TEST_CASE("a runway with markings is seen by each renderer, on textured ground t
 
 TEST_CASE("pictures with a runway are the same for any number of threads") {
     std::vector<std::string> arguments = flight();
-    arguments.insert(
-        arguments.end(), {"--airfield", "--size", "160x90", "--frames", "6", "--rate", "1", "--renderer", "raster"});
+    arguments.insert(arguments.end(),
+        {"--show", "airfield", "--size", "160x90", "--frames", "6", "--rate", "1", "--renderer", "raster"});
     std::string first;
     for (const char* const threads : {"1", "2", "5"}) {
         std::vector<std::string> own = arguments;
@@ -142,8 +143,9 @@ TEST_CASE("ground with a runway is painted in order as the depth buffer shows it
 }
 
 TEST_CASE("an airfield that cannot lie anywhere near is refused in one line") {
-    tests::check_refused("fly", {"straight", "--terrain", "none", "--airfield"},
+    tests::check_refused("fly", {"straight", "--terrain", "none", "--show", "airfield"},
         "--airfield: expected ground that can be levelled, got 'none'");
-    tests::check_refused("fly", {"straight", "--terrain", tests::small_map(), "--water-level", "9000", "--airfield"},
+    tests::check_refused("fly",
+        {"straight", "--terrain", tests::small_map(), "--ground-look", "water-level=9000", "--show", "airfield"},
         "--airfield: expected ground within 6 km of the path");
 }

@@ -93,12 +93,12 @@ TEST_CASE("a drape that cannot be laid over the ground is refused in one line wi
     check_refused({"straight", "--drape", "/nowhere/map.png"}, "/nowhere/map.png: expected a file, found none");
     check_refused(
         {"straight", "--drape", file_with("words.png", "words")}, "words.png: expected an image that GDAL can read");
-    check_refused({"straight", "--drape", "map.png", "--ground-shading", "vertex"},
-        "--drape: expected --ground-shading texture or auto beside it, got vertex");
+    check_refused({"straight", "--drape", "map.png", "--ground-look", "shading=vertex"},
+        "--drape: expected --ground-look shading=texture or auto beside it, got vertex");
     check_refused(
         {"straight", "--drape", "map.png", "--terrain", "background60"}, "--drape: expected ground with heights");
-    check_refused({"straight", "--ground-shading", "texture", "--terrain", "none"},
-        "--ground-shading texture: expected ground with heights");
+    check_refused({"straight", "--ground-look", "shading=texture", "--terrain", "none"},
+        "--ground-look shading=texture: expected ground with heights");
 }
 
 TEST_CASE("a coordinate system that is none is refused, whether or not the ground needs one") {
@@ -112,8 +112,8 @@ TEST_CASE("clouds in the ground, and what is seen through beside a depth buffer,
     check_refused({"straight", "--clouds", "0.4", "--cloud-height", "10"},
         "--cloud-height: expected more than the highest ground, ");
     check_refused({"straight", "--clouds", "1.5"}, "clouds");
-    check_refused({"straight", "--path-ribbon", "--hidden-surface", "depth-buffer"},
-        "--path-ribbon: expected --hidden-surface octant or back-face beside it, got depth-buffer");
+    check_refused({"straight", "--show", "path-ribbon", "--hidden-surface", "depth-buffer"},
+        "--show path-ribbon: expected --hidden-surface octant or back-face beside it, got depth-buffer");
 }
 
 TEST_CASE("a wrong aircraft is refused in one line with exit code 2") {
@@ -162,8 +162,9 @@ TEST_CASE("wrong settings and options are refused in one line with exit code 2")
     check_refused({"straight", "--samples", "3"}, "--samples: expected 1, 4 or 16, got 3");
     check_refused({"straight", "--no-such-option"}, "--no-such-option");
     check_refused({"straight", "--place", "1e9,0"}, "leaves the map");
-    check_refused({"straight", "--terrain", "hills", "--height-mode", "datum", "--place", "0,0", "--water-level", "x"},
-        "--water-level");
+    check_refused({"straight", "--terrain", "hills", "--height-mode", "datum", "--place", "0,0", "--ground-look",
+                      "water-level=x"},
+        "--ground-look water-level: expected a number");
 }
 
 TEST_CASE("a recording that cannot be written is refused in one line with exit code 2") {

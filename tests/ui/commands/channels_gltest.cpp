@@ -160,8 +160,8 @@ TEST_CASE("three octants show one world in step from one host") {
     std::array<int, 3> exit_codes{-1, -1, -1};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::uint16_t port = free_port();
-        std::vector<std::string> arguments{"listen", "--headless", "--step", "--cigi-port", std::to_string(port),
-            "--cigi-host", fmt::format("127.0.0.1:{}", own), "--channel", names[i], "--frames", std::to_string(frames),
+        std::vector<std::string> arguments{"listen", "--headless", "--step", "--ports", "cigi=" + std::to_string(port),
+            "--cigi", fmt::format("host=127.0.0.1:{}", own), "--channel", names[i], "--frames", std::to_string(frames),
             "--record", (folder / names[i]).string()};
         arguments.insert(arguments.end(), world.begin(), world.end());
         channels.emplace_back([&exit_codes, i, arguments] { exit_codes[i] = run_silently(arguments); });

@@ -33,9 +33,9 @@ void CigiBench::listen() {
 }
 
 ProgramRun generate_for(CigiBench& host, std::vector<std::string> arguments, const std::function<void()>& host_works) {
-    const std::vector<std::string> first{"listen", "--headless", "--fdm-port", "-1", "--mavlink-port", "-1",
-        "--dis-port", "-1", "--xplane-port", "-1", "--cigi-port", std::to_string(host.generator()), "--cigi-host",
-        "127.0.0.1:" + std::to_string(host.port())};
+    const std::vector<std::string> first{"listen", "--headless", "--ports", "fdm=-1,mavlink=-1,dis=-1,xplane=-1",
+        "--ports", "cigi=" + std::to_string(host.generator()), "--cigi",
+        "host=127.0.0.1:" + std::to_string(host.port())};
     arguments.insert(arguments.begin(), first.begin(), first.end());
     ProgramRun run;
     std::thread generator([&] { run = run_octant(arguments); });

@@ -138,7 +138,7 @@ CommandLine shortened(CommandLine line) {
     const std::string command = line.front() == "terrain" && line.size() > 1 ? "terrain " + line[1] : line.front();
     // Large enough for the paths that fly over them.
     static const std::map<std::string, std::vector<std::pair<std::string, std::string>>> quick = {
-        {"fly", {{"--frames", "12"}, {"--size", "64x36"}}}, {"terrain make", {{"--size", "129"}, {"--spacing", "160"}}},
+        {"fly", {{"--frames", "12"}, {"--size", "64x36"}}}, {"terrain make", {{"--size", "129"}, {"--terrain-spacing", "160"}}},
         {"terrain error", {{"--size", "64x36"}}}, {"terrain check", {{"--views", "2"}}},
         {"mesh-error", {{"--samples", "1000"}}}};
     const auto found = quick.find(command);

@@ -119,11 +119,11 @@ TEST_CASE("who asks for detail near the eye is told where the ground cannot show
         return run_octant(words).err;
     };
     CHECK_THAT(told({"--terrain", "background60", "--scenery"}),
-        Contains("note: --scenery shows nothing: background60 has no samples"));
-    CHECK_THAT(told({"--terrain", tests::small_map(), "--mesh", "midpoint", "--near-detail"}),
-        Contains("note: --near-detail shows nothing: only ground that is refined by screen-error"));
-    CHECK_THAT(told({"--terrain", tests::small_map(), "--ground-shading", "texture", "--scenery"}),
-        Contains("note: --scenery shows nothing: where a texture colours the ground"));
+        Contains("note: scenery shows nothing: background60 has no samples"));
+    CHECK_THAT(told({"--terrain", tests::small_map(), "--terrain-lod", "exact", "--near-detail"}),
+        Contains("note: near-detail shows nothing: only ground that is refined by screen-error"));
+    CHECK_THAT(told({"--terrain", tests::small_map(), "--ground-look", "shading=texture", "--scenery"}),
+        Contains("note: scenery shows nothing: where a texture colours the ground"));
     CHECK_THAT(told({"--terrain", "background60"}), !Contains("shows nothing"));
     CHECK_THAT(told({"--terrain", tests::small_map(), "--scenery"}), !Contains("shows nothing"));
 }
@@ -149,8 +149,8 @@ TEST_CASE("help names every command and each setting with its unit and default")
         CHECK(help.out.find(command) != std::string::npos);
     }
     const std::string fly_help = run_octant({"fly", "--help"}).out;
-    for (const char* option : {"--place", "--height-mode", "--hidden-surface", "--detail", "--triangles", "--record",
-             "METRES", "Examples:"}) {
+    for (const char* option :
+        {"--place", "--terrain-lod", "--triangles", "--record", "PIXELS", "Examples:"}) {
         INFO(option);
         CHECK(fly_help.find(option) != std::string::npos);
     }

@@ -133,9 +133,8 @@ TEST_CASE("a signal ends a live flight as any other: summary, report, no lock, i
         INFO(name);
         const auto folder = made / name;
         const tests::ProgramRun run = tests::run_octant_and_signal(
-            {"listen", "--headless", "--size", "64x48", "--fdm-port", "0", "--dis-port", "-1", "--mavlink-port", "-1",
-                "--xplane-port", "-1", "--cigi-port", "-1", "--terrain", tests::small_ground(), "--seconds", "60",
-                "--pictures", "1", "--record", folder.string()},
+            {"listen", "--headless", "--size", "64x48", "--ports", "fdm=0,dis=-1,mavlink=-1,xplane=-1,cigi=-1",
+                "--terrain", tests::small_ground(), "--seconds", "60", "--pictures", "1", "--record", folder.string()},
             folder / "picture-00020.png", number);
         INFO(run.err);
         CHECK(run.exit_code == 128 + number);

@@ -144,9 +144,7 @@ TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {
     const std::vector<std::string> arguments{"listen", "--headless", "--size", "64x36", "--seconds", "1", "--send",
         "fdm:127.0.0.1:" + std::to_string(receiver.port())};
     std::vector<std::string> alone = arguments;
-    for (const std::string port : {"--fdm-port", "--mavlink-port", "--dis-port", "--xplane-port", "--cigi-port"}) {
-        alone.insert(alone.end(), {port, port == "--fdm-port" ? "0" : "-1"});
-    }
+    alone.insert(alone.end(), {"--ports", "fdm=0,mavlink=-1,dis=-1,xplane=-1,cigi=-1"});
     REQUIRE(run_octant(alone).exit_code == 0);
     std::vector<links::Datagram> packets;
     receiver.drain(links::Protocol::Fdm, 0.0, packets);
@@ -250,7 +248,7 @@ TEST_CASE("octant listen tells once and counts what it does not support") {
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     for (const std::string told : {"this is a CIGI 4 host, which is not supported: set it to CIGI 3.3",
-             "this is X-Plane DATA or RREF; --xplane-port [49003] says where it is read"}) {
+             "this is X-Plane DATA or RREF; --ports xplane [49003] says where it is read"}) {
         const std::size_t first = run.err.find(told);
         REQUIRE(first != std::string::npos);
         const std::size_t counted = run.err.find(told, first + 1);
@@ -280,10 +278,11 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
         {{"--height", "low"}, "--height: expected one of msl, agl, offset, got 'low'"},
         {{"--from", "here"}, "expected an IPv4 address"},
         {{"--channel", "up"}, "--channel: expected one of left, front, right, got 'up'"},
-        {{"--cigi-host", "there"}, "--cigi-host: expected HOST:PORT, got 'there'"},
+        {{"--cigi", "host=there"}, "--cigi host: expected HOST:PORT, got 'there'"},
         {{"--send", "fdm:there"}, "--send: expected HOST:PORT, got 'there'"},
         {{"--xplane", "127.0.0.1:x"}, "--xplane: expected HOST:PORT, got '127.0.0.1:x'"},
-        {{"--xplane", "127.0.0.1", "--xplane-port", "-1"}, "--xplane: expected an open --xplane-port, got -1"},
+        {{"--xplane", "127.0.0.1", "--ports", "xplane=-1"},
+            "--xplane: expected an open port in --ports xplane, got -1"},
         {{"--delay", "-1"}, "--delay"}};
     const std::filesystem::path record = tests::scratch_folder() / "refused";
     for (const Case& wrong : cases) {

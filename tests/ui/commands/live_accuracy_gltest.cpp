@@ -150,10 +150,9 @@ Accuracy flown(const std::string& name, const Network& network, double delay_s) 
             if (done) { return; }
         }
     });
-    const tests::ProgramRun run = tests::run_octant(
-        {"listen", "--headless", "--fdm-port", std::to_string(port), "--mavlink-port", "-1", "--dis-port", "-1",
-            "--xplane-port", "-1", "--cigi-port", "-1", "--terrain", "none", "--size", "64x36", "--samples", "1",
-            "--pictures", "0", "--delay", std::to_string(delay_s), "--seconds", "15", "--record", record.string()});
+    const tests::ProgramRun run = tests::run_octant({"listen", "--headless", "--ports", "fdm=" + std::to_string(port),
+        "--ports", "mavlink=-1,dis=-1,xplane=-1,cigi=-1", "--terrain", "none", "--size", "64x36", "--samples", "1",
+        "--pictures", "0", "--delay", std::to_string(delay_s), "--seconds", "15", "--record", record.string()});
     done = true;
     sender.join();
     INFO(run.err);

@@ -84,9 +84,9 @@ Flown flown(bool flooded) {
         found.sent = flooded ? send_flood(port, stops) : 0;
     });
     const double before_s = children_cpu_s();
-    const tests::ProgramRun run = tests::run_octant({"listen", "--headless", "--fdm-port", "-1", "--mavlink-port", "-1",
-        "--dis-port", std::to_string(port), "--cigi-port", "-1", "--xplane-port", "-1", "--terrain", "none", "--size",
-        "160x90", "--rate", "30", "--pictures", "0", "--seconds", "10", "--record", record.string()});
+    const tests::ProgramRun run = tests::run_octant({"listen", "--headless", "--ports", "fdm=-1,mavlink=-1", "--ports",
+        "dis=" + std::to_string(port), "--ports", "cigi=-1,xplane=-1", "--terrain", "none", "--size", "160x90",
+        "--rate", "30", "--pictures", "0", "--seconds", "10", "--record", record.string()});
     stops = true;
     sender.join();
     found.cpu_s = children_cpu_s() - before_s;

@@ -35,6 +35,6 @@ TEST_CASE("completions offer the options of the command that stands there") {
         const bool by_other = text.find("      " + command.name + ") _octant_other octant-") != std::string::npos;
         CHECK(by_other == !command.program.empty());
     }
-    CHECK_THAT(text, Contains(" --vsync --no-vsync"));
+    CHECK_THAT(text, Contains(" --sky --no-sky"));
     CHECK_THAT(command_line::zsh_completion(program), Catch::StartsWith("#compdef octant\n"));
 }

@@ -184,7 +184,7 @@ TEST_CASE("beside a replay nothing may be asked for that changes pictures") {
     const std::string expected = "--replay: expected no option beside it that may change pictures";
     tests::check_refusal(replay(recorded(), {"--triangles", "5000"}), expected + ", got --triangles");
     tests::check_refusal(replay(recorded(), {"straight"}), expected + ", got path");
-    tests::check_refusal(replay(recorded(), {"--no-shadows"}), expected + ", got --shadows");
+    tests::check_refusal(replay(recorded(), {"--show", "no-shadows"}), expected + ", got --shadows");
     tests::check_refusal(
         replay(recorded(), {"--settings", (recorded() / "run.json").string()}), expected + ", got --settings");
     tests::check_refusal(replay(recorded(), {"--record", recorded().string()}), "--record: expected another folder");
@@ -196,7 +196,7 @@ TEST_CASE("adaptation is refused where there is nothing to adapt") {
         words.insert(words.begin(), {"fly", "straight", "--adapt", "terrain", "--frames", "2"});
         return run_octant(words);
     };
-    tests::check_refusal(fly({"--detail", "damped"}), "--adapt terrain: expected --detail exact");
+    tests::check_refusal(fly({"--detail", "damped"}), "--adapt terrain: expected --terrain-lod screen-error or exact");
     tests::check_refusal(fly({"--terrain", "background60"}), "expected ground with levels of detail");
     tests::check_refusal(run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
         "--adapt: expected none or a list of terrain, shading, got 'terrain,sound'");

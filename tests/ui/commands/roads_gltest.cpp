@@ -56,7 +56,7 @@ TEST_CASE("roads are seen by each renderer, and not if they are not wanted") {
     for (const char* const renderer : {"raster", "gl"}) {
         INFO(renderer);
         const ui::report::Picture with = picture_with({"--renderer", renderer});
-        const ui::report::Picture without = picture_with({"--renderer", renderer, "--no-roads"});
+        const ui::report::Picture without = picture_with({"--renderer", renderer, "--show", "no-roads"});
         // A road 7 m wide crosses the picture some 100 to 200 m before the eye.
         CHECK(differing_pixels(with, without) > 300);
         CHECK(differing_pixels(with, without) < 6000);

@@ -423,7 +423,7 @@ TEST_CASE("options that would have no effect or overwrite an input are refused")
         {{in, out, "--faces", "9", "--effort", "2", "--steps", "5"}, "expected no --steps"},
         {{in, out, "--faces", "9", "--method", "fast", "--effort", "9"}, "expected no --effort"},
         {{in, file_named("u.chain"), "--chain", "--max-seconds", "1"}, "no --max-seconds"},
-        {{in, file_named("u.chain"), "--chain", "--normal-error", "5"}, "no --normal-error"},
+        {{in, file_named("u.chain"), "--chain", "--attribute-error", "normal=5"}, "no --attribute-error normal"},
         {{in, in, "--shared-border", "--out-dir", "d", "--chart", page, "--faces", "9"},
             "--chart: expected no --shared-border"}};
     for (const auto& [words, expected] : cases) {

@@ -35,7 +35,7 @@ std::string sweep_in(const fs::path& folder, const std::string& settings) {
 }
 
 void fly(const std::string& sweep, const fs::path& out, const std::vector<std::string>& more) {
-    std::vector<std::string> line = {"sweep", sweep, "--out", out.string(), "--share-cores", "--quiet"};
+    std::vector<std::string> line = {"sweep", sweep, "--out", out.string(), "--batch", "share-cores", "--quiet"};
     line.insert(line.end(), more.begin(), more.end());
     const tests::ProgramRun run = run_octant(line);
     INFO(run.out << run.err << read_file(out / "sweep.csv"));

@@ -69,7 +69,7 @@ TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
     const std::string file = (made / "faults.toml").string();
     write_file(file, "[settings]\nsize = \"64x48\"\nframes = 2\nterrain = \"none\"\n[vary]\n"
                      "path = [\"nowhere.toml\", \"straight\"]\n");
-    const tests::ProgramRun run = run_octant({"sweep", file, "--out", (made / "out").string(), "--retries", "2"});
+    const tests::ProgramRun run = run_octant({"sweep", file, "--out", (made / "out").string(), "--batch", "retries=2"});
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.out, Contains("1 of 2 flights done"));
     CHECK_THAT(run.out, Contains("failed: nowhere.toml: ") && Contains("nowhere.toml: expected"));
@@ -93,8 +93,10 @@ TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
     tests::check_refused("sweep", {file, "--out", searches.string()}, "expected an empty folder or that of a sweep");
     CHECK_FALSE(fs::exists(searches / "runs"));
     tests::check_refused("sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--share-cores");
-    tests::check_refused("sweep", {file, "--hosts", "machines.txt"}, "--hosts: expected --on parallel beside it");
-    tests::check_refused("sweep", {file, "--on", "parallel", "--tasks", "4"}, "--tasks: expected --on slurm");
-    tests::check_refused("sweep", {file, "--minutes", "4"}, "--on slurm or parallel beside it");
+    tests::check_refused(
+        "sweep", {file, "--batch", "hosts=machines.txt"}, "--batch hosts: expected --on parallel beside it");
+    tests::check_refused(
+        "sweep", {file, "--on", "parallel", "--batch", "tasks=4"}, "--batch tasks: expected --on slurm");
+    tests::check_refused("sweep", {file, "--batch", "minutes=4"}, "--on slurm or parallel beside it");
     tests::check_refused("sweep", {(made / "none.toml").string()}, "expected a file, found none");
 }

@@ -30,7 +30,7 @@ TEST_CASE("one in fifty of ten thousand random views shows no crack and no hole"
         const LoadedGround ground(small_ground(kind));
         for (const GroundMetric mesh : {GroundMetric::ScreenError, GroundMetric::Midpoint}) {
             GroundMeshOptions options;
-            options.mesh = mesh;
+            options.lod.metric = mesh;
             options.geomorphs = true;
             const auto maker = make_mesh_maker(ground, options);
             TerrainCheck check;

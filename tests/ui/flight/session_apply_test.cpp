@@ -146,7 +146,7 @@ TEST_CASE("settings that contradict each other or cannot be loaded leave a sessi
     asked.picture();
     never_asked.picture();
     RunSettings wrong = small_settings();
-    wrong.ground.mesh = scene::GroundMetric::Midpoint;
+    wrong.ground.lod.metric = scene::GroundMetric::Midpoint;
     wrong.ground.error_px = 1.0;
     CHECK_THROWS_AS(asked.apply(wrong), Error);
     wrong = small_settings();
@@ -209,7 +209,7 @@ TEST_CASE("a change while ground is meshed ahead gives the pictures of ground me
     change([](RunSettings& settings) { settings.view.inset = scene::View::Chase; });
     change([](RunSettings& settings) { settings.air.sun_elevation_deg = 60.0; });
     change([](RunSettings& settings) {
-        settings.ground.mesh = scene::GroundMetric::Midpoint;
+        settings.ground.lod.metric = scene::GroundMetric::Midpoint;
         settings.ground.error_px.reset();
     });
 }
@@ -285,7 +285,7 @@ TEST_CASE("another light, palette or view reads no terrain again, whatever is dr
             }
             RunSettings settings = small_settings();
             settings.path.terrain = terrain.string();
-            settings.ground.mesh = mesh;
+            settings.ground.lod.metric = mesh;
             settings.air.ground_shading = shading;
             RunSettings changed = settings;
             changed.air.sun_azimuth_deg = 100.0;

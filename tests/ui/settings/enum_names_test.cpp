@@ -1,4 +1,4 @@
-#include "ui/settings/enum_names.h"
+#include "ui/settings/settings_text.h"
 
 #include <catch2/catch.hpp>
 

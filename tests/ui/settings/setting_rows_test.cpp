@@ -1,8 +1,7 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/base/data_files.h"
-#include "ui/settings/settings_change.h"
-#include "ui/settings/settings_fields.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_file.h"
 
 #include <catch2/catch.hpp>
@@ -55,6 +54,13 @@ models::heights::VoidValues other_value(const SettingInfo& /*info*/, const model
 }
 
 glm::vec3 other_value(const SettingInfo& /*info*/, const glm::vec3& /*colour*/) { return {1.0F, 0.0F, 51.0F / 255.0F}; }
+
+visuals::scene::TerrainLod other_value(const SettingInfo& /*info*/, const visuals::scene::TerrainLod& /*value*/) {
+    return {.metric = visuals::scene::GroundMetric::Printed,
+        .fans = visuals::scene::GroundFans::Full,
+        .control = visuals::scene::DetailControl::Previous,
+        .roughness_c = 7.5};
+}
 
 visuals::scene::Adaptation other_value(const SettingInfo& /*info*/, const visuals::scene::Adaptation& value) {
     return {.terrain = !value.terrain, .shading = value.shading};

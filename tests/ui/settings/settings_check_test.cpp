@@ -46,7 +46,7 @@ TEST_CASE("what is seen through is refused beside a depth buffer, a ribbon witho
     settings.surface.effects = true;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.path.name = std::string(ui::settings::live_path);
-    check_refused(settings, "--path-ribbon: expected a path or a track, got what others fly");
+    check_refused(settings, "--show path-ribbon: expected a path or a track, got what others fly");
     settings.view.path_ribbon = false;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
@@ -80,12 +80,13 @@ TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances th
     settings.shading.kind = scene::AircraftShading::Flat;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.shading.smooth_share = 0.5;
-    check_refused(settings, "--shading: expected hybrid beside --adapt shading, --smooth-share, --device-ratio or "
-                            "--shading-rule paper, got another one");
+    check_refused(settings,
+        "--shading: expected hybrid beside --adapt shading, --smooth-share, --paper-shading device-ratio or "
+        "--shading-rule paper, got another one");
     settings.shading.kind = scene::AircraftShading::Hybrid;
     settings.shading.near_m = 5.0;
     settings.shading.far_m = 2.0;
-    check_refused(settings, "--shading-far: expected more than --shading-near (5), got 2");
+    check_refused(settings, "--paper-shading far: expected more than near (5), got 2");
 }
 
 TEST_CASE("terrain follows the frame time only where its triangles are counted") {
@@ -94,20 +95,20 @@ TEST_CASE("terrain follows the frame time only where its triangles are counted")
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.path.terrain = "none";
     check_refused(settings, "--adapt terrain: expected ground with levels of detail, got none");
-    settings.ground.detail = scene::DetailControl::Damped;
-    check_refused(settings, "--adapt terrain: expected --detail exact beside it, got another control");
+    settings.ground.lod.control = scene::DetailControl::Damped;
+    check_refused(settings, "--adapt terrain: expected --terrain-lod screen-error or exact, got another control");
 }
 
 TEST_CASE("the screen error is refused beside what only the quadtree has") {
     RunSettings settings;
-    settings.ground.mesh = scene::GroundMetric::Midpoint;
+    settings.ground.lod.metric = scene::GroundMetric::Midpoint;
     settings.ground.error_px = 1.0;
-    check_refused(settings, "--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
-    settings.ground.mesh = scene::GroundMetric::ScreenError;
+    check_refused(settings, "--error-px: expected --terrain-lod screen-error, got another one");
+    settings.ground.lod.metric = scene::GroundMetric::ScreenError;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
-    settings.ground.detail = scene::DetailControl::Damped;
+    settings.ground.lod.control = scene::DetailControl::Damped;
     check_refused(settings, "--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
-                            "--propagation, got one that only --mesh midpoint or printed has");
+                            "--propagation, got one that only --terrain-lod exact or paper has");
 }
 
 TEST_CASE("a texture needs ground with heights, and a drape ground that is lit at each pixel") {
@@ -115,13 +116,14 @@ TEST_CASE("a texture needs ground with heights, and a drape ground that is lit a
     settings.air.drape = "map.png";
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.air.ground_shading = scene::GroundShading::Vertex;
-    check_refused(settings, "--drape: expected --ground-shading texture or auto beside it, got vertex");
+    check_refused(settings, "--drape: expected --ground-look shading=texture or auto beside it, got vertex");
     settings.path.terrain = "background60";
     check_refused(settings, "--drape: expected ground with heights (hills, canyon or a file), got --terrain "
                             "background60");
     settings.air.drape.reset();
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.air.ground_shading = scene::GroundShading::Texture;
-    check_refused(settings, "--ground-shading texture: expected ground with heights (hills, canyon or a file), got "
-                            "--terrain background60");
+    check_refused(settings,
+        "--ground-look shading=texture: expected ground with heights (hills, canyon or a file), got "
+        "--terrain background60");
 }

@@ -1,5 +1,7 @@
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_file.h"
 #include "ui/settings/settings_text.h"
 
@@ -8,6 +10,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <string>
 
 using namespace octant;
 using ui::settings::RunSettings;
@@ -64,6 +67,68 @@ TEST_CASE("old names of the painting order's methods are read as the exact one, 
         CHECK(read.surface.order_method == visuals::draworder::OrderMethod::Exact);
         CHECK(ui::settings::text_of(read.surface.order_method) == "exact");
     }
+}
+
+TEST_CASE("keys of the terrain mesh of earlier versions are read as --terrain-lod") {
+    const std::string rest = R"("propagation": "crack-free", "fans": "partial", "resolution-c": 0.0, "control-r": 4)";
+    const auto text_of = [&](const std::string& keys) {
+        const RunSettings read = ui::settings::read_settings(settings_file("{" + keys + ", " + rest + "}"));
+        const std::string text = ui::settings::text_of(read.ground.lod);
+        CHECK(ui::settings::settings_json(read).at("terrain-lod") == text);
+        CHECK_FALSE(ui::settings::settings_json(read).contains("mesh"));
+        visuals::scene::TerrainLod again;
+        ui::settings::read_setting({"terrain-lod", "", ""}, text, again);
+        CHECK(ui::settings::text_of(again) == text);
+        return text;
+    };
+    const auto keys = [](const char* mesh, const char* control, const char* a, const char* c) {
+        return fmt::format(R"("mesh": {}, "detail": "{}", "control-a": {}, "roughness-c": {})", mesh, control, a, c);
+    };
+    CHECK(text_of(keys("null", "exact", "0.0", "null")) == "screen-error");
+    CHECK(text_of(keys("\"screen-error\"", "exact", "0.0", "null")) == "screen-error");
+    CHECK(text_of(keys("\"midpoint\"", "exact", "0.0", "null")) == "exact");
+    CHECK(text_of(keys("\"printed\"", "damped", "1000.0", "null")) == "paper");
+    CHECK(text_of(keys("null", "damped", "0.0", "null")) == "paper:roughness=midpoint,control-a=0");
+    CHECK(text_of(keys("null", "exact", "0.0", "12.5")) == "exact:roughness-c=12.5");
+    CHECK(text_of(keys("\"printed\"", "literal", "0.0", "null")) == "paper:control=literal,control-a=0");
+}
+
+TEST_CASE("--terrain-lod is a kind with keys, and anything else is refused") {
+    const auto refusal_of = [](const char* text) {
+        visuals::scene::TerrainLod lod;
+        try {
+            ui::settings::read_setting({"--terrain-lod", "", ""}, text, lod);
+        } catch (const Error& fault) { return std::string(fault.what()); }
+        return std::string();
+    };
+    CHECK(refusal_of("screen-error").empty());
+    CHECK(refusal_of("paper:fans=full,propagation=printed,control-r=2").empty());
+    CHECK(refusal_of("best") == "--terrain-lod: expected one of screen-error, exact, paper, got 'best'");
+    CHECK(
+        refusal_of("screen-error:fans=full") == "--terrain-lod: expected no key after screen-error, got ':fans=full'");
+    CHECK(refusal_of("paper:fan=full").starts_with("--terrain-lod: expected KEY=VALUE with a key of roughness, "));
+    CHECK(refusal_of("paper:fans=all") == "--terrain-lod paper: fans: expected one of partial, full, got 'all'");
+    CHECK(refusal_of("paper:").starts_with("--terrain-lod: expected KEY=VALUE"));
+    CHECK(refusal_of("exact:roughness=screen-error").find("roughness=midpoint or printed") != std::string::npos);
+    CHECK(refusal_of("paper:control-r=65").starts_with("--terrain-lod paper: control-r: expected a whole number"));
+}
+
+TEST_CASE("a change of settings costs what has to be made anew for it") {
+    using ui::settings::change_between;
+    using ui::settings::SettingsChange;
+    const RunSettings before;
+    CHECK(change_between(before, before) == SettingsChange::None);
+    RunSettings after = before;
+    after.time.rate_hz = 30.0;
+    CHECK(change_between(before, after) == SettingsChange::Recording);
+    after.view.azimuth_deg = 10.0;
+    CHECK(change_between(before, after) == SettingsChange::Look);
+    after.ground.triangles = 5000;
+    CHECK(change_between(before, after) == SettingsChange::Picture);
+    after.air.drape = "photo.tif";
+    CHECK(change_between(before, after) == SettingsChange::World);
+    after.path.aircraft.emplace_back("f15");
+    CHECK(change_between(before, after) == SettingsChange::Flight);
 }
 
 TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {

@@ -1,6 +1,6 @@
 #include "sim/aircraft_kind.h"
 #include "sim/flight_models.h"
-#include "ui/settings/settings_fields.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/window/key_map.h"
 #include "ui/window/panel_columns.h"
 #include "ui/window/panels.h"
@@ -53,7 +53,7 @@ TEST_CASE("numbers over many decades get logarithmic sliders, wide ones around z
     CHECK(ui::window::number_style(info_of("triangles")) == NumberStyle::LogSlider);
     CHECK(ui::window::number_style(info_of("visibility")) == NumberStyle::LogSlider);
     CHECK(ui::window::number_style(info_of("error-px")) == NumberStyle::LogSlider);
-    CHECK(ui::window::number_style(info_of("control-r")) == NumberStyle::Slider);
+    CHECK(ui::window::number_style(info_of("smooth-share")) == NumberStyle::Slider);
     CHECK(ui::window::number_style(info_of("sun-azimuth")) == NumberStyle::Slider);
     CHECK(ui::window::number_style(info_of("sun-elevation")) == NumberStyle::Slider);
     CHECK(ui::window::number_style(info_of("water-level")) == NumberStyle::Drag);
@@ -85,10 +85,10 @@ TEST_CASE("what an unset setting means is read from its brackets") {
     CHECK(ui::window::unset_meaning(info_of("drape")).empty());
 }
 
-TEST_CASE("a tooltip says meaning, option, the paper's letter and bounds") {
-    CHECK(
-        ui::window::tooltip_of(info_of("control-r")) == "earlier frames in the damping's mean\n--control-r r, 0 to 64");
-    CHECK(ui::window::tooltip_of(info_of("sky")) == "sky and the plain beyond the map's edge\n--sky");
+TEST_CASE("a tooltip says meaning, option and bounds") {
+    CHECK(ui::window::tooltip_of(info_of("zoom")) ==
+          "chase, orbit: factor by which the eye is nearer; other views: magnification\n--zoom FACTOR, 0.05 to 100");
+    CHECK(ui::window::tooltip_of(info_of("sky")) == "sky, and a plain beyond the edge of the map\n--sky");
 }
 
 TEST_CASE("names go into one line of text and come back") {

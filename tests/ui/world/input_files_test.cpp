@@ -1,6 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/settings/settings_by_name.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/world/input_files.h"
 
 #include <catch2/catch.hpp>

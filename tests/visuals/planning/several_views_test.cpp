@@ -37,7 +37,7 @@ models::heights::HeightField rough_field() {
 /// By the paper's quadtree, with a control that remembers earlier frames.
 scene::Settings damped() {
     scene::Settings settings = plain_settings();
-    settings.ground.detail = scene::DetailControl::Damped;
+    settings.ground.lod.control = scene::DetailControl::Damped;
     settings.ground.triangles = 600;
     return settings;
 }

@@ -194,7 +194,7 @@ report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
         settings::RunSettings settings = options.settings;
         settings.path.name = std::string(base::built_in_paths[i]);
         settings.surface.shadows = false;
-        settings.ground.mesh = scene::GroundMetric::ScreenError;
+        settings.ground.lod.metric = scene::GroundMetric::ScreenError;
         changes[i] = shimmer_along(of_path, settings, ground);
     });
     Change all;
@@ -243,8 +243,8 @@ struct Jumps {
 ui::terrain::GroundMeshOptions mesh_options(const settings::RunSettings& settings, const Meshing& way) {
     constexpr double default_error_px = 0.25; // as Settings::error_px
     ui::terrain::GroundMeshOptions options;
-    options.mesh = way.mesh;
-    options.fans = settings.ground.fans;
+    options.lod.metric = way.mesh;
+    options.lod.fans = settings.ground.lod.fans;
     options.geomorphs = way.geomorphs;
     options.error_px = settings.ground.error_px.value_or(default_error_px);
     return options;
@@ -265,7 +265,7 @@ MeshOfFrame given_ground(
 
 /// The ground of a flight as it is drawn, with detail near the eye in the same budget, but nothing that stands on it.
 MeshOfFrame ground_with_detail(settings::RunSettings settings) {
-    settings.ground.mesh = scene::GroundMetric::ScreenError;
+    settings.ground.lod.metric = scene::GroundMetric::ScreenError;
     settings.ground.scenery = false;
     const std::shared_ptr<visuals::landscape::GroundMesher> mesher =
         world::load_world(settings).scene.ground->mesher(visuals::landscape::mesh_settings(settings, false));

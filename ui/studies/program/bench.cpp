@@ -446,7 +446,7 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "ignore --triangles and render each scene with 20,000, 50,000, 100,000 and 200,000 ground triangles; "
             "ms/1000 is the median time per 1,000 triangles",
             options.triangle_counts),
-        flag("--json", "print the results as JSON", bench.json), flag("--quiet", "print no progress", options.quiet)};
+        json_option(bench.json), quiet_option(options.quiet)};
     add_file_options(table, settings.path);
     return table;
 }

@@ -30,8 +30,8 @@ namespace {
 std::vector<Option> study_options(base::StudyOutput& output, std::vector<Option> own) {
     own.insert(own.begin(), required(text_option("--out", "DIR",
                                 "output folder for tables (CSV, Markdown), figures and pictures", output.out)));
-    own.push_back(flag("--json", "print the tables as JSON", output.json));
-    own.push_back(flag("--quiet", "print no progress and no notes", output.quiet));
+    own.push_back(json_option(output.json));
+    own.push_back(quiet_option(output.quiet));
     return own;
 }
 
