@@ -57,7 +57,7 @@ glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, RowOrder 
     return glm::transpose(plan.world_to_view) * view_ray;
 }
 
-/// A part of the eye's place in the fine pattern at each scale; negative where there is none.
+/// A part of the eye's place in the detail texture at each scale; negative where there is none.
 glm::vec4 eye_detail_position(const std::optional<scene::DetailTexture>& detail_texture, glm::length_t part) {
     glm::vec4 at_eye(-1.0F);
     if (detail_texture) {

@@ -80,9 +80,9 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
     return texture;
 }
 
-/// The ground's fine pattern, a byte a texel, with its own levels; it repeats beyond its edge.
+/// The ground's detail texture, a byte a texel, with its own levels; it repeats beyond its edge.
 Object make_detail_texture(const Functions& gl) {
-    Object texture = make_texture(gl, "ground's fine pattern");
+    Object texture = make_texture(gl, "ground's detail texture");
     const auto& levels = scene::detail_mip_levels();
     const auto side = static_cast<GLsizei>(levels.front().size);
     gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(levels.size()), GL_R8, side, side);

@@ -1,5 +1,5 @@
 #version 450 core
-// Ground that is coloured at its vertices, with its fine pattern; and the sky, which has none.
+// Ground that is coloured at its vertices, with its detail texture; and the sky, which has none.
 
 #ifdef NUMBERS
 flat // from corner to corner rounding would change a bit in slivers

@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Picture {
     mat4 ray_from_pixel; // world axes, one unit deep
     vec4 albedo_place; // texture coordinates of the eye, then their change a metre
     vec4 normal_place;
-    vec4 detail_x; // the eye's place in the fine pattern at each scale, in tiles; negative = none
+    vec4 detail_x; // the eye's place in the detail texture at each scale, in tiles; negative = none
     vec4 detail_y;
     vec4 detail_up;
 };
