@@ -72,6 +72,14 @@ void throw_unreadable(const std::filesystem::path& file, std::string_view expect
     throw_error_in(file, fmt::format("expected {} that GDAL can read, got {}", expected, got));
 }
 
+void check_size(const std::filesystem::path& file, double columns, double rows, int max) {
+    const auto fits = [max](double n) { return n >= 2.0 && n <= max; };
+    if (!fits(columns) || !fits(rows)) {
+        throw_error_in(
+            file, fmt::format("expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}", max, columns, rows));
+    }
+}
+
 void DatasetDeleter::operator()(void* dataset) const { GDALClose(dataset); }
 
 GdalSession::GdalSession() {

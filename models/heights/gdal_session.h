@@ -52,6 +52,9 @@ private:
 [[noreturn]] void throw_unreadable(
     const std::filesystem::path& file, std::string_view expected, const std::string& got);
 
+/// Throws Error unless the numbers of columns and rows are from 2 to `max`.
+void check_size(const std::filesystem::path& file, double columns, double rows, int max);
+
 struct DatasetDeleter {
     void operator()(void* dataset) const;
 };

@@ -20,7 +20,7 @@ using std::filesystem::path;
 
 HeightField field_from(const std::vector<path>& files, const ImportOptions& options) {
     HeightSource source(files, options);
-    check_size(files.front(), source.columns(), source.rows());
+    check_size(files.front(), source.columns(), source.rows(), max_import_samples);
     HeightGrid grid;
     grid.columns = source.columns();
     grid.rows = source.rows();

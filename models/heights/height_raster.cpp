@@ -426,14 +426,6 @@ void note_ellipsoid(const path& file, HeightRaster& raster) {
 
 } // namespace
 
-void check_size(const path& file, double columns, double rows, int max) {
-    const auto fits = [max](double n) { return n >= 2.0 && n <= max; };
-    if (!fits(columns) || !fits(rows)) {
-        throw_error_in(
-            file, fmt::format("expected 2 x 2 to {0} x {0} samples, got {1:.0f} x {2:.0f}", max, columns, rows));
-    }
-}
-
 bool is_same_raw(double raw, double mark) {
     constexpr double float_rounding = 0x1p-24; // as people write fewer digits than a file has
     return std::abs(raw - mark) <= std::abs(mark) * float_rounding;

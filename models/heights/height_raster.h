@@ -45,9 +45,6 @@ struct GridWindow {
 /// Marks a sample without data among heights in whole metres.
 inline constexpr std::int16_t void_height_m = std::numeric_limits<std::int16_t>::min();
 
-/// Throws Error unless both are from 2 to `max`.
-void check_size(const std::filesystem::path& file, double columns, double rows, int max = max_import_samples);
-
 /// Throws Error unless the height is within the bounds of import_options.h for this body. The error names the options
 /// that can help: --void with the raw number, and --height-scale unless the file names the unit of its heights.
 void check_height(const std::filesystem::path& file, double height_m, double raw, bool declares_unit,

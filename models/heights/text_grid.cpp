@@ -2,6 +2,7 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "models/heights/import_options.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
@@ -308,7 +309,7 @@ Dataset open_plain_pgm(const path& file) {
     };
     const auto columns = static_cast<int>(number("a width", 1, largest_side));
     const auto rows = static_cast<int>(number("a height", 1, largest_side));
-    check_size(file, columns, rows);
+    check_size(file, columns, rows, max_import_samples);
     const long largest = number("a largest value", 1, 65535);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (count > text.size()) {

@@ -117,10 +117,7 @@ private:
     [[noreturn]] void refuse_line(std::string_view expected) const { text_.refuse(expected, in_quotes(line_)); }
 
     std::string_view next_line() {
-        if (!text_.next_line()) {
-            throw_error_at(path_, text_.line_number(), "expected end_header, got the end of the file");
-        }
-        if (text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
+        if (!text_.next_line() || text_.is_truncated()) { text_.refuse("end_header", "the end of the file"); }
         line_ = text_.line();
         while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' ')) { line_.remove_suffix(1); }
         return line_;
