@@ -5,5 +5,5 @@
 
 int main(int argc, char** argv) {
     octant::visuals::gl::tune_allocator();
-    return octant::ui::command_line::run_program(octant::ui::commands::octant_program(), argc, argv);
+    return octant::ui::command_line::run_program("octant", octant::ui::commands::octant_program, argc, argv);
 }

@@ -401,9 +401,7 @@ int run_command(const Program& program, int argument_count, const char* const* a
     try {
         const std::function<void()> command = parse_command_line(program, argument_count, arguments);
         command();
-    } catch (const CheckFailed&) {
-        code = exit_check_failed;
-    } catch (const base::StoppedBySignal&) {
+    } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
         return code; // exit_by_received_signal() ends the program by the signal
     }
     // Damaged tiles of ground files were drawn without detail: the pictures are not those that were asked for.
@@ -419,20 +417,20 @@ int run_command(const Program& program, int argument_count, const char* const* a
 
 } // namespace
 
-int run_program(const Program& program, int argument_count, const char* const* arguments) {
+int run_program(const char* name, Program (*make_program)(), int argument_count, const char* const* arguments) {
     std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
     std::signal(SIGCHLD, SIG_DFL); // child programs are waited for
     try {
-        const int code = run_command(program, argument_count, arguments);
+        const int code = run_command(make_program(), argument_count, arguments);
         report::remove_unpacked();
         base::exit_by_received_signal();
         return code;
     } catch (const std::bad_alloc&) {
-        std::fputs(fmt::format("{}: expected enough memory for this input, got none\n", program.name).c_str(), stderr);
+        std::fprintf(stderr, "%s: expected enough memory for this input, got none\n", name); // allocates nothing
         return exit_invalid_input;
     } catch (const std::filesystem::filesystem_error& fault) {
-        return print_error(program.name, fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
-    } catch (const std::exception& fault) { return print_error(program.name, fault.what()); }
+        return print_error(name, fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
+    } catch (const std::exception& fault) { return print_error(name, fault.what()); }
 }
 
 } // namespace octant::ui::command_line

@@ -114,7 +114,11 @@ void add_setting_options(std::vector<Option>& table, RunSettings& settings, std:
     table.push_back({.name = "--settings",
         .form = "FILE",
         .meaning = "read settings from a file or a recording; other options override them",
-        .read = [&settings](const Words& words) { settings = settings::read_settings(words.front()); }});
+        .read =
+            [&settings, given](const Words& words) {
+                settings = settings::read_settings(words.front());
+                if (given != nullptr) { given->emplace_back("--settings"); }
+            }});
     std::vector<Option> options;
     const auto is_left_out = [&](std::string_view name) { return std::ranges::find(without, name) != without.end(); };
     settings::visit_settings(settings, [&](const SettingInfo& info, auto& value) {

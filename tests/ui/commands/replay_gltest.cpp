@@ -196,7 +196,7 @@ TEST_CASE("adaptation is refused where there is nothing to adapt") {
         words.insert(words.begin(), {"fly", "straight", "--adapt", "terrain", "--frames", "2"});
         return run_octant(words);
     };
-    tests::check_refusal(fly({"--detail", "damped"}), "--adapt terrain: expected --terrain-lod screen-error or exact");
+    tests::check_refusal(fly({"--terrain-lod", "paper:control=damped"}), "--adapt terrain: expected --terrain-lod screen-error or exact");
     tests::check_refusal(fly({"--terrain", "background60"}), "expected ground with levels of detail");
     tests::check_refusal(run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
         "--adapt: expected none or a list of terrain, shading, got 'terrain,sound'");

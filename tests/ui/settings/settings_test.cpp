@@ -93,7 +93,7 @@ TEST_CASE("keys of the terrain mesh of earlier versions are read as --terrain-lo
     CHECK(text_of(keys("\"printed\"", "literal", "0.0", "null")) == "paper:control=literal,control-a=0");
 }
 
-TEST_CASE("--terrain-lod is a kind with keys, and anything else is refused") {
+TEST_CASE("the option terrain-lod is a kind with keys, and anything else is refused") {
     const auto refusal_of = [](const char* text) {
         visuals::scene::TerrainLod lod;
         try {

@@ -5,5 +5,6 @@
 
 int main(int argc, char** argv) {
     octant::visuals::gl::tune_allocator();
-    return octant::ui::command_line::run_program(octant::ui::studies::program::study_program(), argc, argv);
+    return octant::ui::command_line::run_program(
+        "octant-study", octant::ui::studies::program::study_program, argc, argv);
 }
