@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
-#include "sim/base/ground_height.h"
 #include "sim/height_mode.h"
 #include "sim/trajectory.h"
 

@@ -4,7 +4,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <functional>
+#include <optional>
+
 namespace octant {
+
+/// The height of the ground at world x (east), y (north), metres; nothing outside the map.
+using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
 
 // World: flat ground, x east, y north, z up, metres from the map centre at datum (EarthFrame).
 // Body:  x forward, y right, z down, metres from the aircraft's reference point.

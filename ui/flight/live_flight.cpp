@@ -278,7 +278,10 @@ void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) 
     const std::size_t shown = options_.step ? traffic_.show_newest(time_s, vehicle_states_)
                                             : traffic_.show(time_s, options_.delay_s, vehicle_states_);
     assign_aircraft(shown);
-    for (std::size_t i = 1; i < states.size(); ++i) { states[i] = {.is_present = false}; }
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        states[i].position_m = glm::dvec3(0.0);
+        states[i].is_present = false;
+    }
     for (std::size_t i = 0; i < shown; ++i) { states[slots_[i].aircraft] = vehicle_states_[i]; }
     for (sim::AircraftState& state : states) { state.time_s = time_s; }
     turn_parts(time_s);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "sim/base/ground_height.h"
+#include "sim/base/axes.h"
 #include "sim/base/hash.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/stopwatch.h"

@@ -19,8 +19,10 @@ namespace scene = visuals::scene;
 
 namespace {
 
+/// An absent aircraft counts as 100 km below datum, as in the recordings of earlier versions.
 void add_state(Hash& hash, const sim::AircraftState& state) {
-    hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
+    const glm::dvec3 position_m = state.is_present ? state.position_m : glm::dvec3(glm::dvec2(state.position_m), -1e5);
+    hash.add(std::as_bytes(std::span(glm::value_ptr(position_m), 3)));
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.body_to_world), 4)));
 }

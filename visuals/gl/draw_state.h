@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/gl/object.h"
-#include "visuals/scene/paint_step.h"
+#include "visuals/scene/frame_plan.h"
 
 namespace octant::visuals::gl {
 

@@ -296,7 +296,7 @@ public:
                 for (const NodePart part : parts) { write_height(part, {column, row}, height(part, {column, row})); }
             }
         }
-        // Where both rooms share a place, the smaller errors stay.
+        // Where both margins share a place, the smaller errors stay.
         repair_errors(MorphMargin::Full);
         repair_errors(MorphMargin::None);
     }

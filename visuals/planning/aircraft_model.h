@@ -9,7 +9,6 @@
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/index_range.h"
 #include "visuals/shading/shaded_polygons.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "visuals/raster/frame_draws.h"
 
-#include "visuals/scene/paint_step.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,6 @@
 #include "visuals/raster/triangle_setup.h"
 #include "visuals/raster/vertex_stage.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/model_buffers.h"
 
 #include <glm/vec2.hpp>
 

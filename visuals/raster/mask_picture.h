@@ -2,7 +2,6 @@
 
 #include "sim/base/thread_pool.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/model_buffers.h"
 #include "visuals/scene/picture.h"
 
 #include <glm/vec2.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/raster/projection.h"
-#include "visuals/scene/paint_step.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <glm/vec2.hpp>
 

@@ -1,6 +1,6 @@
 #include "visuals/raster/triangle_binner.h"
 
-#include "visuals/scene/paint_step.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/raster/vertex_stage.h"
-#include "visuals/scene/paint_step.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

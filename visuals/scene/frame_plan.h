@@ -2,14 +2,12 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/scene/detail_pattern.h"
-#include "visuals/scene/index_range.h"
 #include "visuals/scene/land_cover_contrast.h"
-#include "visuals/scene/model_buffers.h"
-#include "visuals/scene/paint_step.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <cstdint>
@@ -21,9 +19,108 @@
 // The seam between deciding and drawing: the planner writes a FramePlan, a renderer draws it.
 //
 // All colours are display values (models/material.h), and all arithmetic is done on them directly; README.md of this
-// room says what that costs.
+// folder says what that costs.
 
 namespace octant::visuals::scene {
+
+/// A vertex of an aircraft as a renderer loads it once. Body axes x forward, y right, z down. 52 bytes. The normal
+/// lights a smooth polygon at this corner; face normal and face colour belong to the flat polygon that begins at this
+/// vertex.
+struct ModelVertex {
+    glm::vec3 position_m{0.0F};
+    glm::vec3 normal{0.0F};
+    glm::vec3 face_normal{0.0F};
+    /// The colour where the polygon is smooth, as ColourVertex::colour.
+    std::uint32_t colour = 0;
+    /// The colour where the polygon is flat, as ColourVertex::colour.
+    std::uint32_t face_colour = 0;
+    /// 0 = body, k = pivot k - 1 of the model: turns with FramePlan::parts.
+    std::uint32_t part = 0;
+    /// Polygon that begins here: a bit of FramePlan::smooth, counted on from the draw's `first_smooth`.
+    std::uint32_t polygon = 0;
+};
+
+/// What a renderer loads once for an aircraft: all draw lists lie in one index buffer.
+struct ModelBuffers {
+    std::vector<ModelVertex> vertices;
+    /// Triangles. The first corner of each belongs to it, or to a polygon that it is a part of, alone.
+    std::vector<std::uint32_t> indices;
+    /// Whether a plan may draw it by depth though its polygons are painted in order: it has levels of detail, or is
+    /// refined in each frame.
+    bool has_depth_drawn_meshes = false;
+};
+
+/// How a step uses the depth buffer. Depth is reversed: greater is nearer.
+enum class DepthUse {
+    /// Drawn over whatever is there; depth is neither tested nor written.
+    None,
+    /// Drawn where it is nearer than what is there; depth is written.
+    Nearest,
+    /// As Nearest, but depth alone is written: colours stay as they are.
+    DepthOnly,
+    /// Drawn where there is nothing but what lies well behind it; depth is written.
+    EdgeOn,
+    /// Drawn where it lies on what is there, a little towards the eye; depth is written.
+    OnGround,
+    /// Drawn where nothing is; depth is not written.
+    InfinitelyFar
+};
+
+/// Pixels of the picture from its upper left corner: columns least.x to most.x - 1, rows alike.
+struct PixelBox {
+    glm::ivec2 least{0};
+    glm::ivec2 most{0};
+};
+
+/// Planes that a draw is cut by: what lies in front of all of them is drawn. World axes with the eye subtracted; xyz =
+/// normal, w = offset.
+struct Clip {
+    static constexpr int max_planes = 8;
+    std::array<glm::vec4, max_planes> planes{};
+    int count = 0;
+};
+
+/// One step of painting: a range of one of the plan's lists, and how it is drawn.
+struct PaintStep {
+    enum class Content {
+        /// Depth becomes infinitely far in a box of FramePlan::depth_boxes.
+        ClearDepth,
+        /// Indices of FramePlan::sky are drawn without haze.
+        Sky,
+        /// Indices of FramePlan::ground are drawn.
+        Ground,
+        /// Indices of FramePlan::repaint_indices are drawn.
+        GroundRepaint,
+        /// Aircraft of FramePlan::aircraft are drawn without their back faces.
+        Aircraft,
+        /// Meshes of FramePlan::refined are drawn without their back faces.
+        Refined,
+        /// Indices of FramePlan::overlay are drawn as Overlay draws them; what comes later is drawn over it.
+        Transparent,
+        /// Indices of FramePlan::overlay are blended by their alpha, after all others.
+        Overlay
+    };
+    static constexpr std::uint32_t no_clip = ~std::uint32_t{0};
+    Content content = Content::Aircraft;
+    /// A place in the list that `content` names.
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    /// Index into FramePlan::clips; `no_clip` = what is drawn is not cut.
+    std::uint32_t clip = no_clip;
+    DepthUse depth = DepthUse::None;
+    /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where their depth, which
+    /// is Nearest, says so, and depth is not written: clear surfaces, drawn after all that they may be seen before.
+    float opacity = 1.0F;
+};
+
+/// A part of a model's index buffer.
+struct IndexRange {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    int polygons = 0;
+    /// Where its polygons begin in the list that the index buffer follows; 0 for a mesh.
+    std::uint32_t first_polygon = 0;
+};
 
 /// Colours that polygons are shown in instead of their own, as ColourVertex::colour; 0 = their own.
 struct PolygonTints {

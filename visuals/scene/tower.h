@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "sim/base/ground_height.h"
+#include "sim/base/axes.h"
 #include "visuals/scene/camera.h"
 
 #include <glm/vec3.hpp>

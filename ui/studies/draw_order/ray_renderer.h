@@ -2,7 +2,6 @@
 
 #include "ui/studies/draw_order/study_renderer.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/model_buffers.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
