@@ -633,8 +633,7 @@ TriangleMesh AttributeSeams::divided(TriangleMesh made, const AttributeBounds& b
         waiting = division.changed();
         waiting.insert(waiting.end(), off.begin(), off.end());
         std::ranges::sort(waiting);
-        const auto [first, last] = std::ranges::unique(waiting);
-        waiting.erase(first, last);
+        waiting.erase(std::unique(waiting.begin(), waiting.end()), waiting.end());
     }
     for (std::size_t t = 0; t < made.triangles.size() && std::isfinite(bounds.colour); ++t) {
         const Chart& chart = charts_[chart_at(made, t)];
