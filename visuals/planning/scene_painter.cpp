@@ -581,8 +581,9 @@ private:
     }
 
     std::span<const Transparent> transparents_of(std::uint32_t box) const {
-        const auto own = std::ranges::equal_range(frame_->transparents.list(), box, {}, &Transparent::box);
-        return {own.begin(), own.end()};
+        const std::span<const Transparent> all = frame_->transparents.list();
+        return {std::ranges::lower_bound(all, box, {}, &Transparent::box),
+            std::ranges::upper_bound(all, box, {}, &Transparent::box)};
     }
 
     /// Sorts the transparent things of a group, by their places and from far to near, and paints them and the aircraft.
