@@ -9,8 +9,8 @@
 
 namespace octant::ui::commands {
 
-/// Adds --window, what view and listen have in common; `recordings` is the folder of recordings and screenshots or
-/// null.
+/// Adds the option --window of view and listen. `recordings` receives the folder of recordings and screenshots; null if
+/// the command has none.
 void add_window_options(
     std::vector<command_line::Option>& table, window::ViewOptions& view, std::filesystem::path* recordings);
 

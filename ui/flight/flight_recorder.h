@@ -28,9 +28,9 @@ void write_tracks(const std::filesystem::path& folder, const world::World& world
 struct RecordOptions {
     std::optional<std::filesystem::path> folder;
     std::optional<std::filesystem::path> video;
-    /// The recording whose rows are flown again.
+    /// The recording whose frames this flight repeats.
     std::optional<std::filesystem::path> replay_of;
-    /// How a sweep flies it beside others; empty = no sweep does.
+    /// How a sweep shares the machine between this flight and others, for reports; empty = no sweep.
     std::string batch_context;
 };
 
@@ -41,9 +41,9 @@ struct FlightResult {
     std::uint64_t picture_hash = 0;
     /// Where results are.
     std::vector<std::string> notes;
-    /// What was asked for and needs a program that is not here.
+    /// One sentence for each requested output whose program is not installed.
     std::vector<std::string> missing_programs;
-    /// What went wrong beside the recording; empty = nothing.
+    /// The error of an output other than the recording, such as the video; empty = none.
     std::string fault;
 };
 

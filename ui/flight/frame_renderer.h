@@ -97,9 +97,9 @@ public:
     struct PlannedPicture {
         /// Of the first view.
         visuals::planning::PlanCounts counts;
-        /// Placing and refining the aircraft of the first view.
+        /// Time of placing and refining the aircraft of the first view.
         double refine_ms = 0.0;
-        /// Waiting for the first view's ground after that, which is being meshed beside the last picture.
+        /// Waiting for the first view's ground, which another thread began to mesh during the last picture.
         double mesh_wait_ms = 0.0;
     };
 

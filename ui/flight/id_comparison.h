@@ -79,7 +79,8 @@ struct PixelCheck {
     long wrong = 0;
 };
 
-/// Draws the session's last moment by order and by depth, beside its renderer, and compares. Throws Error (driver).
+/// Draws the session's last frame by painting order and by depth with renderers of its own, and compares the polygons
+/// of their pixels. Throws Error if the driver fails.
 PixelCheck check_pixels(Session& session);
 
 } // namespace octant::ui::flight

@@ -201,7 +201,7 @@ private:
     std::vector<sim::AircraftState> vehicle_states_;
 };
 
-// What a live flight changes in its session beside the aircraft.
+// What a live flight changes in its session in addition to the aircraft.
 
 /// To be called before each picture: gives the flight the aspect ratio of the session's pictures, and the session the
 /// visibility that a CIGI host has sent.

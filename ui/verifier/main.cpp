@@ -71,25 +71,26 @@ struct Result {
     bool is_text = false;
 };
 
-std::vector<Result> results_of(const verify::Certificate& certificate, const verify::VerificationResult& verdict) {
+std::vector<Result> results_of(const verify::Certificate& certificate, const verify::VerificationResult& verification) {
     const std::string file = certificate.path.string();
     const auto number = [](const auto& value) { return fmt::format("{}", value); };
     std::vector<Result> results{{"certificate", file, true}, {"polygons", number(certificate.polygons.size())},
         {"nodes", number(certificate.nodes.size())}, {"lists", number(certificate.lists.size())},
-        {"tolerance_sizes", number(verdict.tolerance_sizes)}, {"pairs", number(verdict.pairs)},
-        {"pairs_by_partings", number(verdict.by_node_planes)},
-        {"claims_by_polygons", number(verdict.statements.by_polygons)},
-        {"claims_by_sums", number(verdict.statements.by_sums)},
-        {"claims_never_seen", number(verdict.statements.never_both_visible)}, {"unlisted", number(verdict.unlisted)},
-        {"unproved", number(verdict.unproved)}, {"every_eye", number(verdict.covers_every_eye)}};
+        {"tolerance_sizes", number(verification.tolerance_sizes)}, {"pairs", number(verification.pairs)},
+        {"pairs_by_partings", number(verification.by_node_planes)},
+        {"claims_by_polygons", number(verification.statements.by_polygons)},
+        {"claims_by_sums", number(verification.statements.by_sums)},
+        {"claims_never_seen", number(verification.statements.never_both_visible)},
+        {"unlisted", number(verification.unlisted)}, {"unproved", number(verification.unproved)},
+        {"every_eye", number(verification.covers_every_eye)}};
     if (certificate.first_unproved) {
         results.push_back({"first_unproved", fmt::format("{}:{}", file, *certificate.first_unproved), true});
     }
-    if (verdict.failure) {
+    if (verification.failure) {
         results.push_back(
-            {"refused", fmt::format("{}:{}: {}", file, verdict.failure->line, verdict.failure->what), true});
+            {"refused", fmt::format("{}:{}: {}", file, verification.failure->line, verification.failure->what), true});
     }
-    results.push_back({"proved", number(verdict.proved())});
+    results.push_back({"proved", number(verification.proved())});
     return results;
 }
 
@@ -121,9 +122,9 @@ int run(const std::vector<std::string>& words) {
         return 0;
     }
     const verify::Certificate certificate = verify::read_certificate(arguments.file);
-    const verify::VerificationResult verdict = verify::verify(certificate);
-    print(results_of(certificate, verdict), arguments.json);
-    return verdict.proved() ? 0 : 1;
+    const verify::VerificationResult verification = verify::verify(certificate);
+    print(results_of(certificate, verification), arguments.json);
+    return verification.proved() ? 0 : 1;
 }
 
 } // namespace

@@ -120,8 +120,8 @@ inline bool has_area(GridSample a, GridSample b, GridSample c) {
     return (b.column - a.column) * (c.row - a.row) != (b.row - a.row) * (c.column - a.column);
 }
 
-/// How many triangles with an area a fan has: for each side without its mid-point, for each side with it beside either
-/// of its quadrants, and for each quadrant.
+/// The number of triangles with an area in each part of a fan: a side without its mid-point, the half of a side with
+/// its mid-point in either quadrant, and a quadrant.
 struct FanTriangles {
     std::array<int, 4> whole{1, 1, 1, 1};
     std::array<int, 4> a{1, 1, 1, 1};
