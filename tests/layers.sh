@@ -91,7 +91,7 @@ install() {
 
 long() {
   built release
-  ctest --preset long -j "$jobs" --no-tests=error
+  ctest --preset evidence -j "$jobs" --no-tests=error
 }
 
 case ${1:-} in

@@ -6,7 +6,7 @@
 
 using namespace octant;
 
-// The checks of which the gl tests take a sample, over every frame: ctest --preset long.
+// The checks of which the gl tests take a sample, over every frame: ctest --preset evidence.
 
 TEST_CASE("no crack shows in any frame of any path over the canyon") {
     for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
