@@ -35,12 +35,12 @@ constexpr NumberRange height_m{-1000.0, 40000.0};
 constexpr NumberRange speed_mps{1.0, 1500.0};
 constexpr NumberRange load_factor_g{-20.0, 20.0};
 constexpr NumberRange period_s{0.5, 600.0};
-constexpr NumberRange weave_g{0.0, 20.0};
+constexpr NumberRange weave_range_g{0.0, 20.0};
 constexpr double steepest_rad = rad_from_deg(80.0);
 constexpr NumberRange climb_rad{-steepest_rad, steepest_rad};
 constexpr NumberRange slope_rad{0.0, steepest_rad};
-constexpr double longest_s = 7200.0;
-constexpr NumberRange duration_s{0.05, longest_s};
+constexpr double max_script_s = 7200.0;
+constexpr NumberRange duration_s{0.05, max_script_s};
 
 LegKind kind_from(const std::string& word) {
     for (const auto& [kind, name] : words) {
@@ -77,10 +77,10 @@ void read_turn(TomlFields& fields, Leg& leg) {
 }
 
 void read_jink(TomlFields& fields, Leg& leg) {
-    leg.lateral_g = fields.required_number("lateral", "g", weave_g);
+    leg.lateral_g = fields.required_number("lateral", "g", weave_range_g);
     leg.period_s = fields.required_number("period", "s", period_s);
     leg.duration_s = fields.required_number("duration", "s", duration_s);
-    const auto vertical_g = fields.number("vertical", "g", weave_g);
+    const auto vertical_g = fields.number("vertical", "g", weave_range_g);
     const auto vertical_period_s = fields.number("vertical_period", "s", period_s);
     if (vertical_g.has_value() != vertical_period_s.has_value()) {
         fields.refuse(fields.line(), "expected vertical_g and vertical_period_s together, got one of them");
@@ -177,9 +177,9 @@ PathScript read_path_script(const std::filesystem::path& file) {
     }
     script.samples = fields.required_integer("samples", 2, 200000);
     const double flown_s = static_cast<double>(script.samples - 1) / script.rate_hz;
-    if (flown_s > longest_s) {
+    if (flown_s > max_script_s) {
         fields.refuse(line_of(*root.get("samples")),
-            fmt::format("expected samples for at most {:.0f} s, got {:.0f} s", longest_s, flown_s));
+            fmt::format("expected samples for at most {:.0f} s, got {:.0f} s", max_script_s, flown_s));
     }
     script.min_clearance_m = fields.required_number("min_clearance", "m", {1.0, 40000.0});
     script.angle_of_attack_rad_per_g =

@@ -18,7 +18,7 @@ namespace octant::sim {
 
 namespace {
 
-constexpr double weight_n = md500::mass_kg * gravity_mps2;
+constexpr double helicopter_weight_n = md500::mass_kg * gravity_mps2;
 const glm::dvec3 drag_area_m2(0.45, 3.0, 2.5);
 /// The disc blows back in a slow wind: deceleration by speed, gone at many times this speed.
 constexpr double blow_back_per_s = 0.12;
@@ -26,9 +26,9 @@ constexpr double blow_back_mps = 8.0;
 
 constexpr double pitch_range_rad = rad_from_deg(25.0);
 constexpr double steepest_pitch_rad = rad_from_deg(35.0);
-constexpr double attitude_lag_s = 0.45;
+constexpr double helicopter_attitude_lag_s = 0.45;
 constexpr double rate_lag_s = 0.12;
-constexpr double fastest_pitch_radps = rad_from_deg(40.0);
+constexpr double max_helicopter_pitch_radps = rad_from_deg(40.0);
 constexpr double fastest_yaw_radps = rad_from_deg(60.0);
 constexpr double pedal_yaw_radps = rad_from_deg(50.0);
 constexpr double pedal_sideslip_rad = rad_from_deg(10.0);
@@ -58,21 +58,21 @@ glm::dvec3 drag_n(const glm::dvec3& body_mps, const Air& air) {
 }
 
 /// Level, straight flight at a forward speed: nose-up pitch and thrust that hold it.
-struct Trim {
+struct HelicopterTrim {
     double pitch_rad = 0.0;
-    double thrust_n = weight_n;
+    double thrust_n = helicopter_weight_n;
 };
 
-Trim level_trim(double forward_mps, const Air& air) {
-    Trim trim;
+HelicopterTrim helicopter_trim(double forward_mps, const Air& air) {
+    HelicopterTrim trim;
     for (int i = 0; i < 12; ++i) {
         const double c = std::cos(trim.pitch_rad);
         const double s = std::sin(trim.pitch_rad);
         const glm::dvec3 drag = drag_n({forward_mps * c, 0.0, forward_mps * s}, air);
         const double forward_n = drag.x * c + drag.z * s;
         const double up_n = drag.x * s - drag.z * c;
-        trim.pitch_rad = std::atan2(forward_n, weight_n - up_n);
-        trim.thrust_n = std::hypot(forward_n, weight_n - up_n);
+        trim.pitch_rad = std::atan2(forward_n, helicopter_weight_n - up_n);
+        trim.thrust_n = std::hypot(forward_n, helicopter_weight_n - up_n);
     }
     return trim;
 }
@@ -85,14 +85,14 @@ double sideslip_rad(const glm::dvec3& velocity_mps, double heading_rad) {
 
 AircraftState trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
     assert(speed_mps >= 0.0);
-    const Trim trim = level_trim(speed_mps, standard_air(position_m.z));
+    const HelicopterTrim trim = helicopter_trim(speed_mps, standard_air(position_m.z));
     return level_state(position_m, heading_rad, trim.pitch_rad, speed_mps);
 }
 
 HelicopterFlight::HelicopterFlight(const AircraftLimits& limits, const AircraftState& start)
     : limits_(limits), state_(start), clock_(start.time_s), air_(standard_air(start.position_m.z)) {
     const double level_mps = std::hypot(start.velocity_mps.x, start.velocity_mps.y);
-    const Trim trim = level_trim(level_mps, air_);
+    const HelicopterTrim trim = helicopter_trim(level_mps, air_);
     const double c = std::cos(trim.pitch_rad);
     const double s = std::sin(trim.pitch_rad);
     md500::RotorFlow level{-level_mps * s, level_mps * c, 0.0};
@@ -108,9 +108,9 @@ HelicopterFlight::HelicopterFlight(const AircraftLimits& limits, const AircraftS
 void HelicopterFlight::update_downwash() {
     const glm::dvec3 body_mps = glm::conjugate(state_.body_to_world) * state_.velocity_mps;
     const glm::dvec3 drag = drag_n(body_mps, air_);
-    const double felt_n = std::abs(state_.load_factor) * weight_n;
+    const double felt_n = std::abs(state_.load_factor) * helicopter_weight_n;
     const double along_n = std::sqrt(std::max(0.0, felt_n * felt_n - drag.x * drag.x));
-    const double thrust_n = std::clamp(along_n + drag.z, 0.0, limits_.max_load_factor * weight_n);
+    const double thrust_n = std::clamp(along_n + drag.z, 0.0, limits_.max_load_factor * helicopter_weight_n);
     md500::RotorFlow rotor{-body_mps.z, std::hypot(body_mps.x, body_mps.y), 0.0};
     for (int i = 0; i < 200; ++i) {
         rotor.induced_mps += 0.5 * (md500::steady_induced_mps(thrust_n, rotor, air_) - rotor.induced_mps);
@@ -124,11 +124,12 @@ HelicopterFlight::Flow HelicopterFlight::flow(const glm::dvec3& velocity_mps, co
     Flow flow;
     flow.rotor = {-body_mps.z, std::hypot(body_mps.x, body_mps.y), induced_mps_};
     const double blades_n = md500::blade_thrust_n(collective_, flow.rotor, air_);
-    const double max_n = std::min(md500::max_powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * weight_n);
+    const double max_n =
+        std::min(md500::max_powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * helicopter_weight_n);
     flow.thrust_n = std::clamp(blades_n, 0.0, max_n);
     flow.is_thrust_limited = blades_n > max_n;
     const glm::dvec3 force_n = drag_n(body_mps, air_) + flow.thrust_n * body_up;
-    flow.load_factor = std::hypot(force_n.x, force_n.z) / weight_n;
+    flow.load_factor = std::hypot(force_n.x, force_n.z) / helicopter_weight_n;
     flow.acceleration_mps2 = attitude * force_n / md500::mass_kg + glm::dvec3(0.0, 0.0, -gravity_mps2);
     return flow;
 }
@@ -137,7 +138,7 @@ double HelicopterFlight::commanded_pitch_rad(const PilotControls& controls, doub
     const glm::dvec3& velocity = state_.velocity_mps;
     const double forward_mps = glm::dot(velocity, direction_from_heading(heading_rad));
     const double centred_rad =
-        level_trim(forward_mps, air_).pitch_rad * smooth_step(still_mps, moving_mps, std::abs(forward_mps));
+        helicopter_trim(forward_mps, air_).pitch_rad * smooth_step(still_mps, moving_mps, std::abs(forward_mps));
     // Near the never-exceed speed the nose goes down less and less, above it up.
     const double speed_mps = glm::length(velocity);
     const double left = (limits_.max_speed_mps - speed_mps) / speed_margin_mps;
@@ -167,9 +168,10 @@ glm::dvec3 HelicopterFlight::turn_radps(const PilotControls& controls) {
     const double roll_error_rad = wrapped_to_pi(controls.roll * limits_.bank_rad - angles.roll_rad);
     EulerAngles& rates = angle_rates_radps_;
     const auto towards = [](double rate, double error_rad, double fastest_radps) {
-        return first_order_lag(rate, std::clamp(error_rad / attitude_lag_s, -fastest_radps, fastest_radps), rate_lag_s);
+        return first_order_lag(
+            rate, std::clamp(error_rad / helicopter_attitude_lag_s, -fastest_radps, fastest_radps), rate_lag_s);
     };
-    rates.pitch_rad = towards(rates.pitch_rad, pitch_error_rad, fastest_pitch_radps);
+    rates.pitch_rad = towards(rates.pitch_rad, pitch_error_rad, max_helicopter_pitch_radps);
     rates.roll_rad = towards(rates.roll_rad, roll_error_rad, limits_.roll_rate_radps);
     rates.heading_rad = first_order_lag(rates.heading_rad,
         std::clamp(commanded_yaw_radps(controls, angles.heading_rad), -fastest_yaw_radps, fastest_yaw_radps),

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double network_cell_m = 100.0;
 /// The margin of the grid around the rotated field.
-constexpr double margin_m = 1500.0;
+constexpr double canyon_margin_m = 1500.0;
 /// How much stronger than a Warp's own shift streams are bent.
 constexpr double bend = 2.0;
 constexpr double stream_area_m2 = 3.0e5;
@@ -137,7 +137,7 @@ glm::dvec2 in_field(const glm::dvec2& place, const Network& network) {
 } // namespace
 
 std::vector<Reach> canyon_network(double field_m, std::uint64_t seed) {
-    const double extent_m = upscale_factor * field_m + 2.0 * margin_m;
+    const double extent_m = upscale_factor * field_m + 2.0 * canyon_margin_m;
     Network network = first_network(extent_m, seed);
     const Drainage water = grown(network, seed);
     straighten(network.places, water);

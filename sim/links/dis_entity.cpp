@@ -15,7 +15,7 @@ namespace octant::sim::links {
 
 namespace {
 
-constexpr std::size_t header_bytes = 12;
+constexpr std::size_t dis_header_bytes = 12;
 constexpr std::uint8_t entity_state_type = 1;
 constexpr std::uint8_t entity_family = 1;
 constexpr std::size_t articulation_bytes = 16;
@@ -26,7 +26,7 @@ constexpr std::size_t articulations_at = 19;
 constexpr std::size_t type_at = 20;
 constexpr std::size_t velocity_at = 36;
 constexpr std::size_t position_at = 48;
-constexpr std::size_t angles_at = 72;
+constexpr std::size_t dis_angles_at = 72;
 constexpr std::size_t reckoning_at = 88;
 constexpr std::size_t acceleration_at = 104;
 constexpr std::size_t rates_at = 116;
@@ -36,9 +36,9 @@ constexpr double parts_an_hour = 2147483648.0;
 constexpr double hour_s = 3600.0;
 constexpr double heartbeat_timeout_s = 12.0; ///< 2.4 heartbeats of 5 s, the standard's default
 
-DecodeResult check_head(const WireReader& reader) {
+DecodeResult check_dis_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
-    if (size < header_bytes) { return {PacketError::WrongSize, size, size}; }
+    if (size < dis_header_bytes) { return {PacketError::WrongSize, size, size}; }
     const auto version = reader.at<std::uint8_t>(0);
     const auto type = reader.at<std::uint8_t>(2);
     constexpr std::uint8_t last_version = 7;
@@ -59,7 +59,7 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
     fix.latitude_deg = deg_from_rad(place.latitude_rad);
     fix.longitude_deg = deg_from_rad(place.longitude_rad);
     fix.altitude_m = place.height_m;
-    const glm::dvec3 angles = reader.floats(angles_at);
+    const glm::dvec3 angles = reader.floats(dis_angles_at);
     fix.attitude = euler_from_ned_from_body(to_ned * ned_from_body({angles.x, angles.y, angles.z}));
     const bool moves = entity.reckoning != DeadReckoning::Static;
     const bool turns = entity.reckoning == DeadReckoning::Rpw || entity.reckoning == DeadReckoning::Rvw;
@@ -73,7 +73,7 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
 
 DecodeResult decode_dis(Bytes datagram, DisEntity& entity) {
     const WireReader reader(datagram, ByteOrder::Big);
-    DecodeResult result = check_head(reader);
+    DecodeResult result = check_dis_head(reader);
     if (result.fault != PacketError::None) { return result; }
     entity = {};
     entity.site = reader.at<std::uint16_t>(id_at);
@@ -159,7 +159,7 @@ std::array<std::byte, dis_entity_bytes> encode_dis(const DisEntity& entity, doub
     writer.set(position_at + 8, ecef_m.y);
     writer.set(position_at + 16, ecef_m.z);
     const EulerAngles angles = euler_from_ned_from_body(to_ecef * ned_from_body(fix.attitude));
-    floats_at(angles_at, {wrapped_to_pi(angles.heading_rad), angles.pitch_rad, angles.roll_rad});
+    floats_at(dis_angles_at, {wrapped_to_pi(angles.heading_rad), angles.pitch_rad, angles.roll_rad});
     writer.set(reckoning_at, static_cast<std::uint8_t>(entity.reckoning));
     floats_at(acceleration_at, to_ecef * fix.acceleration_ned_mps2);
     floats_at(rates_at, fix.body_rates_radps.value_or(glm::dvec3(0.0)));

@@ -18,10 +18,10 @@ constexpr std::size_t longitude_at = 8;
 constexpr std::size_t latitude_at = 16;
 constexpr std::size_t altitude_at = 24;
 constexpr std::size_t agl_at = 32;
-constexpr std::size_t angles_at = 36;      ///< phi, theta, psi
-constexpr std::size_t angle_rates_at = 56; ///< of phi, theta, psi
-constexpr std::size_t velocity_at = 76;    ///< north, east, down, ft/s
-constexpr std::size_t time_at = 356;       ///< of version 24
+constexpr std::size_t fdm_angles_at = 36;   ///< phi, theta, psi
+constexpr std::size_t angle_rates_at = 56;  ///< of phi, theta, psi
+constexpr std::size_t fdm_velocity_at = 76; ///< north, east, down, ft/s
+constexpr std::size_t time_at = 356;        ///< of version 24
 constexpr std::size_t longer_in_25 = fdm_25_bytes - fdm_24_bytes;
 constexpr float no_agl_below_m = -9000.0F;
 
@@ -44,7 +44,7 @@ glm::dvec3 angle_from_body_rates(const EulerAngles& at, const glm::dvec3& body) 
     return {body.x + heading * std::sin(at.pitch_rad), body.y * cr - body.z * sr, heading};
 }
 
-DecodeResult check_head(const WireReader& reader) {
+DecodeResult check_fdm_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
     const auto version = reader.at<std::uint32_t>(version_at);
     if (size < sizeof(version)) { return {PacketError::WrongSize, size, size}; }
@@ -57,7 +57,7 @@ DecodeResult check_head(const WireReader& reader) {
 
 DecodeResult decode_fdm(Bytes datagram, Fix& fix) {
     const WireReader reader(datagram, ByteOrder::Big);
-    DecodeResult result = check_head(reader);
+    DecodeResult result = check_fdm_head(reader);
     if (result.fault != PacketError::None) { return result; }
     fix = {};
     fix.latitude_deg = deg_from_rad(reader.at<double>(latitude_at));
@@ -65,10 +65,10 @@ DecodeResult decode_fdm(Bytes datagram, Fix& fix) {
     fix.altitude_m = reader.at<double>(altitude_at);
     const auto agl_m = reader.at<float>(agl_at);
     if (!(agl_m < no_agl_below_m)) { fix.above_ground_m = static_cast<double>(agl_m); }
-    const glm::dvec3 angles = reader.floats(angles_at);
+    const glm::dvec3 angles = reader.floats(fdm_angles_at);
     fix.attitude = {angles.z, angles.y, angles.x};
     fix.body_rates_radps = body_from_angle_rates(fix.attitude, reader.floats(angle_rates_at));
-    const glm::dvec3 velocity_ftps = reader.floats(velocity_at);
+    const glm::dvec3 velocity_ftps = reader.floats(fdm_velocity_at);
     fix.velocity_ned_mps =
         glm::dvec3(m_from_ft(velocity_ftps.x), m_from_ft(velocity_ftps.y), m_from_ft(velocity_ftps.z));
     fix.ticks = reader.at<std::uint32_t>(result.got == 24 ? time_at : time_at + longer_in_25);
@@ -108,11 +108,11 @@ std::array<std::byte, fdm_24_bytes> encode_fdm(const Fix& fix) {
     writer.set(latitude_at, rad_from_deg(fix.latitude_deg));
     writer.set(altitude_at, fix.altitude_m);
     writer.set(agl_at, static_cast<float>(fix.above_ground_m.value_or(unknown_agl_m)));
-    floats(angles_at, {fix.attitude.roll_rad, fix.attitude.pitch_rad, fix.attitude.heading_rad});
+    floats(fdm_angles_at, {fix.attitude.roll_rad, fix.attitude.pitch_rad, fix.attitude.heading_rad});
     if (fix.body_rates_radps) { floats(angle_rates_at, angle_from_body_rates(fix.attitude, *fix.body_rates_radps)); }
     if (fix.velocity_ned_mps) {
         const glm::dvec3& v = *fix.velocity_ned_mps;
-        floats(velocity_at, {ft_from_m(v.x), ft_from_m(v.y), ft_from_m(v.z)});
+        floats(fdm_velocity_at, {ft_from_m(v.x), ft_from_m(v.y), ft_from_m(v.z)});
     }
     writer.set(time_at, fix.ticks.value_or(0));
     std::array<std::byte, fdm_24_bytes> datagram{};

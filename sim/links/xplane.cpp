@@ -43,23 +43,23 @@ enum Group : std::int32_t {
 constexpr std::int32_t first_answer = 7001;
 
 enum Answer : std::size_t {
-    Latitude,
-    Longitude,
-    Elevation,
-    AboveGround,
-    Pitch,
-    Roll,
-    Heading,
-    LocalX,
-    LocalY,
-    LocalZ,
-    LocalVx,
-    LocalVy,
-    LocalVz,
-    RollRate,
-    PitchRate,
-    YawRate,
-    Clock,
+    AskedLatitude,
+    AskedLongitude,
+    AskedElevation,
+    AskedAboveGround,
+    AskedPitch,
+    AskedRoll,
+    AskedHeading,
+    AskedLocalX,
+    AskedLocalY,
+    AskedLocalZ,
+    AskedLocalVx,
+    AskedLocalVy,
+    AskedLocalVz,
+    AskedRollRate,
+    AskedPitchRate,
+    AskedYawRate,
+    AskedClock,
 };
 
 /// DecodeResult::got of answers that we asked for, where others hold the place.
@@ -73,7 +73,7 @@ constexpr std::array<std::string_view, 17> answer_names{"sim/flightmodel/positio
     "sim/flightmodel/position/P", "sim/flightmodel/position/Q", "sim/flightmodel/position/R",
     "sim/time/total_running_time_sec"};
 
-bool begins(Bytes bytes, std::string_view word) {
+bool begins_with(Bytes bytes, std::string_view word) {
     return bytes.size() >= word.size() && std::equal(word.begin(), word.end(), bytes.begin(),
                                               [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
 }
@@ -141,18 +141,18 @@ bool XPlanePose::take_answer(std::int32_t number, float value) {
     }
     const auto which = static_cast<std::size_t>(number - first_answer);
     const auto answer = static_cast<double>(value);
-    if (which <= Elevation) {
+    if (which <= AskedElevation) {
         part_of(received_.place, which) = answer;
-    } else if (which == AboveGround) {
+    } else if (which == AskedAboveGround) {
         received_.above_ground_m = answer;
-    } else if (which <= Heading) {
-        attitude_deg_[static_cast<int>(which - Pitch)] = answer;
-    } else if (which <= LocalZ) {
-        part_of(received_.local_m, which - LocalX) = answer;
-    } else if (which <= LocalVz) {
-        part_of(received_.local_mps, which - LocalVx) = answer;
-    } else if (which <= YawRate) {
-        part_of(received_.body_rates_degps, which - RollRate) = answer;
+    } else if (which <= AskedHeading) {
+        attitude_deg_[static_cast<int>(which - AskedPitch)] = answer;
+    } else if (which <= AskedLocalZ) {
+        part_of(received_.local_m, which - AskedLocalX) = answer;
+    } else if (which <= AskedLocalVz) {
+        part_of(received_.local_mps, which - AskedLocalVx) = answer;
+    } else if (which <= AskedYawRate) {
+        part_of(received_.body_rates_degps, which - AskedRollRate) = answer;
     } else {
         received_.time_s = answer;
     }
@@ -161,8 +161,8 @@ bool XPlanePose::take_answer(std::int32_t number, float value) {
 
 DecodeResult XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
     const auto size = static_cast<std::uint32_t>(datagram.size());
-    const bool is_data = begins(datagram, "DATA");
-    if (!is_data && !begins(datagram, "RREF")) { return {PacketError::NotOurs, size, size}; }
+    const bool is_data = begins_with(datagram, "DATA");
+    if (!is_data && !begins_with(datagram, "RREF")) { return {PacketError::NotOurs, size, size}; }
     const std::size_t each = is_data ? group_bytes : answer_bytes;
     if (size <= head_bytes || (size - head_bytes) % each != 0) {
         return {PacketError::WrongSize, is_data ? 0U : 1U, size};

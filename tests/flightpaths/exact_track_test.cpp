@@ -29,7 +29,7 @@ bool same_bits(const sim::AircraftState& a, const sim::AircraftState& b) {
 }
 
 /// A flight by hand with every control in use: pulls, rolls, slips and a stall.
-std::vector<sim::AircraftState> flown(const sim::AircraftKind& kind, long steps) {
+std::vector<sim::AircraftState> states_of_kind(const sim::AircraftKind& kind, long steps) {
     const bool jet = kind.flight_model == sim::FlightModel::FixedWing;
     const auto flight = sim::make_piloted_flight(kind, sim::trimmed_state(kind, {0, 0, 2500}, 1.1, jet ? 210 : 25));
     std::vector<sim::AircraftState> states{flight->state()};
@@ -42,13 +42,13 @@ std::vector<sim::AircraftState> flown(const sim::AircraftKind& kind, long steps)
     return states;
 }
 
-const std::string head = "t_s,north_m,east_m,alt_m,q_w,q_x,q_y,q_z\n";
+const std::string exact_head = "t_s,north_m,east_m,alt_m,q_w,q_x,q_y,q_z\n";
 
 } // namespace
 
 TEST_CASE("a flight by hand comes back from its file to the last bit, over the ground, too") {
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        const auto states = flown(kind, 3000);
+        const auto states = states_of_kind(kind, 3000);
         const auto file = written("exact.csv", exact_track_csv(sim::Trajectory(states)));
         const RecordedTrack track = read_recorded_track(file);
         const PlacedPath placed = place_over_ground(
@@ -111,7 +111,7 @@ TEST_CASE("quaternions stand in place of angles, and are made unit where they ne
 }
 
 TEST_CASE("quaternions that are not unit or not whole are refused with their line") {
-    const std::string good = head + "0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n";
+    const std::string good = exact_head + "0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n";
     CHECK(track_fault(good) == "no error");
     CHECK(track_fault(replaced(good, "1,0,0,0,1,0", "1,0,0,0,1,0.1")) ==
           "3: expected a unit quaternion q_w, q_x, q_y, q_z, got one of length 1.004988");

@@ -44,7 +44,7 @@ sim::Trajectory northward(double speed_mps = 100, int duration_s = 20) {
     return sim::Trajectory(samples);
 }
 
-FlownPath flown(const std::string& name) {
+FlownPath flown_script(const std::string& name) {
     const PathScript script = read_path_script(shipped(name));
     return fly(script, sim::aircraft_kind(script.aircraft), false);
 }
@@ -80,7 +80,7 @@ TEST_CASE("clear lifts or lowers the whole path to its lowest clearance, and no 
     CHECK(over.lowest_clearance_m == Approx(30));
     CHECK(over.trajectory.samples()[7].position_m.z == Approx(730));
     const GroundHeight ground = hills(300, 4000);
-    const sim::Trajectory path = flown("f15-pop-up").trajectory;
+    const sim::Trajectory path = flown_script("f15-pop-up").trajectory;
     const PlacedPath placed = place_over_ground(path, {{500, -700}, 1.0, HeightMode::Clear}, ground, 60, f15());
     CHECK(placed.lowest_clearance_m == Approx(60).margin(1e-9));
     CHECK(lowest_clearance_m(placed.trajectory, ground) == Approx(60).margin(0.01));
@@ -230,7 +230,7 @@ TEST_CASE("following keeps clearance, climb and load factor and stays closer tha
 }
 
 TEST_CASE("a followed path's velocity is the slope of its heights") {
-    const sim::Trajectory path = flown("f15-straight").trajectory;
+    const sim::Trajectory path = flown_script("f15-straight").trajectory;
     const PlacedPath placed = place_over_ground(path, {{0, 0}, 0.3, HeightMode::Follow}, hills(150, 5000), 100, f15());
     const auto samples = placed.trajectory.samples();
     double max_mps = 0.0;

@@ -14,7 +14,7 @@ using namespace octant::flightpaths;
 
 namespace {
 
-PointMass flown(PointMass mass, const PointMassControls& controls, double seconds) {
+PointMass mass_after(PointMass mass, const PointMassControls& controls, double seconds) {
     for (long step = 0; step < sim::step_at(seconds); ++step) { mass = stepped(mass, controls, sim::step_s); }
     return mass;
 }
@@ -22,7 +22,7 @@ PointMass flown(PointMass mass, const PointMassControls& controls, double second
 } // namespace
 
 TEST_CASE("one g with level wings flies straight and level") {
-    const PointMass end = flown(point_mass_at({0, 0, 100}, 200, 0, 0), {}, 10);
+    const PointMass end = mass_after(point_mass_at({0, 0, 100}, 200, 0, 0), {}, 10);
     CHECK(end.position_m.x == Approx(0).margin(1e-9));
     CHECK(end.position_m.y == Approx(2000));
     CHECK(end.position_m.z == Approx(100).margin(1e-9));
@@ -34,7 +34,7 @@ TEST_CASE("a level turn at bank b turns at g tan(b) / V on a circle of radius V^
     mass.load_factor = 2.0;
     const double rate = gravity_mps2 * std::tan(bank) / 100;
     CHECK(track_rate_radps(mass) == Approx(rate));
-    const PointMass end = flown(mass, {}, 5);
+    const PointMass end = mass_after(mass, {}, 5);
     CHECK(euler_from_body_to_world(end.flight_to_world).heading_rad == Approx(5 * rate));
     CHECK(euler_from_body_to_world(end.flight_to_world).roll_rad == Approx(bank));
     const double radius = 100 / rate;
@@ -46,7 +46,7 @@ TEST_CASE("a level turn at bank b turns at g tan(b) / V on a circle of radius V^
 TEST_CASE("a pull at 3.5 g from level starts to climb at 2.5 g / V") {
     PointMass mass = point_mass_at({0, 0, 0}, 250, 1.0, 0);
     mass.load_factor = 3.5;
-    const PointMass end = flown(mass, {}, 0.1);
+    const PointMass end = mass_after(mass, {}, 0.1);
     CHECK(euler_from_body_to_world(end.flight_to_world).pitch_rad ==
           Approx(0.1 * 2.5 * gravity_mps2 / 250).epsilon(0.001));
 }
@@ -55,7 +55,7 @@ TEST_CASE("without lift the path is a throw") {
     PointMass mass = point_mass_at({0, 0, 0}, 100, 0, 0);
     mass.load_factor = 0.0;
     // The speed of a throw grows; here it is held, so only the start is compared.
-    const PointMass end = flown(mass, {}, 0.5);
+    const PointMass end = mass_after(mass, {}, 0.5);
     CHECK(end.position_m.z == Approx(-0.5 * gravity_mps2 * 0.25).epsilon(0.01));
 }
 

@@ -13,11 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path scratch(const std::string& name) { return tests::scratch_folder() / name; }
+fs::path status_path(const std::string& name) { return tests::scratch_folder() / name; }
 
 /// A link that leads to itself.
 fs::path link_in_a_circle() {
-    const fs::path link = scratch("circle");
+    const fs::path link = status_path("circle");
     fs::remove(link);
     fs::create_symlink(link, link);
     return link;
@@ -26,7 +26,7 @@ fs::path link_in_a_circle() {
 } // namespace
 
 TEST_CASE("files and folders are told apart, and what cannot be looked up is not there") {
-    const fs::path file = scratch("plain");
+    const fs::path file = status_path("plain");
     write_file(file, "x");
     CHECK(path_exists(file));
     CHECK(is_file(file));
@@ -48,22 +48,22 @@ TEST_CASE("files and folders are told apart, and what cannot be looked up is not
 }
 
 TEST_CASE("two names of one file are the same file, be it there or not") {
-    const fs::path file = scratch("named");
+    const fs::path file = status_path("named");
     write_file(file, "x");
-    const fs::path link = scratch("link");
+    const fs::path link = status_path("link");
     fs::remove(link);
     fs::create_symlink(file, link);
-    const fs::path around = scratch(".") / "." / "named";
+    const fs::path around = status_path(".") / "." / "named";
     CHECK(is_same_file(file, link));
     CHECK(is_same_file(file, around));
-    CHECK(is_same_file(scratch("none"), scratch(".") / "none"));
-    CHECK_FALSE(is_same_file(file, scratch("other")));
+    CHECK(is_same_file(status_path("none"), status_path(".") / "none"));
+    CHECK_FALSE(is_same_file(file, status_path("other")));
     CHECK_FALSE(is_same_file("", ""));
     CHECK(absolute_path("/a/./b/../c") == "/a/c");
 }
 
 TEST_CASE("a file may have the longest name there is") {
-    const fs::path file = scratch(std::string(255, 'n'));
+    const fs::path file = status_path(std::string(255, 'n'));
     write_file(file, "whole");
     CHECK(read_file(file) == "whole");
     CHECK(is_unfinished("folder/.octant-12-0.part"));
@@ -71,7 +71,7 @@ TEST_CASE("a file may have the longest name there is") {
 }
 
 TEST_CASE("a file that is too large is refused by its size, unread") {
-    const fs::path file = scratch("sparse");
+    const fs::path file = status_path("sparse");
     write_file(file, "");
     fs::resize_file(file, std::uintmax_t{40} << 30);
     CHECK_THROWS_WITH(read_file(file), file.string() + ": expected at most 268435456 bytes, got more");

@@ -169,7 +169,7 @@ using models::polygons::PolygonModel;
 using Corners = std::vector<glm::dvec3>;
 
 /// About the work of looking at a pair, and of a cut for each polygon there is (SearchBudget).
-constexpr std::uint64_t units_of_pair = 5;
+constexpr std::uint64_t units_of_split_pair = 5;
 constexpr std::uint64_t units_of_cut = 100;
 
 /// With more cuts than 100 + 4 a polygon there are too many pieces for a search.
@@ -184,7 +184,7 @@ Corners corners_of(const PolygonModel& model, std::size_t polygon) {
 }
 
 /// The part of a convex polygon in front of a plane.
-Corners front_part(const Corners& corners, const Plane& plane) {
+Corners corners_in_front(const Corners& corners, const Plane& plane) {
     Corners kept;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3& next = corners[(i + 1) % corners.size()];
@@ -230,7 +230,7 @@ Interval crossing(const Corners& corners, const Plane& plane, const glm::dvec3& 
 }
 
 /// A polygon or piece of one, with the plane of the whole polygon and a bounding box.
-struct Face {
+struct SplitFace {
     Corners corners;
     Plane plane;
     std::optional<std::uint32_t> pivot;
@@ -238,8 +238,8 @@ struct Face {
     glm::dvec3 most{-std::numeric_limits<double>::infinity()};
 };
 
-Face face_of(Corners corners, const Plane& plane, std::optional<std::uint32_t> pivot) {
-    Face face{.corners = std::move(corners), .plane = plane, .pivot = pivot};
+SplitFace face_of(Corners corners, const Plane& plane, std::optional<std::uint32_t> pivot) {
+    SplitFace face{.corners = std::move(corners), .plane = plane, .pivot = pivot};
     for (const glm::dvec3& corner : face.corners) {
         face.least = glm::min(face.least, corner);
         face.most = glm::max(face.most, corner);
@@ -247,12 +247,12 @@ Face face_of(Corners corners, const Plane& plane, std::optional<std::uint32_t> p
     return face;
 }
 
-bool boxes_apart(const Face& a, const Face& b) {
+bool boxes_apart(const SplitFace& a, const SplitFace& b) {
     return glm::any(glm::lessThan(a.most, b.least)) || glm::any(glm::lessThan(b.most, a.least));
 }
 
 /// Whether two polygons pass through one another.
-bool penetrate(const Face& a, const Face& b, double tolerance_m) {
+bool penetrate(const SplitFace& a, const SplitFace& b, double tolerance_m) {
     if (a.pivot != b.pivot || boxes_apart(a, b) || !straddles(a.corners, b.plane, tolerance_m) ||
         !straddles(b.corners, a.plane, tolerance_m)) {
         return false;
@@ -331,9 +331,9 @@ private:
 
     /// By how many the penetrating pairs get fewer when a polygon is cut along a plane.
     long pairs_fewer(std::uint32_t face, const Plane& plane) const {
-        const Face& whole = faces_[face];
-        const Face front = face_of(front_part(whole.corners, plane), whole.plane, whole.pivot);
-        const Face back = face_of(front_part(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
+        const SplitFace& whole = faces_[face];
+        const SplitFace front = face_of(corners_in_front(whole.corners, plane), whole.plane, whole.pivot);
+        const SplitFace back = face_of(corners_in_front(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
         auto has_fewer_splits = static_cast<long>(partners_[face].size());
         for (const std::uint32_t other : partners_[face]) {
             has_fewer_splits -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;
@@ -346,7 +346,7 @@ private:
     void cut(std::uint32_t face, std::uint32_t along) {
         const std::vector<std::uint32_t> others = std::exchange(partners_[face], {});
         const std::uint32_t back = split_polygon(model_, face, faces_[along].plane);
-        const Face whole = std::move(faces_[face]);
+        const SplitFace whole = std::move(faces_[face]);
         faces_[face] = face_of(corners_of(model_, face), whole.plane, whole.pivot);
         faces_.push_back(face_of(corners_of(model_, back), whole.plane, whole.pivot));
         partners_.emplace_back();
@@ -367,7 +367,7 @@ private:
 
     PolygonModel& model_;
     double tolerance_m_;
-    std::vector<Face> faces_;
+    std::vector<SplitFace> faces_;
     /// For each face those that it passes through, ascending.
     std::vector<std::vector<std::uint32_t>> partners_;
     /// For each face its best cut; nothing where that has to be found anew.
@@ -377,7 +377,7 @@ private:
 } // namespace
 
 int split_penetrating(PolygonModel& model, SearchBudget& budget) {
-    budget.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    budget.spend(units_of_split_pair * model.polygons.size() * model.polygons.size());
     return Splitter(model).split_all(budget);
 }
 

@@ -656,7 +656,7 @@ namespace {
 constexpr std::size_t max_edges_searched_again = 2'000;
 
 /// About the work of testing a pair of polygons (SearchBudget).
-constexpr std::uint64_t units_of_pair = 300;
+constexpr std::uint64_t units_of_tree_pair = 300;
 
 /// The searches whose results are compared; the last one only where the others split polygons.
 const std::array<TreeSearch, 4> tree_searches{{{.plane_search = {.power = 1.0}, .keeps_partial_result = true},
@@ -688,7 +688,7 @@ CellSearchResult best_tree(
     const models::polygons::PolygonModel& model, SearchBudget& budget, const std::function<int()>& max_splits) {
     WorkingModel work(model, glm::dvec3(0.0));
     work.budget = &budget;
-    work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    work.spend(units_of_tree_pair * model.polygons.size() * model.polygons.size());
     OcclusionGraphBuilder graphs(work.faces);
     const ViewCell root = view_cell(graphs, ViewRegion::all_space());
     if (root.cycles.edges > max_edges_searched_again) {

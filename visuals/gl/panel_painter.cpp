@@ -18,7 +18,7 @@ constexpr GLint window_uniform = 0;
 constexpr GLuint atlas_unit = 0;
 constexpr GLuint atlas_input = 2;
 
-constexpr std::size_t first_capacity_bytes = std::size_t{1} << 18;
+constexpr std::size_t first_panel_bytes = std::size_t{1} << 18;
 
 Object make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm::ivec2& size) {
     assert(texels.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
@@ -36,7 +36,7 @@ Object make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, con
 PanelPainter::PanelPainter(Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
     : context_(context), gl_(context.current_functions()),
       program_(make_program(gl_, "panels", {panel_vert, panel_frag})), atlas_(make_atlas(gl_, atlas, size)),
-      mesh_(gl_, "panels", first_capacity_bytes, sizeof(PanelVertex),
+      mesh_(gl_, "panels", first_panel_bytes, sizeof(PanelVertex),
           {{position_input, VertexInput::Kind::Floats2, offsetof(PanelVertex, at)},
               {atlas_input, VertexInput::Kind::Floats2, offsetof(PanelVertex, atlas_at)},
               {colour_input, VertexInput::Kind::Colour, offsetof(PanelVertex, colour)}}) {}

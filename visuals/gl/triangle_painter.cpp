@@ -122,7 +122,7 @@ constexpr GLuint contrast_unit = 3;
 constexpr GLint mesh_look_uniform = 8;
 constexpr GLint clip_per_px_uniform = 0; ///< of the overlay
 
-constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
+constexpr std::size_t first_triangle_bytes = std::size_t{1} << 20;
 constexpr std::size_t overlay_capacity_bytes = std::size_t{1} << 12;
 
 } // namespace
@@ -130,7 +130,7 @@ constexpr std::size_t overlay_capacity_bytes = std::size_t{1} << 12;
 TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     : gl_(gl), state_(state), ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag})),
       sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}, detail_texture_(make_detail_texture(gl)),
-      mesh_(gl, "ground and sky", first_capacity_bytes, sizeof(ColourVertex),
+      mesh_(gl, "ground and sky", first_triangle_bytes, sizeof(ColourVertex),
           {{position_input, VertexInput::Kind::Floats3, offsetof(ColourVertex, position_m)},
               {colour_input, VertexInput::Kind::Colour, offsetof(ColourVertex, colour)}}) {}
 

@@ -69,7 +69,7 @@ constexpr double horizon_per_rad = 1.0 / rad_from_deg(40.0);
 /// Where a dial is smaller than this in the picture, only its hands are drawn.
 constexpr float min_numbered_px = 22.0F;
 constexpr float line_share = 0.035F; ///< of a line's width
-constexpr float min_line_px = 1.2F;
+constexpr float min_dial_line_px = 1.2F;
 
 // As ColourVertex::colour.
 constexpr std::uint32_t white = 0xffeef2f2U;
@@ -288,7 +288,7 @@ void add_instruments(OverlayLayers& layers, std::array<OverlayCanvas, 2>& canvas
         const glm::vec2 centre(glm::dvec2(dial.centre_m.y, dial.centre_m.z) * px_per_m);
         const auto radius = static_cast<float>(dial.radius_m * px_per_m);
         if (!glass.may_show({centre - radius, centre + radius}, size_px)) { continue; }
-        const float width_px = std::max(line_share * radius, min_line_px);
+        const float width_px = std::max(line_share * radius, min_dial_line_px);
         faces.begin(glass.to_picture, {width_px, 0.0F, white, 0});
         hands.begin(glass.to_picture, {1.6F * width_px, 0.0F, mark_colour, 0});
         DialPainter painter(centre, radius, faces, hands);

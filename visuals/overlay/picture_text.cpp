@@ -12,14 +12,14 @@ namespace octant::visuals::overlay {
 namespace {
 
 constexpr float lines_per_picture_height = 60.0F; ///< heights of a capital, one above the other
-constexpr float min_letter_px = 7.0F;
+constexpr float min_text_px = 7.0F;
 constexpr float line_spacing = 1.8F; ///< heights of a capital
-constexpr std::uint32_t halo_colour = 0xb0000000U;
+constexpr std::uint32_t text_halo_colour = 0xb0000000U;
 constexpr std::uint32_t colour = 0xffb4f0ffU;
 
 constexpr std::string_view indent = "  "; ///< of what goes on from the line above
 
-char to_upper(char letter) { return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter; }
+char upper_case(char letter) { return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter; }
 
 /// How many letters stand beside each other in a width; more than the indent.
 std::size_t characters_per_line(float width_px, float letter_px) {
@@ -38,7 +38,7 @@ std::string split_at_width(std::string_view& text, std::size_t most) {
         count = space == std::string_view::npos || space == 0 ? most : space;
     }
     std::string taken(text.substr(0, count));
-    std::ranges::transform(taken, taken.begin(), to_upper);
+    std::ranges::transform(taken, taken.begin(), upper_case);
     text.remove_prefix(std::min(text.find_first_not_of(' ', count), text.size()));
     return taken;
 }
@@ -47,8 +47,9 @@ std::string split_at_width(std::string_view& text, std::size_t most) {
 
 scene::OverlayDraw draw_text(OverlayCanvas& canvas, std::span<const std::string> lines, const glm::ivec2& size_px) {
     const glm::vec2 size(size_px);
-    const float letter_px = std::max(size.y / lines_per_picture_height, min_letter_px);
-    canvas.begin(glm::mat3(1.0F), {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, halo_colour});
+    const float letter_px = std::max(size.y / lines_per_picture_height, min_text_px);
+    canvas.begin(
+        glm::mat3(1.0F), {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, text_halo_colour});
     glm::vec2 at(letter_px, 2.0F * letter_px);
     const std::size_t most = characters_per_line(size.x - 2.0F * letter_px, letter_px);
     for (const std::string_view line : lines) {

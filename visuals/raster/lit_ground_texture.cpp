@@ -14,7 +14,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr float max_level = 255.0F;
+constexpr float max_texel_level = 255.0F;
 
 bool same(const Light& a, const Light& b) {
     return a.ambient == b.ambient && a.sunlight == b.sunlight && a.to_sun == b.to_sun;
@@ -51,7 +51,7 @@ void light_row(const scene::GroundTexture& texture, const Light& light, int row,
         const std::uint8_t* const own = albedo.texels.data() + 3 * (y * width + x);
         std::uint32_t packed = 0;
         for (glm::length_t part = 0; part < 3; ++part) {
-            const float lit = std::min(static_cast<float>(own[part]) * sum[part], max_level);
+            const float lit = std::min(static_cast<float>(own[part]) * sum[part], max_texel_level);
             packed |= static_cast<std::uint32_t>(lit + 0.5F) << (8 * static_cast<unsigned>(part));
         }
         to[column] = packed;

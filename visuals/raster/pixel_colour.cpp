@@ -12,11 +12,11 @@ namespace octant::visuals::raster {
 namespace {
 
 constexpr double per_level = 16.0;
-constexpr double max_level = 255.0;
+constexpr double max_colour_level = 255.0;
 constexpr double min_inverse_w = 1e-30;
 
 std::uint16_t packed(double level) {
-    return static_cast<std::uint16_t>(std::clamp(level, 0.0, max_level) * per_level + 0.5);
+    return static_cast<std::uint16_t>(std::clamp(level, 0.0, max_colour_level) * per_level + 0.5);
 }
 
 PixelColour gouraud_colour(const Triangle& triangle, int column, int row) {
@@ -129,7 +129,7 @@ PixelColour wireframe_colour(const TileTriangle& one, const TileJob& job, int co
     PixelColour colour = perspective_colour(one, column, row);
     for (std::size_t i = 0; i < 3; ++i) {
         const double own = colour[i] / per_level;
-        const double filled = own + hue_share * (hue[i] * max_level - own);
+        const double filled = own + hue_share * (hue[i] * max_colour_level - own);
         colour[i] = packed(filled * (0.25 + 0.75 * inside));
     }
     return colour;
@@ -189,7 +189,7 @@ PixelColour lit_colour(const TileTriangle& one, const TileJob& job, int column, 
     float specular = 0.0F;
     if (towards_sun > 0.0F && length > 0.0F) {
         diffuse = towards_sun / length;
-        specular = scene::Highlight::share * static_cast<float>(max_level) *
+        specular = scene::Highlight::share * static_cast<float>(max_colour_level) *
                    highlight(normal, mixed(extra, weights, &LitVertex::to_eye), to_sun, towards_sun);
     }
     const auto own = mixed(extra, weights, &LitVertex::rgb);
@@ -199,7 +199,7 @@ PixelColour lit_colour(const TileTriangle& one, const TileJob& job, int column, 
         const auto part = static_cast<glm::length_t>(i);
         const float lit =
             own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) + light.sunlight[part] * specular;
-        const float seen = std::min(lit, static_cast<float>(max_level)) * transmittance + haze[i];
+        const float seen = std::min(lit, static_cast<float>(max_colour_level)) * transmittance + haze[i];
         colour[i] = packed(static_cast<double>(seen));
     }
     return colour;

@@ -1,6 +1,6 @@
 // Seeks planes that prove that one polygon hides nothing of another. By Farkas' lemma every plane with all eyes before
 // it is a sum, with factors >= 0, of the planes that bound the eyes and of 1; eyes that see a polygon are bounded by
-// its plane, too. Where no single plane will do, a game finds the factors, and where rounding spoils that a linear
+// its plane, too. Where no single plane will do, a game finds the factors, and where game_rounding spoils that a linear
 // programme.
 #include "visuals/separation/separating_plane_proof.h"
 
@@ -26,7 +26,7 @@ namespace {
 
 using models::polygons::PolygonModel;
 
-/// The share of the tolerance that is used; the rest is for the rounding of this code.
+/// The share of the tolerance that is used; the rest is for the game_rounding of this code.
 constexpr double safe = 0.999;
 /// How far a corner may be from a plane that is not quite the polygon's own, in tolerances.
 constexpr double share_of_borrowed = 0.25;
@@ -213,7 +213,7 @@ std::optional<std::vector<double>> refined_optimum(const LinearProgram& program)
 
 namespace {
 
-constexpr double rounding = 1e-13;
+constexpr double game_rounding = 1e-13;
 
 /// A row for each choice and one for the aim, a column for each case and one for the bounds.
 class Tableau {
@@ -255,7 +255,7 @@ private:
     std::size_t entering() {
         const auto row = cells_.begin() + static_cast<std::ptrdiff_t>(choices_ * wide_);
         const auto least = std::min_element(row, row + static_cast<std::ptrdiff_t>(cases_));
-        return *least < -rounding ? static_cast<std::size_t>(least - row) : cases_;
+        return *least < -game_rounding ? static_cast<std::size_t>(least - row) : cases_;
     }
 
     /// The row whose bound is met first. There is one: all payoffs are positive.
@@ -263,7 +263,7 @@ private:
         std::size_t first = choices_;
         double least = 0.0;
         for (std::size_t i = 0; i < choices_; ++i) {
-            if (at(i, column) <= rounding) { continue; }
+            if (at(i, column) <= game_rounding) { continue; }
             const double ratio = at(i, cases_) / at(i, column);
             if (first == choices_ || ratio < least) {
                 first = i;

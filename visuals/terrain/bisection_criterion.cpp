@@ -77,7 +77,7 @@ std::array<float, 16> min_by_reach(const NineBlocks& of) {
 constexpr double farthest_eye = 4194304.0;
 
 /// More than the rounding of heights in double precision can amount to.
-constexpr double height_margin_m = 1e-3;
+constexpr double criterion_margin_m = 1e-3;
 
 // The ends of the boxes of influence, a sample farther out on each side, in half edges from a node's south-west corner:
 // of the middles of its south, east, north and west edges, and of the centres of its four children.
@@ -307,7 +307,7 @@ unsigned BisectionCriterion::crossed_planes_of_node(
     const double half_spacing_m = 0.5 * ground_->spacing_m();
     const glm::dvec2 centre_m(west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m);
     const glm::dvec2 half_m((east - west) * half_spacing_m, (north - south) * half_spacing_m);
-    const double margin = static_cast<double>(margin_m) + height_margin_m;
+    const double margin = static_cast<double>(margin_m) + criterion_margin_m;
     double low_m = static_cast<double>(distances.lowest_m) - view_.eye_m.z - margin;
     double high_m = static_cast<double>(distances.highest_m) - view_.eye_m.z + margin;
     if (half_curvature_per_m_ > 0.0) {

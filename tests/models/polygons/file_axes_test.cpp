@@ -17,7 +17,7 @@ namespace {
 
 const std::array<std::string, 6> names{"right", "left", "up", "down", "forward", "back"};
 
-std::string message(const std::string& text) {
+std::string axes_fault(const std::string& text) {
     try {
         FileAxes::from_text(text);
     } catch (const octant::Error& error) { return error.what(); }
@@ -47,7 +47,7 @@ TEST_CASE("of all 216 triples 24 are right-handed, and each of them converts the
         for (const auto& y : names) {
             for (const auto& z : names) {
                 const std::string text = fmt::format("{},{},{}", x, y, z);
-                if (message(text) != "accepted") { continue; }
+                if (axes_fault(text) != "accepted") { continue; }
                 ++accepted;
                 const FileAxes axes = FileAxes::from_text(text);
                 CHECK(axes.text() == text);
@@ -69,12 +69,12 @@ TEST_CASE("wrong axes are refused with what was expected") {
     const std::string expected =
         "axes: expected where x, y and z point, such as right,up,back (of right, left, up, down, "
         "forward, back), got ";
-    CHECK(message("") == expected + "''");
-    CHECK(message("right,up") == expected + "'right,up'");
-    CHECK(message("right,up,aft") == expected + "'right,up,aft'");
-    CHECK(message("x,y,-z") == expected + "'x,y,-z'");
-    CHECK(message("right,up,left") == expected + "'right,up,left', where two axes lie on one line");
-    CHECK(message("right,up,forward") == expected + "'right,up,forward', which is left-handed");
+    CHECK(axes_fault("") == expected + "''");
+    CHECK(axes_fault("right,up") == expected + "'right,up'");
+    CHECK(axes_fault("right,up,aft") == expected + "'right,up,aft'");
+    CHECK(axes_fault("x,y,-z") == expected + "'x,y,-z'");
+    CHECK(axes_fault("right,up,left") == expected + "'right,up,left', where two axes lie on one line");
+    CHECK(axes_fault("right,up,forward") == expected + "'right,up,forward', which is left-handed");
 }
 
 using namespace octant::models;

@@ -18,17 +18,17 @@ using namespace octant::sim::links;
 
 namespace {
 
-using Packet = std::vector<std::byte>;
+using PacketBytes = std::vector<std::byte>;
 
 template <class Bytes>
-Packet copied(const Bytes& bytes) {
+PacketBytes copied(const Bytes& bytes) {
     return {bytes.begin(), bytes.end()};
 }
 
-Packet text(std::string_view words) { return copied(std::as_bytes(std::span(words.data(), words.size()))); }
+PacketBytes text(std::string_view words) { return copied(std::as_bytes(std::span(words.data(), words.size()))); }
 
 /// IG Control of CIGI 4.0 (16-bit size, packet id 0) and an Entity Position, in either byte order.
-Packet cigi_4(ByteOrder order, std::size_t more = 48) {
+PacketBytes cigi_4(ByteOrder order, std::size_t more = 48) {
     WireWriter message(order);
     message.add(std::uint16_t{24});
     message.add(std::uint16_t{0});
@@ -40,14 +40,14 @@ Packet cigi_4(ByteOrder order, std::size_t more = 48) {
     return message.take();
 }
 
-Packet cigi_3() {
+PacketBytes cigi_3() {
     WireWriter message(ByteOrder::Big);
     add_ig_control(message, {});
     return message.take();
 }
 
 /// FGNetFDM of version 24 as a little-endian machine has it in memory.
-Packet swapped_fdm() {
+PacketBytes swapped_fdm() {
     WireWriter packet(ByteOrder::Little);
     packet.add(std::uint32_t{24});
     packet.add_zeros(4);
@@ -58,7 +58,7 @@ Packet swapped_fdm() {
     return packet.take();
 }
 
-Fix some_fix() {
+Fix any_fix() {
     Fix fix;
     fix.latitude_deg = 47.0;
     fix.altitude_m = 900.0;
@@ -66,17 +66,17 @@ Fix some_fix() {
 }
 
 /// Packets that are read, each by its own protocol.
-std::map<Protocol, Packet> right_packets() {
+std::map<Protocol, PacketBytes> right_packets() {
     DisEntity entity;
-    entity.fix = some_fix();
+    entity.fix = any_fix();
     MavLinkFrame frame{MavLinkKind::GlobalPositionInt, 1, {}};
     frame.payload.resize(28, std::byte{1});
-    return {{Protocol::Fdm, copied(encode_fdm(some_fix()))},
+    return {{Protocol::Fdm, copied(encode_fdm(any_fix()))},
         {Protocol::MavLink, octant::tests::encode_mavlink(frame, 0)}, {Protocol::Dis, copied(encode_dis(entity, 0.0))},
-        {Protocol::Cigi, cigi_3()}, {Protocol::XPlane, encode_xplane(some_fix(), {0.82, 0.0, 900.0}, 0.0)}};
+        {Protocol::Cigi, cigi_3()}, {Protocol::XPlane, encode_xplane(any_fix(), {0.82, 0.0, 900.0}, 0.0)}};
 }
 
-LiveTraffic traffic_of(Protocol port, const Packet& packet, int count) {
+LiveTraffic traffic_of(Protocol port, const PacketBytes& packet, int count) {
     LiveTraffic traffic([](const VehicleKey&, const Fix&) { return WorldPosition(); });
     for (int i = 0; i < count; ++i) { traffic.take({port, {0x7f000001, 4000}, 0.01 * i, packet}); }
     return traffic;
@@ -85,7 +85,7 @@ LiveTraffic traffic_of(Protocol port, const Packet& packet, int count) {
 } // namespace
 
 TEST_CASE("what is not supported is told once, in a line of what it is, and counted") {
-    const std::vector<std::pair<Packet, std::string>> unsupported{
+    const std::vector<std::pair<PacketBytes, std::string>> unsupported{
         {cigi_4(ByteOrder::Little), "this is a CIGI 4 host, which is not supported: set it to "
                                     "CIGI 3.3"},
         {cigi_4(ByteOrder::Big), "this is a CIGI 4 host"},
@@ -114,7 +114,7 @@ TEST_CASE("what is not supported is told once, in a line of what it is, and coun
 TEST_CASE("messages of CIGI 4 that differ in length are one line") {
     LiveTraffic traffic([](const VehicleKey&, const Fix&) { return WorldPosition(); });
     for (std::size_t i = 0; i < 100; ++i) {
-        const Packet packet = cigi_4(ByteOrder::Little, 48 + 8 * i);
+        const PacketBytes packet = cigi_4(ByteOrder::Little, 48 + 8 * i);
         traffic.take({Protocol::Cigi, {1, 1}, 0.01, packet});
     }
     CHECK(traffic.take_new_messages().size() == 1);
@@ -145,7 +145,7 @@ TEST_CASE("a packet at another port than its own is told where it is read") {
 }
 
 TEST_CASE("a packet of its own port that is wrong keeps what is wrong with it") {
-    Packet cut = right_packets().at(Protocol::Fdm);
+    PacketBytes cut = right_packets().at(Protocol::Fdm);
     cut.resize(400);
     CHECK(traffic_of(Protocol::Fdm, cut, 1).take_new_messages() ==
           std::vector<std::string>{"127.0.0.1:4000: FDM version 24: expected 408 bytes, got 400"});

@@ -14,7 +14,7 @@ using octant::tests::TcpClient;
 
 namespace {
 
-constexpr std::uint32_t loopback = TcpClient::loopback;
+constexpr std::uint32_t this_host = TcpClient::loopback;
 
 /// Answers the server's greeting as Tacview does.
 void answer(const TcpClient& reader) {
@@ -43,7 +43,7 @@ std::string wait_for(TacviewServer& server, const TcpClient& reader, const std::
 } // namespace
 
 TEST_CASE("Tacview's server speaks first, and sends what there is once it is answered") {
-    TacviewServer server(loopback, 0, "us");
+    TacviewServer server(this_host, 0, "us");
     server.set_head("HEAD\n");
     const TcpClient reader(server.port());
     const std::string greeting("XtraLib.Stream.0\nTacview.RealTimeTelemetry.0\nus\n\0", 49);
@@ -55,7 +55,7 @@ TEST_CASE("Tacview's server speaks first, and sends what there is once it is ans
 }
 
 TEST_CASE("late joiners get the head, and not what was before them") {
-    TacviewServer server(loopback, 0, "us");
+    TacviewServer server(this_host, 0, "us");
     server.set_head("HEAD\n");
     server.send("#1\n");
     const TcpClient late(server.port());
@@ -68,7 +68,7 @@ TEST_CASE("late joiners get the head, and not what was before them") {
 }
 
 TEST_CASE("readers that do not read are let go and hold up nobody") {
-    TacviewServer server(loopback, 0, "us");
+    TacviewServer server(this_host, 0, "us");
     std::vector<std::unique_ptr<TcpClient>> stuck;
     for (int i = 0; i < 4; ++i) {
         stuck.push_back(std::make_unique<TcpClient>(server.port()));
@@ -91,7 +91,7 @@ TEST_CASE("readers that do not read are let go and hold up nobody") {
 }
 
 TEST_CASE("stuck readers and a thousand half-open connections delay a live reader by no sending") {
-    TacviewServer server(loopback, 0, "us");
+    TacviewServer server(this_host, 0, "us");
     server.set_head("HEAD\n");
     std::vector<std::unique_ptr<TcpClient>> stuck;
     for (int i = 0; i < 4; ++i) {
@@ -129,7 +129,7 @@ TEST_CASE("stuck readers and a thousand half-open connections delay a live reade
 }
 
 TEST_CASE("Tacview's server has a place for so many readers and no more") {
-    TacviewServer server(loopback, 0, "us");
+    TacviewServer server(this_host, 0, "us");
     std::vector<std::unique_ptr<TcpClient>> readers;
     for (std::size_t i = 0; i < TacviewServer::max_readers + 3; ++i) {
         readers.push_back(std::make_unique<TcpClient>(server.port()));
@@ -144,7 +144,7 @@ TEST_CASE("Tacview's server has a place for so many readers and no more") {
 }
 
 TEST_CASE("connections that never shake hands keep no reader out") {
-    TacviewServer server(loopback, 0, "us");
+    TacviewServer server(this_host, 0, "us");
     std::vector<std::unique_ptr<TcpClient>> half_open;
     for (int i = 0; i < 60; ++i) {
         half_open.push_back(std::make_unique<TcpClient>(server.port()));

@@ -35,10 +35,10 @@ namespace fs = std::filesystem;
 namespace links = sim::links;
 
 constexpr int frames = 24;
-constexpr std::uint32_t loopback = 0x7f000001;
+constexpr std::uint32_t channel_address = 0x7f000001;
 
 /// A UDP port that nobody has just now.
-std::uint16_t free_port() { return links::UdpPort(loopback, 0).port(); }
+std::uint16_t free_channel_port() { return links::UdpPort(channel_address, 0).port(); }
 
 /// Runs the program, which prints to nowhere; several may run at a time.
 int run_silently(const std::vector<std::string>& arguments) {
@@ -47,7 +47,7 @@ int run_silently(const std::vector<std::string>& arguments) {
     return std::system((command + " >/dev/null 2>&1").c_str()); // NOLINT
 }
 
-std::vector<FrameRecord> rows_of(const fs::path& folder) {
+std::vector<FrameRecord> frame_rows(const fs::path& folder) {
     return ui::report::read_frame_csv(folder / "frames.csv").records;
 }
 
@@ -78,7 +78,7 @@ private:
         links::CigiStartOfFrame frame;
         frame.host_frame = host_frame;
         links::add_start_of_frame(start, frame);
-        out_.send({loopback, host_port_}, start.bytes());
+        out_.send({channel_address, host_port_}, start.bytes());
     }
 
     void work() {
@@ -101,8 +101,8 @@ private:
 
     std::uint16_t host_port_;
     Loses loses_;
-    links::UdpPort in_{loopback, 0};
-    links::UdpPort out_{loopback, 0};
+    links::UdpPort in_{channel_address, 0};
+    links::UdpPort out_{channel_address, 0};
     std::atomic<bool> done_ = false;
     std::thread thread_;
 };
@@ -116,7 +116,7 @@ struct LossyRun {
 
 LossyRun lossy_run(const std::string& name, Generator::Loses loses) {
     const fs::path folder = tests::empty_folder(name) / "host";
-    const std::uint16_t own = free_port();
+    const std::uint16_t own = free_channel_port();
     const Generator first(own, std::move(loses));
     const Generator second(own, [](std::uint32_t, int) { return false; });
     const tests::ProgramRun run = tests::run_octant({"fly", "turn", "--frames", "12", "--size", "32x18", "--terrain",
@@ -124,7 +124,7 @@ LossyRun lossy_run(const std::string& name, Generator::Loses loses) {
         fmt::format("cigi:127.0.0.1:{}:{}", first.port(), own), "--record", folder.string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    return {rows_of(folder), read_text_file(folder / "report.html"), run.err};
+    return {frame_rows(folder), read_text_file(folder / "report.html"), run.err};
 }
 
 } // namespace
@@ -151,7 +151,7 @@ TEST_CASE("a message to a channel that is lost is sent again, and no frame is mi
 TEST_CASE("three octants show one world in step from one host") {
     const fs::path folder = tests::empty_folder("channels");
     const std::array<std::string, 3> names{"left", "front", "right"};
-    const std::uint16_t own = free_port();
+    const std::uint16_t own = free_channel_port();
     const std::vector<std::string> world{"--size", "96x54", "--pictures", "0", "--aircraft", "f15", "--aircraft",
         "500md", "--terrain", tests::small_ground()};
     std::vector<std::string> host{
@@ -159,7 +159,7 @@ TEST_CASE("three octants show one world in step from one host") {
     std::vector<std::thread> channels;
     std::array<int, 3> exit_codes{-1, -1, -1};
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::uint16_t port = free_port();
+        const std::uint16_t port = free_channel_port();
         std::vector<std::string> arguments{"listen", "--headless", "--step", "--ports", "cigi=" + std::to_string(port),
             "--cigi", fmt::format("host=127.0.0.1:{}", own), "--channel", names[i], "--frames", std::to_string(frames),
             "--record", (folder / names[i]).string()};
@@ -174,14 +174,14 @@ TEST_CASE("three octants show one world in step from one host") {
     REQUIRE(run.exit_code == 0);
     CHECK(exit_codes == std::array<int, 3>{0, 0, 0});
 
-    const std::vector<FrameRecord> of_host = rows_of(folder / "host");
+    const std::vector<FrameRecord> of_host = frame_rows(folder / "host");
     REQUIRE(of_host.size() == frames);
     CHECK(std::ranges::all_of(of_host, [](const FrameRecord& row) { return row.skew_frames == 0; }));
     CHECK_THAT(read_text_file(folder / "host" / "report.html"), Contains("0 frames, 0 of 24"));
 
     std::array<std::vector<FrameRecord>, 3> rows;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        rows[i] = rows_of(folder / names[i]);
+        rows[i] = frame_rows(folder / names[i]);
         REQUIRE(rows[i].size() == frames);
     }
     for (std::size_t k = 0; k < frames; ++k) {

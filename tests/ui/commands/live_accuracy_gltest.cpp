@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace links = sim::links;
 
-constexpr std::uint32_t loopback = 0x7f000001;
+constexpr std::uint32_t sender_address = 0x7f000001;
 constexpr double speed_mps = 150.0;
 constexpr double rate_hz = 60.0;
 constexpr double flown_s = 12.0;
@@ -137,16 +137,16 @@ Accuracy accuracy_of(const fs::path& record, double delay_s, double settled_s) {
 /// Flies it through the program.
 Accuracy flown(const std::string& name, const Network& network, double delay_s) {
     const fs::path record = tests::empty_folder(name) / "flight";
-    const std::uint16_t port = links::UdpPort(loopback, 0).port();
+    const std::uint16_t port = links::UdpPort(sender_address, 0).port();
     std::atomic<bool> done = false;
     std::thread sender([&] {
         const std::vector<Sending> schedule = schedule_of(network);
-        links::UdpPort socket(loopback, 0);
+        links::UdpPort socket(sender_address, 0);
         std::this_thread::sleep_for(std::chrono::seconds(2)); // the program begins
         const auto begin = std::chrono::steady_clock::now();
         for (const Sending& each : schedule) {
             std::this_thread::sleep_until(begin + std::chrono::duration<double>(each.at_s));
-            socket.send({loopback, port}, packet_at(each.truth_s));
+            socket.send({sender_address, port}, packet_at(each.truth_s));
             if (done) { return; }
         }
     });

@@ -18,10 +18,10 @@ using Content = scene::PaintStep::Content;
 
 namespace {
 
-constexpr std::uint32_t whole = PaintStep::no_clip;
+constexpr std::uint32_t unclipped = PaintStep::no_clip;
 constexpr int picture_px = 160;
 
-/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a whole.
+/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a unclipped.
 std::vector<scene::ModelVertex> torus_corners() {
     const models::polygons::PolygonModel quads = models::procedural::torus();
     std::vector<scene::ModelVertex> corners;
@@ -68,7 +68,7 @@ public:
         scene::FramePlan plan = lit_plan();
         plan.smooth.assign(refined_.size() / 3 / 32 + 1, smooth ? ~0U : 0U);
         plan.aircraft = {{.model = 0, .index_count = static_cast<std::uint32_t>(level_.indices.size())}};
-        plan.steps.push_back({Content::Aircraft, 0, 1, whole, DepthUse::Nearest});
+        plan.steps.push_back({Content::Aircraft, 0, 1, unclipped, DepthUse::Nearest});
         return plan;
     }
 
@@ -81,7 +81,7 @@ public:
             refined_[std::size_t{3} * static_cast<std::size_t>(i)].polygon = is_smooth ? 0 : 1;
         }
         plan.refined = {{.vertices = refined_, .indices = level_.indices}};
-        plan.steps.push_back({Content::Refined, 0, 1, whole, DepthUse::Nearest});
+        plan.steps.push_back({Content::Refined, 0, 1, unclipped, DepthUse::Nearest});
         return plan;
     }
 
@@ -93,7 +93,7 @@ private:
         plan.to_sun = glm::normalize(glm::vec3(0.5F, 0.7F, 0.6F));
         plan.parts = {body_};
         plan.depth_boxes = {{{0, 0}, {picture_px, picture_px}}};
-        plan.steps = {{Content::ClearDepth, 0, 1, whole}};
+        plan.steps = {{Content::ClearDepth, 0, 1, unclipped}};
         return plan;
     }
 
@@ -179,8 +179,9 @@ TEST_CASE("a refined mesh hides itself and is hidden by ground before it, and by
     ground.add({0.0F, -1.0F, 1.0F, 1.0F}, 5.0F, green);  // the right half, behind it
     painted.ground = {ground.vertices, {}};
     painted.repaint_indices = ground.indices;
-    painted.steps = {{Content::ClearDepth, 0, 1, whole}, {Content::GroundRepaint, 0, 12, whole, DepthUse::DepthOnly},
-        {Content::Refined, 0, 1, whole, DepthUse::Nearest}};
+    painted.steps = {{Content::ClearDepth, 0, 1, unclipped},
+        {Content::GroundRepaint, 0, 12, unclipped, DepthUse::DepthOnly},
+        {Content::Refined, 0, 1, unclipped, DepthUse::Nearest}};
     const scene::Picture free = here.picture(here.tori.refined_plan(here.tori.triangles() / 3));
     const scene::Picture cut = here.picture(painted);
     for (int row = 0; row < picture_px; ++row) {

@@ -35,16 +35,16 @@ using std::filesystem::path;
 using terrain::MorphMargin;
 using terrain::NodePart;
 
-const auto never_save = [](ImportStage, double) { return false; };
+const auto run_to_the_end = [](ImportStage, double) { return false; };
 
-path scratch(const std::string& name) { return tests::scratch_folder() / name; }
+path safety_path(const std::string& name) { return tests::scratch_folder() / name; }
 
 /// 40 x 30 whole metres, all 7 but the one in the middle.
 path write_plain(const std::string& name, std::int16_t middle_m = 7) {
     std::vector<std::int16_t> numbers(40 * 30, 7);
     numbers[40 * 15 + 20] = middle_m;
-    write_geotiff(scratch(name), 40, numbers, 30.0, {0.0, 0.0});
-    return scratch(name);
+    write_geotiff(safety_path(name), 40, numbers, 30.0, {0.0, 0.0});
+    return safety_path(name);
 }
 
 std::string content_of(const path& file) {
@@ -110,33 +110,34 @@ void write_earlier_version(const path& file, const models::heights::HeightField&
 TEST_CASE("an input in the place of the unfinished file is refused and stays whole") {
     const path input = write_plain("same.ground.part");
     const std::string before = content_of(input);
-    const path link = scratch("linked.ground.part");
+    const path link = safety_path("linked.ground.part");
     std::filesystem::create_hard_link(input, link);
     for (const char* out : {"same.ground", "linked.ground"}) {
-        CHECK_THROWS_WITH(import_ground({input}, scratch(out), {}, never_save), Contains("one of the inputs"));
+        CHECK_THROWS_WITH(import_ground({input}, safety_path(out), {}, run_to_the_end), Contains("one of the inputs"));
     }
     CHECK(content_of(input) == before);
 }
 
 TEST_CASE("a foreign file in the place of the unfinished one is refused and stays whole") {
     const path input = write_plain("beside.tif");
-    const path part = scratch("foreign.ground.part");
+    const path part = safety_path("foreign.ground.part");
     std::ofstream(part) << "a letter";
-    CHECK_THROWS_WITH(import_ground({input}, scratch("foreign.ground"), {}, never_save),
+    CHECK_THROWS_WITH(import_ground({input}, safety_path("foreign.ground"), {}, run_to_the_end),
         Contains("foreign.ground.part") && Contains("another kind of file"));
     CHECK(content_of(part) == "a letter");
     std::ofstream(part, std::ios::trunc).close();
-    CHECK_NOTHROW(import_ground({input}, scratch("foreign.ground"), {}, never_save));
+    CHECK_NOTHROW(import_ground({input}, safety_path("foreign.ground"), {}, run_to_the_end));
 }
 
 TEST_CASE("a second import to the same file is refused while the first goes on unharmed") {
     const path input = write_plain("first_of_two.tif");
     const path other = write_plain("second_of_two.tif", 9);
-    const path out = scratch("both.ground");
+    const path out = safety_path("both.ground");
     int refused = 0;
     import_ground({input}, out, {}, [&](ImportStage, double done) {
         if (done < 1.0) {
-            CHECK_THROWS_WITH(import_ground({other}, out, {}, never_save), Contains("another import is writing it"));
+            CHECK_THROWS_WITH(
+                import_ground({other}, out, {}, run_to_the_end), Contains("another import is writing it"));
             ++refused;
         }
         return false;
@@ -226,11 +227,11 @@ TEST_CASE("grounds of versions 1 to 5 are refused where the field's border cuts 
 TEST_CASE("a ground of version 3 is read, and all its errors have full room") {
     const models::heights::HeightField field(33, 33, 30.0, tests::rough_heights(33, 33));
     const GroundTiles today = terrain::make_ground_tiles(field);
-    const path file = scratch("third.ground");
+    const path file = safety_path("third.ground");
     GroundShape shape = today.shape();
     shape.has_unit_codes = false;
-    write_earlier_version(scratch("fourth.ground"), field, shape, today.metadata());
-    const GroundTiles fourth = open_ground(scratch("fourth.ground"));
+    write_earlier_version(safety_path("fourth.ground"), field, shape, today.metadata());
+    const GroundTiles fourth = open_ground(safety_path("fourth.ground"));
     shape.has_both_margins = false;
     write_earlier_version(file, field, shape, today.metadata());
     const GroundTiles third = open_ground(file);
@@ -266,7 +267,7 @@ TEST_CASE("a ground of version 4 is read, and its wider steps between errors cos
     const GroundTiles today = terrain::make_ground_tiles(field);
     GroundShape shape = today.shape();
     shape.has_unit_codes = false;
-    const path file = scratch("fourth.ground");
+    const path file = safety_path("fourth.ground");
     write_earlier_version(file, field, shape, today.metadata());
     const GroundTiles fourth = open_ground(file);
     CHECK_NOTHROW(verify_ground(file));
@@ -291,8 +292,8 @@ TEST_CASE("a name is cut between characters and read as UTF-8 without control ch
 
 TEST_CASE("the hash of a ground tells one tile from another and grounds alike as alike") {
     const auto hash_with = [](std::int16_t middle_m, const std::string& out) {
-        import_ground({write_plain("hashed.tif", middle_m)}, scratch(out), {}, never_save);
-        return hash_of_ground(scratch(out));
+        import_ground({write_plain("hashed.tif", middle_m)}, safety_path(out), {}, run_to_the_end);
+        return hash_of_ground(safety_path(out));
     };
     const std::uint64_t seven = hash_with(7, "seven.ground");
     CHECK(hash_with(7, "again.ground") == seven);

@@ -15,16 +15,16 @@ using visuals::nature::ReliefShadows;
 namespace {
 
 constexpr int side = 81;
-constexpr double spacing_m = 10.0;
+constexpr double relief_spacing_m = 10.0;
 
 models::heights::HeightField make_ground_tiles(const std::function<double(double, double)>& height_m) {
     std::vector<float> heights;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            heights.push_back(static_cast<float>(height_m(column * spacing_m, row * spacing_m)));
+            heights.push_back(static_cast<float>(height_m(column * relief_spacing_m, row * relief_spacing_m)));
         }
     }
-    return {side, side, spacing_m, heights};
+    return {side, side, relief_spacing_m, heights};
 }
 
 glm::dvec3 sun_at(double azimuth_deg, double elevation_deg) {
@@ -53,11 +53,11 @@ TEST_CASE("level ground keeps all light under every sun") {
 
 TEST_CASE("a strip of ground that is reduced to one row or column has its light from end to end") {
     constexpr int length = 8194;
-    constexpr double end_m = (length - 1) * spacing_m;
+    constexpr double end_m = (length - 1) * relief_spacing_m;
     for (const glm::ivec2& size : {glm::ivec2(length, 2), {length, 8}, {2, length}, {8, length}}) {
         CAPTURE(size.x, size.y);
         const models::heights::HeightField strip(
-            size.x, size.y, spacing_m, std::vector<float>(static_cast<std::size_t>(size.x * size.y), 5.0F));
+            size.x, size.y, relief_spacing_m, std::vector<float>(static_cast<std::size_t>(size.x * size.y), 5.0F));
         const ReliefShadows light = light_of(strip, sun_at(37.0, 20.0));
         for (const double at_m : {0.0, 4444.0, end_m}) {
             const auto along = static_cast<float>(at_m);

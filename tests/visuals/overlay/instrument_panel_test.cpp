@@ -16,7 +16,7 @@ using namespace octant::visuals::scene;
 
 namespace {
 
-constexpr glm::ivec2 size_px(1280, 720);
+constexpr glm::ivec2 dial_picture_px(1280, 720);
 constexpr double dial_radius_m = 0.04;
 
 using Quantity = Dial::Quantity;
@@ -30,7 +30,7 @@ InstrumentReadings flying(const EulerAngles& attitude, double speed_kt, double h
     return inputs;
 }
 
-Camera cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0.0) {
+Camera dial_camera(const InstrumentReadings& inputs, double azimuth_deg = 0.0) {
     ViewSettings view;
     view.kind = View::Cockpit;
     view.azimuth_deg = azimuth_deg;
@@ -50,15 +50,15 @@ struct Panel {
 
     OverlayDraw draw(const InstrumentLayout& layout, const InstrumentReadings& inputs, const Camera& camera) {
         layers.clear();
-        add_instruments(layers, canvases, layout, inputs, camera, size_px);
+        add_instruments(layers, canvases, layout, inputs, camera, dial_picture_px);
         return layers.all();
     }
 };
 
 /// Colour of what is drawn last at a place of the dial above: radii right and down from its middle.
 std::uint32_t colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::uint32_t nothing = 0) {
-    const double px_per_m = 0.5 * size_px.y / std::tan(rad_from_deg(22.5)) / 0.78;
-    const glm::dvec2 at = 0.5 * glm::dvec2(size_px) + px_per_m * (glm::dvec2(0.1, 0.2) + dial_radius_m * radii);
+    const double px_per_m = 0.5 * dial_picture_px.y / std::tan(rad_from_deg(22.5)) / 0.78;
+    const glm::dvec2 at = 0.5 * glm::dvec2(dial_picture_px) + px_per_m * (glm::dvec2(0.1, 0.2) + dial_radius_m * radii);
     std::uint32_t colour = nothing;
     for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
         const auto corner = [&](std::size_t k) { return glm::dvec2(draw.vertices[draw.indices[i + k]].at_px); };
@@ -77,7 +77,7 @@ std::uint32_t colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::u
 /// Whether a hand lies half-way out at an angle clockwise from the top, and none opposite.
 bool points_at(Quantity quantity, const InstrumentReadings& inputs, double angle_deg) {
     Panel panel;
-    const OverlayDraw draw = panel.draw(one_dial(quantity), inputs, cockpit_camera(inputs));
+    const OverlayDraw draw = panel.draw(one_dial(quantity), inputs, dial_camera(inputs));
     const double angle_rad = rad_from_deg(angle_deg);
     const glm::dvec2 out(std::sin(angle_rad), -std::cos(angle_rad));
     const auto is_light = [&](const glm::dvec2& at) { return (colour_at(draw, at) & 0xffU) > 0xe0U; };
@@ -109,7 +109,7 @@ TEST_CASE("the horizon of the attitude dial lies as the world's does") {
     Panel panel;
     const auto is_sky = [&](const EulerAngles& attitude, const glm::dvec2& radii) {
         const InstrumentReadings inputs = flying(attitude, 300.0, 1000.0, 1.0);
-        return is_blue(colour_at(panel.draw(one_dial(Quantity::Attitude), inputs, cockpit_camera(inputs)), radii));
+        return is_blue(colour_at(panel.draw(one_dial(Quantity::Attitude), inputs, dial_camera(inputs)), radii));
     };
     const EulerAngles level{};
     CHECK(is_sky(level, {0.3, -0.3}));
@@ -142,10 +142,10 @@ TEST_CASE("dials stay on the panel: a look aside moves them out of the picture")
     Panel panel;
     const InstrumentReadings inputs = flying({1.0, 0.1, 0.3}, 400.0, 2500.0, 1.0);
     const InstrumentLayout layout = one_dial(Quantity::Heading);
-    CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs)).indices.empty());
-    CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs, 20.0)).indices.empty());
+    CHECK_FALSE(panel.draw(layout, inputs, dial_camera(inputs)).indices.empty());
+    CHECK_FALSE(panel.draw(layout, inputs, dial_camera(inputs, 20.0)).indices.empty());
     for (const double azimuth_deg : {90.0, 180.0, -60.0}) {
-        const Camera camera = cockpit_camera(inputs, azimuth_deg);
+        const Camera camera = dial_camera(inputs, azimuth_deg);
         CHECK(panel.draw(layout, inputs, camera).indices.empty());
     }
 }

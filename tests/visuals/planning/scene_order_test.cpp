@@ -14,7 +14,9 @@ using namespace octant::visuals::planning;
 
 namespace {
 
-OrientedBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) { return {centre_m, glm::dmat3(1.0), half_m}; }
+OrientedBox box_around(const glm::dvec3& centre_m, const glm::dvec3& half_m) {
+    return {centre_m, glm::dmat3(1.0), half_m};
+}
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
 
@@ -100,27 +102,27 @@ int wrong_pairs(const std::vector<OrientedBox>& boxes, const SceneOrder& order) 
 
 TEST_CASE("boxes apart come farthest first") {
     const glm::dvec3 half(1.0);
-    CHECK(arranged({box_at({0, 10, 0}, half), box_at({0, 50, 0}, half), box_at({0, -30, 0}, half)}) ==
+    CHECK(arranged({box_around({0, 10, 0}, half), box_around({0, 50, 0}, half), box_around({0, -30, 0}, half)}) ==
           Groups{{1}, {2}, {0}});
     CHECK(arranged({}).empty());
 }
 
 TEST_CASE("a large near box comes last though its middle is farther") {
     // Middles 45 m and 40 m away; the large one's side is 5 m from the eye, beside the small one.
-    CHECK(arranged({box_at({0, 45, 0}, {1, 40, 1}), box_at({5, 40, 0}, {1, 1, 1})}) == Groups{{1}, {0}});
+    CHECK(arranged({box_around({0, 45, 0}, {1, 40, 1}), box_around({5, 40, 0}, {1, 1, 1})}) == Groups{{1}, {0}});
 }
 
 TEST_CASE("boxes whose spheres meet follow the plane between them") {
     // A long box lies right behind a small plate; by its power it would be painted last.
-    const OrientedBox plate = box_at({0, 10, 0}, {1, 0.1, 1});
-    const OrientedBox beam = box_at({0, 10.8, 0}, {20, 0.5, 0.5});
+    const OrientedBox plate = box_around({0, 10, 0}, {1, 0.1, 1});
+    const OrientedBox beam = box_around({0, 10.8, 0}, {20, 0.5, 0.5});
     CHECK(arranged({plate, beam}) == Groups{{1}, {0}});
     CHECK(arranged({beam, plate}) == Groups{{0}, {1}});
 }
 
 TEST_CASE("boxes that meet become one knot and draw in what meets the two together") {
     const glm::dvec3 half(2.0);
-    CHECK(arranged({box_at({0, 10, 0}, half), box_at({40, 10, 0}, half), box_at({3, 13, 0}, half)}) ==
+    CHECK(arranged({box_around({0, 10, 0}, half), box_around({40, 10, 0}, half), box_around({3, 13, 0}, half)}) ==
           Groups{{1}, {0, 2}});
 }
 
@@ -139,14 +141,14 @@ TEST_CASE("three bars each before the next become one knot, a chain of them does
 
 TEST_CASE("a box between two that meet is none of their knot") {
     // The corner between the two holds a third box, inside the box around both.
-    const Groups overlap_groups =
-        arranged({box_at({0, 40, 0}, {10, 1, 1}), box_at({-10, 50, 0}, {1, 10, 1}), box_at({5, 50, 0}, {1, 1, 1})});
+    const Groups overlap_groups = arranged(
+        {box_around({0, 40, 0}, {10, 1, 1}), box_around({-10, 50, 0}, {1, 10, 1}), box_around({5, 50, 0}, {1, 1, 1})});
     CHECK(overlap_groups == Groups{{2}, {0, 1}});
 }
 
 TEST_CASE("what two that meet hide and are hidden by joins them") {
-    const Groups overlap_groups = arranged({box_at({0, 40, 0}, {10, 1, 1}), box_at({-10, 50, 0}, {1, 10, 1}),
-        box_at({-5, 60, 0}, {15, 1, 1}), box_at({0, 50, 0}, {1, 1, 1})});
+    const Groups overlap_groups = arranged({box_around({0, 40, 0}, {10, 1, 1}), box_around({-10, 50, 0}, {1, 10, 1}),
+        box_around({-5, 60, 0}, {15, 1, 1}), box_around({0, 50, 0}, {1, 1, 1})});
     CHECK(overlap_groups == Groups{{0, 1, 2, 3}});
 }
 

@@ -18,8 +18,8 @@ using Content = scene::PaintStep::Content;
 
 namespace {
 
-/// A tetrahedron of 1 m around the origin, faces outside.
-models::TriangleMesh tetrahedron() {
+/// A solid_tetrahedron of 1 m around the origin, faces outside.
+models::TriangleMesh solid_tetrahedron() {
     models::TriangleMesh mesh;
     mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
@@ -35,7 +35,7 @@ struct Flight {
     Flight() {
         scene.ground = cell_ground(4, 100.0, [](double, double) { return 0.0; });
         planning::AircraftModel model = convex_aircraft(box_model({1, 1, 1}));
-        const models::TriangleMesh mesh = tetrahedron();
+        const models::TriangleMesh mesh = solid_tetrahedron();
         const std::array<planning::MeshSource, 1> sources{{{&mesh, 0.0}}};
         planning::add_levels(model, sources, 0.2);
         scene.add_model(std::move(model));

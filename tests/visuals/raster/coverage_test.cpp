@@ -12,7 +12,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr glm::ivec2 size_px{128, 64}; // powers of two: corners come out where they are put
+constexpr glm::ivec2 coverage_size_px{128, 64}; // powers of two: corners come out where they are put
 
 /// Corners at 1/256 pixel, some far outside the picture, some on pixel middles.
 glm::vec2 any_position(RandomGenerator& dice) {
@@ -22,8 +22,8 @@ glm::vec2 any_position(RandomGenerator& dice) {
         const float part = on_middle ? 0.5F : static_cast<float>(below(dice, 256)) / 256.0F;
         return static_cast<float>(from) + part;
     };
-    const float x = along(size_px.x);
-    return {x, along(size_px.y)};
+    const float x = along(coverage_size_px.x);
+    return {x, along(coverage_size_px.y)};
 }
 
 std::vector<FlatTriangle> any_triangles(std::uint64_t seed, int count) {
@@ -49,14 +49,14 @@ glm::ivec3 colour_of(std::uint32_t packed) { return {packed & 0xffU, packed >> 8
 
 /// Samples of the picture whose colour differs from the reference, weighed by levels / 255.
 double difference(const std::vector<FlatTriangle>& triangles, int samples) {
-    FlatPlan plan(size_px);
+    FlatPlan plan(coverage_size_px);
     plan.paint(triangles);
-    const scene::Picture picture = drawn(plan.plan(), size_px, samples);
-    const std::vector<std::uint32_t> seen = covered_by(triangles, size_px, samples);
+    const scene::Picture picture = drawn(plan.plan(), coverage_size_px, samples);
+    const std::vector<std::uint32_t> seen = covered_by(triangles, coverage_size_px, samples);
     double sum = 0.0;
     std::size_t next = 0;
-    for (int y = 0; y < size_px.y; ++y) {
-        for (int x = 0; x < size_px.x; ++x) {
+    for (int y = 0; y < coverage_size_px.y; ++y) {
+        for (int x = 0; x < coverage_size_px.x; ++x) {
             glm::dvec3 mean(0.0);
             for (int i = 0; i < samples; ++i) {
                 const std::uint32_t number = seen[next++];
@@ -113,9 +113,9 @@ TEST_CASE("no line shows between neighbours, whatever their corners and samples"
                 triangle.at_px = {middle, rim[i], rim[(i + 1) % rim.size()]};
                 fan.push_back(triangle);
             }
-            FlatPlan plan(size_px);
+            FlatPlan plan(coverage_size_px);
             plan.paint(fan);
-            const scene::Picture picture = drawn(plan.plan(), size_px, samples);
+            const scene::Picture picture = drawn(plan.plan(), coverage_size_px, samples);
             int dark = 0;
             for (const std::uint8_t byte : picture.rgba) { dark += byte != 255 ? 1 : 0; }
             CAPTURE(samples, seed, middle.x, middle.y);
@@ -135,12 +135,12 @@ TEST_CASE("a picture whose size is no multiple of the tiles is drawn to its last
 }
 
 TEST_CASE("corners behind the eye are cut away and the rest is seen") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(coverage_size_px);
     FlatTriangle triangle;
     triangle.at_px = {glm::vec2(64, 32), glm::vec2(-300, 400), glm::vec2(500, 400)};
     triangle.depth_m = {64.0F, 0.25F, 0.25F}; // nearer than the near plane
     plan.paint({triangle});
-    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    const scene::Picture picture = drawn(plan.plan(), coverage_size_px, 16);
     CHECK(pixel(picture, 64, 60) == glm::ivec3(255));
     CHECK(pixel(picture, 64, 20) == glm::ivec3(0));
 }

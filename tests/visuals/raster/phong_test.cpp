@@ -11,7 +11,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr glm::ivec2 size_px{65, 65};
+constexpr glm::ivec2 phong_size_px{65, 65};
 constexpr glm::ivec2 middle_px{32, 32};
 
 /// One square polygon that fills the picture, whose normals at the corners lean outwards by 60 degrees, before an eye
@@ -25,7 +25,7 @@ struct LeaningNormals {
         for (scene::ModelVertex& vertex : model.vertices) {
             vertex.normal = glm::vec3(std::sqrt(3.0F) / 2.0F * glm::normalize(glm::vec2(vertex.position_m)), 0.5F);
         }
-        plan = FlatPlan(size_px).plan();
+        plan = FlatPlan(phong_size_px).plan();
         plan.to_sun = glm::vec3(0.0F, 0.0F, 1.0F);
         plan.ambient = glm::vec3(0.25F);
         plan.sunlight = glm::vec3(0.5F);
@@ -36,7 +36,7 @@ struct LeaningNormals {
     }
 
     scene::Picture picture(int samples, int threads = 1) const {
-        return drawn(plan, size_px, samples, threads, nullptr, std::span(&model, 1));
+        return drawn(plan, phong_size_px, samples, threads, nullptr, std::span(&model, 1));
     }
 };
 
@@ -78,7 +78,7 @@ TEST_CASE("light in each pixel is the same by depth and on any number of threads
     square.plan.lights_pixels = true;
     const scene::Picture one = square.picture(16);
     CHECK(square.picture(16, 3).rgba == one.rgba);
-    square.plan.depth_boxes = {{glm::ivec2(0), size_px}};
+    square.plan.depth_boxes = {{glm::ivec2(0), phong_size_px}};
     square.plan.steps = {{scene::PaintStep::Content::ClearDepth, 0, 1},
         {scene::PaintStep::Content::Aircraft, 0, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest}};
     CHECK(square.picture(16).rgba == one.rgba);

@@ -12,7 +12,7 @@ namespace {
 using scene::DepthUse;
 using scene::PaintStep;
 
-constexpr glm::ivec2 size_px{64, 64};
+constexpr glm::ivec2 steps_size_px{64, 64};
 constexpr std::uint32_t red = 0xff0000ffU;
 constexpr std::uint32_t green = 0xff00ff00U;
 constexpr glm::ivec3 red_px{255, 0, 0};
@@ -29,8 +29,8 @@ std::vector<FlatTriangle> rectangle(glm::vec2 min, glm::vec2 max, std::uint32_t 
     return {lower, upper};
 }
 
-void clear_depth(FlatPlan& plan) {
-    plan.plan().depth_boxes.push_back({glm::ivec2(0), size_px});
+void clear_whole_depth(FlatPlan& plan) {
+    plan.plan().depth_boxes.push_back({glm::ivec2(0), steps_size_px});
     plan.plan().steps.push_back(
         {PaintStep::Content::ClearDepth, static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1), 1});
 }
@@ -51,52 +51,52 @@ void paint_triangle(scene::FramePlan& frame, std::uint32_t first_index) {
 } // namespace
 
 TEST_CASE("the nearer one is seen where steps ask for depth, whatever their order") {
-    FlatPlan plan(size_px);
-    clear_depth(plan);
+    FlatPlan plan(steps_size_px);
+    clear_whole_depth(plan);
     plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::Nearest);
     plan.paint(rectangle({0, 0}, {64, 64}, green, 8.0F), DepthUse::Nearest);
-    CHECK(pixel(drawn(plan.plan(), size_px, 16), 30, 30) == red_px);
+    CHECK(pixel(drawn(plan.plan(), steps_size_px, 16), 30, 30) == red_px);
 }
 
 TEST_CASE("what is drawn after a group by depth lies over it, what came before lies under it") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     plan.paint(rectangle({0, 0}, {64, 64}, green, 2.0F));
-    clear_depth(plan);
+    clear_whole_depth(plan);
     plan.paint(rectangle({0, 0}, {40, 64}, red, 8.0F), DepthUse::Nearest);
     plan.paint(rectangle({0, 40}, {64, 64}, 0xffff0000U, 16.0F));
-    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    const scene::Picture picture = drawn(plan.plan(), steps_size_px, 16);
     CHECK(pixel(picture, 50, 10) == green_px);
     CHECK(pixel(picture, 20, 10) == red_px);
     CHECK(pixel(picture, 20, 50) == glm::ivec3(0, 0, 255));
 }
 
 TEST_CASE("cleared depth forgets the group before") {
-    FlatPlan plan(size_px);
-    clear_depth(plan);
+    FlatPlan plan(steps_size_px);
+    clear_whole_depth(plan);
     plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::Nearest);
-    clear_depth(plan);
+    clear_whole_depth(plan);
     plan.paint(rectangle({0, 0}, {64, 64}, green, 8.0F), DepthUse::Nearest);
-    CHECK(pixel(drawn(plan.plan(), size_px, 16), 30, 30) == green_px);
+    CHECK(pixel(drawn(plan.plan(), steps_size_px, 16), 30, 30) == green_px);
 }
 
 TEST_CASE("depth alone hides what comes next and keeps the colours that are there") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     plan.paint(rectangle({0, 0}, {64, 64}, green, 2.0F));
-    clear_depth(plan);
+    clear_whole_depth(plan);
     plan.paint(rectangle({0, 0}, {32, 64}, 0xffffffffU, 4.0F), DepthUse::DepthOnly);
     plan.paint(rectangle({0, 0}, {64, 64}, red, 8.0F), DepthUse::Nearest);
-    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    const scene::Picture picture = drawn(plan.plan(), steps_size_px, 16);
     CHECK(pixel(picture, 10, 30) == green_px);
     CHECK(pixel(picture, 50, 30) == red_px);
 }
 
 TEST_CASE("what lies infinitely far is seen where nothing else is; a shadow lies on its ground") {
-    FlatPlan plan(size_px);
-    clear_depth(plan);
+    FlatPlan plan(steps_size_px);
+    clear_whole_depth(plan);
     plan.paint(rectangle({0, 0}, {32, 64}, red, 4.0F), DepthUse::Nearest);
     plan.paint(rectangle({0, 0}, {64, 64}, green, 100.0F), DepthUse::InfinitelyFar);
     plan.paint(rectangle({0, 0}, {10, 64}, 0xffff0000U, 4.0F), DepthUse::OnGround);
-    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    const scene::Picture picture = drawn(plan.plan(), steps_size_px, 16);
     CHECK(pixel(picture, 20, 30) == red_px);
     CHECK(pixel(picture, 50, 30) == green_px);
     CHECK(pixel(picture, 5, 30) == glm::ivec3(0, 0, 255));
@@ -105,7 +105,7 @@ TEST_CASE("what lies infinitely far is seen where nothing else is; a shadow lies
 TEST_CASE("both sides of a cut make the whole, through the eye or not") {
     const float offset_m = GENERATE(0.0F, 1.5F);
     for (const int samples : {1, 16}) {
-        FlatPlan plan(size_px);
+        FlatPlan plan(steps_size_px);
         for (const float side : {1.0F, -1.0F}) {
             scene::Clip clip;
             clip.count = 1;
@@ -114,13 +114,13 @@ TEST_CASE("both sides of a cut make the whole, through the eye or not") {
         }
         plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 0);
         plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 1);
-        const scene::Picture picture = drawn(plan.plan(), size_px, samples);
-        CHECK(count_of(picture, red_px) == size_px.x * size_px.y);
+        const scene::Picture picture = drawn(plan.plan(), steps_size_px, samples);
+        CHECK(count_of(picture, red_px) == steps_size_px.x * steps_size_px.y);
         // Each side alone is not.
-        FlatPlan half(size_px);
+        FlatPlan half(steps_size_px);
         half.plan().clips = plan.plan().clips;
         half.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 0);
-        const scene::Picture one = drawn(half.plan(), size_px, samples);
+        const scene::Picture one = drawn(half.plan(), steps_size_px, samples);
         CHECK(pixel(one, 63, 0) == red_px);
         CHECK(pixel(one, 0, 63) == glm::ivec3(0));
     }
@@ -142,11 +142,11 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
             model.indices.push_back(static_cast<std::uint32_t>(model.indices.size()));
         }
     }
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     scene::FramePlan& frame = plan.plan();
     light_evenly(frame, GENERATE(0U, 2U));
     paint_triangle(frame, 3); // the second one
-    const scene::Picture picture = drawn(frame, size_px, 16, 1, nullptr, std::span(&model, 1));
+    const scene::Picture picture = drawn(frame, steps_size_px, 16, 1, nullptr, std::span(&model, 1));
     CHECK(pixel(picture, 36, 60) == (frame.smooth[0] == 0 ? red_px : green_px));
     CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
 }
@@ -165,11 +165,11 @@ TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding tur
             model.vertices.push_back(vertex);
             model.indices.push_back(static_cast<std::uint32_t>(model.indices.size()));
         }
-        FlatPlan plan(size_px);
+        FlatPlan plan(steps_size_px);
         scene::FramePlan& frame = plan.plan();
         light_evenly(frame, 0U);
         paint_triangle(frame, 0);
-        const scene::Picture picture = drawn(frame, size_px, 1, 1, nullptr, std::span(&model, 1));
+        const scene::Picture picture = drawn(frame, steps_size_px, 1, 1, nullptr, std::span(&model, 1));
         CHECK((count_of(picture, red_px) > 0) == (outwards >= 0.0F));
     }
 }
@@ -183,7 +183,7 @@ TEST_CASE("a transparent surface is blended over what is seen behind it, none ov
         return place;
     };
     const int samples = GENERATE(1, 4, 16);
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     scene::FramePlan& frame = plan.plan();
     light_evenly(frame, ~0U);
     frame.parts = {ahead(4.0F, 4.0F), ahead(2.0F, 1.0F), ahead(1.0F, 0.25F)};
@@ -191,7 +191,7 @@ TEST_CASE("a transparent surface is blended over what is seen behind it, none ov
         frame.aircraft.push_back({.model = 0, .first_index = 6 * i, .index_count = 6, .first_part = i});
     }
     using Content = PaintStep::Content;
-    clear_depth(plan);
+    clear_whole_depth(plan);
     frame.steps.push_back({Content::Aircraft, 0, 1, PaintStep::no_clip, DepthUse::Nearest});
     const bool shares_depth = GENERATE(true, false);
     if (shares_depth) { frame.steps.push_back({Content::Aircraft, 2, 1, PaintStep::no_clip, DepthUse::Nearest}); }
@@ -199,7 +199,7 @@ TEST_CASE("a transparent surface is blended over what is seen behind it, none ov
     if (!shares_depth) { // painted over all
         frame.steps.push_back({Content::Aircraft, 2, 1});
     }
-    const scene::Picture picture = drawn(frame, size_px, samples, 1, nullptr, std::span(&model, 1));
+    const scene::Picture picture = drawn(frame, steps_size_px, samples, 1, nullptr, std::span(&model, 1));
     CAPTURE(samples, shares_depth);
     CHECK(pixel(picture, 4, 4) == red_px);
     CHECK(pixel(picture, 18, 20) == glm::ivec3(191, 64, 0));
@@ -215,26 +215,26 @@ TEST_CASE("light is lost in haze as exp says, to single precision") {
 }
 
 TEST_CASE("neighbours of the overlay with one colour are blended as one") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     const std::uint32_t half_white = 0x80ffffffU;
     const std::vector<scene::OverlayVertex> vertices{{{3.3F, 4.7F}, half_white}, {{50.2F, 9.1F}, half_white},
         {{60.9F, 55.5F}, half_white}, {{8.4F, 48.8F}, half_white}};
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
     plan.plan().overlay = {vertices, indices};
     plan.plan().steps.push_back({PaintStep::Content::Overlay, 0, 6});
-    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    const scene::Picture picture = drawn(plan.plan(), steps_size_px, 16);
     for (int along = 12; along < 45; ++along) { CHECK(pixel(picture, along, along) == glm::ivec3(128)); }
 }
 
 TEST_CASE("an inset is a picture of its own within a thin frame") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F));
     FlatPlan inset({20, 10});
     FlatTriangle triangle;
     triangle.at_px = {glm::vec2(-50, -50), glm::vec2(200, -50), glm::vec2(-50, 200)};
     triangle.colour.fill(green);
     inset.paint({triangle});
-    Renderer renderer(std::make_shared<ThreadPool>(2), size_px, 16);
+    Renderer renderer(std::make_shared<ThreadPool>(2), steps_size_px, 16);
     renderer.draw(plan.plan());
     renderer.draw_inset(inset.plan(), {30, 40, 20, 10});
     scene::Picture picture;
@@ -246,13 +246,13 @@ TEST_CASE("an inset is a picture of its own within a thin frame") {
 }
 
 TEST_CASE("levels between corners go straight, and correctly for perspective where that shows") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(steps_size_px);
     FlatTriangle triangle;
     triangle.at_px = {glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 200.0F), glm::vec2(64.5F, 0.5F)};
     triangle.depth_m = {1.0F, 1.0F, 4.0F};
     triangle.colour = {0xff000000U, 0xff000000U, 0xff0000ffU};
     plan.paint({triangle});
-    const scene::Picture picture = drawn(plan.plan(), size_px, 1);
+    const scene::Picture picture = drawn(plan.plan(), steps_size_px, 1);
     // Half-way across, a straight line in space has come a fifth of the way: 1 / (1 + 4).
     CHECK(pixel(picture, 32, 0).x == Approx(255.0 / 5.0).margin(2.0));
 }

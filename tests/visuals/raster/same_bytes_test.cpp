@@ -10,7 +10,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr glm::ivec2 size_px{128, 96};
+constexpr glm::ivec2 bytes_size_px{128, 96};
 
 /// Triangles of all sizes and colours, with and without depth, cut by planes, near and far.
 void paint_much(FlatPlan& plan) {
@@ -74,9 +74,9 @@ scene::GroundTexture put_on_noise(FlatPlan& plan) {
 /// Compares pictures of all sample counts on one thread and on several.
 void check_threads(const scene::FramePlan& plan, const scene::GroundTexture* texture) {
     for (const int samples : {1, 4, 16}) {
-        const scene::Picture one = drawn(plan, size_px, samples, 1, texture);
-        CHECK(drawn(plan, size_px, samples, 2, texture).rgba == one.rgba);
-        CHECK(drawn(plan, size_px, samples, 5, texture).rgba == one.rgba);
+        const scene::Picture one = drawn(plan, bytes_size_px, samples, 1, texture);
+        CHECK(drawn(plan, bytes_size_px, samples, 2, texture).rgba == one.rgba);
+        CHECK(drawn(plan, bytes_size_px, samples, 5, texture).rgba == one.rgba);
     }
 }
 
@@ -84,7 +84,7 @@ void check_threads(const scene::FramePlan& plan, const scene::GroundTexture* tex
 void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* texture) {
     const std::int64_t all = hwy::SupportedTargets();
     for (const int samples : {1, 4, 16}) {
-        const scene::Picture best = drawn(plan, size_px, samples, 1, texture);
+        const scene::Picture best = drawn(plan, bytes_size_px, samples, 1, texture);
         int sets = 0;
         for (int bit = 0; bit < 63; ++bit) {
             const std::int64_t target = std::int64_t{1} << bit;
@@ -92,7 +92,7 @@ void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* textur
             hwy::SetSupportedTargetsForTest(target);
             hwy::GetChosenTarget().Update(hwy::SupportedTargets());
             CAPTURE(samples, hwy::TargetName(target));
-            CHECK((drawn(plan, size_px, samples, 1, texture).rgba == best.rgba));
+            CHECK((drawn(plan, bytes_size_px, samples, 1, texture).rgba == best.rgba));
             ++sets;
         }
         hwy::SetSupportedTargetsForTest(0);
@@ -104,7 +104,7 @@ void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* textur
 } // namespace
 
 TEST_CASE("any number of threads makes the same bytes") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(bytes_size_px);
     paint_much(plan);
     check_threads(plan.plan(), nullptr);
     put_in_haze(plan);
@@ -116,7 +116,7 @@ TEST_CASE("any number of threads makes the same bytes") {
 }
 
 TEST_CASE("all instruction sets make the same bytes") {
-    FlatPlan plan(size_px);
+    FlatPlan plan(bytes_size_px);
     paint_much(plan);
     check_sets(plan.plan(), nullptr);
     put_in_haze(plan);

@@ -19,12 +19,6 @@ namespace {
 constexpr std::array<FieldSize, 12> sizes = {{{2, 2}, {3, 3}, {17, 17}, {33, 33}, {37, 53}, {53, 37}, {20, 6}, {5, 41},
     {65, 65}, {40, 64}, {129, 129}, {150, 100}}};
 
-MeshView everywhere_from(const MeshView& view) {
-    MeshView everywhere = view;
-    everywhere.frustum_normals.fill(glm::dvec3(0.0));
-    return everywhere;
-}
-
 } // namespace
 
 TEST_CASE("level ground is four triangles, a bump refines the mesh around itself") {

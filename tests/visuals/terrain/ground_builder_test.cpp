@@ -37,7 +37,7 @@ TEST_CASE("a plane has no errors") {
 }
 
 TEST_CASE("the number of threads changes no byte of a ground") {
-    const models::heights::HeightField field = rough_field(700, 300);
+    const models::heights::HeightField field = rough_metre_field(700, 300);
     const GroundTiles one = make_ground_tiles(field, 1);
     for (const int threads : {2, 3}) {
         const GroundTiles other = make_ground_tiles(field, threads);
@@ -48,7 +48,7 @@ TEST_CASE("the number of threads changes no byte of a ground") {
 
 TEST_CASE("ranges contain the samples of their nodes and nothing else") {
     for (const auto& [columns, rows] : {std::pair{5, 5}, {100, 65}, {131, 300}}) {
-        const models::heights::HeightField field = rough_field(columns, rows);
+        const models::heights::HeightField field = rough_metre_field(columns, rows);
         const GroundTiles ground = make_ground_tiles(field);
         for (int level = 0; level <= ground.layout().range_level(); ++level) {
             const GroundLayout::Level& at = ground.layout().level(level);

@@ -113,6 +113,12 @@ models::heights::HeightField bump_field(int size, int column, int row, float hei
     return {size, size, 1.0, std::move(heights)};
 }
 
+MeshView everywhere_from(const MeshView& view) {
+    MeshView everywhere = view;
+    everywhere.frustum_normals.fill(glm::dvec3(0.0));
+    return everywhere;
+}
+
 models::heights::HeightField rough_field(int columns, int rows, std::uint64_t seed) {
     Numbers numbers(seed);
     const double wave = numbers.between(0.05, 0.5);

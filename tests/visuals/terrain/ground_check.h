@@ -53,6 +53,9 @@ models::heights::HeightField bump_field(int size, int column, int row, float hei
 /// Hills and noise, 1 m between samples; differently rough in different places.
 models::heights::HeightField rough_field(int columns, int rows, std::uint64_t seed);
 
+/// The same eye without a frustum: all ground is in view.
+MeshView everywhere_from(const MeshView& view);
+
 /// Level ground with single high samples here and there, 1 m between samples.
 models::heights::HeightField spiky_field(int columns, int rows, std::uint64_t seed);
 

@@ -227,7 +227,7 @@ int errors_too_small(const models::heights::HeightField& field) {
 TEST_CASE("errors are the largest deviations in the diamonds, saturated with and without morph margin") {
     for (const int size : {3, 5, 9, 17, 33, 65, 129}) {
         INFO(size);
-        CHECK(wrong_errors(rough_field(size, size, static_cast<unsigned>(size))) == 0);
+        CHECK(wrong_errors(rough_metre_field(size, size, static_cast<unsigned>(size))) == 0);
     }
 }
 
@@ -236,14 +236,14 @@ TEST_CASE("errors are those deviations for odd sizes, too") {
         {{2, 2}, {2, 9}, {6, 11}, {11, 6}, {34, 33}, {18, 40}, {100, 65}, {66, 3}, {77, 140}}};
     for (const auto& [columns, rows] : sizes) {
         INFO(columns << " x " << rows);
-        CHECK(wrong_errors(rough_field(columns, rows, 5)) == 0);
+        CHECK(wrong_errors(rough_metre_field(columns, rows, 5)) == 0);
     }
 }
 
 TEST_CASE("no sample lies farther from a triangle than its error says, on no lattice either") {
     for (const auto& [columns, rows] : {std::pair{65, 65}, {50, 33}, {39, 70}}) {
         INFO(columns << " x " << rows);
-        CHECK(errors_too_small(rough_field(columns, rows, 7)) == 0);
+        CHECK(errors_too_small(rough_metre_field(columns, rows, 7)) == 0);
         // Slopes with a few spikes, most of which are beside the lattice of large diamonds.
         std::vector<float> heights_m;
         for (int row = 0; row < rows; ++row) {

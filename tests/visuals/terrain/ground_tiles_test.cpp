@@ -82,7 +82,7 @@ constexpr std::array<std::pair<int, int>, 10> sizes = {
 
 TEST_CASE("every sample of a ground of any size is read back exactly") {
     for (const auto& [columns, rows] : sizes) {
-        const models::heights::HeightField field = rough_field(columns, rows);
+        const models::heights::HeightField field = rough_metre_field(columns, rows);
         const GroundTiles ground = make_ground_tiles(field);
         int wrong = 0;
         for (int row = 0; row < rows; ++row) {
@@ -98,7 +98,7 @@ TEST_CASE("every sample of a ground of any size is read back exactly") {
 
 TEST_CASE("corners and nodes hold the samples of their places, beyond the field its reflection") {
     for (const auto& [columns, rows] : sizes) {
-        const models::heights::HeightField field = rough_field(columns, rows);
+        const models::heights::HeightField field = rough_metre_field(columns, rows);
         const GroundTiles ground = make_ground_tiles(field);
         const auto at = [&field](
                             int column, int row) { return static_cast<float>(padded_height_m(field, column, row)); };
@@ -134,7 +134,7 @@ TEST_CASE("corners and nodes hold the samples of their places, beyond the field 
 }
 
 TEST_CASE("between samples a ground is as high as its field, and nothing lies beside it") {
-    const models::heights::HeightField field = rough_field(20, 13);
+    const models::heights::HeightField field = rough_metre_field(20, 13);
     const GroundTiles ground = make_ground_tiles(field);
     for (double x_m = -300.0; x_m <= 300.0; x_m += 37.0) {
         for (double y_m = -200.0; y_m <= 200.0; y_m += 31.0) {

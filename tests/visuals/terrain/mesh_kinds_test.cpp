@@ -97,20 +97,14 @@ struct ByError {
     ErrorGround ground;
 };
 
-constexpr std::array<FieldSize, 14> sizes = {{{2, 2}, {3, 3}, {17, 17}, {33, 33}, {37, 53}, {53, 37}, {20, 6}, {5, 41},
-    {34, 18}, {40, 64}, {9, 30}, {65, 65}, {129, 65}, {150, 100}}};
+constexpr std::array<FieldSize, 14> kind_sizes = {{{2, 2}, {3, 3}, {17, 17}, {33, 33}, {37, 53}, {53, 37}, {20, 6},
+    {5, 41}, {34, 18}, {40, 64}, {9, 30}, {65, 65}, {129, 65}, {150, 100}}};
 constexpr std::size_t small_sizes = 11;
 
 QuadtreeOptions crack_free(Numbers& numbers) {
     QuadtreeOptions options = random_options(numbers);
     options.propagation = RoughnessPropagation::CrackFree;
     return options;
-}
-
-MeshView everywhere_from(const MeshView& view) {
-    MeshView everywhere = view;
-    everywhere.frustum_normals.fill(glm::dvec3(0.0));
-    return everywhere;
 }
 
 /// Places where an eye stands on lines between parts of nodes: on a sample, on a column's or row's line inside or
@@ -141,7 +135,7 @@ TEMPLATE_TEST_CASE("the unculled mesh covers the field once, edge to edge, from 
     int cases = 0;
     for (std::uint64_t seed = 1; seed <= 210; ++seed) {
         Numbers numbers(seed);
-        const FieldSize& size = sizes[seed % sizes.size()];
+        const FieldSize& size = kind_sizes[seed % kind_sizes.size()];
         TestType ground(any_field(size, numbers), crack_free(numbers));
         for (int look = 0; look < 5; ++look, ++cases) {
             const MeshView view = everywhere_from(ground.view(numbers));
@@ -161,7 +155,7 @@ TEMPLATE_TEST_CASE(
     std::size_t kept = 0;
     for (std::uint64_t seed = 1; seed <= 320; ++seed) {
         Numbers numbers(seed);
-        TestType ground(any_field(sizes[2 + seed % (sizes.size() - 2)], numbers), random_options(numbers));
+        TestType ground(any_field(kind_sizes[2 + seed % (kind_sizes.size() - 2)], numbers), random_options(numbers));
         const MeshView view = ground.view(numbers);
         if (everywhere_from(view) == view) { continue; }
         const auto target = TestType::without_budget(numbers);
@@ -191,7 +185,7 @@ TEMPLATE_TEST_CASE(
     int rugged = 0;
     for (std::uint64_t seed = 1; seed <= 220; ++seed) {
         Numbers numbers(seed);
-        TestType ground(any_field(sizes[seed % small_sizes], numbers), random_options(numbers));
+        TestType ground(any_field(kind_sizes[seed % small_sizes], numbers), random_options(numbers));
         for (int look = 0; look < 3; ++look) {
             MeshView view = ground.view(numbers);
             if (numbers.coin()) { view.eye_m = eye_on_lines(numbers, ground.field()); }
@@ -220,7 +214,7 @@ TEMPLATE_TEST_CASE(
     long triangle_count = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Numbers numbers(seed);
-        TestType ground(any_field(sizes[seed % small_sizes], numbers), random_options(numbers));
+        TestType ground(any_field(kind_sizes[seed % small_sizes], numbers), random_options(numbers));
         MeshView view = ground.view(numbers);
         view.order = numbers.coin() ? PaintOrder::BackToFront : PaintOrder::FrontToBack;
         const GroundMesh mesh = ground.mesh(view, TestType::target(numbers));
