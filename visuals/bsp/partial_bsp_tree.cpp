@@ -10,6 +10,7 @@
 #include "visuals/bsp/partial_bsp_tree.h"
 
 #include "models/polygons/polygon_outlines.h"
+#include "visuals/bsp/component_search.h"
 #include "visuals/bsp/piece_batch.h"
 
 #include <glm/geometric.hpp>
@@ -22,6 +23,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -473,85 +475,6 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> decals_; ///< In one plane: upper, lower.
 };
 
-/// Tarjan's search over a matrix of bits.
-class Search {
-public:
-    Search(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
-        : items_(items), hiding_(OccluderRow(pieces, items).matrix()), number_(items.size(), 0),
-          lowlink_(items.size(), 0), closed_(items.size(), false) {}
-
-    std::vector<std::vector<std::uint32_t>> components() {
-        for (std::size_t i = items_.size(); i-- > 0;) {
-            if (number_[i] == 0) { search_from(i); }
-        }
-        std::ranges::reverse(found_); // components are closed in the reverse of painting order
-        return std::move(found_);
-    }
-
-private:
-    struct Visit {
-        std::size_t item = 0;
-        std::size_t word = 0;
-        std::uint64_t left = 0;
-    };
-
-    void enter(std::size_t item) {
-        number_[item] = lowlink_[item] = ++next_number_;
-        open_.push_back(item);
-        visits_.push_back({item, 0, hiding_.word(item, 0)});
-    }
-
-    void search_from(std::size_t root) {
-        enter(root);
-        while (!visits_.empty()) {
-            Visit& visit = visits_.back();
-            while (visit.left == 0 && ++visit.word < hiding_.words()) {
-                visit.left = hiding_.word(visit.item, visit.word);
-            }
-            if (visit.left == 0) {
-                leave();
-                continue;
-            }
-            const auto next = visit.word * 64 + static_cast<std::size_t>(std::countr_zero(visit.left));
-            visit.left &= visit.left - 1;
-            if (number_[next] == 0) {
-                enter(next);
-            } else if (!closed_[next]) {
-                lowlink_[visit.item] = std::min(lowlink_[visit.item], number_[next]);
-            }
-        }
-    }
-
-    void leave() {
-        const std::size_t item = visits_.back().item;
-        visits_.pop_back();
-        if (!visits_.empty()) {
-            const std::size_t parent = visits_.back().item;
-            lowlink_[parent] = std::min(lowlink_[parent], lowlink_[item]);
-        }
-        if (lowlink_[item] != number_[item]) { return; }
-        std::vector<std::uint32_t>& component = found_.emplace_back();
-        std::size_t member = 0;
-        do {
-            member = open_.back();
-            open_.pop_back();
-            closed_[member] = true;
-            component.push_back(items_[member]);
-        } while (member != item);
-        std::ranges::sort(component);
-    }
-
-    std::span<const std::uint32_t> items_;
-    BitMatrix hiding_;
-    std::vector<std::uint32_t> number_;
-    std::vector<std::uint32_t> lowlink_;
-    std::vector<bool> closed_;
-    std::vector<std::size_t> open_;
-    std::vector<Visit> visits_;
-    std::uint32_t next_number_ = 0;
-    std::vector<std::vector<std::uint32_t>> found_;
-};
-
 } // namespace
 
 bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t far_one) {
@@ -566,7 +489,19 @@ bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t
 
 std::vector<std::vector<std::uint32_t>> occlusion_components(
     const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
-    return Search(pieces, items).components();
+    BitMatrix hides = OccluderRow(pieces, items).matrix();
+    std::vector<std::uint32_t> last_first(items.size());
+    std::iota(last_first.rbegin(), last_first.rend(), 0U);
+    std::vector<std::vector<std::uint32_t>> components;
+    ComponentSearch().search(
+        items.size(), last_first, [&](std::uint32_t a, std::size_t word) { return hides.word(a, word); },
+        [&](std::span<const std::uint32_t> found) {
+            std::vector<std::uint32_t>& component = components.emplace_back();
+            for (const std::uint32_t i : found) { component.push_back(items[i]); }
+            std::ranges::sort(component);
+        });
+    std::ranges::reverse(components); // what hides part of a component is found before it and painted after it
+    return components;
 }
 
 namespace {

@@ -303,11 +303,11 @@ bool is_clear(double product, double square) {
 /// An angular sector of at most half a turn, counter-clockwise from `low` to `high`.
 class Sector {
 public:
-    Sector(const glm::dvec2& low, const glm::dvec2& high) : lowlink_(low), high_(high) {}
+    Sector(const glm::dvec2& low, const glm::dvec2& high) : low_(low), high_(high) {}
 
     /// Widens the sector to contain a direction; false when it would exceed half a turn.
     bool take(const glm::dvec2& direction) {
-        const double past_low = cross(lowlink_, direction);
+        const double past_low = cross(low_, direction);
         const double past_high = cross(direction, high_);
         if (past_low >= 0.0 && past_high >= 0.0) { return true; }
         const double square = glm::dot(direction, direction);
@@ -315,7 +315,7 @@ public:
         const bool above = past_high < 0.0 && is_clear(past_high, square);
         if (below && above) { return false; }
         if (below) {
-            lowlink_ = direction / std::sqrt(square);
+            low_ = direction / std::sqrt(square);
         } else if (above) {
             high_ = direction / std::sqrt(square);
         }
@@ -323,7 +323,7 @@ public:
     }
 
 private:
-    glm::dvec2 lowlink_;
+    glm::dvec2 low_;
     glm::dvec2 high_;
 };
 

@@ -1,11 +1,11 @@
-// Every order is tested before it is used. Rays that pass a side of a polygon within a hair are not counted: there
+// Every order is tested before it is used. Rays within ray_tolerance of a side of a polygon are not counted: there
 // rounding decides what is seen.
 #include "visuals/draworder/order_ray_test.h"
 
-#include "models/polygons/polygon_outlines.h"
 #include "sim/base/random_generator.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/proof_walk.h"
+#include "visuals/draworder/ray_targets.h"
 #include "visuals/draworder/search_budget.h"
 
 #include <glm/common.hpp>
@@ -16,114 +16,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace octant::visuals::draworder {
-
-namespace {
-
-/// By so much of it and by so many radii of the model is a ball larger than its target: a thousand times what rounding
-/// makes of the distance of a ray from an eye twenty radii away.
-constexpr double more_of_ball = 1e-3;
-constexpr double more_of_model = 1e-5;
-
-/// Adds what follows from the corners; false for a polygon without area.
-bool complete(RayTarget& target) {
-    const std::size_t count = target.corners.size();
-    for (const glm::dvec3& corner : target.corners) { target.middle += corner / static_cast<double>(count); }
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec3 from = target.corners[i] - target.middle;
-        sum += glm::cross(from, target.corners[(i + 1) % count] - target.middle);
-        target.radius = std::max(target.radius, glm::length(from));
-    }
-    target.normal = glm::normalize(sum);
-    return std::isfinite(target.normal.x);
-}
-
-/// Where a ray meets a target above which its eye lies.
-std::optional<RayHit> meet_one(const RayTarget& target, const glm::dvec3& eye, double height, const glm::dvec3& ray) {
-    const double slope = glm::dot(ray, target.normal);
-    if (slope >= 0.0) { return std::nullopt; }
-    const double hit_distance = -height / slope;
-    const glm::dvec3 at = eye + ray * hit_distance;
-    const glm::dvec3 aside = at - target.middle;
-    if (glm::dot(aside, aside) > target.radius * target.radius ||
-        !models::polygons::is_inside(target.corners, target.normal, at)) {
-        return std::nullopt;
-    }
-    return RayHit{
-        0, hit_distance, models::polygons::distance_to_sides(target.corners, at), RayTargets::ray_tolerance / -slope};
-}
-
-} // namespace
-
-RayTargets::RayTargets(const models::polygons::PolygonModel& model) : model_(model) {
-    glm::dvec3 least(std::numeric_limits<double>::max());
-    glm::dvec3 most(std::numeric_limits<double>::lowest());
-    for (const std::uint32_t vertex : model.corner_vertices) {
-        least = glm::min(least, model.vertices_m[vertex]);
-        most = glm::max(most, model.vertices_m[vertex]);
-    }
-    middle_m_ = (least + most) / 2.0;
-    radius_m_ = std::max(glm::length(most - least) / 2.0, std::numeric_limits<double>::min());
-}
-
-void RayTargets::turn(double turn_rad, bool turning_parts) {
-    all_.clear();
-    ball2_.clear();
-    faced_.clear();
-    for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
-        const auto pivot = models::polygons::pivot_of(model_, i);
-        if (pivot && !turning_parts) { continue; }
-        RayTarget target;
-        target.polygon = i;
-        for (const std::uint32_t vertex : model_.corners(i)) {
-            glm::dvec3 at_m = model_.vertices_m[vertex];
-            if (pivot) { at_m = models::polygons::turned(model_.pivots[*pivot], at_m, turn_rad); }
-            target.corners.push_back((at_m - middle_m_) / radius_m_);
-        }
-        if (complete(target)) {
-            const double size = target.radius * (1.0 + more_of_ball) + more_of_model;
-            ball2_.push_back(size * size);
-            all_.push_back(std::move(target));
-        }
-    }
-}
-
-const RayTarget* RayTargets::of(std::uint32_t polygon) const {
-    const auto found = std::ranges::find(all_, polygon, &RayTarget::polygon);
-    return found != all_.end() ? &*found : nullptr;
-}
-
-void RayTargets::set_eye(const glm::dvec3& eye) {
-    eye_ = eye;
-    faced_.clear();
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-        const glm::dvec3 to_middle = all_[i].middle - eye;
-        const double height = -glm::dot(to_middle, all_[i].normal);
-        if (height > 0.0) {
-            const double min_along2 = glm::dot(to_middle, to_middle) - ball2_[i];
-            faced_.push_back({i, height, to_middle, min_along2});
-        }
-    }
-}
-
-void RayTargets::intersect(const glm::dvec3& ray, std::vector<RayHit>& hits) const {
-    hits.clear();
-    for (const FacingTarget& faced : faced_) {
-        const double along = glm::dot(faced.to_middle, ray);
-        if (along * along < faced.min_along2) { continue; }
-        if (std::optional<RayHit> hit = meet_one(all_[faced.target], eye_, faced.height, ray)) {
-            hit->target = faced.target;
-            hits.push_back(*hit);
-        }
-    }
-}
 
 namespace {
 
@@ -239,7 +136,7 @@ public:
         for (std::size_t i = 0; i < eyes; ++i) {
             const glm::dvec3 eye = next_eye(i);
             const glm::dvec3 eye_m = targets_.in_model_m(eye);
-            if (is_looked_from(eye_m)) { set_eye(eye, eye_m, ray_test); }
+            if (is_looked_from(eye_m)) { look_from(eye, eye_m, ray_test); }
         }
     }
 
@@ -265,8 +162,7 @@ private:
         const glm::dvec3 eye = through + way * (30.0 * small() / std::max(length, ray_tolerance));
         const glm::dvec3 eye_m = targets_.in_model_m(eye);
         if (length > ray_tolerance && is_looked_from(eye_m)) {
-            paint_from(eye_m);
-            targets_.set_eye(eye);
+            set_eye(eye, eye_m);
             cast_ray(-way / length, ray_test);
         }
     }
@@ -298,7 +194,7 @@ private:
 
     /// By turns an eye far or near, one close to a polygon, and one close to a plane of the order.
     glm::dvec3 next_eye(std::size_t number) {
-        const glm::dvec3 hit_distance = dice_.direction() * (0.05 * std::pow(400.0, dice_.next()));
+        const glm::dvec3 eye = dice_.direction() * (0.05 * std::pow(400.0, dice_.next()));
         if (number % 4 == 1) {
             const RayTarget& target = any_target();
             return point_of(target) + target.normal * small();
@@ -308,23 +204,20 @@ private:
             const double place = dice_.next() * static_cast<double>(nodes.size());
             const auto& node = nodes[std::min(static_cast<std::size_t>(place), nodes.size() - 1)];
             const double side = dice_.next() < 0.5 ? -small() : small();
-            const double height = distance_m(node.plane, targets_.in_model_m(hit_distance)) / targets_.radius_m();
-            return hit_distance + node.plane.normal * (side - height);
+            const double height = distance_m(node.plane, targets_.in_model_m(eye)) / targets_.radius_m();
+            return eye + node.plane.normal * (side - height);
         }
-        return hit_distance;
+        return eye;
     }
 
-    /// Finds out which polygons an eye is painted, and when.
-    void paint_from(const glm::dvec3& eye_m) {
+    void set_eye(const glm::dvec3& eye, const glm::dvec3& eye_m) {
         painted_.clear();
         order_.append_painted(eye_m, walk_, painted_);
-        place_.assign(model_.polygons.size(), 0);
-        for (std::uint32_t i = 0; i < painted_.size(); ++i) { place_[painted_[i]] = i + 1; }
+        targets_.set_eye(eye, painted_);
     }
 
-    void set_eye(const glm::dvec3& eye, const glm::dvec3& eye_m, RayTestResult& ray_test) {
-        paint_from(eye_m);
-        targets_.set_eye(eye);
+    void look_from(const glm::dvec3& eye, const glm::dvec3& eye_m, RayTestResult& ray_test) {
+        set_eye(eye, eye_m);
         for (std::size_t i = 0; i < rays_an_eye; ++i) {
             const glm::dvec3 towards = point_of(any_target()) - eye;
             const double length = glm::length(towards);
@@ -333,33 +226,29 @@ private:
     }
 
     void cast_ray(const glm::dvec3& ray, RayTestResult& ray_test) {
-        targets_.intersect(ray, met_);
-        RayHit nearest{.hit_distance = std::numeric_limits<double>::infinity()};
-        RayHit seen = nearest;
-        std::uint32_t last = 0;
-        for (const RayHit& hit : met_) {
-            if (hit.hit_distance < nearest.hit_distance) { nearest = hit; }
-            if (const std::uint32_t place = place_[targets_.all()[hit.target].polygon]; place > last) {
-                last = place;
-                seen = hit;
-            }
-        }
-        if (std::isinf(nearest.hit_distance) || nearest.edge_distance < ray_tolerance) { return; }
+        targets_.intersect(ray, hits_);
+        if (hits_.empty()) { return; }
+        const RayHit& nearest = *std::ranges::min_element(hits_, {}, &RayHit::distance);
+        const RayHit& seen = *std::ranges::max_element(hits_, {}, &RayHit::painted);
+        if (nearest.edge_distance < ray_tolerance) { return; }
         ++ray_test.rays;
-        const double perturbed_distance =
-            seen.perturbed_distance + nearest.perturbed_distance + ray_tolerance * nearest.hit_distance;
-        const bool clear = last == 0 || seen.edge_distance >= ray_tolerance;
-        const bool behind = seen.hit_distance - nearest.hit_distance > perturbed_distance;
-        ray_test.wrong += clear && (behind || (last != 0 && lies_under(seen))) ? 1 : 0;
+        if (seen.painted == 0) {
+            ++ray_test.wrong;
+            return;
+        }
+        const double tolerance =
+            seen.distance_tolerance + nearest.distance_tolerance + ray_tolerance * nearest.distance;
+        const bool is_behind = seen.distance - nearest.distance > tolerance;
+        ray_test.wrong += seen.edge_distance >= ray_tolerance && (is_behind || lies_under(seen)) ? 1 : 0;
     }
 
     /// Whether a later polygon of the file lies on what is seen, in one plane and facing alike, where the ray meets it.
     bool lies_under(const RayHit& seen) const {
         const RayTarget& target = targets_.all()[seen.target];
-        return std::ranges::any_of(met_, [&](const RayHit& hit) {
+        return std::ranges::any_of(hits_, [&](const RayHit& hit) {
             const RayTarget& other = targets_.all()[hit.target];
             return hit.edge_distance >= ray_tolerance &&
-                   std::abs(hit.hit_distance - seen.hit_distance) < hit.perturbed_distance &&
+                   std::abs(hit.distance - seen.distance) < hit.distance_tolerance &&
                    model_.parent_of(other.polygon) > model_.parent_of(target.polygon) &&
                    glm::dot(other.normal, target.normal) > 0.0 && lies_in(other, target) && lies_in(target, other);
         });
@@ -384,9 +273,7 @@ private:
     RayTargets targets_;
     DrawOrder::Walk walk_;
     std::vector<std::uint32_t> painted_;
-    std::vector<RayHit> met_; ///< By the ray at hand.
-    /// For each polygon when it is painted, from 1; 0 for one that is not.
-    std::vector<std::uint32_t> place_;
+    std::vector<RayHit> hits_; ///< Of the ray cast last.
 };
 
 /// Casts the rays of a test, those at unproved pairs too; the results of the proof stay as they are.

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace octant::visuals::orderfile {
@@ -39,18 +40,19 @@ struct RayTestCounts {
     RayTestCounts& operator+=(const RayTestCounts& other);
 };
 
-/// Tries an order by rays from random eyes in perspective. Rays are spread evenly over the disc of the model's radius
-/// around the origin as the eye sees it, so that shares are shares of pixels; eyes inside that radius look in all
-/// directions. Polygons that face away from the eye are not painted.
-RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model, const draworder::DrawOrder& order, const RaySampling& samples);
+/// Gives the list that is painted for an eye, first painted first, valid until the next call; nothing: the eye is
+/// skipped.
+using PaintedListOfEye = std::function<std::optional<std::span<const std::uint32_t>>(const glm::dvec3& eye_m)>;
 
-/// Gives the list that is painted for an eye; it must stay as it is until the next call.
-using PaintedListOfEye = std::function<std::span<const std::uint32_t>(const glm::dvec3& eye_m)>;
+/// Tries painted lists by rays from random eyes in perspective. Rays are spread evenly over the disc of the model's
+/// radius around the origin as the eye sees it, so that shares are shares of pixels; eyes inside that radius look in
+/// all directions. Polygons that face away from the eye are not painted, those of `two_sided` apart.
+RayTestCounts count_wrong_rays(const models::polygons::PolygonModel& model, const PaintedListOfEye& painted_from,
+    const RaySampling& samples, std::span<const std::uint32_t> two_sided = {});
 
-/// Tries lists that are made for each eye.
-RayTestCounts count_wrong_rays(
-    const models::polygons::PolygonModel& model, const PaintedListOfEye& painted_from, const RaySampling& samples);
+/// Tries an order for all eyes.
+RayTestCounts count_wrong_rays(const models::polygons::PolygonModel& model, const draworder::DrawOrder& order,
+    const RaySampling& samples, std::span<const std::uint32_t> two_sided = {});
 
 /// Tries orders by cells; eyes outside the range of distances are skipped.
 RayTestCounts count_wrong_rays(

@@ -1,6 +1,6 @@
 #include "sim/base/random_generator.h"
 #include "tests/order_shapes.h"
-#include "visuals/draworder/order_ray_test.h"
+#include "visuals/draworder/ray_targets.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -43,14 +43,14 @@ TEST_CASE("rays of a trial meet all that they meet one by one, from far, near an
         const glm::dvec3 eye = dice.direction() * (0.05 * std::pow(400.0, dice.next()));
         const auto& aim = targets.all()[static_cast<std::size_t>(i) % targets.all().size()];
         const glm::dvec3 ray = glm::normalize(aim.middle + dice.direction() * (0.9 * aim.radius) - eye);
-        targets.set_eye(eye);
+        targets.set_eye(eye, {});
         targets.intersect(ray, hits);
         auto hit = hits.begin();
         for (std::size_t k = 0; k < targets.all().size(); ++k) {
             const auto hit_distance = met_by_fan(targets.all()[k].corners, eye, ray);
             const bool is_hit = hit != hits.end() && hit->target == k;
             if (is_hit && hit_distance) {
-                CHECK(hit->hit_distance == Approx(*hit_distance).epsilon(1e-9));
+                CHECK(hit->distance == Approx(*hit_distance).epsilon(1e-9));
                 ++met;
             } else if (is_hit) {
                 CHECK(hit->edge_distance < 1e-9);

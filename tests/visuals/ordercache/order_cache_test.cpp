@@ -248,21 +248,28 @@ std::size_t files_in(const fs::path& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-/// The test of archives (sim/base) tries every byte; here every 61st is enough, as each costs an order.
-constexpr std::size_t sample_step = 61;
-
-/// A folder that keeps the order of the plates, its file, and that file's bytes.
+/// A folder that keeps the order of a model, its file, and that file's bytes.
 struct Kept {
     fs::path folder;
+    PolygonModel model;
     fs::path file;
     std::string bytes;
 };
 
-Kept kept_plates(const std::string& name) {
-    Kept kept{empty_folder(name), {}, {}};
-    kept.file = cached_order(kept.folder, crossing_plates(), by_splitting).file;
+Kept kept_order(const std::string& name, const PolygonModel& model) {
+    Kept kept{empty_folder(name), model, {}, {}};
+    kept.file = cached_order(kept.folder, model, by_splitting).file;
     kept.bytes = read_file(kept.file);
     return kept;
+}
+
+Kept kept_plates(const std::string& name) { return kept_order(name, crossing_plates()); }
+
+/// A model without polygons, whose order takes no time.
+PolygonModel no_polygons() {
+    PolygonModel model;
+    model.parts = {"flat"};
+    return model;
 }
 
 /// Bytes of an archive with the checksum that belongs to their body.
@@ -272,11 +279,11 @@ std::string with_checksum(std::string bytes) {
     return bytes;
 }
 
-/// Puts bytes in place of the kept file. The plates must then be ordered anew, with one note that names the file, and
+/// Puts bytes in place of the kept file. The model must then be ordered anew, with one note that names the file, and
 /// the file must be as it was.
 std::string note_about(const Kept& kept, const std::string& bytes) {
     write_file(kept.file, bytes);
-    const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_splitting);
+    const CachedOrder found = cached_order(kept.folder, kept.model, by_splitting);
     REQUIRE_FALSE(found.was_cached);
     REQUIRE(found.notes.size() == 1);
     REQUIRE(read_file(kept.file) == kept.bytes);
@@ -329,19 +336,31 @@ TEST_CASE("a model in other colours shares the order and keeps its colours") {
 }
 
 TEST_CASE("a file cut short anywhere is computed anew and replaced") {
-    const Kept kept = kept_plates("short");
-    for (std::size_t length = 0; length < kept.bytes.size(); length += sample_step) {
+    const Kept kept = kept_order("short", no_polygons());
+    for (std::size_t length = 0; length < kept.bytes.size(); ++length) {
         note_about(kept, kept.bytes.substr(0, length));
     }
     CHECK_THAT(note_about(kept, kept.bytes + "x"), Contains("bytes behind the head, got "));
 }
 
 TEST_CASE("a file with any byte changed is computed anew and replaced") {
-    const Kept kept = kept_plates("flipped");
-    for (std::size_t at = 0; at < kept.bytes.size(); at += sample_step) {
+    const Kept kept = kept_order("flipped", no_polygons());
+    for (std::size_t at = 0; at < kept.bytes.size(); ++at) {
         std::string bytes = kept.bytes;
         bytes[at] = static_cast<char>(bytes[at] ^ (1 << (at % 8)));
         note_about(kept, bytes);
+    }
+}
+
+TEST_CASE("an order's file cut short anywhere or with any byte changed is refused before it is decoded") {
+    const Kept kept = kept_plates("refused-early");
+    const ArchiveKind kind{.content = "a painting order", .signature = "octorder", .version = order_version};
+    archive_body(kept.bytes, kept.file, kind);
+    for (std::size_t at = 0; at < kept.bytes.size(); ++at) {
+        std::string bytes = kept.bytes;
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << (at % 8)));
+        CHECK_THROWS_AS(archive_body(bytes, kept.file, kind), Error);
+        CHECK_THROWS_AS(archive_body(kept.bytes.substr(0, at), kept.file, kind), Error);
     }
 }
 
