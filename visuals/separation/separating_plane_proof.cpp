@@ -1,6 +1,6 @@
 // Seeks planes that prove that one polygon hides nothing of another. By Farkas' lemma every plane with all eyes before
 // it is a sum, with factors >= 0, of the planes that bound the eyes and of 1; eyes that see a polygon are bounded by
-// its plane, too. Where no single plane will do, a game finds the factors, and where game_rounding spoils that a linear
+// its plane, too. Where no single plane will do, a game finds the factors, and where rounding spoils that a linear
 // programme.
 #include "visuals/separation/separating_plane_proof.h"
 
@@ -26,7 +26,7 @@ namespace {
 
 using models::polygons::PolygonModel;
 
-/// The share of the tolerance that is used; the rest is for the game_rounding of this code.
+/// The share of the tolerance that is used; the rest is for the rounding of this code.
 constexpr double safe = 0.999;
 /// How far a corner may be from a plane that is not quite the polygon's own, in tolerances.
 constexpr double share_of_borrowed = 0.25;

@@ -1,5 +1,5 @@
-// F-15C Eagle by f15_stations: s = metres aft of the nose tip, r = to the right, u = above the wing-level reference
-// line. The origin lies f15_at s = 10.40, u = 0.11, as in f15.obj, which names the sources of the main dimensions
+// F-15C Eagle by stations: s = metres aft of the nose tip, r = to the right, u = above the wing-level reference
+// line. The origin lies at s = 10.40, u = 0.11, as in f15.obj, which names the sources of the main dimensions
 // (length 19.43, span 13.05, fin tips 3.40 up, sweep, chords, canopy, intake lips, nozzles, stabilators). From
 // photographs: 2-degree cant of the fins, nozzle exit of about 1 m, boundary layer gap of the intakes (general
 // knowledge of the type).
@@ -87,7 +87,7 @@ void add_f15_tail(ModelBuilder& model) {
     model.add_mirrored("fin", upright);
 }
 
-/// The right engine's nozzle: outside, rim and the hot inside, whose faces look f15_at the axis.
+/// The right engine's nozzle: outside, rim and the hot inside, whose faces look at the axis.
 PaintedSolid nozzle() {
     constexpr int sides = 16;
     constexpr double r = 0.76;
@@ -237,7 +237,7 @@ PaintedSolid intake() {
     dark.facing = -inward;
     dark.min_cosine = 0.9;
     paint(solid, dark, "dark");
-    std::erase_if(solid, [](const PaintedFace& face) { // its rear lies on the f15_body
+    std::erase_if(solid, [](const PaintedFace& face) { // its rear lies on the body
         return std::ranges::all_of(
             face.corners_m, [](const glm::dvec3& corner) { return corner.x < 10.40 - 8.2 + 1e-6; });
     });
@@ -261,7 +261,7 @@ PaintedSolid wing() {
     const glm::dvec3 inward = glm::normalize(glm::dvec3(tip_edge.y, -tip_edge.x, 0.0));
     const glm::dvec3 kept = inward.y < 0.0 ? inward : -inward;
     cut_off(solid, {kept, -glm::dot(kept, f15_at(12.71, 6.05, 0.0))}, "under");
-    // Flap and aileron hinges f15_at 0.78 of the chord, spars, ribs.
+    // Flap and aileron hinges at 0.78 of the chord, spars, ribs.
     const auto along = [&](double share) {
         const glm::dvec3 root = shape.root_m - glm::dvec3(share * shape.root_chord_m, 0.0, 0.0);
         const glm::dvec3 tip = shape.tip_m - glm::dvec3(share * shape.tip_chord_m, 0.0, 0.0);
@@ -307,7 +307,7 @@ polygons::PolygonModel detailed_f15() {
     add_f15_materials(model);
     model.add("forebody", forebody());
     model.add_mirrored("intake", intake());
-    model.add("f15_body", f15_body());
+    model.add("body", f15_body());
     add_wings(model);
     add_f15_tail(model);
     model.add_mirrored("nozzle", nozzle());

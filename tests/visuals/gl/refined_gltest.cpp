@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t unclipped = PaintStep::no_clip;
 constexpr int picture_px = 160;
 
-/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a unclipped.
+/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a whole.
 std::vector<scene::ModelVertex> torus_corners() {
     const models::polygons::PolygonModel quads = models::procedural::torus();
     std::vector<scene::ModelVertex> corners;

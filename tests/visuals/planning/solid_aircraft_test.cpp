@@ -18,7 +18,7 @@ using Content = scene::PaintStep::Content;
 
 namespace {
 
-/// A solid_tetrahedron of 1 m around the origin, faces outside.
+/// A tetrahedron of 1 m around the origin, faces outside.
 models::TriangleMesh solid_tetrahedron() {
     models::TriangleMesh mesh;
     mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
