@@ -2,11 +2,10 @@
 // Structures", SIGGRAPH 1980.
 //
 // Deviations:
-// - Before a set is divided, what hides what for eyes anywhere is looked at. Only
-//   cycles of pieces are divided; a convex shell becomes one list without any cut.
+// - Only pieces that hide one another in a cycle, for eyes anywhere, are divided; a convex shell becomes one list
+//   without any cut.
 // - Planes need not be those of polygons.
-// - Polygons that lie in a node's plane stay in the node, in file order, those of either facing
-//   apart.
+// - Polygons that lie in a node's plane stay in the node, in file order, in one list for each facing.
 #include "visuals/bsp/partial_bsp_tree.h"
 
 #include "models/polygons/polygon_outlines.h"
@@ -33,7 +32,7 @@ namespace octant::visuals::bsp {
 
 namespace {
 
-/// Where up to 64 pieces reach, a bit for each (PlaneSideFlags).
+/// PlaneSideFlags of up to 64 pieces, a bit for each.
 struct PlaneSideBits {
     std::uint64_t before = 0;
     std::uint64_t behind = 0;
@@ -61,8 +60,7 @@ void put(PieceBatch::Points& points, std::size_t place, const glm::dvec3& point)
     points.z[place] = point.z;
 }
 
-/// Some pieces with their bounding spheres and corners side by side in memory, for questions that are asked of all of
-/// them.
+/// Some pieces with their bounding spheres and corners side by side in memory, to test all of them against a plane.
 class PieceTable {
 public:
     static constexpr std::size_t pieces_per_block = 64;
@@ -86,7 +84,7 @@ public:
         return std::min(count_ - block * pieces_per_block, pieces_per_block);
     }
 
-    /// PolygonPieces::sides_reached() of the pieces of a block; the bits of those that are not there are 0.
+    /// PolygonPieces::sides_reached() of the pieces of a block; the other bits are 0.
     PlaneSideBits sides_reached(std::size_t block, const Plane& plane) const {
         const auto lanes = std::span(lanes_).subspan(block * lanes_a_block);
         const PieceSideBits sides = sides_of(lanes.first(std::min(lanes.size(), lanes_a_block)), plane, tolerance);
@@ -166,16 +164,16 @@ struct Costed {
 };
 
 /// The cost of a plane: its cuts, and how uneven the halves are.
-double cost_of(const SplitCounts& parted) {
-    const std::size_t count = parted.before + parted.behind + parted.coplanar + parted.cut;
-    const bool useless = parted.coplanar == 0 && (parted.before == 0 || parted.behind == 0);
-    if (parted.cuts_swept || (useless && parted.cut == 0) ||
-        (parted.coplanar == 0 && parted.cut + parted.before >= count && parted.behind == 0) ||
-        (parted.coplanar == 0 && parted.cut + parted.behind >= count && parted.before == 0)) {
+double cost_of(const SplitCounts& counts) {
+    const std::size_t count = counts.before + counts.behind + counts.coplanar + counts.cut;
+    const bool useless = counts.coplanar == 0 && (counts.before == 0 || counts.behind == 0);
+    if (counts.cuts_swept || (useless && counts.cut == 0) ||
+        (counts.coplanar == 0 && counts.cut + counts.before >= count && counts.behind == 0) ||
+        (counts.coplanar == 0 && counts.cut + counts.behind >= count && counts.before == 0)) {
         return std::numeric_limits<double>::infinity();
     }
-    const double uneven = std::abs(static_cast<double>(parted.before) - static_cast<double>(parted.behind));
-    return static_cast<double>(parted.cut) * polygons_a_cut + uneven;
+    const double uneven = std::abs(static_cast<double>(counts.before) - static_cast<double>(counts.behind));
+    return static_cast<double>(counts.cut) * polygons_a_cut + uneven;
 }
 
 /// Some of many pieces.
@@ -191,23 +189,23 @@ public:
 
     /// How a plane parts all pieces, by these. Ends early where that costs more than `limit`.
     SplitCounts split_counts(const Plane& plane, double limit) const {
-        SplitCounts parted;
+        SplitCounts counts;
         const auto max_cuts =
             static_cast<std::size_t>(std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
-        for (std::size_t i = 0; i < table_.blocks() && parted.cut <= max_cuts; ++i) {
+        for (std::size_t i = 0; i < table_.blocks() && counts.cut <= max_cuts; ++i) {
             const PlaneSideBits sides_reached = table_.sides_reached(i, plane);
             const std::uint64_t cut = sides_reached.before & sides_reached.behind;
             const std::size_t known = count_of(sides_reached.before | sides_reached.behind);
-            parted.cut += count_of(cut);
-            parted.before += count_of(sides_reached.before & ~cut);
-            parted.behind += count_of(sides_reached.behind & ~cut);
-            parted.coplanar += table_.count_in(i) - known;
-            parted.cuts_swept = parted.cuts_swept || (cut & swept_[i]) != 0;
+            counts.cut += count_of(cut);
+            counts.before += count_of(sides_reached.before & ~cut);
+            counts.behind += count_of(sides_reached.behind & ~cut);
+            counts.coplanar += table_.count_in(i) - known;
+            counts.cuts_swept = counts.cuts_swept || (cut & swept_[i]) != 0;
         }
-        parted.before *= step_;
-        parted.behind *= step_;
-        parted.cut *= step_;
-        return parted;
+        counts.before *= step_;
+        counts.behind *= step_;
+        counts.cut *= step_;
+        return counts;
     }
 
 private:
@@ -232,7 +230,7 @@ Costed best_own(const PolygonPieces& pieces, std::span<const std::uint32_t> item
     return best;
 }
 
-/// Where pieces begin and end along an axis, ascending.
+/// Where pieces begin and end along an axis, ascending; those of turning parts once more.
 struct Ends {
     std::vector<double> low;
     std::vector<double> high;
@@ -260,70 +258,39 @@ Ends ends_along(const PolygonPieces& pieces, std::span<const std::uint32_t> item
     return ends;
 }
 
-/// How many of some sorted values lie below limits that are asked for in ascending order.
-class CountBelow {
-public:
-    explicit CountBelow(const std::vector<double>& sorted) : sorted_(sorted) {}
-
-    std::size_t operator()(double limit) {
-        while (below_ < sorted_.size() && sorted_[below_] < limit) { ++below_; }
-        return below_;
-    }
-
-private:
-    const std::vector<double>& sorted_;
-    std::size_t below_ = 0;
-};
-
-/// How planes across an axis part all pieces, from the lowest plane on.
-class Sweep {
-public:
-    explicit Sweep(const Ends& ends)
-        : count_(ends.low.size()), low_(ends.low), high_(ends.high), swept_low_(ends.swept_low),
-          swept_high_(ends.swept_high) {}
-
-    SplitCounts split_at(double at) {
-        SplitCounts parted;
-        parted.before = count_ - low_(at - tolerance);
-        parted.behind = high_(at + tolerance);
-        // What lies within the tolerance of the plane is in both counts.
-        const std::size_t known = parted.before + parted.behind;
-        parted.coplanar = known > count_ ? known - count_ : 0;
-        parted.before -= std::min(parted.before, parted.coplanar);
-        parted.behind -= std::min(parted.behind, parted.coplanar);
-        const std::size_t settled = parted.before + parted.behind + parted.coplanar;
-        parted.cut = count_ - std::min(count_, settled);
-        parted.cuts_swept = swept_low_(at - tolerance) != swept_high_(at + tolerance);
-        return parted;
-    }
-
-private:
-    std::size_t count_;
-    CountBelow low_;
-    CountBelow high_;
-    CountBelow swept_low_;
-    CountBelow swept_high_;
-};
+/// How a plane across the axis divides all pieces.
+SplitCounts split_counts(const Ends& ends, double at) {
+    const auto below = [](const std::vector<double>& sorted, double limit) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(sorted, limit) - sorted.begin());
+    };
+    const std::size_t count = ends.low.size();
+    SplitCounts counts;
+    counts.before = count - below(ends.low, at - tolerance);
+    counts.behind = below(ends.high, at + tolerance);
+    // Pieces within the tolerance of the plane are in both counts.
+    const std::size_t known = counts.before + counts.behind;
+    counts.coplanar = known > count ? known - count : 0;
+    counts.before -= std::min(counts.before, counts.coplanar);
+    counts.behind -= std::min(counts.behind, counts.coplanar);
+    const std::size_t settled = counts.before + counts.behind + counts.coplanar;
+    counts.cut = count - std::min(count, settled);
+    counts.cuts_swept = below(ends.swept_low, at - tolerance) != below(ends.swept_high, at + tolerance);
+    return counts;
+}
 
 /// The best plane across an axis.
 Costed best_across(const PolygonPieces& pieces, std::span<const std::uint32_t> items, int axis) {
     const Ends ends = ends_along(pieces, items, axis);
-    Sweep at_low(ends);
-    Sweep at_high(ends);
     Costed best;
-    const auto try_at = [&](double at, Sweep& sweep) {
-        const SplitCounts parted = sweep.split_at(at);
-        if (parted.before == 0 || parted.behind == 0) { return; }
-        const double cost = cost_of(parted);
-        if (cost < best.cost) {
-            glm::dvec3 normal(0.0);
-            normal[axis] = 1.0;
-            best = {{normal, -at}, cost};
-        }
-    };
     for (std::size_t i = 0; i < items.size(); ++i) {
-        try_at(ends.low[i], at_low);
-        try_at(ends.high[i], at_high);
+        for (const double at : {ends.low[i], ends.high[i]}) {
+            const SplitCounts counts = split_counts(ends, at);
+            const double cost = counts.before == 0 || counts.behind == 0 ? best.cost : cost_of(counts);
+            if (cost < best.cost) {
+                best = {{glm::dvec3(0.0), -at}, cost};
+                best.plane.normal[axis] = 1.0;
+            }
+        }
     }
     return best;
 }
@@ -345,7 +312,7 @@ std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<cons
 /// A square of bits, 64 to a word.
 class BitMatrix {
 public:
-    explicit BitMatrix(std::size_t count) : words_((count + 63) / 64), bits_(words_ * 64 * words_, 0) {}
+    explicit BitMatrix(std::size_t count) : words_((count + 63) / 64), bits_(count * words_, 0) {}
 
     std::size_t words() const { return words_; }
 
@@ -355,44 +322,9 @@ public:
 
     void remove(std::size_t row, std::size_t column) { word(row, column / 64) &= ~(std::uint64_t{1} << (column % 64)); }
 
-    /// Rows become columns, block by block.
-    void transpose() {
-        for (std::size_t row = 0; row < words_; ++row) {
-            for (std::size_t column = 0; column <= row; ++column) {
-                const Block lower = transposed_block(row, column);
-                put(column, row, transposed_block(column, row), lower);
-            }
-        }
-    }
-
 private:
-    using Block = std::array<std::uint64_t, 64>;
-
-    /// A block of 64 rows and columns, transposed by halves, quarters and so on.
-    Block transposed_block(std::size_t row, std::size_t column) {
-        Block block;
-        for (std::size_t i = 0; i < 64; ++i) { block[i] = word(row * 64 + i, column); }
-        std::uint64_t mask = 0xffffffffU;
-        for (unsigned width = 32; width != 0; width /= 2, mask ^= mask << width) {
-            for (unsigned i = 0; i < 64; i = (i + width + 1) & ~width) {
-                const std::uint64_t swapped = ((block[i] >> width) ^ block[i + width]) & mask;
-                block[i] ^= swapped << width;
-                block[i + width] ^= swapped;
-            }
-        }
-        return block;
-    }
-
-    /// Writes two blocks that have changed places.
-    void put(std::size_t row, std::size_t column, const Block& across, const Block& here) {
-        for (std::size_t i = 0; i < 64; ++i) {
-            word(column * 64 + i, row) = across[i];
-            word(row * 64 + i, column) = here[i];
-        }
-    }
-
     std::size_t words_;
-    std::vector<std::uint64_t> bits_; ///< Rows in multiples of 64.
+    std::vector<std::uint64_t> bits_;
 };
 
 /// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
@@ -409,10 +341,10 @@ bool is_decal_on(const PolygonPieces& pieces, std::uint32_t upper, std::uint32_t
            !has_separating_edge(pieces, a, b) && !has_separating_edge(pieces, b, a);
 }
 
-/// Finds what hides what in a set: row a of the result holds what hides part of a (occludes()).
-class OccluderRow {
+/// occludes() of all pairs of a set, 64 pieces at once: row a of matrix() holds what hides part of a.
+class OcclusionMatrix {
 public:
-    OccluderRow(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
+    OcclusionMatrix(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
         : pieces_(pieces), items_(items), hides_(items.size()), reaches_behind_(items.size()),
           still_(hides_.words(), 0) {
         for (std::size_t i = 0; i < items.size(); ++i) {
@@ -424,9 +356,8 @@ public:
     BitMatrix matrix() {
         const PieceTable table(pieces_, items_);
         for (std::size_t a = 0; a < items_.size(); ++a) {
-            if (is_still(a)) { look_from(table, a); }
+            if (is_still(a)) { test_sides(table, a); }
         }
-        reaches_behind_.transpose(); // now row a holds behind whose planes a reaches
         for (std::size_t a = 0; a < items_.size(); ++a) {
             for (std::size_t i = 0; i < hides_.words() && is_still(a); ++i) {
                 hides_.word(a, i) &= reaches_behind_.word(a, i) & still_[i];
@@ -442,7 +373,7 @@ private:
     /// Whether a piece has a plane that stands still.
     bool is_still(std::size_t i) const { return ((still_[i / 64] >> (i % 64)) & 1U) != 0; }
 
-    /// Looks at the pairs of which one has no plane that stands still.
+    /// Tests the pairs of which one has no plane that stands still.
     void add_others(std::size_t a) {
         for (std::size_t i = 0; i < still_.size(); ++i) {
             const std::size_t end = std::min((i + 1) * 64, items_.size());
@@ -453,12 +384,14 @@ private:
         }
     }
 
-    /// Finds out where the others reach to the plane of a piece.
-    void look_from(const PieceTable& table, std::size_t a) {
+    /// Finds which pieces reach before the plane of a piece, and which behind it.
+    void test_sides(const PieceTable& table, std::size_t a) {
         for (std::size_t i = 0; i < table.blocks(); ++i) {
             const PlaneSideBits sides_reached = table.sides_reached(i, *pieces_[items_[a]].plane);
             hides_.word(a, i) = sides_reached.before;
-            reaches_behind_.word(a, i) = sides_reached.behind;
+            for (std::uint64_t left = sides_reached.behind; left != 0; left &= left - 1) {
+                reaches_behind_.add(i * 64 + static_cast<std::size_t>(std::countr_zero(left)), a);
+            }
             for (std::uint64_t left = still_[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
                  left &= left - 1) {
                 const std::size_t b = i * 64 + static_cast<std::size_t>(std::countr_zero(left));
@@ -469,27 +402,27 @@ private:
 
     const PolygonPieces& pieces_;
     std::span<const std::uint32_t> items_;
-    BitMatrix hides_;          ///< At first what reaches before the plane of the row's piece.
-    BitMatrix reaches_behind_; ///< What reaches behind it.
+    BitMatrix hides_;          ///< At first the pieces that reach before the plane of the row's piece.
+    BitMatrix reaches_behind_; ///< The pieces behind whose planes the row's piece reaches.
     std::vector<std::uint64_t> still_;
     std::vector<std::pair<std::size_t, std::size_t>> decals_; ///< In one plane: upper, lower.
 };
 
 } // namespace
 
-bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t far_one) {
+bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t occluded) {
     const PolygonPiece& b = pieces[occluder];
-    const PolygonPiece& a = pieces[far_one];
-    if (a.pivot && a.pivot == b.pivot) { return pieces.is_rigid(occluder, far_one); }
+    const PolygonPiece& a = pieces[occluded];
+    if (a.pivot && a.pivot == b.pivot) { return pieces.is_rigid(occluder, occluded); }
     if (!a.plane && !b.plane) { return true; }
     const PlaneSideFlags of_b = a.plane ? pieces.sides_reached(occluder, *a.plane) : PlaneSideFlags{true, true};
-    if (a.plane && b.plane && !of_b.before && !of_b.behind) { return is_decal_on(pieces, occluder, far_one); }
-    return of_b.before && (!b.plane || pieces.sides_reached(far_one, *b.plane).behind);
+    if (a.plane && b.plane && !of_b.before && !of_b.behind) { return is_decal_on(pieces, occluder, occluded); }
+    return of_b.before && (!b.plane || pieces.sides_reached(occluded, *b.plane).behind);
 }
 
 std::vector<std::vector<std::uint32_t>> occlusion_components(
     const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
-    BitMatrix hides = OccluderRow(pieces, items).matrix();
+    BitMatrix hides = OcclusionMatrix(pieces, items).matrix();
     std::vector<std::uint32_t> last_first(items.size());
     std::iota(last_first.rbegin(), last_first.rend(), 0U);
     std::vector<std::vector<std::uint32_t>> components;
@@ -544,13 +477,13 @@ private:
         int parent = -1;
         int Node::*place = nullptr;
         int depth = 1;
-        bool is_cycle = false; ///< One component, which has to be parted.
+        bool is_cycle = false; ///< One component, which must be divided.
         /// How many pieces the last set had whose graph was looked at and out of which this came.
         std::size_t looked_at = std::numeric_limits<std::size_t>::max();
     };
 
     int child_of(Task& task) {
-        if (task.items.empty()) { return PartialBspTree::nothing; }
+        if (task.items.empty()) { return PartialBspTree::no_child; }
         if (task.items.size() == 1) { return list_of(std::move(task.items)); }
         const std::size_t count = task.items.size();
         const bool looks = !task.is_cycle && count <= max_samples_at_once &&
@@ -563,7 +496,7 @@ private:
     }
 
     int list_of(Items items) {
-        if (items.empty()) { return PartialBspTree::nothing; }
+        if (items.empty()) { return PartialBspTree::no_child; }
         tree_.lists.push_back(std::move(items));
         return ~static_cast<int>(tree_.lists.size() - 1);
     }
@@ -639,7 +572,7 @@ private:
         return made;
     }
 
-    /// The last resort: what stands still is parted, and what turns is painted over it.
+    /// The last resort: fixed pieces are divided, and turning pieces are painted over them.
     int unsplit_cycles(Task& task) {
         std::ranges::sort(task.items);
         tree_.unsplit_cycles.push_back(task.items);

@@ -11,11 +11,11 @@
 
 namespace octant::visuals::bsp {
 
-/// Whether one piece hides part of another for some eye anywhere. That is so exactly when it reaches before the other's
-/// plane and the other reaches behind its own: let b be a point of it before plane(occluded) and a one of `occluded`
-/// behind plane(occluder); an eye on the line from a through b, a little beyond b, is before both planes and sees b in
-/// front of a. A body has no plane, and so no side on which it cannot hide or be hidden. Pieces that turn together keep
-/// their places to one another (PolygonPieces::add_rigid).
+/// Whether one piece hides part of another for some eye anywhere. It does exactly when it reaches before the plane of
+/// the other one, and that one reaches behind the plane of the first. Proof: let b be a point of `occluder` before
+/// plane(occluded), and a a point of `occluded` behind plane(occluder). An eye on the line from a through b, a little
+/// beyond b, is before both planes and sees b in front of a. A body has no plane, so that no side rules it out. Pieces
+/// of one pivot keep their places to one another (PolygonPieces::add_rigid).
 ///
 /// Pieces in one plane that face alike and overlap hide one another by a rule: the later polygon of the file is painted
 /// over the earlier one, as a decal.
@@ -32,20 +32,20 @@ std::vector<std::vector<std::uint32_t>> occlusion_components(
 /// every eye, however large, and in which parts that hide one another in one direction only are painted one after the
 /// other without being parted.
 struct PartialBspTree {
-    static constexpr int nothing = std::numeric_limits<int>::min();
+    static constexpr int no_child = std::numeric_limits<int>::min();
 
-    /// A child >= 0 is a later node, one < 0 is the list ~child or `nothing`.
+    /// A child >= 0 is a later node, one < 0 is the list ~child or no_child.
     struct Node {
         /// Nothing: `front` is painted, then `back`. Else what is on the other side of the plane than the eye is
         /// painted first, then what lies in it and faces the eye.
-        std::optional<Plane> plane; ///< In the unit of Pieces.
-        int front = nothing;
-        int back = nothing;
-        int coplanar_front = nothing; ///< What lies in the plane and faces as it does.
-        int coplanar_back = nothing;  ///< What lies in the plane and faces back.
+        std::optional<Plane> plane; ///< In the unit of PolygonPieces.
+        int front = no_child;
+        int back = no_child;
+        int coplanar_front = no_child; ///< What lies in the plane and faces as it does.
+        int coplanar_back = no_child;  ///< What lies in the plane and faces back.
     };
 
-    int root = nothing;
+    int root = no_child;
     std::vector<Node> nodes;
     std::vector<std::vector<std::uint32_t>> lists; ///< Pieces, first painted first.
     /// Cycles of pieces, some of which turn, that no plane separates.

@@ -133,10 +133,10 @@ void PolygonPieces::set_plane(std::uint32_t piece, const Plane& in_model) {
     pieces_[piece].plane = {in_model.normal, distance_m(in_model, middle_m_) / unit_m_};
 }
 
-void PolygonPieces::add_rigid(std::uint32_t occluder, std::uint32_t far_one) { rigid_.emplace(occluder, far_one); }
+void PolygonPieces::add_rigid(std::uint32_t occluder, std::uint32_t occluded) { rigid_.emplace(occluder, occluded); }
 
-bool PolygonPieces::is_rigid(std::uint32_t occluder, std::uint32_t far_one) const {
-    return rigid_.contains({occluder, far_one});
+bool PolygonPieces::is_rigid(std::uint32_t occluder, std::uint32_t occluded) const {
+    return rigid_.contains({occluder, occluded});
 }
 
 PlaneSideFlags PolygonPieces::sides_reached(std::uint32_t piece, const Plane& plane) const {

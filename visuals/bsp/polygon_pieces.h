@@ -17,13 +17,13 @@
 
 namespace octant::visuals::bsp {
 
-/// Lengths below this are rounding, in the unit of Pieces: about the radius of the model. A point within this distance
-/// of a plane lies on it.
+/// Lengths below this are rounding, in the unit of PolygonPieces: about the radius of the model. A point within this
+/// distance of a plane lies on it.
 inline constexpr double tolerance = models::planar::planar_tolerance;
 
 /// A polygon, a piece of one, or what a turning polygon sweeps.
 struct PolygonPiece {
-    std::vector<std::uint32_t> corners; ///< Vertices of Pieces; of a body in any order.
+    std::vector<std::uint32_t> corners; ///< Vertices of PolygonPieces; of a body in any order.
     /// That of the whole polygon, its front where it is seen from; a body has none.
     std::optional<Plane> plane;
     std::optional<std::uint32_t> pivot; ///< What turns it. It is never cut then.
@@ -61,16 +61,17 @@ public:
         return std::span(cut_from_).subspan(first - first_count_);
     }
 
-    /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body is one that has no plane.
+    /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body (`is_body`) has no plane.
     void set_swept_hull(std::uint32_t piece, std::uint32_t pivot, std::span<const glm::dvec3> corners_m, bool is_body);
 
     /// Gives a piece another plane, in body axes, metres: that of the polygon of which it is a sliver.
     void set_plane(std::uint32_t piece, const Plane& in_model);
 
-    /// Says that one piece hides another of the same pivot at some angle. Others of one pivot do not hide one another.
-    void add_rigid(std::uint32_t occluder, std::uint32_t far_one);
+    /// States that a piece hides part of another one of the same pivot at some angle. Other pieces of one pivot do not
+    /// hide one another.
+    void add_rigid(std::uint32_t occluder, std::uint32_t occluded);
 
-    bool is_rigid(std::uint32_t occluder, std::uint32_t far_one) const;
+    bool is_rigid(std::uint32_t occluder, std::uint32_t occluded) const;
 
     /// Cuts a piece that reaches to both sides of a plane (asserted), in this unit. The part in front keeps the number;
     /// that of the part behind is returned.

@@ -35,9 +35,9 @@ std::string text_of(const glm::dvec3& v) {
 std::string text_of(const Plane& plane) { return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0); }
 
 std::string text_of_child(int child, const char* if_nothing = " nothing") {
-    return child == DrawOrder::nothing ? if_nothing
-           : child < 0                 ? fmt::format(" list {}", ~child)
-                                       : fmt::format(" node {}", child);
+    return child == DrawOrder::no_child ? if_nothing
+           : child < 0                  ? fmt::format(" list {}", ~child)
+                                        : fmt::format(" node {}", child);
 }
 
 template <typename... Values>
@@ -45,7 +45,8 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
-/// The lines of a certificate, in the order in which they are added; visuals/verify/README.md says what each means.
+/// The lines of a certificate, in the order in which they are added; visuals/verify/certificate-format.md says what
+/// each means.
 class CertificateText : public draworder::ProofVisitor {
 public:
     /// `size_m` is the length that is 1 in a LocalModel; `on_part_done` is called after each node and list.
@@ -121,12 +122,12 @@ public:
         }
         append(text_, "{}{} {} {}", plane_proof.kind == SeparatingPlaneProof::Kind::Sum ? "sum" : "never", where,
             plane_proof.factors.earlier, plane_proof.factors.later);
-        add_walls(plane_proof.factors);
+        add_region_planes(plane_proof.factors);
     }
 
     void add_back_facing(int part, std::uint32_t polygon, const PlaneFactors& factors) override {
         append(text_, "away{} {}", text_of_child(part), polygon);
-        add_walls(factors);
+        add_region_planes(factors);
     }
 
     void add_unproved(int part, std::uint32_t polygon) override {
@@ -159,7 +160,7 @@ private:
     }
 
     /// The factor of 1 is a length.
-    void add_walls(const PlaneFactors& factors) {
+    void add_region_planes(const PlaneFactors& factors) {
         append(text_, " {}", factors.one * size_m_);
         for (const double factor : factors.region_planes) { append(text_, " {}", factor); }
         text_ += '\n';

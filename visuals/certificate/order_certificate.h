@@ -12,7 +12,7 @@
 namespace octant::visuals::certificate {
 
 struct OrderCertificate {
-    std::string text;           ///< visuals/verify/README.md has its format.
+    std::string text;           ///< visuals/verify/certificate-format.md describes it.
     std::uint64_t unproved = 0; ///< Pairs and polygons for which no proof was found.
 };
 

@@ -46,8 +46,8 @@ DrawOrder::DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::u
     has_one_cell_per_eye_ = std::ranges::all_of(nodes_, [](const Node& node) { return node.kind == Kind::ViewSplit; });
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         for ([[maybe_unused]] const int child : {nodes_[i].front, nodes_[i].back}) {
-            assert(child == nothing || child > static_cast<int>(i) || child < 0);
-            assert(child == nothing || child >= 0 || ~child < cell_count());
+            assert(child == no_child || child > static_cast<int>(i) || child < 0);
+            assert(child == no_child || child >= 0 || ~child < cell_count());
         }
     }
 }
@@ -96,7 +96,7 @@ std::span<const DrawOrder::Range> DrawOrder::ranges_of(const glm::dvec3& eye_in_
     while (!walk.pending.empty()) {
         const int at = walk.pending.back();
         walk.pending.pop_back();
-        if (at == nothing) { continue; }
+        if (at == no_child) { continue; }
         if (at < 0) {
             paint(cells_[static_cast<std::size_t>(~at)]);
             continue;

@@ -18,9 +18,8 @@ namespace octant::visuals::draworder {
 /// which ranges of it are painted one after the other. At run time an eye needs plane tests and no sorting. Three kinds
 /// of nodes:
 /// - a view split divides eye space by a plane: only the child on the eye's side is painted;
-/// - a polygon split divides the polygons by a plane, as a node of a BSP tree does: painted are first the polygons on
-/// the far
-///   side from the eye, then those in the plane that face the eye, then those on the eye's side;
+/// - a polygon split divides the polygons by a plane, as a node of a BSP tree does: first the polygons on the far side
+///   from the eye are painted, then those in the plane that face the eye, then those on the eye's side;
 /// - a sequence paints two parts one after the other, for every eye.
 /// The leaves are cells with a list each. Where all nodes are view splits, each eye lies in one cell, and its list is
 /// one range.
@@ -36,17 +35,17 @@ public:
     enum class Kind { ViewSplit, PolygonSplit, Sequence };
 
     /// A child where nothing is painted.
-    static constexpr int nothing = std::numeric_limits<int>::min();
+    static constexpr int no_child = std::numeric_limits<int>::min();
 
-    /// A child >= 0 is another node, a child < 0 is the cell ~child or `nothing`.
+    /// A child >= 0 is another node, a child < 0 is the cell ~child or no_child.
     struct Node {
         Plane plane;   ///< Not of a sequence.
         int front = 0; ///< Where dot(normal, .) + offset >= 0; of a sequence the child that is painted first.
         int back = 0;  ///< The other one.
         Kind kind = Kind::ViewSplit;
-        int coplanar_front =
-            nothing;                 ///< Of a polygon split: the cell of the polygons in the plane that face its front.
-        int coplanar_back = nothing; ///< Of a polygon split: the cell of the polygons in the plane that face its back.
+        /// Of a polygon split: the cells of the polygons in the plane that face its front and its back.
+        int coplanar_front = no_child;
+        int coplanar_back = no_child;
     };
 
     /// The ranges that an eye paints, and memory that is used on the way to them.
@@ -59,7 +58,7 @@ public:
     explicit DrawOrder(const OctantOrders& orders);
 
     /// Cells below a tree with node 0 as its root; without nodes there is a single cell. lists[i] is the list of cell
-    /// i, first painted first. Every child must be a later node, a cell or nothing (asserted).
+    /// i, first painted first. Every child must be a later node, a cell or no_child (asserted).
     DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::uint32_t>> lists);
 
     /// A single cell: the same list for every eye, first painted first.

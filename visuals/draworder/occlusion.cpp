@@ -74,10 +74,15 @@ Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, doubl
     return face;
 }
 
+namespace {
+
+/// Whether all corners of a face lie behind a plane or on it.
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane) {
     return std::ranges::all_of(
         face.corners, [&](const glm::dvec3& corner) { return distance_m(plane, corner) <= on_plane; });
 }
+
+} // namespace
 
 std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane) {
     const auto height_of = [&](const glm::dvec3& corner) {
@@ -128,8 +133,21 @@ void append_ring(std::vector<glm::dvec3>& corners, const glm::dvec3& middle, con
     }
 }
 
-} // namespace
-
+/// The face that stands for a polygon of a turning part, chosen so that an order holds at every angle.
+///
+/// The face contains the polygon at every angle. The occlusion test is monotone in both faces: a polygon that occludes
+/// another at some angle does so in the test. So an order that keeps the precedences of these faces is right at every
+/// angle, though it may keep some that no angle needs.
+///
+/// A polygon whose plane is perpendicular to the axis sweeps a ring of that plane. Its face is a regular polygon of 24
+/// corners around the ring's outer circle, seen from the same side. Any other polygon sweeps a solid of revolution. Its
+/// face is the convex hull of regular polygons around the circles of its corners: a body, which is seen from all sides
+/// because the polygon turns.
+///
+/// Polygons of one part keep their places relative to one another; in their frame the eye moves around them. They are
+/// compared at the angle of the file, with eyes everywhere (ModelFaces::rigid).
+///
+/// `scale` converts metres about `origin_m` to the unit of the face; `inset` is that of Tolerances.
 Face swept_face(const models::polygons::PolygonModel& model, std::size_t polygon, const models::polygons::Pivot& pivot,
     const glm::dvec3& origin_m, double scale, double inset) {
     const glm::dvec3 foot = (pivot.point_m - origin_m) * scale;
@@ -159,8 +177,6 @@ Face swept_face(const models::polygons::PolygonModel& model, std::size_t polygon
     append_ring(disc, middle, up, farthest);
     return outline_face(disc, {up, -glm::dot(up, middle)}, inset);
 }
-
-namespace {
 
 /// The radius of the model about a point; 1 for a model without extent.
 double farthest_m(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m) {

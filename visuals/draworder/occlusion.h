@@ -53,30 +53,9 @@ Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, doubl
 /// it as they are, so that no two corners lie closer together than those of the outline.
 std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane);
 
-/// Whether all corners of a face lie behind a plane or on it.
-bool behind_or_on(const Face& face, const Plane& plane, double on_plane);
-
 /// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap there. False for
 /// polygons that turn.
 bool overlap_in_plane(const Face& a, const Face& b, double on_plane);
-
-/// The face that stands for a polygon of a turning part, chosen so that an order holds at every angle.
-///
-/// The face contains the polygon at every angle. The occlusion test is monotone in both faces: a polygon that occludes
-/// another at some angle does so in the test. So an order that keeps the precedences of these faces is right at every
-/// angle, though it may keep some that no angle needs.
-///
-/// A polygon whose plane is perpendicular to the axis sweeps a ring of that plane. Its face is a regular polygon of 24
-/// corners around the ring's outer circle, seen from the same side. Any other polygon sweeps a solid of revolution. Its
-/// face is the convex hull of regular polygons around the circles of its corners: a body, which is seen from all sides
-/// because the polygon turns.
-///
-/// Polygons of one part keep their places relative to one another; in their frame the eye moves around them. They are
-/// compared at the angle of the file, with eyes everywhere (ModelFaces::rigid).
-///
-/// `scale` converts metres about `origin_m` to the unit of the face; `inset` is that of Tolerances.
-Face swept_face(const models::polygons::PolygonModel& model, std::size_t polygon, const models::polygons::Pivot& pivot,
-    const glm::dvec3& origin_m, double scale, double inset);
 
 /// A model prepared for occlusion tests: face i stands for polygon i. The unit of length is the model's radius about
 /// `origin_m`, which is the origin; axes are the body's.

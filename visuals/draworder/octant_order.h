@@ -25,8 +25,7 @@ inline constexpr std::size_t max_path_levels = 24;
 /// a slash.
 bool is_octant_path(std::string_view text);
 
-/// The corners A, B, C of the flat triangle that stands for a part of an octant, on
-/// |x| + |y| + |z| = 1.
+/// The corners A, B, C of the flat triangle that stands for a part of an octant, on |x| + |y| + |z| = 1.
 using OctantTriangle = std::array<glm::dvec3, 3>;
 
 /// The children of (A, B, C): with AB the midpoint of an edge, 0 = (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C) and 3

@@ -24,10 +24,13 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// About the work of one of each (SearchBudget).
+using models::polygons::PolygonModel;
+
+/// About the work of a pair that a polygon's plane decides, of one with a proof, of one without, and of a polygon of a
+/// part (SearchBudget).
 constexpr std::uint64_t units_of_pair = 20;
-constexpr std::uint64_t units_of_witness = 2'000;
-constexpr std::uint64_t units_of_none = 1'000'000;
+constexpr std::uint64_t units_of_proof = 2'000;
+constexpr std::uint64_t units_without_proof = 1'000'000;
 constexpr std::uint64_t units_of_polygon_in_part = 60;
 
 /// How far an order is proved.
@@ -36,15 +39,15 @@ struct OrderProof {
     std::uint64_t unproved = 0;
     /// The first of these pairs: which is painted earlier, which later.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> unproved_pairs;
-    static constexpr std::size_t max_open = 100;
-    /// Whether the whole order was looked at; else the work was spent before.
+    static constexpr std::size_t max_unproved_pairs = 100;
+    /// Whether the proof came to the end of the order before its budget was spent.
     bool is_complete = false;
 };
 
-/// Counts what is found, and what that costs.
-class Counting : public ProofVisitor {
+/// Counts what the walk does not prove, and spends its budget.
+class ProofCounter : public ProofVisitor {
 public:
-    explicit Counting(SearchBudget& budget) : budget_(budget) {}
+    explicit ProofCounter(SearchBudget& budget) : budget_(budget) {}
 
     OrderProof& proof() { return proof_; }
 
@@ -59,22 +62,24 @@ public:
     void add_plane_proof(int /*part*/, const separation::SeparatingPlaneProof& plane_proof, std::uint32_t earlier,
         std::uint32_t later) override {
         if (plane_proof.kind != separation::SeparatingPlaneProof::Kind::None) {
-            budget_.spend(units_of_witness);
+            budget_.spend(units_of_proof);
             return;
         }
         ++proof_.unproved;
-        if (proof_.unproved_pairs.size() < OrderProof::max_open) { proof_.unproved_pairs.emplace_back(earlier, later); }
-        budget_.spend(units_of_none);
+        if (proof_.unproved_pairs.size() < OrderProof::max_unproved_pairs) {
+            proof_.unproved_pairs.emplace_back(earlier, later);
+        }
+        budget_.spend(units_without_proof);
     }
 
     void add_back_facing(
         int /*part*/, std::uint32_t /*polygon*/, const separation::PlaneFactors& /*factors*/) override {
-        budget_.spend(units_of_witness);
+        budget_.spend(units_of_proof);
     }
 
     void add_unproved(int /*part*/, std::uint32_t /*polygon*/) override {
         ++proof_.unproved;
-        budget_.spend(units_of_none);
+        budget_.spend(units_without_proof);
     }
 
     void end_part(std::size_t polygons) override { budget_.spend(units_of_polygon_in_part * polygons); }
@@ -84,8 +89,8 @@ private:
     OrderProof proof_;
 };
 
-/// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core go. They are
-/// counted, not timed: the same model and order give the same proof.
+/// Proves an order pair by pair (proof_walk.h), for about so many seconds of work on one core. Work is counted, not
+/// timed: the same model and order give the same proof.
 OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
     SearchBudget budget(seconds);
     OrderProof best;
@@ -96,38 +101,36 @@ OrderProof prove_order(const models::polygons::PolygonModel& model, const DrawOr
     const models::polygons::FileAxes axes;
     for (const double tolerance : separation::proof_tolerances_sizes) {
         const separation::LocalModel local = separation::local_model(model, axes, tolerance);
-        Counting counting(budget);
+        ProofCounter counter(budget);
         try {
-            visit_proof({model, order, axes, local}, counting);
-            counting.proof().is_complete = true;
-        } catch (const SearchGivenUp&) { return best.is_complete ? best : counting.proof(); }
-        if (!best.is_complete || counting.proof().unproved < best.unproved) { best = counting.proof(); }
+            visit_proof({model, order, axes, local}, counter);
+            counter.proof().is_complete = true;
+        } catch (const SearchGivenUp&) { return best.is_complete ? best : counter.proof(); }
+        if (!best.is_complete || counter.proof().unproved < best.unproved) { best = counter.proof(); }
         if (best.unproved == 0) { break; }
     }
     return best;
 }
 
-using models::polygons::PolygonModel;
-
 constexpr double ray_tolerance = RayTargets::ray_tolerance;
-/// Polygons are compared with rays so often in all, some 10 ns each.
+/// About how often a ray is tested against a polygon in all, some 10 ns each.
 constexpr std::size_t max_comparisons = 20'000'000;
 constexpr std::size_t max_eyes = 2'000;
 constexpr std::size_t rays_an_eye = 10;
-/// So many rays are cast at each pair for which no proof was found; fewer where that would be more comparisons than all
-/// others.
+/// The rays at each pair without a proof; fewer where they would cost more comparisons than all other rays.
 constexpr std::size_t rays_a_pair = 100;
 constexpr std::size_t min_rays_a_pair = 4;
 /// Polygons whose corners are all nearer than this to one another's planes lie in one plane.
 constexpr double in_plane = 1e-9;
 
-/// One ray test at one angle of the turning parts.
+/// Casts rays and counts them in a result.
 class RayTester {
 public:
-    RayTester(const PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope)
-        : model_(model), order_(order), scope_(scope), targets_(model) {}
+    RayTester(const PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope, RayTestResult& result)
+        : model_(model), order_(order), scope_(scope), result_(result), targets_(model) {}
 
-    void look(double turn_rad, std::size_t comparisons, RayTestResult& ray_test) {
+    /// Turns the parts, and casts rays from eyes everywhere.
+    void test_angle(double turn_rad, std::size_t comparisons) {
         targets_.turn(turn_rad, scope_.turning_parts);
         if (targets_.all().empty()) { return; }
         const std::size_t rays = comparisons / targets_.all().size();
@@ -136,38 +139,37 @@ public:
         for (std::size_t i = 0; i < eyes; ++i) {
             const glm::dvec3 eye = next_eye(i);
             const glm::dvec3 eye_m = targets_.in_model_m(eye);
-            if (is_looked_from(eye_m)) { look_from(eye, eye_m, ray_test); }
+            if (is_in_scope(eye_m)) { cast_rays_from(eye, eye_m); }
         }
     }
 
-    /// Casts rays at polygons through others that are painted earlier, from eyes beyond, as the parts were turned last.
-    void check_pairs(std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs, std::size_t comparisons,
-        RayTestResult& ray_test) {
+    /// Casts rays through polygons that are painted earlier at others painted later, at the angle tested last.
+    void test_pairs(std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs, std::size_t comparisons) {
         const std::size_t once = std::max<std::size_t>(pairs.size() * targets_.all().size(), 1);
         const std::size_t rays = std::clamp(comparisons / once, min_rays_a_pair, rays_a_pair);
         for (const auto& [earlier, later] : pairs) {
             const RayTarget* const occluder = targets_.of(earlier);
             const RayTarget* const occluded = targets_.of(later);
             for (std::size_t i = 0; i < rays && occluder != nullptr && occluded != nullptr; ++i) {
-                look_through(*occluder, *occluded, ray_test);
+                cast_ray_through(*occluder, *occluded);
             }
         }
     }
 
 private:
-    void look_through(const RayTarget& occluder, const RayTarget& occluded, RayTestResult& ray_test) {
+    void cast_ray_through(const RayTarget& occluder, const RayTarget& occluded) {
         const glm::dvec3 through = point_of(occluder);
         const glm::dvec3 way = through - point_of(occluded);
         const double length = glm::length(way);
         const glm::dvec3 eye = through + way * (30.0 * small() / std::max(length, ray_tolerance));
         const glm::dvec3 eye_m = targets_.in_model_m(eye);
-        if (length > ray_tolerance && is_looked_from(eye_m)) {
+        if (length > ray_tolerance && is_in_scope(eye_m)) {
             set_eye(eye, eye_m);
-            cast_ray(-way / length, ray_test);
+            cast_ray(-way / length);
         }
     }
 
-    bool is_looked_from(const glm::dvec3& eye_m) const {
+    bool is_in_scope(const glm::dvec3& eye_m) const {
         const glm::dvec3 size_m = glm::abs(eye_m - scope_.centre_m);
         return size_m.x + size_m.y + size_m.z >= scope_.min_distance_m;
     }
@@ -216,30 +218,30 @@ private:
         targets_.set_eye(eye, painted_);
     }
 
-    void look_from(const glm::dvec3& eye, const glm::dvec3& eye_m, RayTestResult& ray_test) {
+    void cast_rays_from(const glm::dvec3& eye, const glm::dvec3& eye_m) {
         set_eye(eye, eye_m);
         for (std::size_t i = 0; i < rays_an_eye; ++i) {
             const glm::dvec3 towards = point_of(any_target()) - eye;
             const double length = glm::length(towards);
-            if (length > 0.0) { cast_ray(towards / length, ray_test); }
+            if (length > 0.0) { cast_ray(towards / length); }
         }
     }
 
-    void cast_ray(const glm::dvec3& ray, RayTestResult& ray_test) {
+    void cast_ray(const glm::dvec3& ray) {
         targets_.intersect(ray, hits_);
         if (hits_.empty()) { return; }
         const RayHit& nearest = *std::ranges::min_element(hits_, {}, &RayHit::distance);
         const RayHit& seen = *std::ranges::max_element(hits_, {}, &RayHit::painted);
         if (nearest.edge_distance < ray_tolerance) { return; }
-        ++ray_test.rays;
+        ++result_.rays;
         if (seen.painted == 0) {
-            ++ray_test.wrong;
+            ++result_.wrong;
             return;
         }
         const double tolerance =
             seen.distance_tolerance + nearest.distance_tolerance + ray_tolerance * nearest.distance;
         const bool is_behind = seen.distance - nearest.distance > tolerance;
-        ray_test.wrong += seen.edge_distance >= ray_tolerance && (is_behind || lies_under(seen)) ? 1 : 0;
+        result_.wrong += seen.edge_distance >= ray_tolerance && (is_behind || lies_under(seen)) ? 1 : 0;
     }
 
     /// Whether a later polygon of the file lies on what is seen, in one plane and facing alike, where the ray meets it.
@@ -268,7 +270,8 @@ private:
 
     const PolygonModel& model_;
     const DrawOrder& order_;
-    RayTestOptions scope_;
+    const RayTestOptions& scope_;
+    RayTestResult& result_;
     RandomGenerator dice_{1989};
     RayTargets targets_;
     DrawOrder::Walk walk_;
@@ -276,30 +279,23 @@ private:
     std::vector<RayHit> hits_; ///< Of the ray cast last.
 };
 
-/// Casts the rays of a test, those at unproved pairs too; the results of the proof stay as they are.
-void cast_rays(
-    RayTester& trying, std::span<const double> angles_rad, const OrderProof& proof, RayTestResult& ray_test) {
-    const std::size_t comparisons = max_comparisons / angles_rad.size();
-    for (const double angle_rad : angles_rad) {
-        trying.look(angle_rad, comparisons, ray_test);
-        trying.check_pairs(proof.unproved_pairs, comparisons, ray_test);
-    }
-}
-
 } // namespace
 
 RayTestResult ray_test_order(const PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope) {
     constexpr std::array angles_rad{0.0, 0.7, 2.1, 4.4};
     const bool turns = !model.pivots.empty();
-    const std::size_t angles = turns && scope.turning_parts ? angles_rad.size() : 1;
     OrderProof proof;
     if (!turns || scope.turning_parts) { // else no order is right, and none can be proved
         proof = prove_order(model, scope.proved_order != nullptr ? *scope.proved_order : order, scope.proof_s);
     }
-    RayTestResult ray_test{.unproved = proof.unproved, .is_proof_complete = proof.is_complete};
-    RayTester trying(model, order, scope);
-    cast_rays(trying, std::span(angles_rad).first(angles), proof, ray_test);
-    return ray_test;
+    RayTestResult result{.unproved = proof.unproved, .is_proof_complete = proof.is_complete};
+    RayTester tester(model, order, scope, result);
+    const std::size_t angles = turns && scope.turning_parts ? angles_rad.size() : 1;
+    for (const double angle_rad : std::span(angles_rad).first(angles)) {
+        tester.test_angle(angle_rad, max_comparisons / angles);
+        tester.test_pairs(proof.unproved_pairs, max_comparisons / angles);
+    }
+    return result;
 }
 
 } // namespace octant::visuals::draworder

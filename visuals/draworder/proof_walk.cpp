@@ -54,7 +54,7 @@ private:
     /// reported for this child.
     struct Level {
         int child = 0;
-        std::size_t region_planes = 0;
+        std::size_t region_plane_count = 0;
         std::vector<PolygonSet> proved; ///< By the later polygon: the earlier ones of the pairs that are proved.
     };
 
@@ -97,8 +97,8 @@ private:
         auto& region_planes = plane_proof.factors.region_planes;
         std::size_t level = levels_.size() - 1;
         if (plane_proof.kind != SeparatingPlaneProof::Kind::None) {
-            while (level > 0 && region_planes[levels_[level].region_planes - 1] == 0.0) { --level; }
-            region_planes.resize(levels_[level].region_planes);
+            while (level > 0 && region_planes[levels_[level].region_plane_count - 1] == 0.0) { --level; }
+            region_planes.resize(levels_[level].region_plane_count);
         }
         sink_.add_plane_proof(levels_[level].child, plane_proof, earlier, later);
         for (; level < levels_.size(); ++level) { levels_[level].proved[later].add(earlier); }
@@ -127,7 +127,7 @@ private:
             }
         }
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            if (children[i] != DrawOrder::nothing) {
+            if (children[i] != DrawOrder::no_child) {
                 to_do_.push_back({children[i], task.region_planes, std::move(parts[i]), i >= 2});
             }
         }
@@ -154,7 +154,7 @@ private:
     }
 
     void check_side(const Task& task, int child, const Plane& wall) {
-        if (child == DrawOrder::nothing) {
+        if (child == DrawOrder::no_child) {
             return; // nothing is painted for these eyes, and nothing is stated for them
         }
         Task side{child, task.region_planes, task.expected, false};
@@ -190,7 +190,7 @@ private:
         while (!pending.empty()) {
             const int next = pending.back();
             pending.pop_back();
-            if (next == DrawOrder::nothing) { continue; }
+            if (next == DrawOrder::no_child) { continue; }
             if (next < 0) {
                 const auto list = order_.polygons_of(~next);
                 found.insert(found.end(), list.begin(), list.end());

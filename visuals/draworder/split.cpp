@@ -4,6 +4,7 @@
 
 #include "models/planar/planar_model.h"
 #include "sim/base/plane.h"
+#include "visuals/draworder/occlusion.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -165,7 +166,6 @@ std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plan
 
 namespace {
 
-using models::polygons::PolygonModel;
 using Corners = std::vector<glm::dvec3>;
 
 /// About the work of looking at a pair, and of a cut for each polygon there is (SearchBudget).
@@ -181,19 +181,6 @@ Corners corners_of(const PolygonModel& model, std::size_t polygon) {
     corners.reserve(model.polygons[polygon].corner_count);
     for (const std::uint32_t vertex : model.corners(polygon)) { corners.push_back(model.vertices_m[vertex]); }
     return corners;
-}
-
-/// The part of a convex polygon in front of a plane.
-Corners corners_in_front(const Corners& corners, const Plane& plane) {
-    Corners kept;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec3& next = corners[(i + 1) % corners.size()];
-        const double here_m = distance_m(plane, corners[i]);
-        const double next_m = distance_m(plane, next);
-        if (here_m >= 0.0) { kept.push_back(corners[i]); }
-        if (here_m * next_m < 0.0) { kept.push_back(glm::mix(corners[i], next, here_m / (here_m - next_m))); }
-    }
-    return kept;
 }
 
 /// Whether there are corners beyond the tolerance on both sides of a plane.
@@ -230,7 +217,7 @@ Interval crossing(const Corners& corners, const Plane& plane, const glm::dvec3& 
 }
 
 /// A polygon or piece of one, with the plane of the whole polygon and a bounding box.
-struct SplitFace {
+struct PlanarPiece {
     Corners corners;
     Plane plane;
     std::optional<std::uint32_t> pivot;
@@ -238,21 +225,21 @@ struct SplitFace {
     glm::dvec3 most{-std::numeric_limits<double>::infinity()};
 };
 
-SplitFace face_of(Corners corners, const Plane& plane, std::optional<std::uint32_t> pivot) {
-    SplitFace face{.corners = std::move(corners), .plane = plane, .pivot = pivot};
-    for (const glm::dvec3& corner : face.corners) {
-        face.least = glm::min(face.least, corner);
-        face.most = glm::max(face.most, corner);
+PlanarPiece piece_of(Corners corners, const Plane& plane, std::optional<std::uint32_t> pivot) {
+    PlanarPiece piece{.corners = std::move(corners), .plane = plane, .pivot = pivot};
+    for (const glm::dvec3& corner : piece.corners) {
+        piece.least = glm::min(piece.least, corner);
+        piece.most = glm::max(piece.most, corner);
     }
-    return face;
+    return piece;
 }
 
-bool boxes_apart(const SplitFace& a, const SplitFace& b) {
+bool boxes_apart(const PlanarPiece& a, const PlanarPiece& b) {
     return glm::any(glm::lessThan(a.most, b.least)) || glm::any(glm::lessThan(b.most, a.least));
 }
 
 /// Whether two polygons pass through one another.
-bool penetrate(const SplitFace& a, const SplitFace& b, double tolerance_m) {
+bool penetrate(const PlanarPiece& a, const PlanarPiece& b, double tolerance_m) {
     if (a.pivot != b.pivot || boxes_apart(a, b) || !straddles(a.corners, b.plane, tolerance_m) ||
         !straddles(b.corners, a.plane, tolerance_m)) {
         return false;
@@ -270,7 +257,7 @@ class Splitter {
 public:
     explicit Splitter(PolygonModel& model) : model_(model), tolerance_m_(split_tolerance_m(model)) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-            faces_.push_back(face_of(
+            faces_.push_back(piece_of(
                 corners_of(model, i), models::polygons::plane_of(model, i), models::polygons::pivot_of(model, i)));
         }
         partners_.resize(faces_.size());
@@ -323,32 +310,32 @@ private:
     PolygonCut best_polygon_cut(std::uint32_t face) const {
         std::optional<PolygonCut> best;
         for (const std::uint32_t along : partners_[face]) {
-            const long has_fewer_splits = pairs_fewer(face, faces_[along].plane);
-            if (!best || has_fewer_splits > best->pairs_fewer) { best = PolygonCut{along, has_fewer_splits}; }
+            const long fewer = pairs_fewer(face, faces_[along].plane);
+            if (!best || fewer > best->pairs_fewer) { best = PolygonCut{along, fewer}; }
         }
         return *best;
     }
 
     /// By how many the penetrating pairs get fewer when a polygon is cut along a plane.
     long pairs_fewer(std::uint32_t face, const Plane& plane) const {
-        const SplitFace& whole = faces_[face];
-        const SplitFace front = face_of(corners_in_front(whole.corners, plane), whole.plane, whole.pivot);
-        const SplitFace back = face_of(corners_in_front(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
-        auto has_fewer_splits = static_cast<long>(partners_[face].size());
+        const PlanarPiece& whole = faces_[face];
+        const PlanarPiece front = piece_of(front_part(whole.corners, plane, 0.0), whole.plane, whole.pivot);
+        const PlanarPiece back = piece_of(front_part(whole.corners, turned_over(plane), 0.0), whole.plane, whole.pivot);
+        auto fewer = static_cast<long>(partners_[face].size());
         for (const std::uint32_t other : partners_[face]) {
-            has_fewer_splits -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;
-            has_fewer_splits -= penetrate(back, faces_[other], tolerance_m_) ? 1 : 0;
+            fewer -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;
+            fewer -= penetrate(back, faces_[other], tolerance_m_) ? 1 : 0;
         }
-        return has_fewer_splits;
+        return fewer;
     }
 
     /// Cuts a polygon and finds the partners of both pieces.
     void cut(std::uint32_t face, std::uint32_t along) {
         const std::vector<std::uint32_t> others = std::exchange(partners_[face], {});
         const std::uint32_t back = split_polygon(model_, face, faces_[along].plane);
-        const SplitFace whole = std::move(faces_[face]);
-        faces_[face] = face_of(corners_of(model_, face), whole.plane, whole.pivot);
-        faces_.push_back(face_of(corners_of(model_, back), whole.plane, whole.pivot));
+        const PlanarPiece whole = std::move(faces_[face]);
+        faces_[face] = piece_of(corners_of(model_, face), whole.plane, whole.pivot);
+        faces_.push_back(piece_of(corners_of(model_, back), whole.plane, whole.pivot));
         partners_.emplace_back();
         cuts_[face].reset();
         cuts_.emplace_back();
@@ -367,7 +354,7 @@ private:
 
     PolygonModel& model_;
     double tolerance_m_;
-    std::vector<SplitFace> faces_;
+    std::vector<PlanarPiece> faces_;
     /// For each face those that it passes through, ascending.
     std::vector<std::vector<std::uint32_t>> partners_;
     /// For each face its best cut; nothing where that has to be found anew.

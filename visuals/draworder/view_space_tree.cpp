@@ -668,13 +668,13 @@ const TreeSearch quick_search{.plane_search = {.power = 3.0, .edge_planes = 300,
     .keeps_partial_result = true};
 
 /// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
-bool has_fewer_splits(const CellSearchResult& a, const CellSearchResult& b) {
+bool is_better(const CellSearchResult& a, const CellSearchResult& b) {
     return std::pair(!a.tree.incomplete_reason.empty(), a.cost()) <
            std::pair(!b.tree.incomplete_reason.empty(), b.cost());
 }
 
 void keep_better(std::optional<CellSearchResult>& best, CellSearchResult orders) {
-    if (!best || has_fewer_splits(orders, *best)) { best = std::move(orders); }
+    if (!best || is_better(orders, *best)) { best = std::move(orders); }
 }
 
 CellSearchResult searched(WorkingModel work, const ViewCell& root, const TreeSearch& search) {

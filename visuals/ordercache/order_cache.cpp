@@ -181,7 +181,7 @@ private:
         std::vector<char> has_parent(nodes.size(), 0);
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const auto is_cell_or_nothing = [&](int child) {
-                return child == DrawOrder::nothing || (child < 0 && static_cast<std::size_t>(~child) < lists);
+                return child == DrawOrder::no_child || (child < 0 && static_cast<std::size_t>(~child) < lists);
             };
             const auto is_child = [&](int child) {
                 if (child < 0) { return is_cell_or_nothing(child); }
@@ -194,7 +194,7 @@ private:
                       is_cell_or_nothing(node.coplanar_back),
                 "children that are later nodes or cells");
             check(node.kind != DrawOrder::Kind::ViewSplit ||
-                      (node.front != DrawOrder::nothing && node.back != DrawOrder::nothing),
+                      (node.front != DrawOrder::no_child && node.back != DrawOrder::no_child),
                 "a choice between nodes or cells");
         }
     }

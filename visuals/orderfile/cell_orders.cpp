@@ -3,7 +3,6 @@
 #include "visuals/orderfile/cell_orders.h"
 
 #include "sim/base/plane.h"
-#include "visuals/draworder/occlusion.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/view_region.h"
 
@@ -20,41 +19,40 @@
 
 namespace octant::visuals::orderfile {
 
-// From parts to cells: the walk of an eye through the tree is done for all eyes of a region at once, and divides where
-// they would go different ways.
+// From polygon splits to cells: all eyes of a region walk through the tree at once; the region is divided where they
+// would go different ways.
 
 namespace {
 
 using draworder::DrawOrder;
 using draworder::ViewRegion;
 
-/// More cells than these, or more entries in all lists, say less than the parts do.
+/// Orders of more cells, or of more entries in all lists, stay as they are: with polygon splits.
 constexpr std::size_t max_cells_of_parts = 1'000;
 constexpr std::size_t max_entries_of_parts = 8'000'000;
 
-/// A region of eyes and what is painted for all of them.
-struct BspCell {
-    std::vector<Plane> planes; ///< The region is in front of them; unit normals, body axes.
-    std::vector<std::uint32_t> list;
-};
-
-/// The eyes of a region on their way through the tree.
-struct MovingPolygons {
+/// The eyes of a region on their way through the tree, and what they have painted so far.
+struct EyeGroup {
     ViewRegion region;
     std::size_t cuts = 0;
     std::vector<int> pending;
     std::vector<std::uint32_t> list;
 };
 
+/// Finds the cells of any order. A plane that splits polygons also divides eye space, so that the cells on both sides
+/// of it are combined. Only regions with a volume become cells.
 class CellExpander {
 public:
-    CellExpander(const models::polygons::PolygonModel& model, const DrawOrder& order)
-        : order_(order), frame_(empty_frame(model)) {}
+    CellExpander(const models::polygons::PolygonModel& model, const DrawOrder& order) : order_(order) {
+        const double radius_m = models::polygons::radius_m(model);
+        if (radius_m > 0.0) { unit_m_ = radius_m; }
+    }
 
-    std::optional<std::vector<BspCell>> cells() {
+    /// Nothing when there are too many cells.
+    std::optional<std::vector<ListedCell>> cells() {
         groups_.push_back({ViewRegion::all_space(), 0, {order_.nodes().empty() ? ~0 : 0}, {}});
         while (!groups_.empty()) {
-            MovingPolygons group = std::move(groups_.back());
+            EyeGroup group = std::move(groups_.back());
             groups_.pop_back();
             if (!walk(std::move(group))) { return std::nullopt; }
         }
@@ -62,24 +60,12 @@ public:
     }
 
 private:
-    /// The unit and origin of faces, without faces.
-    static draworder::ModelFaces empty_frame(const models::polygons::PolygonModel& model) {
-        draworder::ModelFaces frame{.faces = {},
-            .tolerances = {},
-            .rigid = draworder::OcclusionGraph(0),
-            .ignored = draworder::OcclusionGraph(0),
-            .notes = {}};
-        const double radius_m = models::polygons::radius_m(model);
-        frame.unit_m = radius_m > 0.0 ? radius_m : 1.0;
-        return frame;
-    }
-
-    /// Goes on until the eyes part or have painted everything; false when there are too many cells.
-    bool walk(MovingPolygons group) {
+    /// Leads a group of eyes to the end of the tree; false when there are too many cells.
+    bool walk(EyeGroup group) {
         while (!group.pending.empty()) {
             const int at = group.pending.back();
             group.pending.pop_back();
-            if (at == DrawOrder::nothing) { continue; }
+            if (at == DrawOrder::no_child) { continue; }
             if (at < 0) {
                 const auto list = order_.polygons_of(~at);
                 group.list.insert(group.list.end(), list.begin(), list.end());
@@ -95,15 +81,15 @@ private:
         return finish(std::move(group));
     }
 
-    /// Lets the eyes go on beyond a plane, those behind it in a group of their own.
-    bool cross(MovingPolygons& group, const DrawOrder::Node& node) {
-        const Plane plane = frame_.to_face_space(node.plane);
+    /// Leads a group of eyes past a plane; eyes behind it become a group of their own if others are before it.
+    bool cross(EyeGroup& group, const DrawOrder::Node& node) {
+        const Plane plane{node.plane.normal, node.plane.offset_m / unit_m_};
         const Plane turned = turned_over(plane);
         const bool some_before = group.region.intersects_front_of(plane);
         const bool some_behind = group.region.intersects_front_of(turned);
         if (some_before && some_behind) {
             if (group.cuts == ViewRegion::max_planes || groups_.size() > max_cells_of_parts) { return false; }
-            MovingPolygons behind{*group.region.cut(turned), group.cuts + 1, group.pending, group.list};
+            EyeGroup behind{*group.region.cut(turned), group.cuts + 1, group.pending, group.list};
             go(behind, node, false);
             groups_.push_back(std::move(behind));
             group.region = *group.region.cut(plane);
@@ -113,7 +99,7 @@ private:
         return true;
     }
 
-    static void go(MovingPolygons& group, const DrawOrder::Node& node, bool in_front) {
+    static void go(EyeGroup& group, const DrawOrder::Node& node, bool in_front) {
         group.pending.push_back(in_front ? node.front : node.back);
         if (node.kind == DrawOrder::Kind::PolygonSplit) {
             group.pending.push_back(in_front ? node.coplanar_front : node.coplanar_back);
@@ -121,27 +107,23 @@ private:
         }
     }
 
-    bool finish(MovingPolygons group) {
+    bool finish(EyeGroup group) {
         entries_ += group.list.size();
         if (cells_.size() == max_cells_of_parts || entries_ > max_entries_of_parts) { return false; }
-        BspCell& cell = cells_.emplace_back();
-        for (const Plane& plane : group.region.planes()) { cell.planes.push_back(frame_.in_model(plane)); }
+        ListedCell& cell = cells_.emplace_back();
+        for (const Plane& plane : group.region.planes()) {
+            cell.planes.push_back({plane.normal, plane.offset_m * unit_m_});
+        }
         cell.list = std::move(group.list);
         return true;
     }
 
     const DrawOrder& order_;
-    draworder::ModelFaces frame_;
-    std::vector<MovingPolygons> groups_;
-    std::vector<BspCell> cells_;
+    double unit_m_ = 1.0; ///< Of the regions.
+    std::vector<EyeGroup> groups_;
+    std::vector<ListedCell> cells_;
     std::size_t entries_ = 0;
 };
-
-/// The cells of any order. A plane that splits polygons also divides eye space, so that the cells on both sides of it
-/// are combined. Only regions with a volume become cells. Returns nothing when there are too many.
-std::optional<std::vector<BspCell>> bsp_cells(const models::polygons::PolygonModel& model, const DrawOrder& order) {
-    return CellExpander(model, order).cells();
-}
 
 /// The sine of the angle below which a direction counts as lying in a plane.
 constexpr double flat = 1e-9;
@@ -221,12 +203,8 @@ CellOrders cell_orders(const draworder::OrderedModel& ordered) {
     orders.parents = ordered.model.parents;
     orders.centre_m = ordered.centre_m;
     if (ordered.cells.empty()) {
-        if (auto cells = bsp_cells(ordered.model, ordered.order)) {
-            for (BspCell& from : *cells) {
-                ListedCell& cell = orders.cells.emplace_back();
-                cell.planes = std::move(from.planes);
-                cell.list = std::move(from.list);
-            }
+        if (auto cells = CellExpander(ordered.model, ordered.order).cells()) {
+            orders.cells = std::move(*cells);
         } else {
             orders.parts = ordered.order;
         }

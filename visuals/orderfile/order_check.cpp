@@ -60,7 +60,7 @@ bool parts(
 /// The programme of a separating plane. Its unknowns are a factor for each plane, one for (0, 1), and the margin, which
 /// is maximised; the factors add up to 1.
 LinearProgram separation_programme(
-    std::span<const glm::dvec3> occluder, std::span<const glm::dvec3> far_one, std::span<const Plane> planes) {
+    std::span<const glm::dvec3> occluder, std::span<const glm::dvec3> occluded, std::span<const Plane> planes) {
     LinearProgram program;
     program.variables.assign(planes.size() + 1, {});
     program.variables.push_back({.weight = 1.0, .least = -1e3, .most = 1e3});
@@ -73,7 +73,7 @@ LinearProgram separation_programme(
         program.rows.push_back(std::move(row));
     };
     for (const glm::dvec3& corner : occluder) { add_corner(corner, -1.0); }
-    for (const glm::dvec3& corner : far_one) { add_corner(corner, 1.0); }
+    for (const glm::dvec3& corner : occluded) { add_corner(corner, 1.0); }
     LinearProgram::Row sum;
     sum.factors.assign(planes.size() + 1, 1.0);
     sum.factors.push_back(0.0);
@@ -93,20 +93,20 @@ Plane sum_of(std::span<const Plane> planes, const std::vector<double>& factors) 
     return sum;
 }
 
-/// Proves that no eye of a region sees `occluder` in front of `far_one`, by a plane with occluder behind it and far_one
-/// and the region in front, all weakly. The region is the intersection of the half-spaces in front of `planes` (unit
-/// normals); a region without interior is separated from everything.
+/// Proves that no eye of a region sees `occluder` in front of `occluded`, by a plane with occluder behind it and
+/// occluded and the region in front, all weakly. The region is the intersection of the half-spaces in front of `planes`
+/// (unit normals); a region without interior is separated from everything.
 SeparationMethod find_separation(
-    std::span<const glm::dvec3> occluder, std::span<const glm::dvec3> far_one, std::span<const Plane> planes) {
+    std::span<const glm::dvec3> occluder, std::span<const glm::dvec3> occluded, std::span<const Plane> planes) {
     for (const Plane& plane : planes) {
-        if (parts(plane, check_tolerance, occluder, far_one)) { return SeparationMethod::Plane; }
+        if (parts(plane, check_tolerance, occluder, occluded)) { return SeparationMethod::Plane; }
     }
-    const auto factors = optimum(separation_programme(occluder, far_one, planes));
+    const auto factors = optimum(separation_programme(occluder, occluded, planes));
     if (!factors) { return SeparationMethod::None; }
     const Plane sum = sum_of(planes, *factors);
     const double length = glm::length(sum.normal);
     const bool no_inside = length < min_normal && sum.offset_m < min_normal;
-    const bool good = no_inside || parts(sum, check_tolerance * length, occluder, far_one);
+    const bool good = no_inside || parts(sum, check_tolerance * length, occluder, occluded);
     return good ? SeparationMethod::LinearProgram : SeparationMethod::None;
 }
 
@@ -364,17 +364,17 @@ private:
     }
 
     /// The weakest certificate over the sides from which each of the two polygons is seen.
-    SeparationMethod certificate(const CheckShape& occluder, const CheckShape& far_one) const {
-        const bool rigid = occluder.pivot == far_one.pivot;
+    SeparationMethod certificate(const CheckShape& occluder, const CheckShape& occluded) const {
+        const bool rigid = occluder.pivot == occluded.pivot;
         const Planes region = rigid && occluder.pivot ? unturned(*occluder.pivot) : region_;
         SeparationMethod weakest = SeparationMethod::Plane;
         for (const Planes& near_side : sides_of(occluder, rigid)) {
-            for (const Planes& far_side : sides_of(far_one, rigid)) {
+            for (const Planes& far_side : sides_of(occluded, rigid)) {
                 Planes planes = region;
                 planes.insert(planes.end(), near_side.begin(), near_side.end());
                 planes.insert(planes.end(), far_side.begin(), far_side.end());
                 weakest = std::max(weakest, find_separation(rigid ? occluder.corners : occluder.swept,
-                                                rigid ? far_one.corners : far_one.swept, planes));
+                                                rigid ? occluded.corners : occluded.swept, planes));
             }
         }
         return weakest;

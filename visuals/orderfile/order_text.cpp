@@ -149,7 +149,7 @@ std::string region_text(const ListedCell& cell, const models::polygons::FileAxes
 }
 
 std::string child_text(int child) {
-    if (child == DrawOrder::nothing) { return " nothing"; }
+    if (child == DrawOrder::no_child) { return " nothing"; }
     return child < 0 ? fmt::format(" list {}", ~child) : fmt::format(" node {}", child);
 }
 
@@ -363,7 +363,7 @@ private:
 
     /// A child as DrawOrder::Node has it. Whether a list is there is known only at the end.
     int child() {
-        if (words_.skip("nothing")) { return DrawOrder::nothing; }
+        if (words_.skip("nothing")) { return DrawOrder::no_child; }
         const auto most = static_cast<long>(max_cells);
         if (words_.skip("list")) { return ~static_cast<int>(count("the number of a list", 0, most)); }
         if (words_.skip("node")) {
@@ -382,8 +382,8 @@ private:
     void finish_parts() {
         const auto check = [&](int child) {
             const bool there =
-                child == DrawOrder::nothing || (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
-                                                          : static_cast<std::size_t>(child) < nodes_.size());
+                child == DrawOrder::no_child || (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
+                                                           : static_cast<std::size_t>(child) < nodes_.size());
             if (!there) {
                 throw_error_in(
                     path_, fmt::format("expected children among {} nodes and {} lists, got {} {}", nodes_.size(),

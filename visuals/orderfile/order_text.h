@@ -44,9 +44,9 @@ std::vector<OrderRow> order_table(
 ///     twosided I J ...         default none
 ///     parents P0 P1 ...        of which polygon each is a piece; default none
 ///     cell REGION [min R] [max R] order I0 I1 ...    I0 is painted first, others never
-/// REGION is an octant path (octant_path.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K directions, from the centre)
-/// or `half K NX NY NZ D ...` (points p with N.p + D >= 0 for all K; K = 0 is everywhere). The first cell that contains
-/// an eye is used.
+/// REGION is an octant path (octant_order.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K directions, from the
+/// centre) or `half K NX NY NZ D ...` (points p with N.p + D >= 0 for all K; K = 0 is everywhere). The first cell that
+/// contains an eye is used.
 ///
 /// In place of cells there may be parts, for models that would need too many cells; the polygons themselves are
 /// divided, too:
@@ -56,7 +56,7 @@ std::vector<OrderRow> order_table(
 ///                                                         the plane, then the eye's side
 ///     node sequence FIRST LATER                           painted one after the other
 /// FRONT is what is painted, or lies, where N.p + D >= 0. A child is `node K` or `list K`, counted from 0 in the order
-/// of the lines, or `nothing`; the children of a node are lists or later nodes, and no node is the child of two. Of
+/// of the lines, or no_child; the children of a node are lists or later nodes, and no node is the child of two. Of
 /// what lies in a parting's plane, ALONG is painted for eyes in front and AGAINST for those behind. Node 0 is where
 /// every eye begins; without nodes it is list 0.
 ///

@@ -47,7 +47,7 @@ public:
         Polygons all;
         for (std::uint32_t i = 0; i < polygons; ++i) { all.push_back(i); }
         std::vector<Task> tasks;
-        tasks.push_back({std::move(all), BspTree::nothing, false, 1});
+        tasks.push_back({std::move(all), BspTree::no_child, false, 1});
         while (!tasks.empty()) {
             const Task task = std::move(tasks.back());
             tasks.pop_back();
@@ -61,7 +61,7 @@ private:
     /// The polygons that a new node below `parent` has to hold.
     struct Task {
         Polygons polygons;
-        int parent = BspTree::nothing;
+        int parent = BspTree::no_child;
         bool in_front = false;
         int level = 1;
     };
@@ -141,7 +141,7 @@ private:
     /// Makes the node of a task and the tasks of its two sides.
     void add_node(const Task& task, std::vector<Task>& tasks) {
         const int number = static_cast<int>(tree_.nodes.size());
-        if (task.parent != BspTree::nothing) {
+        if (task.parent != BspTree::no_child) {
             BspTree::Node& parent = tree_.nodes[static_cast<std::size_t>(task.parent)];
             (task.in_front ? parent.front : parent.back) = number;
         }
@@ -205,7 +205,7 @@ void append_painted(
             }
         }
         const int child = far_side_done == in_front ? node.front : node.back;
-        if (child != BspTree::nothing) { pending.push_back(child); }
+        if (child != BspTree::no_child) { pending.push_back(child); }
     }
 }
 

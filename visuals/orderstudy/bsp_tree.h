@@ -15,13 +15,13 @@ namespace octant::visuals::orderstudy {
 /// model for any eye, but it cuts polygons where it must and is walked anew in every frame, with one plane test at each
 /// node. Parts with a pivot stay at the angle that the file shows. Body axes, metres.
 struct BspTree {
-    static constexpr int nothing = -1;
+    static constexpr int no_child = -1;
 
     /// A plane of the tree. Polygons first to first + count - 1 of `polygons` lie in it, facing either way.
     struct Node {
         Plane plane;
-        int front = nothing; ///< The child on the side to which the normal points.
-        int back = nothing;
+        int front = no_child; ///< The child on the side to which the normal points.
+        int back = no_child;
         std::size_t first = 0;
         std::size_t count = 0;
     };

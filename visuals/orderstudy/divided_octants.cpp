@@ -322,7 +322,7 @@ private:
     /// Copies a child; `signs` are those of the octant, as far as the view splits above determine them.
     int copy(int child, const glm::dvec3& signs, int above) {
         if (above == axes) {
-            const int made = add({plane_of(signs), 0, DrawOrder::nothing});
+            const int made = add({plane_of(signs), 0, DrawOrder::no_child});
             at(made).front = copy(child, signs, above + 1);
             return made;
         }

@@ -70,7 +70,8 @@ inline bool is_before(const LocalModel& model, std::uint32_t polygon, const Plan
     return is_behind(model, polygon, turned_over(plane), turns);
 }
 
-/// What each choice gives in each case, case after case.
+/// Values of a matrix game: what each choice gives in each case, case after case. The factors of a sum of planes are
+/// found as such a game, in which a choice is a plane and a case is a point that the sum must have on one side.
 struct Payoffs {
     std::size_t choices = 0;
     std::vector<double> values;

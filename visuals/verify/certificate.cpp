@@ -1,4 +1,4 @@
-// Reads certificates of painting orders in the format of README.md. The lines of the model and its order
+// Reads certificates of painting orders in the format of certificate-format.md. The lines of the model and its order
 // (StructureReader) come before the statements (StatementReader).
 #include "visuals/verify/certificate.h"
 
@@ -31,7 +31,7 @@ constexpr double largest_number = 1e12;
 constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
 constexpr double longest_normal = 1.5;
 
-/// Reads what stands in a certificate's lines, as README.md describes them.
+/// Reads what stands in a certificate's lines, as certificate-format.md describes them.
 class CertificateTokens : public TextScanner {
 public:
     CertificateTokens(const std::filesystem::path& path, std::string_view text)
@@ -188,7 +188,7 @@ private:
 
     /// A child; whether it is there is known only when all are read.
     int child(bool may_be_nothing, bool may_be_node) {
-        if (may_be_nothing && words_.skip("nothing")) { return OrderNode::nothing; }
+        if (may_be_nothing && words_.skip("nothing")) { return OrderNode::no_child; }
         if (words_.skip("list")) { return ~static_cast<int>(words_.index("a list", max_entries)); }
         if (!may_be_node || !words_.skip("node")) {
             words_.refuse_next(

@@ -41,19 +41,19 @@ struct OrderNode {
     enum class Kind { ViewSplit, PolygonSplit, Sequence };
 
     /// A child where nothing is painted; else a child >= 0 is a node, one < 0 the list ~child.
-    static constexpr int nothing = std::numeric_limits<int>::min();
+    static constexpr int no_child = std::numeric_limits<int>::min();
     /// A side of a view split about whose eyes nothing is stated.
-    static constexpr int not_covered = nothing + 1;
+    static constexpr int not_covered = no_child + 1;
 
     /// Whether a child is neither a node nor a list.
-    static bool is_empty(int child) { return child == nothing || child == not_covered; }
+    static bool is_empty(int child) { return child == no_child || child == not_covered; }
 
     Kind kind = Kind::ViewSplit;
     WrittenPlane plane; ///< Not of a sequence.
-    int front = nothing;
-    int back = nothing;
-    int coplanar_front = nothing;
-    int coplanar_back = nothing;
+    int front = no_child;
+    int back = no_child;
+    int coplanar_front = no_child;
+    int coplanar_back = no_child;
     int line = 0;
 };
 
@@ -140,7 +140,7 @@ struct Certificate {
     }
 };
 
-/// Reads a certificate; README.md has its format. Throws Error "file:line: expected ..., got ..." for whatever is not a
+/// Reads a certificate; certificate-format.md describes it. Throws Error "file:line: expected ..., got ..." for whatever is not a
 /// certificate at all: no header, unknown keywords, numbers that are missing, too many, not finite or out of range,
 /// nodes and lists that are no tree, statements about polygons, nodes or lists that do not exist.
 Certificate read_certificate(const std::filesystem::path& path);

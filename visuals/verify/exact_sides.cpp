@@ -156,8 +156,8 @@ bool ExactSides::edge_separates(std::uint32_t a, std::uint32_t b) const {
         const ExactVector from = exact(certificate_.vertices[polygon.corners[i]]);
         const ExactVector to = exact(certificate_.vertices[polygon.corners[next]]);
         const ExactVector inward = cross(normal, difference(to, from));
-        const ExactPlane wall{inward, Rational(-dot(inward, from))};
-        if (largest(inward) > 0 && is_behind(b, wall, PartAngle::Standing)) { return true; }
+        const ExactPlane edge_plane{inward, Rational(-dot(inward, from))};
+        if (largest(inward) > 0 && is_behind(b, edge_plane, PartAngle::Standing)) { return true; }
     }
     return false;
 }

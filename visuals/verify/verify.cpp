@@ -1,5 +1,5 @@
 // Walks the tree of a painting order from its root and asks for a proof of everything that the order rests on.
-// README.md says why each statement proves its pair.
+// certificate-format.md says why each statement proves its pair.
 #include "visuals/verify/verify.h"
 
 #include "sim/base/error.h"
@@ -121,11 +121,11 @@ public:
     void add(const PolygonPair& pair) { row(pair.later).add(pair.earlier); }
 
     /// Adds what a plane proves that all eyes are before: whatever is behind it hides nothing of whatever is before it.
-    void add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides) {
-        const WrittenPlane back = reversed(wall);
+    void add_region_plane(const WrittenPlane& plane, const Certificate& certificate, const ExactSides& sides) {
+        const WrittenPlane back = reversed(plane);
         PolygonSet behind(polygons_);
         for (std::uint32_t i = 0; i < polygons_; ++i) {
-            if (sides.is_behind(i, wall, PartAngle::Turning)) { behind.add(i); }
+            if (sides.is_behind(i, plane, PartAngle::Turning)) { behind.add(i); }
         }
         for (std::uint32_t i = 0; i < polygons_; ++i) {
             if (!sides.is_behind(i, back, PartAngle::Turning)) { continue; }
@@ -166,8 +166,8 @@ private:
 /// The region of the eyes of a list or node: it is in front of all of these planes.
 using RegionPlanes = std::vector<WrittenPlane>;
 
-/// Checks the statements about pairs; README.md says why each one is a proof. Throws InvalidCertificate for false ones.
-/// Keeps references.
+/// Checks the statements about pairs; certificate-format.md says why each one is a proof. Throws InvalidCertificate for
+/// false ones. Keeps references.
 class PairCheck {
 public:
     PairCheck(const Certificate& certificate, const ExactSides& sides) : certificate_(certificate), sides_(sides) {}
@@ -229,9 +229,8 @@ private:
 
     void require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const {
         if (!sides_.has_fixed_plane(polygon, pose)) {
-            throw InvalidCertificate{
-                line, fmt::format(
-                          "expected a witness without the plane of polygon {}, which turns, got one with it", polygon)};
+            throw InvalidCertificate{line,
+                fmt::format("expected a sum without the plane of polygon {}, which turns, got one with it", polygon)};
         }
     }
 
@@ -251,8 +250,8 @@ private:
             if (factor > 0.0 && sum.pose == PartAngle::Standing && axis &&
                 !is_across(sum.region_planes[i], certificate_.axes[*axis])) {
                 throw InvalidCertificate{
-                    sum.line, fmt::format("expected a witness without wall {}, which polygons {} and {} see turn, got "
-                                          "one with it",
+                    sum.line, fmt::format("expected a sum without region plane {}, which turns for polygons {} and "
+                                          "{}, got one with it",
                                   i, sum.pair.earlier, sum.pair.later)};
             }
             add(plane, factor, exact(sum.region_planes[i]));
@@ -502,16 +501,16 @@ public:
                 fmt::format("expected a tolerance of at most {:g} of the model's size, {:g}, got {:g}",
                     largest_tolerance_sizes, most.get_d(), certificate.tolerance));
         }
-        verdict_.tolerance_sizes = Rational(certificate.tolerance / sides_.size()).get_d();
-        verdict_.unproved = certificate.unproved;
+        result_.tolerance_sizes = Rational(certificate.tolerance / sides_.size()).get_d();
+        result_.unproved = certificate.unproved;
     }
 
-    VerificationResult result() {
+    VerificationResult verified() {
         try {
             check_polygons();
             check_tree();
-        } catch (InvalidCertificate& refusal) { verdict_.failure = std::move(refusal); }
-        return verdict_;
+        } catch (InvalidCertificate& refusal) { result_.failure = std::move(refusal); }
+        return result_;
     }
 
 private:
@@ -521,10 +520,10 @@ private:
         int child = 0;
         RegionPlanes region_planes;
         std::shared_ptr<const Polygons> expected;
-        std::shared_ptr<const ProvedPairs> known =
-            nullptr;            ///< The pairs that the view splits above prove, if there are any.
-        bool adds_wall = false; ///< Nothing has been made of the last region plane yet.
-        bool in_plane = false;  ///< A list of the polygons in the plane of a polygon split.
+        /// The pairs that the view splits above prove, if there are any.
+        std::shared_ptr<const ProvedPairs> known = nullptr;
+        bool has_new_region_plane = false; ///< `known` does not hold yet what the last region plane proves.
+        bool in_plane = false;             ///< A list of the polygons in the plane of a polygon split.
     };
 
     /// That each polygon lies in its plane and is seen from the front of it.
@@ -558,12 +557,12 @@ private:
     void check_list(const Task& task) {
         const OrderList& list = certificate_.lists[static_cast<std::size_t>(~task.child)];
         const std::span<const std::uint32_t> polygons = list.polygons;
-        verdict_.unlisted += painted_check_.require_painted(task.child, *task.expected, polygons, task.region_planes);
+        result_.unlisted += painted_check_.require_painted(task.child, *task.expected, polygons, task.region_planes);
         painted_check_.require_layer_order(polygons, list.line);
         const std::uint64_t pairs = pairs_among(polygons.size());
-        verdict_.pairs += pairs;
+        result_.pairs += pairs;
         if (task.in_plane) {
-            verdict_.by_node_planes += pairs;
+            result_.by_node_planes += pairs;
             return;
         }
         std::unordered_map<std::uint32_t, std::size_t> place;
@@ -591,7 +590,7 @@ private:
         const Polygons coplanar_front = contents_.of(node.coplanar_front);
         const Polygons coplanar_back = contents_.of(node.coplanar_back);
         painted_check_.require_disjoint(node.line, {front, back, coplanar_front, coplanar_back});
-        verdict_.unlisted +=
+        result_.unlisted +=
             painted_check_.require_painted(task.child, *task.expected, contents_.of(task.child), task.region_planes);
         const auto known = known_below(task);
         if (node.kind == OrderNode::Kind::Sequence) {
@@ -600,7 +599,7 @@ private:
             check_parting(node, certificate_.statements_of(task.child), {front, back}, {coplanar_front, coplanar_back});
         }
         const auto add = [&](int child, const Polygons& polygons, bool in_plane) {
-            if (child != OrderNode::nothing) {
+            if (child != OrderNode::no_child) {
                 const auto expected = std::make_shared<Polygons>(polygons);
                 to_do.push_back({child, task.region_planes, expected, known, false, in_plane});
             }
@@ -621,7 +620,7 @@ private:
             region_planes.push_back(in_front ? node.plane : reversed(node.plane));
             const int child = in_front ? node.front : node.back;
             if (child == OrderNode::not_covered) {
-                verdict_.covers_every_eye = false;
+                result_.covers_every_eye = false;
                 continue;
             }
             to_do.push_back({child, std::move(region_planes), task.expected, proved_pairs, true, false});
@@ -639,13 +638,13 @@ private:
         PolygonSet painted(certificate_.polygons.size());
         for (const std::uint32_t polygon : front) { painted.add(polygon); }
         for (const std::uint32_t later : back) { require_decided(proved_pairs, painted, front, later, line); }
-        verdict_.pairs += front.size() * back.size();
+        result_.pairs += front.size() * back.size();
     }
 
     /// Checks the statements about pairs.
     void check(const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of) {
         check_statements(pair_check_, certificate_.statements_of(task.child), task.region_planes, earlier_of,
-            proved_pairs, verdict_.statements);
+            proved_pairs, result_.statements);
     }
 
     static std::uint64_t pairs_among(std::size_t polygons) { return polygons < 2 ? 0 : polygons * (polygons - 1) / 2; }
@@ -653,13 +652,15 @@ private:
     /// What the nodes above and the last region plane prove for the eyes of a part.
     ProvedPairs proved_pairs_at(const Task& task) const {
         ProvedPairs proved_pairs = task.known ? *task.known : ProvedPairs(certificate_.polygons.size());
-        if (task.adds_wall) { proved_pairs.add_region_plane(task.region_planes.back(), certificate_, sides_); }
+        if (task.has_new_region_plane) {
+            proved_pairs.add_region_plane(task.region_planes.back(), certificate_, sides_);
+        }
         return proved_pairs;
     }
 
     /// The proved pairs for the children of a node that is no view split; null where there are none.
     std::shared_ptr<const ProvedPairs> known_below(const Task& task) const {
-        return task.adds_wall ? std::make_shared<const ProvedPairs>(proved_pairs_at(task)) : task.known;
+        return task.has_new_region_plane ? std::make_shared<const ProvedPairs>(proved_pairs_at(task)) : task.known;
     }
 
     void require_decided(const ProvedPairs& proved_pairs, const PolygonSet& painted,
@@ -696,8 +697,8 @@ private:
         check_facing(coplanar_back, coplanar_front, back_of, expect);
         const std::uint64_t pairs =
             front.size() * back.size() + (front.size() + back.size()) * (coplanar_front.size() + coplanar_back.size());
-        verdict_.by_node_planes += pairs;
-        verdict_.pairs += pairs;
+        result_.by_node_planes += pairs;
+        result_.pairs += pairs;
     }
 
     /// That polygons lie in a plane, and face as it does unless they are painted for both sides.
@@ -722,14 +723,14 @@ private:
     PairCheck pair_check_;
     PaintedCheck painted_check_;
     TreeContents contents_;
-    VerificationResult verdict_;
+    VerificationResult result_;
 };
 
 } // namespace
 
 VerificationResult verify(
     const Certificate& certificate, const std::function<void(std::size_t, std::size_t)>& progress) {
-    return Verifier(certificate, progress).result();
+    return Verifier(certificate, progress).verified();
 }
 
 } // namespace octant::visuals::verify

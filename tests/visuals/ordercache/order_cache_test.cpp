@@ -210,7 +210,7 @@ TEST_CASE("nodes and lists that are no tree over the polygons are refused") {
     CHECK(fault_of({{.plane = {}, .front = 1, .back = ~0}}, {{0}}).starts_with(children));
     CHECK(fault_of({leaf}, {{0, 1}}).starts_with(children));
     CHECK(fault_of({{.plane = {}, .front = 1, .back = 1}, leaf}, {{0}, {1}}).starts_with(children));
-    CHECK(fault_of({{.plane = {}, .front = ~0, .back = DrawOrder::nothing}},
+    CHECK(fault_of({{.plane = {}, .front = ~0, .back = DrawOrder::no_child}},
         {{0}}).starts_with("expected a choice between nodes or cells"));
     CHECK(fault_of({}, {{0, 2}}).starts_with("expected lists of different polygons"));
     CHECK(fault_of({}, {{1, 0, 1}}).starts_with("expected lists of different polygons"));
@@ -299,8 +299,7 @@ std::string note_about(const Kept& kept, const std::string& bytes) {
 
 TEST_CASE("a model is ordered once and read from then on, with the same result") {
     const fs::path folder = empty_folder("once");
-    for (const char* name : {"f15", "500md"}) {
-        const PolygonModel model = shipped_model(name);
+    for (const PolygonModel& model : {shipped_model("f15"), crossing_plates()}) {
         const CachedOrder cold = cached_order(folder, model, {});
         CHECK_FALSE(cold.was_cached);
         const CachedOrder warm = cached_order(folder, model, {});
