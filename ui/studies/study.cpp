@@ -5,6 +5,7 @@
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/html_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <utility>
@@ -58,17 +59,23 @@ std::unique_ptr<flight::Session> session_of(settings::RunSettings settings, cons
     return std::make_unique<flight::Session>(settings, flight::PictureContent::World, std::move(renderer));
 }
 
-std::vector<Records> draw_in_turn(const Sessions& sessions, int frames,
-    const std::function<bool(int frame, const std::vector<Records>& so_far)>& after_frame) {
-    std::vector<Records> records(sessions.size());
-    for (int frame = 0; frame < frames; ++frame) {
+double median_of(std::vector<double> values) {
+    std::ranges::sort(values);
+    return report::nearest_rank(values, 500);
+}
+
+TimedFlight draw_in_turn(const Sessions& sessions, const DrawInTurnOptions& options) {
+    TimedFlight flight{.records = std::vector<Records>(sessions.size()), .left_out = options.left_out};
+    base::Progress progress(options.name, options.frames, options.quiet);
+    for (int frame = 0; frame < options.frames; ++frame) {
         for (std::size_t turn = 0; turn < sessions.size(); ++turn) {
             const std::size_t i = (turn + static_cast<std::size_t>(frame)) % sessions.size();
-            records[i].push_back(sessions[i]->draw(frame));
+            flight.records[i].push_back(sessions[i]->draw(frame));
         }
-        if (!after_frame(frame, records)) { break; }
+        progress.tick();
+        if (options.after_frame && !options.after_frame(frame, flight.records)) { break; }
     }
-    return records;
+    return flight;
 }
 
 } // namespace octant::ui::studies

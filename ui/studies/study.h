@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/thread_pool.h"
 #include "ui/base/study_output.h"
 #include "ui/flight/session.h"
 #include "ui/report/plots.h"
@@ -17,6 +18,12 @@
 #include <vector>
 
 namespace octant::ui::studies {
+
+/// Options of studies that fly.
+struct StudyOptions : base::StudyOutput {
+    settings::RunSettings settings = settings::measurement_settings();
+    int jobs = 1; ///< cases at once; above 1 their frame times depend on each other
+};
 
 /// What a study writes into its folder: each table as CSV, each picture as PNG, the tables with their pictures as one
 /// Markdown page, and all of it with plots as one HTML page, which any browser shows.
@@ -48,6 +55,16 @@ private:
     std::string pictures_markdown_;
 };
 
+/// Calls `run(case, quiet)` for each case, `options.jobs` at once, and returns the results in the order of the cases.
+/// Cases that run at once are quiet, because their progress lines would overwrite one another.
+template <class Cases, class Run>
+auto run_cases(const Cases& cases, const StudyOptions& options, const Run& run) {
+    std::vector<decltype(run(*cases.begin(), true))> results(cases.size());
+    parallel_for(cases.size(), options.jobs,
+        [&](std::size_t i, std::size_t /*worker*/) { results[i] = run(cases[i], options.quiet || options.jobs > 1); });
+    return results;
+}
+
 /// A way to draw a flight.
 struct DrawingMode {
     const char* name;
@@ -63,11 +80,8 @@ std::unique_ptr<flight::Session> session_of(settings::RunSettings settings, cons
 using Sessions = std::vector<std::unique_ptr<flight::Session>>;
 using Records = std::vector<report::FrameRecord>; ///< of one session, by frame
 
-/// Draws the first `frames` frames of all sessions. The sessions draw each frame in turn, and another one begins each
-/// time, so that load from other programs affects all of them. `after_frame` is called with all records so far after
-/// each frame of all, and returns false to stop. The records of each session.
-std::vector<Records> draw_in_turn(const Sessions& sessions, int frames,
-    const std::function<bool(int frame, const std::vector<Records>& so_far)>& after_frame);
+/// Median by nearest rank; 0 of no values.
+double median_of(std::vector<double> values);
 
 /// One value of all records but the first `left_out`.
 template <class Value>
@@ -79,10 +93,34 @@ std::vector<double> values_of(const Records& records, Value report::FrameRecord:
     return values;
 }
 
-/// Median by nearest rank.
-template <class Value>
-double median_of(const Records& records, Value report::FrameRecord::*value, int left_out) {
-    return report::statistics_of_times(values_of(records, value, left_out)).p50_ms;
-}
+/// A flight drawn in several ways.
+struct TimedFlight {
+    std::vector<Records> records; ///< by way
+    int left_out = 0;             ///< frames at the beginning that do not count
+
+    /// Of the frames that count.
+    template <class Value = double>
+    std::vector<double> values(std::size_t way, Value report::FrameRecord::*value) const {
+        return values_of(records[way], value, left_out);
+    }
+
+    template <class Value = double>
+    double median(std::size_t way, Value report::FrameRecord::*value = &report::FrameRecord::frame_ms) const {
+        return median_of(values(way, value));
+    }
+};
+
+struct DrawInTurnOptions {
+    int frames = 0;
+    int left_out = 0;
+    std::string name = {}; ///< of the progress line
+    bool quiet = true;     ///< no progress line
+    /// Called with all records so far after each frame of all; returns false to stop. Empty: goes on.
+    std::function<bool(int frame, const std::vector<Records>& so_far)> after_frame = {};
+};
+
+/// Draws the first frames of all sessions. The sessions draw each frame in turn, and another one begins each time, so
+/// that load from other programs affects all of them.
+TimedFlight draw_in_turn(const Sessions& sessions, const DrawInTurnOptions& options);
 
 } // namespace octant::ui::studies

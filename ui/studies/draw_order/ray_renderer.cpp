@@ -23,17 +23,17 @@ std::size_t index_of(const glm::ivec2& pixel, const glm::ivec2& size_px) {
     return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size_px.x) + static_cast<std::size_t>(pixel.x);
 }
 
-std::uint32_t number_radius(const scene::Picture& picture, std::size_t pixel) {
+std::uint32_t number_in(const scene::Picture& picture, std::size_t pixel) {
     std::uint32_t number = 0;
     std::memcpy(&number, picture.rgba.data() + 4 * pixel, sizeof number);
     return number & without_alpha;
 }
 
 double distance_to_segment(const glm::dvec2& at, const glm::dvec2& from, const glm::dvec2& to) {
-    const glm::dvec2 mode = to - from;
-    const double length2 = glm::dot(mode, mode);
-    const double share = length2 > 0.0 ? std::clamp(glm::dot(at - from, mode) / length2, 0.0, 1.0) : 0.0;
-    return glm::distance(at, from + share * mode);
+    const glm::dvec2 side = to - from;
+    const double length2 = glm::dot(side, side);
+    const double share = length2 > 0.0 ? std::clamp(glm::dot(at - from, side) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(at, from + share * side);
 }
 
 /// Places within reach of a pixel's middle, itself among them: a square grid.
@@ -80,27 +80,12 @@ double RayRenderer::Target::distance_px(const glm::dvec2& at) const {
 }
 
 RayRenderer::RayRenderer(const glm::ivec2& size_px) : size_px_(size_px) {
-    info_.description = "rays";
-    info_.device = "processor";
-    info_.is_software = true;
-    resize(size_px, 1);
-}
-
-std::unique_ptr<scene::Renderer> RayRenderer::sibling(const glm::ivec2& size_px, int) const {
-    return std::make_unique<RayRenderer>(size_px);
-}
-
-void RayRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
-    size_px_ = size_px;
+    info_ = {.description = "rays", .device = "processor", .is_software = true};
     picture_.width = size_px.x;
     picture_.height = size_px.y;
     const std::size_t pixels = static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
     picture_.rgba.assign(4 * pixels, 0);
     inverse_depths_.assign(pixels, 0.0);
-}
-
-void RayRenderer::load_models(std::span<const scene::ModelBuffers> models) {
-    models_.assign(models.begin(), models.end());
 }
 
 void RayRenderer::draw(const scene::FramePlan& plan) {
@@ -195,7 +180,7 @@ void RayRenderer::draw_target(const Target& target) {
 }
 
 std::uint32_t RayRenderer::number_of(const glm::ivec2& pixel) const {
-    return number_radius(picture_, index_of(pixel, size_px_));
+    return number_in(picture_, index_of(pixel, size_px_));
 }
 
 RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, double reach_px) const {
@@ -204,8 +189,8 @@ RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, doub
     for (int row = 0; row < size_px_.y; ++row) {
         for (int column = 0; column < size_px_.x; ++column) {
             const std::size_t pixel = index_of({column, row}, size_px_);
-            const std::uint32_t number = number_radius(picture, pixel);
-            if (number == number_radius(picture_, pixel)) { continue; }
+            const std::uint32_t number = number_in(picture, pixel);
+            if (number == number_in(picture_, pixel)) { continue; }
             ++difference.differing;
             if (const auto fault = wrong_pixel_at({column, row}, number, reach_px)) {
                 difference.wrong.push_back(*fault);

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,15 +22,9 @@ class RayRenderer final : public StudyRenderer {
 public:
     explicit RayRenderer(const glm::ivec2& size_px);
 
-    const visuals::scene::RendererInfo& info() const override { return info_; }
-
-    std::unique_ptr<visuals::scene::Renderer> sibling(const glm::ivec2& size_px, int samples) const override;
-    void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
-    void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
-
-    void load_ground_texture(const visuals::scene::GroundTexture&) override {}
-
-    void warm_up() override {}
+    void load_models(std::span<const visuals::scene::ModelBuffers> models) override {
+        models_.assign(models.begin(), models.end());
+    }
 
     void draw(const visuals::scene::FramePlan& plan) override;
 
@@ -88,7 +81,6 @@ private:
     void draw_target(const Target& target);
     std::optional<WrongPixel> wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const;
 
-    visuals::scene::RendererInfo info_;
     glm::ivec2 size_px_;
     std::vector<visuals::scene::ModelBuffers> models_;
     glm::dmat4 world_to_clip_{1.0};

@@ -111,12 +111,6 @@ orderfile::RayTestCounts ray_count_of(
     return count;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// What finding the painting order of one frame costs, and how long the orders are.
 struct FrameCost {
     double bsp_ns = 0.0;
@@ -154,7 +148,8 @@ FrameCost frame_cost(const orderstudy::BspTree& bsp, const draworder::OrderedMod
         cell_ns.push_back(watch.lap_ms() * 1e6 / eyes);
     }
     constexpr double looks = static_cast<double>(batches) * eyes;
-    return {median(bsp_ns), median(cell_ns), static_cast<double>(by_bsp) / looks, static_cast<double>(by_cell) / looks};
+    return {median_of(bsp_ns), median_of(cell_ns), static_cast<double>(by_bsp) / looks,
+        static_cast<double>(by_cell) / looks};
 }
 
 OrderedByEachMethod order_by_each_method(const std::string& name) {
@@ -204,12 +199,11 @@ report::ResultTable method_table(std::span<const OrderedByEachMethod> models) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
             const auto check = orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
-            table.add({{"model", model.name}, {"method", methods[i]},
-                {"polygons", ordered.model.polygons.size()}, {"splits", ordered.splits},
-                {"cells", ordered.order.cell_count()}, {"lists", ordered.order.list_count()},
-                {"plane tests a frame, most", tests.most}, {"plane tests a frame, mean", "{:.2f}", tests.mean},
-                {"building, ms", "{:.1f}", model.build_ms[i]}, {"pairs", check.pairs},
-                {"pairs not certified", check.pairs_unproved + check.unlisted_unproved}});
+            table.add({{"model", model.name}, {"method", methods[i]}, {"polygons", ordered.model.polygons.size()},
+                {"splits", ordered.splits}, {"cells", ordered.order.cell_count()},
+                {"lists", ordered.order.list_count()}, {"plane tests a frame, most", tests.most},
+                {"plane tests a frame, mean", "{:.2f}", tests.mean}, {"building, ms", "{:.1f}", model.build_ms[i]},
+                {"pairs", check.pairs}, {"pairs not certified", check.pairs_unproved + check.unlisted_unproved}});
         }
     }
     table.note =
@@ -301,11 +295,11 @@ report::ResultTable speed_table(bool quiet) {
         const TimedFlight raced = race_alone(row.aircraft, quiet);
         table.add({{"aircraft", row.aircraft}, {"paper: back faces only", "{:.0f}", row.back_face_fps},
             {"paper: z-buffer", "{:.0f}", row.depth_buffer_fps}, {"paper: octant order", "{:.0f}", row.octant_fps},
-            {"ours: back faces only", "{:.0f}", 1000.0 / raced.median_ms(gl_back_faces)},
-            {"ours: depth buffer", "{:.0f}", 1000.0 / raced.median_ms(gl_depth_buffer)},
-            {"ours: octant order", "{:.0f}", 1000.0 / raced.median_ms(gl_octant)},
-            {"octant / back faces", "{:.2f}", raced.over_octant(gl_back_faces)},
-            {"octant / depth buffer", "{:.2f}", raced.over_octant(gl_depth_buffer)}});
+            {"ours: back faces only", "{:.0f}", 1000.0 / raced.median(gl_back_faces)},
+            {"ours: depth buffer", "{:.0f}", 1000.0 / raced.median(gl_depth_buffer)},
+            {"ours: octant order", "{:.0f}", 1000.0 / raced.median(gl_octant)},
+            {"octant / back faces", "{:.2f}", over_octant(raced, gl_back_faces)},
+            {"octant / depth buffer", "{:.2f}", over_octant(raced, gl_depth_buffer)}});
     }
     table.note = "Ours: an orbit at 1280x720, medians of whole frames; the three ways draw every "
                  "frame in turn. More aircraft and ground: octant study hidden-surface.";
@@ -314,18 +308,18 @@ report::ResultTable speed_table(bool quiet) {
 
 } // namespace
 
-void study_draw_order(const DrawOrderStudyOptions& options) {
-    Study study(options);
+void study_draw_order(const base::StudyOutput& output) {
+    Study study(output);
     std::vector<OrderedByEachMethod> models;
     for (const char* name : {"f15", "500md", "concave"}) {
-        base::print_note(options.quiet, fmt::format("ordering {} by octants, cells and tree", name));
+        base::print_note(output.quiet, fmt::format("ordering {} by octants, cells and tree", name));
         models.push_back(order_by_each_method(name));
     }
     const auto add = [&](const char* file, report::ResultTable table) {
-        base::print_note(options.quiet, fmt::format("{}: {}", file, table.title));
+        base::print_note(output.quiet, fmt::format("{}: {}", file, table.title));
         study.add(file, std::move(table));
     };
-    add("table-1", speed_table(options.quiet));
+    add("table-1", speed_table(output.quiet));
     add("table-4", paper_order_table());
     add("methods", method_table(models));
     add("wrong-pixels", wrong_pixel_table(models));

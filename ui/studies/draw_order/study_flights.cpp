@@ -1,13 +1,11 @@
-#include "ui/studies/draw_order/study_flights.h"
-
 #include "sim/base/output_file.h"
-#include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/surface_race.h"
 
 #include <array>
@@ -54,14 +52,14 @@ struct MeasuredRow {
 
     /// Of all frames, by the mean of those that count.
     double seconds(std::size_t mode) const {
-        const std::vector<double> ms = values_of(times.records[mode], &report::FrameRecord::frame_ms, times.left_out);
+        const std::vector<double> ms = times.values(mode, &report::FrameRecord::frame_ms);
         return std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size()) * frames / 1000.0;
     }
 
     double frames_per_second(std::size_t mode) const { return frames / seconds(mode); }
 };
 
-settings::RunSettings settings_of(const PrintedTime& row, const FlightStudyOptions& options) {
+settings::RunSettings settings_of(const PrintedTime& row, const StudyOptions& options) {
     settings::RunSettings settings;
     settings.view.size_px = options.settings.view.size_px;
     settings.view.samples = options.settings.view.samples;
@@ -88,7 +86,7 @@ settings::RunSettings settings_of(const PrintedTime& row, const FlightStudyOptio
 
 /// Flies a row and records it by octant order. A stop signal ends the recording in order, and the row is measured in
 /// part or not at all.
-MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
+MeasuredRow measure(const PrintedTime& row, const StudyOptions& options, bool quiet) {
     if (base::StopSignals::received()) { return {}; }
     const settings::RunSettings settings = settings_of(row, options);
     const Sessions sessions = timed_sessions(settings);
@@ -96,20 +94,20 @@ MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
     flight::RecordOptions record;
     record.folder = options.out / fmt::format("{}-{}", row.aircraft, row.path);
     flight::FlightRecorder recorder(record, settings, octant);
-    MeasuredRow measured;
     const models::polygons::PolygonModel& model = octant.world().scene.models.front()->polygons;
-    measured.vertices = model.vertices_m.size();
-    measured.polygons = model.polygons.size();
-    measured.frames = octant.frames();
-    measured.times.left_out = frames_left_out;
-    base::Progress progress(fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
+    MeasuredRow measured{model.vertices_m.size(), model.polygons.size(), octant.frames(), {}};
     int frames = 0;
-    measured.times.records = draw_in_turn(sessions, measured.frames, [&](int, const std::vector<Records>& so_far) {
-        // After all ways have drawn, so that none of them draws while the frame is recorded.
-        recorder.add(so_far[gl_octant].back(), octant);
-        progress.show(++frames);
-        return !base::StopSignals::received();
-    });
+    measured.times = draw_in_turn(sessions, {.frames = measured.frames,
+                                                .left_out = frames_left_out,
+                                                .name = fmt::format("{} {}", row.aircraft, row.path),
+                                                .quiet = quiet,
+                                                .after_frame = [&](int, const std::vector<Records>& so_far) {
+                                                    // After all ways have drawn, so that none of them draws while the
+                                                    // frame is recorded.
+                                                    recorder.add(so_far[gl_octant].back(), octant);
+                                                    ++frames;
+                                                    return !base::StopSignals::received();
+                                                }});
     if (frames < measured.frames) {
         recorder.finish(
             octant, fmt::format("{} after {} of {} frames", base::StopSignals::name(), frames, measured.frames));
@@ -139,7 +137,7 @@ report::ResultTable table_5(const std::vector<MeasuredRow>& measured) {
     return table;
 }
 
-report::ResultTable table_6(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
+report::ResultTable table_6(const std::vector<MeasuredRow>& measured, const StudyOptions& options) {
     report::ResultTable table{
         "Table 6: four paths over a background of 60 polygons, one frame a path sample, by OpenGL"};
     for (std::size_t i = table_5_rows; i < printed_times.size(); ++i) {
@@ -151,8 +149,8 @@ report::ResultTable table_6(const std::vector<MeasuredRow>& measured, const Flig
             cells.push_back({fmt::format("ours, s, {}", timed_modes[mode].name), "{:.2f}", m.seconds(mode)});
             cells.push_back({fmt::format("frames/s, {}", timed_modes[mode].name), "{:.0f}", m.frames_per_second(mode)});
         }
-        cells.push_back({"median: depth buffer / octant", "{:.2f}", m.times.over_octant(gl_depth_buffer)});
-        cells.push_back({"median: back faces / octant", "{:.2f}", m.times.over_octant(gl_back_faces)});
+        cells.push_back({"median: depth buffer / octant", "{:.2f}", over_octant(m.times, gl_depth_buffer)});
+        cells.push_back({"median: back faces / octant", "{:.2f}", over_octant(m.times, gl_back_faces)});
         table.add(std::move(cells));
     }
     table.note =
@@ -175,14 +173,14 @@ report::Plot plot_of(const std::vector<MeasuredRow>& measured) {
         report::PlotSeries series{timed_modes[table_modes[k]].name, colours[k], report::PlotSeries::Style::Points};
         for (std::size_t i = 0; i < measured.size(); ++i) {
             series.x.push_back(static_cast<double>(i + 1));
-            series.y.push_back(measured[i].times.median_ms(table_modes[k]));
+            series.y.push_back(measured[i].times.median(table_modes[k]));
         }
         plot.series.push_back(std::move(series));
     }
     return plot;
 }
 
-void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
+void write_results(const std::vector<MeasuredRow>& measured, const StudyOptions& options) {
     std::vector<NamedFlight> flights;
     std::vector<report::LoadedRecording> recordings;
     for (std::size_t i = 0; i < printed_times.size(); ++i) {
@@ -203,14 +201,11 @@ void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOp
 
 } // namespace
 
-void study_flights(const FlightStudyOptions& options) {
+void study_flights(const StudyOptions& options) {
     make_folder(options.out);
-    FlightStudyOptions of_row = options;
-    of_row.quiet = options.quiet || options.jobs > 1; // one progress line at a time
-    std::vector<MeasuredRow> measured(printed_times.size());
     const base::StopSignals stop_signals;
-    parallel_for(printed_times.size(), options.jobs,
-        [&](std::size_t row, std::size_t /*worker*/) { measured[row] = measure(printed_times[row], of_row); });
+    const std::vector<MeasuredRow> measured = run_cases(
+        printed_times, options, [&](const PrintedTime& row, bool quiet) { return measure(row, options, quiet); });
     if (base::StopSignals::received()) { throw base::StoppedBySignal(); }
     write_results(measured, options);
 }

@@ -1,6 +1,5 @@
 #include "ui/studies/draw_order/study_hidden_surface.h"
 
-#include "sim/base/thread_pool.h"
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
 #include "ui/flight/renderer_choice.h"
@@ -17,6 +16,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
@@ -100,42 +100,21 @@ class RendererComparer final : public StudyRenderer {
 public:
     /// `rays` must have drawn the frame, hidden by depth, before this draws it, and must outlive this. Throws Error.
     RendererComparer(const settings::RunSettings& settings, const RayRenderer& rays)
-        : settings_(settings), rays_(rays), unrounded_(settings.view.size_px) {
-        for (std::size_t i = 0; i < renderers_.size(); ++i) {
+        : rays_(rays), unrounded_(settings.view.size_px) {
+        for (const settings::RendererKind kind : compared_renderers) {
             settings::RunSettings own = settings;
-            own.drawing.renderer = compared_renderers[i];
-            renderers_[i] = flight::make_renderer(own);
+            own.drawing.renderer = kind;
+            renderers_.push_back(flight::make_renderer(own));
         }
+        info_ = renderers_.front()->info();
     }
 
     /// How the pictures of the last plan differ from the rays; wrong is what no rounding explains.
     const std::array<RayRenderer::Difference, compared_renderers.size()>& differences() const { return differences_; }
 
-    const scene::RendererInfo& info() const override { return renderers_.front()->info(); }
-
-    std::unique_ptr<scene::Renderer> sibling(const glm::ivec2& size_px, int /*samples*/) const override {
-        settings::RunSettings own = settings_;
-        own.view.size_px = size_px;
-        return std::make_unique<RendererComparer>(own, rays_);
-    }
-
-    void resize(const glm::ivec2& size_px, std::optional<int> samples) override {
-        settings_.view.size_px = size_px;
-        for (const auto& renderer : renderers_) { renderer->resize(size_px, samples); }
-        unrounded_.resize(size_px, samples);
-    }
-
     void load_models(std::span<const scene::ModelBuffers> models) override {
-        for (const auto& renderer : renderers_) { renderer->load_models(models); }
+        StudyRenderer::load_models(models);
         unrounded_.load_models(models);
-    }
-
-    void load_ground_texture(const scene::GroundTexture& texture) override {
-        for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
-    }
-
-    void warm_up() override {
-        for (const auto& renderer : renderers_) { renderer->warm_up(); }
     }
 
     void draw(const scene::FramePlan& plan) override {
@@ -155,9 +134,7 @@ public:
     void finish_and_read(scene::Picture& picture) override { picture = picture_; }
 
 private:
-    settings::RunSettings settings_;
     const RayRenderer& rays_;
-    std::array<std::unique_ptr<scene::Renderer>, compared_renderers.size()> renderers_;
     RayRenderer unrounded_; ///< the plan painted in its order, but without rounding
     scene::Picture picture_;
     std::array<RayRenderer::Difference, compared_renderers.size()> differences_;
@@ -219,7 +196,7 @@ namespace {
 struct StudiedView {
     scene::View kind;
     const char* name;
-    bool behind_ridges = false; ///< from a tower from which ridges hide the aircraft now and then
+    bool behind_ridges = false; ///< from a tower placed so that ridges hide the aircraft at times
 };
 
 /// Rays are compared in all of them, the depth buffer in all but the last.
@@ -255,18 +232,15 @@ std::vector<Compared<Result>> run_comparisons(
             const int pictures = (frames + options.every - 1) / options.every * static_cast<int>(studied_views.size());
             base::Progress progress(
                 fmt::format("{} {}", path, short_name(aircraft)), pictures, options.quiet, "pictures");
-            const std::size_t first = compared.size();
-            for (const StudiedView& view : studied_views) {
-                compared.push_back({{{"path", path}, {"aircraft", short_name(aircraft)}, {"view", view.name}}, {}});
-            }
-            parallel_for(studied_views.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-                const StudiedView& view = studied_views[i];
+            const auto of_view = [&](const StudiedView& view, bool /*quiet*/) {
                 settings::RunSettings settings = flown;
                 settings.view.kind = view.kind;
                 if (view.behind_ridges) { settings.view.eye_m = ridge_tower(worlds.painted); }
-                compared[first + i].result =
-                    compare(settings, worlds, options.every, [&](int, int) { progress.tick(view.name); });
-            });
+                const auto tick = [&](int, int) { progress.tick(view.name); };
+                return Compared<Result>{{{"path", path}, {"aircraft", short_name(aircraft)}, {"view", view.name}},
+                    compare(settings, worlds, options.every, tick)};
+            };
+            std::ranges::move(run_cases(studied_views, options, of_view), std::back_inserter(compared));
         }
     }
     return compared;
@@ -299,18 +273,18 @@ report::ResultTable race_table(std::span<const NamedFlight> races) {
     for (const auto& [name, flight] : races) {
         std::vector<report::Cell> row = name;
         for (std::size_t mode = 0; mode < names.size(); ++mode) {
-            row.push_back({fmt::format("{}, frames/s", names[mode]), "{:.0f}", 1000.0 / flight.median_ms(mode)});
+            row.push_back({fmt::format("{}, frames/s", names[mode]), "{:.0f}", 1000.0 / flight.median(mode)});
         }
-        row.push_back({"octant / back faces", "{:.2f}", flight.over_octant(gl_back_faces)});
-        row.push_back({"octant / depth buffer", "{:.2f}", flight.over_octant(gl_depth_buffer)});
+        row.push_back({"octant / back faces", "{:.2f}", over_octant(flight, gl_back_faces)});
+        row.push_back({"octant / depth buffer", "{:.2f}", over_octant(flight, gl_depth_buffer)});
         for (std::size_t mode = 0; mode < names.size(); ++mode) {
-            const auto times_ms = values_of(flight.records[mode], &report::FrameRecord::frame_ms, flight.left_out);
+            const auto times_ms = flight.values(mode, &report::FrameRecord::frame_ms);
             row.push_back(
                 {fmt::format("p99 ms {}", names[mode]), "{:.2f}", report::statistics_of_times(times_ms).p99_ms});
         }
         for (std::size_t mode = 0; mode < names.size(); ++mode) {
             row.push_back({fmt::format("draw calls {}", names[mode]), "{:.0f}",
-                median_of(flight.records[mode], &report::FrameRecord::draw_calls, flight.left_out)});
+                flight.median(mode, &report::FrameRecord::draw_calls)});
         }
         table.add(std::move(row));
     }

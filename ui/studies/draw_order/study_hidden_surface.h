@@ -1,8 +1,8 @@
 #pragma once
 
-#include "ui/base/study_output.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/settings/settings.h"
+#include "ui/studies/study.h"
 #include "ui/world/world.h"
 
 #include <glm/vec3.hpp>
@@ -44,16 +44,15 @@ struct RayComparison {
 RayComparison compare_with_rays(const settings::RunSettings& settings, const flight::ComparisonWorlds& worlds,
     int every, const std::function<void(int compared, int frames)>& on_frame);
 
-struct HiddenSurfaceStudyOptions : base::StudyOutput {
-    settings::RunSettings settings =
-        settings::measurement_settings(); ///< terrain, triangles and context are taken from it
-    bool race = true;                     ///< frames a second of the three ways
-    bool pictures = true;                 ///< polygon numbers against the depth buffer
-    bool rays = true;                     ///< polygon numbers against rays
+/// Terrain, triangles and context are those of the settings. `jobs`: views of a flight compared at once; the race is
+/// one at a time.
+struct HiddenSurfaceStudyOptions : StudyOptions {
+    bool race = true;     ///< frames a second of the three ways
+    bool pictures = true; ///< polygon numbers against the depth buffer
+    bool rays = true;     ///< polygon numbers against rays
     int race_frames = 200;
     int every = 10;       ///< every Nth frame is compared
     std::string aircraft; ///< compared in place of F-15 and 500MD, unless empty
-    int jobs = 1;         ///< views of a flight compared at once; the race is one at a time
 };
 
 /// Three tables. Frames a second of octant order, depth buffer and removal of back faces, drawn in turn, for 1 to 1000

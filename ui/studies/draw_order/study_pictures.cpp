@@ -1,13 +1,11 @@
-#include "ui/studies/draw_order/study_pictures.h"
-
 #include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/flight/session.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/settings.h"
+#include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_renderer.h"
-#include "ui/studies/study.h"
 #include "visuals/raster/mask_picture.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
@@ -181,12 +179,12 @@ long false_changes(const scene::Picture& before, const scene::Picture& after, co
 class QualityRenderer final : public StudyRenderer {
 public:
     /// Throws Error.
-    explicit QualityRenderer(const settings::RunSettings& settings) : settings_(settings) {
-        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+    explicit QualityRenderer(const settings::RunSettings& settings) : size_px_(settings.view.size_px) {
+        for (const RenderMode& mode : render_modes) {
             settings::RunSettings own = settings;
-            own.drawing.renderer = render_modes[mode].renderer;
-            own.view.samples = render_modes[mode].samples;
-            renderers_[mode] = flight::make_renderer(own);
+            own.drawing.renderer = mode.renderer;
+            own.view.samples = mode.samples;
+            renderers_.push_back(flight::make_renderer(own));
         }
         info_ = renderers_.back()->info();
     }
@@ -200,42 +198,18 @@ public:
     /// visuals::raster::mask_picture() of the last plan without a ground texture.
     const scene::Picture& masks() const { return masks_; }
 
-    const scene::RendererInfo& info() const override { return info_; }
-
-    std::unique_ptr<scene::Renderer> sibling(const glm::ivec2& size_px, int) const override {
-        settings::RunSettings own = settings_;
-        own.view.size_px = size_px;
-        return std::make_unique<QualityRenderer>(own);
-    }
-
-    void resize(const glm::ivec2& size_px, std::optional<int>) override {
-        settings_.view.size_px = size_px;
-        for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
-            renderers_[mode]->resize(size_px, render_modes[mode].samples);
-        }
-    }
-
     void load_models(std::span<const scene::ModelBuffers> models) override {
         models_.assign(models.begin(), models.end());
-        for (const auto& renderer : renderers_) { renderer->load_models(models); }
-    }
-
-    void load_ground_texture(const scene::GroundTexture& texture) override {
-        for (const auto& renderer : renderers_) { renderer->load_ground_texture(texture); }
-    }
-
-    void warm_up() override {
-        for (const auto& renderer : renderers_) { renderer->warm_up(); }
+        StudyRenderer::load_models(models);
     }
 
     void draw(const scene::FramePlan& plan) override {
-        const glm::ivec2& size_px = settings_.view.size_px;
         for (std::size_t position = 0; position < positions; ++position) {
-            by_gl_[position].draw(*renderers_[gl_one_sample], plan, shifts_px[position], size_px);
-            by_raster_[position].draw(*renderers_[raster_one_sample], plan, shifts_px[position], size_px);
+            by_gl_[position].draw(*renderers_[gl_one_sample], plan, shifts_px[position], size_px_);
+            by_raster_[position].draw(*renderers_[raster_one_sample], plan, shifts_px[position], size_px_);
         }
         for (std::size_t mode = 0; mode < render_modes.size(); ++mode) { measure(mode, plan); }
-        if (!plan.ground_texture) { masks_ = visuals::raster::mask_picture(plan, models_, size_px, workers_); }
+        if (!plan.ground_texture) { masks_ = visuals::raster::mask_picture(plan, models_, size_px_, workers_); }
     }
 
     void finish_and_read(scene::Picture& picture) override { picture = pictures_.back(); }
@@ -251,7 +225,7 @@ private:
     void measure(std::size_t mode, const scene::FramePlan& plan) {
         std::array<scene::Picture, positions> drawn;
         for (std::size_t position = 0; position < positions; ++position) {
-            renderers_[mode]->draw(shifted_plan(plan, shifts_px[position], settings_.view.size_px));
+            renderers_[mode]->draw(shifted_plan(plan, shifts_px[position], size_px_));
             renderers_[mode]->finish_and_read(drawn[position]);
         }
         const References& own = own_references(mode);
@@ -272,9 +246,7 @@ private:
         pictures_[mode] = std::move(drawn[0]);
     }
 
-    settings::RunSettings settings_;
-    scene::RendererInfo info_;
-    std::array<std::unique_ptr<scene::Renderer>, render_modes.size()> renderers_;
+    glm::ivec2 size_px_;
     std::array<PictureQuality, render_modes.size()> quality_;
     std::array<scene::Picture, render_modes.size()> pictures_;
     std::vector<scene::ModelBuffers> models_;
@@ -329,15 +301,15 @@ void write_pictures(const std::string& name, const QualityRenderer& renderer, co
     if (renderer.masks().width > 0) { write_picture(renderer.masks(), out / fmt::format("{}-masks.png", name)); }
 }
 
-Qualities measured(const StudiedScene& studied, const PictureStudyOptions& options) {
+Qualities measured(const StudiedScene& studied, const PictureStudyOptions& options, bool quiet) {
     const settings::RunSettings settings = settings_of(studied, options);
     auto made = std::make_unique<QualityRenderer>(settings);
     const QualityRenderer& renderer = *made;
     flight::Session session(settings, flight::PictureContent::World, std::move(made));
-    base::Progress progress(name_of(studied), options.frames, options.quiet);
+    base::Progress progress(name_of(studied), options.frames, quiet);
     for (int i = 0; i < options.frames; ++i) {
         session.draw((2 * i + 1) * session.frames() / (2 * options.frames));
-        progress.show(i + 1);
+        progress.tick();
     }
     progress.finish();
     write_pictures(name_of(studied), renderer, options.out);
@@ -388,11 +360,8 @@ report::ResultTable mode_table(const std::vector<Qualities>& of_scenes) {
 
 void study_pictures(const PictureStudyOptions& options) {
     Study study(options);
-    std::vector<Qualities> of_scenes(studied_scenes.size());
-    PictureStudyOptions of_scene = options;
-    of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    parallel_for(of_scenes.size(), options.jobs,
-        [&](std::size_t i, std::size_t /*worker*/) { of_scenes[i] = measured(studied_scenes[i], of_scene); });
+    const std::vector<Qualities> of_scenes = run_cases(studied_scenes, options,
+        [&](const StudiedScene& studied, bool quiet) { return measured(studied, options, quiet); });
     study.add("scenes", scene_table(of_scenes, options));
     study.add("ways", mode_table(of_scenes));
     study.finish("pictures");

@@ -1,7 +1,5 @@
 #include "ui/studies/draw_order/surface_race.h"
 
-#include "ui/base/progress.h"
-
 #include <fmt/format.h>
 #include <utility>
 
@@ -24,23 +22,20 @@ TimedFlight race(settings::RunSettings settings, int frames, bool quiet) {
     constexpr int warm_up_frames = 20;
     settings.time.frames = frames + warm_up_frames;
     const Sessions sessions = timed_sessions(settings);
-    base::Progress progress(fmt::format("{}, {} aircraft, {}x{}", settings.path.terrain, settings.path.aircraft.size(),
-                                settings.view.size_px.x, settings.view.size_px.y),
-        sessions[0]->frames(), quiet);
-    return {draw_in_turn(sessions, sessions[0]->frames(),
-                [&](int, const auto& /*so_far*/) {
-                    progress.tick();
-                    return true;
-                }),
-        warm_up_frames};
+    return draw_in_turn(
+        sessions, {.frames = sessions[0]->frames(),
+                      .left_out = warm_up_frames,
+                      .name = fmt::format("{}, {} aircraft, {}x{}", settings.path.terrain,
+                          settings.path.aircraft.size(), settings.view.size_px.x, settings.view.size_px.y),
+                      .quiet = quiet});
 }
 
 report::ResultTable raster_table(std::span<const NamedFlight> flights) {
     report::ResultTable table{"The raster renderer: drawing, ms, and how many times longer a depth buffer takes"};
-    for (const auto& [name, timed] : flights) {
-        const TimedFlight& flight = timed;
-        const auto draw_ms = [&](std::size_t mode) { return flight.median_ms(mode, &report::FrameRecord::draw_ms); };
-        std::vector<report::Cell> row = name;
+    for (const auto& named : flights) {
+        const TimedFlight& flight = named.second;
+        const auto draw_ms = [&](std::size_t mode) { return flight.median(mode, &report::FrameRecord::draw_ms); };
+        std::vector<report::Cell> row = named.first;
         for (std::size_t mode = first_raster; mode < timed_modes.size(); ++mode) {
             row.push_back({fmt::format("{}, ms", timed_modes[mode].name), "{:.2f}", draw_ms(mode)});
         }
@@ -50,7 +45,7 @@ report::ResultTable raster_table(std::span<const NamedFlight> flights) {
                 draw_ms(raster_depth_buffer) / draw_ms(mode)});
         }
         row.push_back({"whole frame: depth buffer / octant, near to far", "{:.2f}",
-            flight.median_ms(raster_depth_buffer) / flight.median_ms(first_raster)});
+            flight.median(raster_depth_buffer) / flight.median(first_raster)});
         table.add(std::move(row));
     }
     table.note = "Medians, one sample a pixel where none are named; all ways draw every frame in turn. In "

@@ -25,18 +25,10 @@ inline constexpr std::size_t gl_octant = 0; ///< indices into timed_modes
 inline constexpr std::size_t gl_back_faces = 1;
 inline constexpr std::size_t gl_depth_buffer = 2;
 
-/// A flight drawn in all ways.
-struct TimedFlight {
-    std::vector<Records> records; ///< by timed_modes
-    int left_out = 0;             ///< frames at the beginning that do not count
-
-    double median_ms(std::size_t mode, double report::FrameRecord::*time = &report::FrameRecord::frame_ms) const {
-        return median_of(records[mode], time, left_out);
-    }
-
-    /// Frame time of a way over that of octant order, by OpenGL; above 1 octant order is faster.
-    double over_octant(std::size_t mode) const { return median_ms(mode) / median_ms(gl_octant); }
-};
+/// Frame time of a way over that of octant order, by OpenGL; above 1 octant order is faster.
+inline double over_octant(const TimedFlight& flight, std::size_t mode) {
+    return flight.median(mode) / flight.median(gl_octant);
+}
 
 /// A session of the run for each of timed_modes. Throws Error.
 Sessions timed_sessions(const settings::RunSettings& settings);

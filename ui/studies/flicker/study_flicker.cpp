@@ -34,19 +34,22 @@ namespace octant::ui::studies::flicker {
 
 namespace {
 
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect", section 4: fixed view
-// and 1000 frames along a path; figures 3, 5, 6, 8 and 9. Deviations: the paper gives neither eye points nor a target;
-// both are chosen here by rules that fit any field. A frame at a fixed view with the C of the frame before is not made
-// again. Figures 8 and 9 are called 7 and 8 in the paper's text. Figure 3 is a pair of pictures there; what it counts
-// is plotted here.
+// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize
+// Flickering Effect", section 4: fixed view and 1000 frames along a path;
+// figures 3, 5, 6, 8 and 9. Deviations: the paper gives neither eye points nor
+// a target; both are chosen here by rules that fit any field. A frame at a
+// fixed view with the C of the frame before is not made again. Figures 8 and 9
+// are called 7 and 8 in the paper's text. Figure 3 is a pair of pictures there;
+// what it counts is plotted here.
 
 namespace terrain = visuals::terrain;
 using models::heights::HeightField;
 
 // Runs of the controls.
 
-/// A height field under the paper's quadtree with literal roughness and crack-free propagation, K = 0.5 + 0.79 / C_min,
-/// and under the default mesh. Stays where it is.
+/// A height field under the paper's quadtree with literal roughness and
+/// crack-free propagation, K = 0.5 + 0.79 / C_min, and under the default mesh.
+/// Stays where it is.
 struct FlickerGround {
     explicit FlickerGround(models::heights::HeightField made)
         : field(std::move(made)), tree(field, {.roughness = terrain::Roughness::Printed}),
@@ -70,12 +73,15 @@ struct FlickerSettings {
     int averaged_frames = 4;                  ///< r
 };
 
+const FlickerSettings standard;
+
 /// What was counted in a frame.
 struct CountedFrame {
     int triangles = 0;
     int fans = 0;
     double resolution = 0.0; ///< C; 0 for a way that has none
-    /// The N'(C) that the control uses, triangles per unit of C; 0 for a method without it.
+    /// The N'(C) that the control uses, triangles per unit of C; 0 for a method
+    /// without it.
     double estimated_gain = 0.0;
 };
 
@@ -158,26 +164,6 @@ CountNextFrame controlled(
     };
 }
 
-CountNextFrame previous(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(ground, settings, terrain::ControlMethod::Previous, 0.0);
-}
-
-CountNextFrame damped_as_printed(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(ground, settings, terrain::ControlMethod::Damped, 0.0);
-}
-
-CountNextFrame damped(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(ground, settings, terrain::ControlMethod::Damped, terrain::ControlSettings().dead_band);
-}
-
-CountNextFrame tuned(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(ground, settings, terrain::ControlMethod::Tuned, 0.0);
-}
-
-CountNextFrame literal(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(ground, settings, terrain::ControlMethod::Printed, 0.0);
-}
-
 CountNextFrame exact(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::QuadtreeDetail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
     const terrain::TriangleBudget budget{settings.target_triangles, max_resolution};
@@ -187,7 +173,8 @@ CountNextFrame exact(FlickerGround& ground, const FlickerSettings& settings) {
     };
 }
 
-/// As flights are drawn by default, but for the error below which they leave triangles unused.
+/// As flights are drawn by default, but for the error below which they leave
+/// triangles unused.
 CountNextFrame by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::ErrorTarget target{.error_px = 0.0, .max_triangles = settings.target_triangles, .geomorphs = true};
     return [&ground, target](const terrain::MeshView& view) {
@@ -196,16 +183,25 @@ CountNextFrame by_screen_error(FlickerGround& ground, const FlickerSettings& set
     };
 }
 
-constexpr std::array triangle_controls = {TriangleControl{"previous (4)", true, previous},
-    TriangleControl{"damped (5), as printed", true, damped_as_printed},
-    TriangleControl{"damped, dead band", true, damped}, TriangleControl{"damped, own gain", true, tuned},
-    TriangleControl{"literal (4)", false, literal}, TriangleControl{"exact", true, exact},
+/// A control of C by one method, with a share of N_target as its dead band.
+template <terrain::ControlMethod method, bool has_dead_band = false>
+CountNextFrame by_control(FlickerGround& ground, const FlickerSettings& settings) {
+    return controlled(ground, settings, method, has_dead_band ? terrain::ControlSettings().dead_band : 0.0);
+}
+
+using terrain::ControlMethod;
+
+constexpr std::array triangle_controls = {TriangleControl{"previous (4)", true, by_control<ControlMethod::Previous>},
+    TriangleControl{"damped (5), as printed", true, by_control<ControlMethod::Damped>},
+    TriangleControl{"damped, dead band", true, by_control<ControlMethod::Damped, true>},
+    TriangleControl{"damped, own gain", true, by_control<ControlMethod::Tuned>},
+    TriangleControl{"literal (4)", false, by_control<ControlMethod::Printed>}, TriangleControl{"exact", true, exact},
     TriangleControl{"screen error (default)", true, by_screen_error}};
 
-FlickerRun run_along(const TriangleControl& triangle_control, FlickerGround& ground, const FlickerSettings& settings,
+FlickerRun run_along(const TriangleControl& control, FlickerGround& ground, const FlickerSettings& settings,
     std::span<const terrain::MeshView> views) {
     FlickerRun run;
-    const CountNextFrame next = triangle_control.start(ground, settings);
+    const CountNextFrame next = control.start(ground, settings);
     for (const terrain::MeshView& view : views) {
         const CountedFrame frame = next(view);
         run.triangles.push_back(frame.triangles);
@@ -216,8 +212,14 @@ FlickerRun run_along(const TriangleControl& triangle_control, FlickerGround& gro
     return run;
 }
 
-/// A view 300 m above the ground, pitched 6 degrees down: of 25 positions and eight headings, the one in which the
-/// paper's rule makes most triangles at c = 5 and C = 16. Aspect 16:9, field of view 45 degrees.
+/// N'(C) at a C.
+double gain_at(FlickerGround& ground, const terrain::MeshView& view, double weight, double resolution) {
+    return terrain::triangle_count_slope(ground.mesher, view, {.resolution = resolution, .roughness_weight = weight});
+}
+
+/// A view 300 m above the ground, pitched 6 degrees down: of 25 positions and
+/// eight headings, the one in which the paper's rule makes most triangles at c
+/// = 5 and C = 16. Aspect 16:9, field of view 45 degrees.
 terrain::MeshView roughest_view(FlickerGround& ground) {
     const glm::dvec2 quarter_m = 0.25 * ground.field.half_extent_m();
     terrain::MeshView roughest;
@@ -237,8 +239,8 @@ terrain::MeshView roughest_view(FlickerGround& ground) {
     return roughest;
 }
 
-/// Views once around an ellipse over the field, 300 m above the ground, looking along the path with the pitch of
-/// roughest_view().
+/// Views once around an ellipse over the field, 300 m above the ground, looking
+/// along the path with the pitch of roughest_view().
 std::vector<terrain::MeshView> ellipse_views(const FlickerGround& ground, int frames) {
     const glm::dvec2 radius_m = glm::dvec2(0.6, 0.4) * ground.field.half_extent_m();
     std::vector<terrain::MeshView> views;
@@ -257,44 +259,45 @@ constexpr std::array damping_frame_counts = {0, 2, 4, 6, 8}; ///< r
 constexpr std::array flicker_gains = {0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr std::array flicker_first = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}; ///< C_0
 
-/// Runs of one field: by way as triangle_controls counts them; those not made are empty.
+/// Rows of a table.
+using Rows = std::vector<std::vector<report::Cell>>;
+
+/// Runs of one field, by control as triangle_controls counts them; those not
+/// made are empty.
 struct FieldRuns {
     std::string name;                           ///< of the field
-    std::vector<std::vector<FlickerRun>> fixed; ///< by flicker_weights, by way
-    std::vector<double> fixed_gains;            ///< g by flicker_weights
-    std::vector<FlickerRun> path;               ///< by way, c = 5
-    std::vector<double> path_gains;             ///< g here and there along the path
-    /// Frames until dn = 0 for ever, c = 5: of the settling way by flicker_gains, by flicker_first.
-    std::vector<std::vector<std::optional<int>>> settling_frames;
-    std::optional<int> settling_frames_exact;
+    std::vector<std::vector<FlickerRun>> fixed; ///< by flicker_weights, by control
+    std::vector<FlickerRun> path;               ///< by control, c = 5
+    Rows fixed_rows;
+    Rows path_rows;
+    Rows stability_rows;
 };
 
 struct FlickerRuns {
     FieldRuns gentle;
     FieldRuns rugged;
-    std::vector<FlickerRun> damping_lengths; ///< by damping_frame_counts: damped along the rugged path, c = 5
+    std::vector<FlickerRun> damping_lengths; ///< by damping_frame_counts: damped
+                                             ///< along the rugged path, c = 5
 };
 
-/// First change that figures of a path take in: the way in from C_0 is left out.
-std::size_t first_measured(std::size_t frames);
+/// First change that figures of a path take in: the way in from C_0 is left
+/// out.
+std::size_t first_measured(std::size_t frames) { return std::min<std::size_t>(20, frames / 2) + 1; }
+
+/// Of a run along a path.
+terrain::ChangeStatistics path_changes(const FlickerRun& run) {
+    return terrain::change_statistics(run.triangles, first_measured(run.triangles.size()));
+}
 
 constexpr std::array colours = {"#1f77b4", "#2ca02c", "#ff7f0e", "#d62728"};
 constexpr const char* blue = colours[0];
 constexpr const char* red = colours[3];
 constexpr std::size_t shown_frames = 60; ///< of a fixed view
 
-report::Plot frame_plot(std::string title, const char* y_label) {
-    report::Plot plot;
-    plot.title = std::move(title);
-    plot.x_label = "frame";
-    plot.y_label = y_label;
-    return plot;
-}
+report::Plot frame_plot(std::string title, const char* y_label) { return {std::move(title), "frame", y_label}; }
 
 report::PlotSeries series_of(std::string name, const char* colour, std::span<const int> values, std::size_t first) {
-    report::PlotSeries series;
-    series.name = std::move(name);
-    series.colour = colour;
+    report::PlotSeries series{std::move(name), colour};
     for (std::size_t k = 0; k < values.size(); ++k) {
         series.x.push_back(static_cast<double>(first + k));
         series.y.push_back(values[k]);
@@ -336,8 +339,10 @@ void set_range(std::span<report::Plot> plots, double most) {
 }
 
 void add_figure_3(Study& study, const FieldRuns& rugged) {
-    report::Plot plot = frame_plot(
-        fmt::format("Figure 3: fans of consecutive frames, fixed view of {}, previous control", rugged.name), "fans");
+    report::Plot plot = frame_plot(fmt::format("Figure 3: fans of consecutive frames, fixed view "
+                                               "of {}, previous control",
+                                       rugged.name),
+        "fans");
     for (const std::size_t weight : {std::size_t{2}, std::size_t{0}}) {
         const FlickerRun& run = rugged.fixed[weight][previous_control];
         plot.series.push_back(series_of(fmt::format("c = {:g}", flicker_weights[weight]), weight == 0 ? blue : red,
@@ -345,8 +350,10 @@ void add_figure_3(Study& study, const FieldRuns& rugged) {
     }
     plot.levels = {{"paper, 5256", 5256.0}, {"paper, 2745", 2745.0}};
     plot.y_min = 0.0;
-    study.add({&plot, 1}, "Fixed view of rugged ground: at large c the count of fans alternates from frame to frame "
-                          "for ever, at c = 1 it stands. The paper shows two such frames, of 5256 and 2745 fans.");
+    study.add({&plot, 1}, "Fixed view of rugged ground: at large c the count of "
+                          "fans alternates from frame to frame "
+                          "for ever, at c = 1 it stands. The paper shows two "
+                          "such frames, of 5256 and 2745 fans.");
 }
 
 void add_figure_5(Study& study, const FlickerRuns& runs) {
@@ -355,7 +362,8 @@ void add_figure_5(Study& study, const FlickerRuns& runs) {
         path_plot(fmt::format("Figure 5 (b): previous control, c = 5, {}", runs.rugged.name),
             runs.rugged.path[previous_control], red)};
     set_range(plots, largest(plots, 0));
-    study.add(plots, "dn along the path under the previous control, on one scale. The paper: calm all the way "
+    study.add(plots, "dn along the path under the previous control, on one "
+                     "scale. The paper: calm all the way "
                      "over Puget Sound (a), violent over the Grand Canyon (b).");
 }
 
@@ -371,16 +379,18 @@ void add_figure_6(Study& study, const FieldRuns& rugged) {
         }
     }
     set_range(plots, largest(std::span(plots).first(1), 0));
-    study.add(plots,
-        "dn at a fixed view of rugged ground for c = 1, 2, 3, 5, both readings of equation (4). The paper: "
-        "c = 1 is best, c = 2 comes to rest after a weak oscillation, from c = 3 on it oscillates for ever. "
-        "Beyond the scale: literal (4) runs from end to end of C.");
+    study.add(plots, "dn at a fixed view of rugged ground for c = 1, 2, 3, 5, "
+                     "both readings of equation (4). The paper: "
+                     "c = 1 is best, c = 2 comes to rest after a weak "
+                     "oscillation, from c = 3 on it oscillates for ever. "
+                     "Beyond the scale: literal (4) runs from end to end of C.");
 }
 
 void add_figure_8(Study& study, const FieldRuns& rugged) {
     const report::Plot plot = path_plot(
         fmt::format("Figure 8: previous control, c = 5, {}", rugged.name), rugged.path[previous_control], red);
-    study.add({&plot, 1}, "dn along the path before the damping. The paper: an oscillation everywhere, wide in some "
+    study.add({&plot, 1}, "dn along the path before the damping. The paper: an "
+                          "oscillation everywhere, wide in some "
                           "places.");
 }
 
@@ -394,7 +404,8 @@ void add_figure_9(Study& study, const FieldRuns& rugged) {
     set_range(std::span(plots).first(1), largest(std::span(&before, 1), 0));
     const auto enlarged = std::span(plots).subspan(1);
     set_range(enlarged, largest(enlarged, first_measured(rugged.path[damped_control].triangles.size())));
-    study.add(plots, "dn along the path with the damping. The paper: a small ripple only, level everywhere.");
+    study.add(plots, "dn along the path with the damping. The paper: a small "
+                     "ripple only, level everywhere.");
 }
 
 void add_damping_figure(Study& study, const FlickerRuns& runs) {
@@ -402,36 +413,30 @@ void add_damping_figure(Study& study, const FlickerRuns& runs) {
         frame_plot(fmt::format("Damping: dn along the path over {}, c = 5", runs.rugged.name), "mean |dn|");
     plot.x_label = "r, earlier frames averaged";
     plot.y_logarithmic = true;
-    report::PlotSeries mean;
-    mean.colour = blue;
-    mean.name = "mean |dn|";
-    report::PlotSeries flicker_triangles;
-    flicker_triangles.colour = red;
-    flicker_triangles.name = "alternation";
+    report::PlotSeries mean{"mean |dn|", blue};
+    report::PlotSeries alternation{"alternation", red};
     for (std::size_t k = 0; k < runs.damping_lengths.size(); ++k) {
-        const auto figures = visuals::terrain::change_statistics(
-            runs.damping_lengths[k].triangles, first_measured(runs.damping_lengths[k].triangles.size()));
+        const terrain::ChangeStatistics changes = path_changes(runs.damping_lengths[k]);
         mean.x.push_back(damping_frame_counts[k]);
-        mean.y.push_back(figures.mean);
-        flicker_triangles.x.push_back(damping_frame_counts[k]);
-        flicker_triangles.y.push_back(std::max(figures.flicker_triangles, 0.1));
+        mean.y.push_back(changes.mean);
+        alternation.x.push_back(damping_frame_counts[k]);
+        alternation.y.push_back(std::max(changes.flicker_triangles, 0.1));
     }
-    plot.series = {mean, flicker_triangles};
-    study.add({&plot, 1},
-        "Mean |dn| and alternation over the number r of earlier frames that are averaged, equation (5) as "
-        "printed; r = 0 is the previous control. The paper: r = 4 is best.");
+    plot.series = {mean, alternation};
+    study.add({&plot, 1}, "Mean |dn| and alternation over the number r of earlier frames that are "
+                          "averaged, equation (5) as "
+                          "printed; r = 0 is the previous control. The paper: r = 4 is best.");
 }
 
-std::size_t first_measured(std::size_t frames) { return std::min<std::size_t>(20, frames / 2) + 1; }
-
-// The paper shows two grounds, for which a is chosen by hand. Here one a meets five of them, and so does the control
-// that needs none.
+// The paper shows two grounds, for which a is chosen by hand. Here one a meets
+// five of them, and so does the control that needs none.
 
 constexpr std::array shown_controls = {damped_control, tuned_control, exact_control};
 constexpr std::size_t last_frames = 100; ///< of the fixed view
 constexpr std::size_t gain_every = 25;   ///< frames
 
-/// Hills whose heights above the lowest are multiplied, and then taken in whole steps above a sea.
+/// Hills whose heights above the lowest are multiplied, and then taken in whole
+/// steps above a sea.
 HeightField terraced_hills(
     const HeightField& hills, std::string name, double factor, double step_m, double sea_m, double spacing_m) {
     const double lowest_m = static_cast<double>(hills.lowest_m());
@@ -456,52 +461,47 @@ HeightField high_mountains(const HeightField& hills) {
     return terraced_hills(hills, "mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
 }
 
-/// What a way does over one ground.
-struct ControlStatistics {
-    double mean_gain = 0.0; ///< 0 for a way that has none
-    double max_gain = 0.0;
-    double fixed_change = 0.0; ///< mean |dn|
-    double path_change = 0.0;
-};
-
-/// The loop gain along the path: N'(C) as two meshes around C tell it, over the one believed.
-void measure_gain(FlickerGround& ground, const std::vector<terrain::MeshView>& views, const FlickerRun& run,
-    ControlStatistics& control_statistics) {
+/// The loop gains along a path: N'(C) as two meshes around C tell it, over the
+/// one that the control believes in; none for a control without it.
+std::vector<double> loop_gains(
+    FlickerGround& ground, const std::vector<terrain::MeshView>& views, const FlickerRun& run) {
     std::vector<double> gains;
     for (std::size_t k = gain_every; k < views.size(); k += gain_every) {
         if (run.estimated_gain[k] > 0.0) {
-            const double gained = terrain::triangle_count_slope(ground.mesher, views[k],
-                {.resolution = run.resolution[k], .roughness_weight = FlickerSettings().roughness_weight});
-            gains.push_back(gained / run.estimated_gain[k]);
+            gains.push_back(
+                gain_at(ground, views[k], standard.roughness_weight, run.resolution[k]) / run.estimated_gain[k]);
         }
     }
-    if (!gains.empty()) {
-        control_statistics.mean_gain =
-            std::accumulate(gains.begin(), gains.end(), 0.0) / static_cast<double>(gains.size());
-        control_statistics.max_gain = *std::ranges::max_element(gains);
-    }
+    return gains;
 }
 
-ControlStatistics statistics_of_control(FlickerGround& ground, const TriangleControl& triangle_control, int frames) {
-    ControlStatistics control_statistics;
+double mean_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<report::Cell> relief_row(FlickerGround& ground, const TriangleControl& control, int frames) {
     const std::vector fixed(2 * last_frames, roughest_view(ground));
     const std::vector<terrain::MeshView> path = ellipse_views(ground, frames);
-    const FlickerRun standing = run_along(triangle_control, ground, {}, fixed);
-    const FlickerRun flown = run_along(triangle_control, ground, {}, path);
-    control_statistics.fixed_change =
-        terrain::change_statistics(standing.triangles, standing.triangles.size() - last_frames).mean;
-    control_statistics.path_change =
-        terrain::change_statistics(flown.triangles, first_measured(flown.triangles.size())).mean;
-    measure_gain(ground, path, flown, control_statistics);
-    return control_statistics;
+    const FlickerRun standing = run_along(control, ground, {}, fixed);
+    const FlickerRun flown = run_along(control, ground, {}, path);
+    const std::vector<double> gains = loop_gains(ground, path, flown);
+    const double change = path_changes(flown).mean;
+    return {{"ground", ground.field.name},
+        {"relief m", "{:.0f}", static_cast<double>(ground.field.highest_m() - ground.field.lowest_m())},
+        {"control", control.name}, {"g, mean", gains.empty() ? "" : fmt::format("{:.2f}", mean_of(gains))},
+        {"g, largest", gains.empty() ? "" : fmt::format("{:.2f}", *std::ranges::max_element(gains))},
+        {"fixed view, mean abs dn", "{:.1f}",
+            terrain::change_statistics(standing.triangles, standing.triangles.size() - last_frames).mean},
+        {"path, mean abs dn", "{:.1f}", change},
+        {"path, % of N", "{:.3f}", 100.0 * change / standard.target_triangles}};
 }
 
-std::string gain_text(double gain) { return gain > 0.0 ? fmt::format("{:.2f}", gain) : ""; }
-
-/// How quietly the damped control as printed, the one that finds its own gain and the exact budget hold the count over
-/// grounds of all reliefs: two made ones flatter than `options.gentle`, that and `options.rugged`, and a made one as
-/// high as the Himalaya. A row for each ground and control: loop gain, mean change of N over the last frames of a fixed
-/// view and along the path. Throws Error.
+/// How quietly the damped control as printed, the one that finds its own gain
+/// and the exact budget hold the count over grounds of all reliefs: two made
+/// ones flatter than `options.gentle`, that and `options.rugged`, and a made
+/// one as high as the Himalaya. A row for each ground and control: loop gain,
+/// mean change of N over the last frames of a fixed view and along the path.
+/// Throws Error.
 report::ResultTable relief_table(const FlickerStudyOptions& options) {
     const HeightField hills = models::procedural::procedural_hills();
     std::vector<HeightField> fields;
@@ -511,39 +511,25 @@ report::ResultTable relief_table(const FlickerStudyOptions& options) {
     fields.push_back(world::load_height_field(options.rugged, options.files));
     fields.push_back(high_mountains(hills));
     report::ResultTable table{"Controls from flats to high mountains, c = 5"};
-    const FlickerSettings as_asked;
-    std::vector<std::array<ControlStatistics, shown_controls.size()>> found(fields.size());
-    std::vector<double> relief_m;
-    for (const HeightField& field : fields) {
-        relief_m.push_back(static_cast<double>(field.highest_m() - field.lowest_m()));
-    }
+    std::vector<Rows> rows(fields.size());
     parallel_for(fields.size(), 2, [&](std::size_t k, std::size_t /*worker*/) {
         FlickerGround ground(fields[k]);
-        for (std::size_t i = 0; i < shown_controls.size(); ++i) {
-            found[k][i] = statistics_of_control(ground, triangle_controls[shown_controls[i]], options.frames);
+        for (const std::size_t control : shown_controls) {
+            rows[k].push_back(relief_row(ground, triangle_controls[control], options.frames));
         }
     });
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-        for (std::size_t i = 0; i < shown_controls.size(); ++i) {
-            const ControlStatistics& control_statistics = found[k][i];
-            table.add({{"ground", fields[k].name}, {"relief m", "{:.0f}", relief_m[k]},
-                {"control", triangle_controls[shown_controls[i]].name},
-                {"g, mean", gain_text(control_statistics.mean_gain)},
-                {"g, largest", gain_text(control_statistics.max_gain)},
-                {"fixed view, mean abs dn", "{:.1f}", control_statistics.fixed_change},
-                {"path, mean abs dn", "{:.1f}", control_statistics.path_change},
-                {"path, % of N", "{:.3f}", 100.0 * control_statistics.path_change / as_asked.target_triangles}});
-        }
+    for (const Rows& of_field : rows) {
+        std::ranges::for_each(of_field, [&](const auto& row) { table.add(row); });
     }
-    table.note =
-        fmt::format("Settings as at the fixed view and the path above, a = {:g} for the control as printed. "
-                    "Fixed view: the last {} of {} frames. g: N'(C) over 4 % of C, by the one that the control "
-                    "goes by, here and there along the path. Own gain makes up to {} meshes a frame.",
-            as_asked.triangles_per_resolution, last_frames, 2 * last_frames, terrain::max_tuned_meshes);
+    table.note = fmt::format("Settings as at the fixed view and the path above, "
+                             "a = {:g} for the control as printed. "
+                             "Fixed view: the last {} of {} frames. g: N'(C) "
+                             "over 4 % of C, by the one that the control "
+                             "goes by, here and there along the path. Own gain "
+                             "makes up to {} meshes a frame.",
+        standard.triangles_per_resolution, last_frames, 2 * last_frames, terrain::max_tuned_meshes);
     return table;
 }
-
-const FlickerSettings standard;
 
 std::string frames_text(const std::optional<int>& frames) { return frames ? fmt::format("{}", *frames) : "never"; }
 
@@ -555,69 +541,81 @@ std::string last_two(const std::vector<int>& counts) {
                           : fmt::format("{} / {}", std::max(last, before), std::min(last, before));
 }
 
-report::ResultTable fixed_table(const FieldRuns& runs, const char* kind) {
+std::vector<report::Cell> fixed_row(double weight, double gain, const TriangleControl& control, const FlickerRun& run) {
     constexpr std::size_t last = 50;
+    const auto changes = terrain::change_statistics(run.triangles, std::max(run.triangles.size(), last + 1) - last);
+    return {{"c", "{:g}", weight}, {"loop gain g", "{:.2f}", gain}, {"control", control.name},
+        {"mean abs dn, last 50", "{:.0f}", changes.mean}, {"fans, last two frames", last_two(run.fans)},
+        {"dn = 0 for ever after, frames", frames_text(terrain::frames_until_constant(run.triangles, 10))},
+        {"within 0.5 % after, frames",
+            frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.005, 10))}};
+}
+
+report::ResultTable fixed_table(const FieldRuns& runs, const char* kind) {
     report::ResultTable table{fmt::format("Fixed view over {} ground: {}", kind, runs.name)};
-    for (std::size_t weight = 0; weight < runs.fixed.size(); ++weight) {
-        for (std::size_t i = 0; i < runs.fixed[weight].size(); ++i) {
-            const FlickerRun& run = runs.fixed[weight][i];
-            const auto changes =
-                terrain::change_statistics(run.triangles, std::max(run.triangles.size(), last + 1) - last);
-            table.add({{"c", "{:g}", flicker_weights[weight]}, {"loop gain g", "{:.2f}", runs.fixed_gains[weight]},
-                {"control", triangle_controls[i].name}, {"mean abs dn, last 50", "{:.0f}", changes.mean},
-                {"fans, last two frames", last_two(run.fans)},
-                {"dn = 0 for ever after, frames", frames_text(terrain::frames_until_constant(run.triangles, 10))},
-                {"within 0.5 % after, frames",
-                    frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.005, 10))}});
-        }
-    }
-    table.note =
-        fmt::format("{} frames of one view, 300 m over the ground: the one of 25 places and eight headings "
-                    "that is refined most. Literal roughness, partial fans, C_min = 2, K = 0.5 + 0.79 / C_min "
-                    "= "
-                    "0.895, N_target = {}, a = {:g}, C_0 = {:g}, r = {}. g = N'(C) / a where N = N_target, "
-                    "over "
-                    "4 % of C. Within 0.5 %: of N_target, first of ten such frames in a row; for ever: at "
-                    "least the last ten frames. The paper (Grand "
-                    "Canyon, numbers not given): c = 1 best, c = 2 settles, c = 3 and more oscillate for ever, "
-                    "its pair of frames has 5256 / 2745 fans. Screen error: the default mesh, with geomorphs, "
-                    "at the error in pixels that gives N_target; it has neither c nor C.",
-            runs.fixed.front().front().triangles.size(), standard.target_triangles, standard.triangles_per_resolution,
-            standard.first_resolution, standard.averaged_frames);
+    for (const auto& row : runs.fixed_rows) { table.add(row); }
+    table.note = fmt::format("{} frames of one view, 300 m over the ground: the one of 25 places and "
+                             "eight headings "
+                             "that is refined most. Literal roughness, partial fans, C_min = 2, K = "
+                             "0.5 + 0.79 / C_min "
+                             "= "
+                             "0.895, N_target = {}, a = {:g}, C_0 = {:g}, r = {}. g = N'(C) / a where "
+                             "N = N_target, "
+                             "over "
+                             "4 % of C. Within 0.5 %: of N_target, first of ten such frames in a row; "
+                             "for ever: at "
+                             "least the last ten frames. The paper (Grand "
+                             "Canyon, numbers not given): c = 1 best, c = 2 settles, c = 3 and more "
+                             "oscillate for ever, "
+                             "its pair of frames has 5256 / 2745 fans. Screen error: the default "
+                             "mesh, with geomorphs, "
+                             "at the error in pixels that gives N_target; it has neither c nor C.",
+        runs.fixed.front().front().triangles.size(), standard.target_triangles, standard.triangles_per_resolution,
+        standard.first_resolution, standard.averaged_frames);
     return table;
 }
 
-void add_path_rows(const FieldRuns& runs, report::ResultTable& table) {
-    const double gain = std::accumulate(runs.path_gains.begin(), runs.path_gains.end(), 0.0) /
-                        static_cast<double>(runs.path_gains.size());
-    const double most = *std::max_element(runs.path_gains.begin(), runs.path_gains.end());
-    const auto changes_of = [](const FlickerRun& run) {
-        return terrain::change_statistics(run.triangles, first_measured(run.triangles.size()));
-    };
-    const double before = changes_of(runs.path[previous_control]).mean;
+/// The rows of all controls that were run, with the loop gains along the path.
+Rows path_rows(const FieldRuns& runs, std::span<const double> gains) {
+    const double before = path_changes(runs.path[previous_control]).mean;
+    Rows rows;
     for (std::size_t i = 0; i < runs.path.size(); ++i) {
         const FlickerRun& run = runs.path[i];
         if (run.triangles.empty()) { continue; }
-        const terrain::ChangeStatistics changes = changes_of(run);
-        table.add({{"ground", runs.name}, {"g, mean", "{:.2f}", gain}, {"g, largest", "{:.2f}", most},
-            {"control", triangle_controls[i].name}, {"mean abs dn", "{:.1f}", changes.mean},
-            {"largest abs dn", changes.largest}, {"alternation", "{:.1f}", changes.flicker_triangles},
+        const terrain::ChangeStatistics changes = path_changes(run);
+        rows.push_back({{"ground", runs.name}, {"g, mean", "{:.2f}", mean_of(gains)},
+            {"g, largest", "{:.2f}", *std::ranges::max_element(gains)}, {"control", triangle_controls[i].name},
+            {"mean abs dn", "{:.1f}", changes.mean}, {"largest abs dn", changes.largest},
+            {"alternation", "{:.1f}", changes.flicker_triangles},
             {"within 2 % after, frames",
                 frames_text(terrain::frames_until_within(run.triangles, standard.target_triangles, 0.02, 10))},
             {"previous / this", changes.mean > 0.0 ? fmt::format("{:.1f}", before / changes.mean) : ""}});
     }
+    return rows;
+}
+
+/// A table with rows of both fields.
+report::ResultTable table_of_both(std::string title, const FlickerRuns& runs, Rows FieldRuns::*rows) {
+    report::ResultTable table{std::move(title)};
+    for (const FieldRuns* const field : {&runs.gentle, &runs.rugged}) {
+        for (const auto& row : field->*rows) { table.add(row); }
+    }
+    return table;
 }
 
 report::ResultTable path_table(const FlickerRuns& runs) {
-    report::ResultTable table{
-        fmt::format("Path of {} frames, c = 5", runs.rugged.path[previous_control].triangles.size())};
-    add_path_rows(runs.gentle, table);
-    add_path_rows(runs.rugged, table);
-    table.note = "Once round an ellipse of 0.6 by 0.4 of the field, 300 m over the ground, looking ahead; "
-                 "settings as at the fixed view. The first 20 changes are left out. Alternation: sum of "
-                 "min(|dn_k|, |dn_k-1|) over the frames in which dn changes its sign, divided by all "
+    report::ResultTable table =
+        table_of_both(fmt::format("Path of {} frames, c = 5", runs.rugged.path[previous_control].triangles.size()),
+            runs, &FieldRuns::path_rows);
+    table.note = "Once round an ellipse of 0.6 by 0.4 of the field, 300 m over "
+                 "the ground, looking ahead; "
+                 "settings as at the fixed view. The first 20 changes are left "
+                 "out. Alternation: sum of "
+                 "min(|dn_k|, |dn_k-1|) over the frames in which dn changes its "
+                 "sign, divided by all "
                  "frames: "
-                 "triangles that come and go again. Within 2 %: of N_target, first of ten such frames in a "
+                 "triangles that come and go again. Within 2 %: of N_target, "
+                 "first of ten such frames in a "
                  "row. Screen error has neither c nor g.";
     return table;
 }
@@ -625,48 +623,28 @@ report::ResultTable path_table(const FlickerRuns& runs) {
 report::ResultTable damping_table(const FlickerRuns& runs) {
     report::ResultTable table{fmt::format("Damping over r: {}, path, c = 5", runs.rugged.name)};
     for (std::size_t k = 0; k < runs.damping_lengths.size(); ++k) {
-        const auto changes = terrain::change_statistics(
-            runs.damping_lengths[k].triangles, first_measured(runs.damping_lengths[k].triangles.size()));
+        const terrain::ChangeStatistics changes = path_changes(runs.damping_lengths[k]);
         table.add({{"r", damping_frame_counts[k]}, {"mean abs dn", "{:.1f}", changes.mean},
             {"largest abs dn", changes.largest}, {"alternation", "{:.1f}", changes.flicker_triangles}});
     }
-    table.note = "Equation (5) as printed, weights r + 1, ..., 2, 1; r = 0 is the previous control. The "
+    table.note = "Equation (5) as printed, weights r + 1, ..., 2, 1; r = 0 is "
+                 "the previous control. The "
                  "paper: r = 4 is best.";
     return table;
 }
 
-void add_stability_rows(const FieldRuns& runs, report::ResultTable& table) {
-    const auto add = [&](std::size_t control, const std::string& gain, const auto& frames_of) {
-        std::vector<report::Cell> row = {
-            {"ground", runs.name}, {"control", triangle_controls[control].name}, {"g", gain}};
-        for (std::size_t k = 0; k < flicker_first.size(); ++k) {
-            row.emplace_back(fmt::format("C_0 = {:g}", flicker_first[k]), frames_text(frames_of(k)));
-        }
-        table.add(std::move(row));
-    };
-    for (std::size_t gain = 0; gain < runs.settling_frames.size(); ++gain) {
-        add(dead_band_control, fmt::format("{:g}", flicker_gains[gain]),
-            [&](std::size_t k) { return runs.settling_frames[gain][k]; });
-    }
-    add(exact_control, "any", [&](std::size_t) { return runs.settling_frames_exact; });
-}
-
 report::ResultTable stability_table(const FlickerRuns& runs) {
-    report::ResultTable table{"Frames before dn = 0 for ever at the fixed view, c = 5"};
-    add_stability_rows(runs.gentle, table);
-    add_stability_rows(runs.rugged, table);
-    table.note = "a = N'(C) / g, with N' measured where N = N_target. The dead band is 0.5 % of "
-                 "N_target, or one step of N(C) where that is higher. The exact way has neither g "
+    report::ResultTable table =
+        table_of_both("Frames before dn = 0 for ever at the fixed view, c = 5", runs, &FieldRuns::stability_rows);
+    table.note = "a = N'(C) / g, with N' measured where N = N_target. The dead "
+                 "band is 0.5 % of "
+                 "N_target, or one step of N(C) where that is higher. The exact "
+                 "way has neither g "
                  "nor C_0.";
     return table;
 }
 
 int fixed_frames(const FlickerStudyOptions& options) { return std::max(options.frames / 5, 60); }
-
-/// N'(C) where the exact way settles.
-double gain_at(FlickerGround& ground, const terrain::MeshView& view, double weight, double resolution) {
-    return terrain::triangle_count_slope(ground.mesher, view, {.resolution = resolution, .roughness_weight = weight});
-}
 
 void run_fixed(FlickerGround& ground, int frames, FieldRuns& runs, base::Progress& progress) {
     const terrain::MeshView view = roughest_view(ground);
@@ -675,29 +653,31 @@ void run_fixed(FlickerGround& ground, int frames, FieldRuns& runs, base::Progres
         FlickerSettings settings;
         settings.roughness_weight = weight;
         std::vector<FlickerRun>& of_weight = runs.fixed.emplace_back();
-        for (const TriangleControl& triangle_control : triangle_controls) {
-            of_weight.push_back(run_along(triangle_control, ground, settings, views));
+        for (const TriangleControl& control : triangle_controls) {
+            of_weight.push_back(run_along(control, ground, settings, views));
             progress.tick();
         }
-        runs.fixed_gains.push_back(gain_at(ground, view, weight, of_weight[exact_control].resolution.back()) /
-                                   settings.triangles_per_resolution);
+        const double gain = gain_at(ground, view, weight, of_weight[exact_control].resolution.back()) /
+                            settings.triangles_per_resolution;
+        for (std::size_t i = 0; i < of_weight.size(); ++i) {
+            runs.fixed_rows.push_back(fixed_row(weight, gain, triangle_controls[i], of_weight[i]));
+        }
     }
 }
 
 void run_path(
     FlickerGround& ground, std::span<const terrain::MeshView> views, FieldRuns& runs, base::Progress& progress) {
     const FlickerSettings settings;
-    for (const TriangleControl& triangle_control : triangle_controls) {
-        runs.path.push_back(
-            triangle_control.holds_target ? run_along(triangle_control, ground, settings, views) : FlickerRun());
+    for (const TriangleControl& control : triangle_controls) {
+        runs.path.push_back(control.holds_target ? run_along(control, ground, settings, views) : FlickerRun());
         progress.tick();
     }
-    constexpr std::size_t every = 25;
-    for (std::size_t k = 0; k < views.size(); k += every) {
-        runs.path_gains.push_back(
-            gain_at(ground, views[k], settings.roughness_weight, runs.path[exact_control].resolution[k]) /
-            settings.triangles_per_resolution);
+    std::vector<double> gains;
+    for (std::size_t k = 0; k < views.size(); k += gain_every) {
+        gains.push_back(gain_at(ground, views[k], settings.roughness_weight, runs.path[exact_control].resolution[k]) /
+                        settings.triangles_per_resolution);
     }
+    runs.path_rows = path_rows(runs, gains);
 }
 
 void run_stability(FlickerGround& ground, FieldRuns& runs, base::Progress& progress) {
@@ -706,18 +686,25 @@ void run_stability(FlickerGround& ground, FieldRuns& runs, base::Progress& progr
     const std::vector views(frames, view);
     FlickerSettings settings;
     const FlickerRun exact = run_along(triangle_controls[exact_control], ground, settings, views);
-    runs.settling_frames_exact = terrain::frames_until_constant(exact.triangles, 10);
     const double gained = gain_at(ground, view, settings.roughness_weight, exact.resolution.back());
-    for (const double gain : flicker_gains) {
-        settings.triangles_per_resolution = gained / gain;
-        auto& of_gain = runs.settling_frames.emplace_back();
+    const auto add_row = [&](std::size_t control, const std::string& gain) {
+        std::vector<report::Cell> row = {
+            {"ground", runs.name}, {"control", triangle_controls[control].name}, {"g", gain}};
         for (const double first : flicker_first) {
             settings.first_resolution = first;
-            of_gain.push_back(terrain::frames_until_constant(
-                run_along(triangle_controls[dead_band_control], ground, settings, views).triangles, 10));
+            const FlickerRun run =
+                control == exact_control ? exact : run_along(triangle_controls[control], ground, settings, views);
+            row.emplace_back(
+                fmt::format("C_0 = {:g}", first), frames_text(terrain::frames_until_constant(run.triangles, 10)));
         }
+        runs.stability_rows.push_back(std::move(row));
+    };
+    for (const double gain : flicker_gains) {
+        settings.triangles_per_resolution = gained / gain;
+        add_row(dead_band_control, fmt::format("{:g}", gain));
         progress.tick();
     }
+    add_row(exact_control, "any");
 }
 
 FieldRuns run_field(FlickerGround& ground, int frames, int still_frames, base::Progress& progress) {
@@ -729,7 +716,8 @@ FieldRuns run_field(FlickerGround& ground, int frames, int still_frames, base::P
     return runs;
 }
 
-/// Damped as printed along the path, with another r each; two of them were run before.
+/// Damped as printed along the path, with another r each; two of them were run
+/// before.
 std::vector<FlickerRun> run_damping_lengths(
     FlickerGround& ground, int frames, const std::vector<FlickerRun>& path, base::Progress& progress) {
     const std::vector<terrain::MeshView> views = ellipse_views(ground, frames);
@@ -755,7 +743,7 @@ FlickerRuns run_all(const FlickerStudyOptions& options) {
     FlickerGround rugged(world::load_height_field(options.rugged, options.files));
     for (const FlickerGround* const ground : {&gentle, &rugged}) {
         const auto few = world::few_samples_note(ground->field.name, {ground->field.columns(), ground->field.rows()},
-            FlickerSettings{}.target_triangles, "--gentle and --rugged with larger maps");
+            standard.target_triangles, "--gentle and --rugged with larger maps");
         base::print_note(options.quiet || !few, few.value_or(""));
     }
     const int ways = static_cast<int>(triangle_controls.size());

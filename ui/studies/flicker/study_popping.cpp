@@ -1,10 +1,7 @@
 #include "ui/studies/flicker/study_popping.h"
 
-#include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/flight/session.h"
-#include "ui/studies/study.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/scene_ground.h"
@@ -22,6 +19,7 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -124,49 +122,45 @@ namespace scene = visuals::scene;
 
 namespace {
 
-struct RaySampler {
+struct DrawnWay {
     int samples;
     bool geomorphs;
 };
 
-constexpr std::array samplings = {RaySampler{1, false}, RaySampler{1, true}, RaySampler{4, false}, RaySampler{4, true}};
+constexpr std::array drawn_ways = {DrawnWay{1, false}, DrawnWay{1, true}, DrawnWay{4, false}, DrawnWay{4, true}};
 
 /// Sums over pairs of frames.
 struct Change {
-    std::array<double, samplings.size()> sum{};
+    std::string path;
+    std::array<double, drawn_ways.size()> sum{};
     std::size_t pairs = 0;
     std::size_t pixels = 0;
+
+    void add(const Change& other) {
+        std::ranges::transform(sum, other.sum, sum.begin(), std::plus());
+        pairs += other.pairs;
+        pixels += other.pixels;
+    }
 };
 
-void add_change(report::ResultTable& table, const std::string& path, const Change& change) {
-    std::vector<report::Cell> row = {{"path", path}, {"pairs of frames", change.pairs}, {"pixels", change.pixels}};
-    for (std::size_t k = 0; k < samplings.size(); ++k) {
-        row.push_back({fmt::format("{} sample{}, {}geomorphs", samplings[k].samples,
-                           samplings[k].samples == 1 ? "" : "s", samplings[k].geomorphs ? "" : "no "),
-            "{:.3f}", change.sum[k] / static_cast<double>(change.pairs)});
-    }
-    table.add(std::move(row));
-}
-
 Change shimmer_along(
-    const PoppingStudyOptions& options, const settings::RunSettings& flown, const ui::terrain::LoadedGround& ground) {
+    const settings::RunSettings& flown, const ui::terrain::LoadedGround& ground, std::size_t every, bool quiet) {
     const terrain::GroundSamples samples = ground.samples();
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
-    std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
-    for (std::size_t k = 0; k < samplings.size(); ++k) {
+    Sessions sessions;
+    for (const DrawnWay& way : drawn_ways) {
         settings::RunSettings settings = flown;
-        settings.view.samples = samplings[k].samples;
-        settings.ground.geomorphs = samplings[k].geomorphs;
-        sessions[k] = std::make_unique<flight::Session>(settings);
+        settings.view.samples = way.samples;
+        settings.ground.geomorphs = way.geomorphs;
+        sessions.push_back(std::make_unique<flight::Session>(settings));
     }
     const double radius_m = flown.ground.earth_curvature ? ground.mean_radius_m() : 0.0;
-    base::Progress progress(flown.path.name, static_cast<int>(cameras.size()), options.quiet);
-    Change change;
-    const auto step = static_cast<std::size_t>(options.every);
-    for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
+    base::Progress progress(flown.path.name, static_cast<int>(cameras.size()), quiet);
+    Change change{.path = flown.path.name};
+    for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += every) {
         const std::vector<ReprojectedPixel> matches =
             reprojected_pixels(samples, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
-        for (std::size_t k = 0; k < samplings.size(); ++k) {
+        for (std::size_t k = 0; k < sessions.size(); ++k) {
             flight::Session& session = *sessions[k];
             session.draw(static_cast<int>(frame));
             const visuals::scene::Picture earlier = session.picture();
@@ -180,38 +174,37 @@ Change shimmer_along(
     return change;
 }
 
-} // namespace
-
 report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground =
         ui::terrain::load_ground(options.settings.path.terrain, world::import_options(options.settings.path),
             true); // the popping table has printed the notes
-    report::ResultTable table{"Shimmer: mean change of luminance (0 to 255) after the motion is taken out"};
-    std::vector<Change> changes(base::built_in_paths.size());
-    PoppingStudyOptions of_path = options;
-    of_path.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    parallel_for(changes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+    std::vector<Change> changes = run_cases(base::built_in_paths, options, [&](std::string_view path, bool quiet) {
         settings::RunSettings settings = options.settings;
-        settings.path.name = std::string(base::built_in_paths[i]);
+        settings.path.name = std::string(path);
         settings.surface.shadows = false;
         settings.ground.lod.metric = scene::GroundMetric::ScreenError;
-        changes[i] = shimmer_along(of_path, settings, ground);
+        return shimmer_along(settings, ground, static_cast<std::size_t>(options.every), quiet);
     });
-    Change all;
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-        add_change(table, std::string(base::built_in_paths[i]), changes[i]);
-        for (std::size_t k = 0; k < samplings.size(); ++k) { all.sum[k] += changes[i].sum[k]; }
-        all.pairs += changes[i].pairs;
-        all.pixels += changes[i].pixels;
+    Change all{.path = "all"};
+    for (const Change& change : changes) { all.add(change); }
+    changes.push_back(all);
+    report::ResultTable table{"Shimmer: mean change of luminance (0 to 255) after the motion is taken out"};
+    for (const Change& change : changes) {
+        std::vector<report::Cell> row = {
+            {"path", change.path}, {"pairs of frames", change.pairs}, {"pixels", change.pixels}};
+        for (std::size_t k = 0; k < drawn_ways.size(); ++k) {
+            const DrawnWay& way = drawn_ways[k];
+            row.push_back({fmt::format("{} sample{}, {}geomorphs", way.samples, way.samples == 1 ? "" : "s",
+                               way.geomorphs ? "" : "no "),
+                "{:.3f}", change.sum[k] / static_cast<double>(change.pairs)});
+        }
+        table.add(std::move(row));
     }
-    add_change(table, "all", all);
     table.note = "Every fourth pixel, both ways, of the later frame that shows ground which the "
                  "earlier one shows: rays to the full-resolution ground; the earlier picture is "
                  "read between its pixels. Not near the aircraft; no shadows.";
     return table;
 }
-
-namespace {
 
 struct Meshing {
     const char* name;
@@ -226,10 +219,6 @@ constexpr std::array meshings = {Meshing{"midpoint, exact budget", scene::Ground
     Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true, false},
     Meshing{"screen-error, geomorphs, near detail", scene::GroundMetric::ScreenError, true, true}};
 
-std::span<const Meshing> meshings_of(const settings::RunSettings& settings) {
-    return std::span(meshings).first(meshings.size() - (settings.ground.near_detail ? 0 : 1));
-}
-
 /// The mesh of a frame, valid until the next call but one.
 using MeshOfFrame = std::function<terrain::GroundMesh(const scene::Camera&)>;
 
@@ -238,6 +227,14 @@ struct Jumps {
     std::vector<double> jumps_px;
     double largest_px = 0.0;
     std::size_t largest_frame = 0;
+
+    void add(const Jumps& other) {
+        jumps_px.insert(jumps_px.end(), other.jumps_px.begin(), other.jumps_px.end());
+        if (other.largest_px > largest_px) {
+            largest_px = other.largest_px;
+            largest_frame = other.largest_frame;
+        }
+    }
 };
 
 ui::terrain::GroundMeshOptions mesh_options(const settings::RunSettings& settings, const Meshing& way) {
@@ -289,11 +286,7 @@ Jumps jumps_along(const MeshOfFrame& mesh_of, const settings::RunSettings& setti
         const scene::Camera& camera = cameras[frame].camera;
         const auto jump = meter.next(mesh_of(camera), ui::terrain::picture_view(camera, settings.view.size_px));
         if (!jump) { continue; }
-        found.jumps_px.push_back(jump->popping_px);
-        if (jump->popping_px > found.largest_px) {
-            found.largest_px = jump->popping_px;
-            found.largest_frame = frame;
-        }
+        found.add({{jump->popping_px}, jump->popping_px, frame});
     }
     return found;
 }
@@ -303,17 +296,13 @@ double percentile_px(std::vector<double> jumps_px, int permille) {
     return report::nearest_rank(jumps_px, permille);
 }
 
-void add_popping(report::ResultTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
-    table.add({{"path", path}, {"mesh", way.name}, {"frames", found.jumps_px.size()},
-        {"maximum px", "{:.3f}", found.largest_px}, {"in frame", found.largest_frame},
-        {"99.9 % px", "{:.3f}", percentile_px(found.jumps_px, 999)},
-        {"median px", "{:.3f}", percentile_px(found.jumps_px, 500)}});
-}
+/// A built-in path with its ground meshed in one way.
+struct MeshedPath {
+    std::size_t path = 0;
+    const Meshing* meshing = nullptr;
+};
 
-using JumpsByMeshing = std::array<Jumps, meshings.size()>;
-
-/// Of every built-in path by every meshing, `jobs` of these at once.
-std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
+report::ResultTable popping_table(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
         options.settings.path.terrain, world::import_options(options.settings.path), options.quiet);
     const terrain::GroundSamples samples = ground.samples();
@@ -323,42 +312,35 @@ std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
     base::print_note(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
+    std::vector<MeshedPath> cases;
+    const auto ways = std::span(meshings).first(meshings.size() - (options.settings.ground.near_detail ? 0 : 1));
     for (std::size_t path = 0; path < flown.size(); ++path) {
         flown[path].path.name = std::string(base::built_in_paths[path]);
         cameras.push_back(flight::flight_cameras(flown[path]));
+        for (const Meshing& way : ways) { cases.push_back({path, &way}); }
     }
-    const std::size_t ways = meshings_of(options.settings).size();
-    std::vector<JumpsByMeshing> found(cameras.size());
-    base::Progress progress("popping", static_cast<int>(found.size() * ways), options.quiet, "flights");
-    parallel_for(found.size() * ways, options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-        const std::size_t path = i / ways;
-        const Meshing& way = meshings[i % ways];
-        found[path][i % ways] =
-            jumps_along(way.near_detail ? ground_with_detail(flown[path]) : given_ground(ground, options.settings, way),
-                options.settings, cameras[path]);
-        progress.tick(std::string(base::built_in_paths[path]));
+    base::Progress progress("popping", static_cast<int>(cases.size()), options.quiet, "flights");
+    std::vector<Jumps> found = run_cases(cases, options, [&](const MeshedPath& meshed, bool /*quiet*/) {
+        const Meshing& way = *meshed.meshing;
+        Jumps jumps = jumps_along(
+            way.near_detail ? ground_with_detail(flown[meshed.path]) : given_ground(ground, options.settings, way),
+            options.settings, cameras[meshed.path]);
+        progress.tick(flown[meshed.path].path.name);
+        return jumps;
     });
     progress.finish();
-    return found;
-}
-
-report::ResultTable popping_table(const PoppingStudyOptions& options) {
+    std::vector<Jumps> all(ways.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) { all[i % ways.size()].add(found[i]); }
+    std::ranges::move(all, std::back_inserter(found));
     report::ResultTable table{"Largest jump of a vertex from frame to frame"};
-    const std::vector<JumpsByMeshing> found = jumps_of_paths(options);
-    const std::size_t ways = meshings_of(options.settings).size();
-    JumpsByMeshing all;
-    for (std::size_t path = 0; path < found.size(); ++path) {
-        for (std::size_t k = 0; k < ways; ++k) {
-            const Jumps& jumps = found[path][k];
-            add_popping(table, std::string(base::built_in_paths[path]), meshings[k], jumps);
-            all[k].jumps_px.insert(all[k].jumps_px.end(), jumps.jumps_px.begin(), jumps.jumps_px.end());
-            if (jumps.largest_px > all[k].largest_px) {
-                all[k].largest_px = jumps.largest_px;
-                all[k].largest_frame = jumps.largest_frame;
-            }
-        }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Jumps& jumps = found[i];
+        table.add(
+            {{"path", i < cases.size() ? flown[cases[i].path].path.name : "all"}, {"mesh", ways[i % ways.size()].name},
+                {"frames", jumps.jumps_px.size()}, {"maximum px", "{:.3f}", jumps.largest_px},
+                {"in frame", jumps.largest_frame}, {"99.9 % px", "{:.3f}", percentile_px(jumps.jumps_px, 999)},
+                {"median px", "{:.3f}", percentile_px(jumps.jumps_px, 500)}});
     }
-    for (std::size_t k = 0; k < ways; ++k) { add_popping(table, "all", meshings[k], all[k]); }
     table.note =
         fmt::format("Each frame: the two meshes' surfaces at every vertex of either that both frames show "
                     "(from 10 m on), apart on the screen as the later frame sees it. {}, {} triangles at most, "

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "ui/base/study_output.h"
 #include "ui/flight/session.h"
-#include "ui/settings/settings.h"
+#include "ui/studies/study.h"
 #include "visuals/scene/picture.h"
 #include "visuals/terrain/ground_query.h"
 
@@ -27,12 +26,10 @@ std::vector<ReprojectedPixel> reprojected_pixels(const visuals::terrain::GroundS
 double mean_change(const visuals::scene::Picture& earlier, const visuals::scene::Picture& later,
     const std::vector<ReprojectedPixel>& matches);
 
-struct PoppingStudyOptions : base::StudyOutput {
-    settings::RunSettings settings =
-        settings::measurement_settings(); ///< terrain, size, triangles, error_px, rate, frames, ...
+/// Terrain, size, triangles, error in pixels, rate, frames, ... are those of the settings.
+struct PoppingStudyOptions : StudyOptions {
     bool shimmer = false;
     int every = 60; ///< shimmer: a pair of frames in so many
-    int jobs = 1;   ///< flights at once
 };
 
 /// Measures, frame by frame along the four paths of the F-15, the largest jump of a vertex in pixels when its level of

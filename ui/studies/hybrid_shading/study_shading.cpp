@@ -3,12 +3,10 @@
 #include "models/polygons/obj_reader.h"
 #include "models/procedural/procedural_models.h"
 #include "sim/base/random_generator.h"
-#include "sim/base/thread_pool.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/studies/shading_pictures.h"
-#include "ui/studies/study.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/view_refiner.h"
@@ -49,21 +47,6 @@ ShadedModel shaded_model(std::string name, const auto& model, double crease_rad 
     return {std::move(name), shading::shaded_polygons(model, shading::corner_normals(model, crease_rad))};
 }
 
-/// Each polygon as the fan of its first corner.
-models::TriangleMesh triangles_of(const models::polygons::PolygonModel& model) {
-    models::TriangleMesh mesh;
-    mesh.vertices_m = model.vertices_m;
-    mesh.materials = model.materials;
-    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const auto corners = model.corners(i);
-        for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-            mesh.triangles.push_back({corners[0], corners[k], corners[k + 1]});
-            mesh.triangle_materials.push_back(model.polygons[i].material);
-        }
-    }
-    return mesh;
-}
-
 /// Bunches numbers from 0 to 1 together around 0.
 double concentrated(double part) { return 0.12 * part + 0.88 * part * part; }
 
@@ -87,8 +70,8 @@ models::TriangleMesh refined_mesh(const std::shared_ptr<const refine::Progressiv
     return refine::active_mesh(refiner.front()).mesh;
 }
 
-} // namespace
-
+/// A closed dented ball of `rings` x `slices` cells, two triangles each (one at its ends), whose cells are up to some
+/// hundred times as large in one place as in another.
 models::TriangleMesh uneven_ball(int rings, int slices) {
     assert(rings >= 2 && slices >= 3);
     models::TriangleMesh mesh;
@@ -117,10 +100,15 @@ models::TriangleMesh uneven_ball(int rings, int slices) {
     return mesh;
 }
 
+} // namespace
+
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more) {
     std::vector<ShadedModel> all;
-    all.push_back(
-        shaded_model("torus of 416 triangles", triangles_of(models::procedural::torus(26, 8)), round_crease_rad));
+    const models::polygons::PolygonModel torus = models::procedural::torus(26, 8);
+    models::TriangleMesh triangles = models::polygons::mesh_from_polygons(torus);
+    triangles.materials = torus.materials;
+    triangles.triangle_materials.assign(triangles.triangles.size(), 0);
+    all.push_back(shaded_model("torus of 416 triangles", triangles, round_crease_rad));
     all.push_back(shaded_model("torus of 416 quads", models::procedural::torus(), round_crease_rad));
     for (const char* aircraft : {"f15", "500md"}) {
         all.push_back(shaded_model(aircraft, models::polygons::read_obj(base::aircraft_file(aircraft))));
@@ -141,36 +129,48 @@ std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>
 
 namespace {
 
+/// A rule that selects the smooth polygons.
+struct StudiedRule {
+    const char* name;
+    shading::ShadingRule rule;
+    bool facing_only = false; ///< as if polygons that face away were not there
+};
+
+/// As ShadingRun::rules.
+constexpr std::array studied_rules{StudiedRule{"random", shading::ShadingRule::Random},
+    StudiedRule{"paper", shading::ShadingRule::Paper},
+    StudiedRule{"paper, facing only", shading::ShadingRule::Paper, true},
+    StudiedRule{"error (ours)", shading::ShadingRule::Error}};
+
+/// Beyond this, a hundred thousandth of white, a picture counts as the same.
+constexpr double exact_db = 100.0;
+
 constexpr int views = 8;
 constexpr std::uint64_t random_seeds = 4;
 constexpr double distance_radii = 3.0;
 
-/// What pictures of one view are compared with.
-struct References {
-    LightPicture gouraud;
-    LightPicture per_pixel;
-};
-
-void compare(const LightPicture& picture, const LightPicture& reference, const ShadingPictures& pictures, double weight,
-    ShareQuality& quality) {
-    quality.mean_square.back() += weight * mean_square_error(picture, reference, pictures.covered());
-    quality.similarity += weight / views * structural_similarity(picture, reference, pictures.covered());
+/// The light of the study, from above and one side.
+shading::ShadingLight study_light() {
+    shading::ShadingLight light;
+    light.ambient = 0.2F;
+    light.diffuse = 0.7F;
+    light.to_light = glm::normalize(glm::vec3(0.4F, 0.5F, -0.75F));
+    return light;
 }
 
-void run_rule(const ShadedModel& model, const StudiedRule& rule, const glm::dvec3& eye_m,
-    const ShadingPictures& pictures, const References& references, RuleQuality& quality) {
-    const std::uint64_t seeds = rule.rule == shading::ShadingRule::Random ? random_seeds : 1;
-    for (std::size_t step = 0; step < share_steps; ++step) {
-        quality.to_gouraud[step].mean_square.push_back(0.0);
-        quality.to_per_pixel[step].mean_square.push_back(0.0);
-        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-            const double share = static_cast<double>(step) / (share_steps - 1);
-            const LightPicture picture = pictures.hybrid(smooth_polygons(model.polygons, rule, eye_m, share, seed));
-            const double weight = 1.0 / static_cast<double>(seeds);
-            compare(picture, references.gouraud, pictures, weight, quality.to_gouraud[step]);
-            compare(picture, references.per_pixel, pictures, weight, quality.to_per_pixel[step]);
-        }
+/// Eight eyes around a model, three times its radius from its middle, above and below.
+std::vector<glm::dvec3> study_eyes(const shading::ShadedPolygons& polygons) {
+    constexpr std::array elevations_deg{25.0, 60.0, 5.0, -30.0};
+    std::vector<glm::dvec3> eyes_m;
+    for (std::size_t i = 0; i < views; ++i) {
+        const double azimuth_rad = 2.0 * pi * (static_cast<double>(i) + 0.3) / views;
+        const double elevation_rad = rad_from_deg(elevations_deg[i % elevations_deg.size()]);
+        eyes_m.push_back(glm::dvec3(polygons.centre_m) + distance_radii * polygons.radius_m *
+                                                             glm::dvec3(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                                                                 std::cos(elevation_rad) * std::sin(azimuth_rad),
+                                                                 -std::sin(elevation_rad)));
     }
+    return eyes_m;
 }
 
 std::vector<std::uint8_t> facing_polygons(const shading::ShadedPolygons& polygons, const glm::dvec3& eye_m) {
@@ -200,37 +200,10 @@ int count_with_facing(
     return least;
 }
 
-} // namespace
-
-double ShareQuality::psnr_db() const {
-    const double sum = std::accumulate(mean_square.begin(), mean_square.end(), 0.0);
-    return ui::studies::psnr_db(sum / static_cast<double>(mean_square.size()));
-}
-
-shading::ShadingLight study_light() {
-    shading::ShadingLight light;
-    light.ambient = 0.2F;
-    light.diffuse = 0.7F;
-    light.to_light = glm::normalize(glm::vec3(0.4F, 0.5F, -0.75F));
-    return light;
-}
-
-std::vector<glm::dvec3> study_eyes(const shading::ShadedPolygons& polygons) {
-    constexpr std::array elevations_deg{25.0, 60.0, 5.0, -30.0};
-    std::vector<glm::dvec3> eyes_m;
-    for (std::size_t i = 0; i < views; ++i) {
-        const double azimuth_rad = 2.0 * pi * (static_cast<double>(i) + 0.3) / views;
-        const double elevation_rad = rad_from_deg(elevations_deg[i % elevations_deg.size()]);
-        eyes_m.push_back(glm::dvec3(polygons.centre_m) + distance_radii * polygons.radius_m *
-                                                             glm::dvec3(std::cos(elevation_rad) * std::cos(azimuth_rad),
-                                                                 std::cos(elevation_rad) * std::sin(azimuth_rad),
-                                                                 -std::sin(elevation_rad)));
-    }
-    return eyes_m;
-}
-
+/// Polygons that a rule makes smooth for one eye, nothing remembered. `share` is of all polygons; fewer where only
+/// facing ones count and there are no more.
 std::vector<std::uint8_t> smooth_polygons(const shading::ShadedPolygons& polygons, const StudiedRule& rule,
-    const glm::dvec3& eye_m, double share, std::uint64_t seed) {
+    const glm::dvec3& eye_m, double share, std::uint64_t seed = 1) {
     shading::ShadingRuleSettings settings = shading::without_hysteresis(rule.rule);
     settings.seed = seed;
     shading::ShadingSelector selector(polygons, settings);
@@ -240,10 +213,46 @@ std::vector<std::uint8_t> smooth_polygons(const shading::ShadedPolygons& polygon
     return {smooth.begin(), smooth.end()};
 }
 
+/// What pictures of one view are compared with.
+struct References {
+    LightPicture gouraud;
+    LightPicture per_pixel;
+};
+
+void compare(const LightPicture& picture, const LightPicture& reference, const ShadingPictures& pictures, double weight,
+    ShareQuality& quality) {
+    quality.mean_square.back() += weight * mean_square_error(picture, reference, pictures.covered());
+    quality.similarity += weight / views * structural_similarity(picture, reference, pictures.covered());
+}
+
+void run_rule(const ShadedModel& model, const StudiedRule& rule, const glm::dvec3& eye_m,
+    const ShadingPictures& pictures, const References& references, RuleQuality& quality) {
+    const std::uint64_t seeds = rule.rule == shading::ShadingRule::Random ? random_seeds : 1;
+    for (std::size_t step = 0; step < share_steps; ++step) {
+        quality.to_gouraud[step].mean_square.push_back(0.0);
+        quality.to_per_pixel[step].mean_square.push_back(0.0);
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            const double share = static_cast<double>(step) / (share_steps - 1);
+            const LightPicture picture = pictures.hybrid(smooth_polygons(model.polygons, rule, eye_m, share, seed));
+            const double weight = 1.0 / static_cast<double>(seeds);
+            compare(picture, references.gouraud, pictures, weight, quality.to_gouraud[step]);
+            compare(picture, references.per_pixel, pictures, weight, quality.to_per_pixel[step]);
+        }
+    }
+}
+
+} // namespace
+
+double ShareQuality::psnr_db() const {
+    const double sum = std::accumulate(mean_square.begin(), mean_square.end(), 0.0);
+    return ui::studies::psnr_db(sum / static_cast<double>(mean_square.size()));
+}
+
 ShadingRun run_shading(const ShadedModel& model, int size_px, const std::function<void()>& tick) {
     ShadingRun run;
     run.name = model.name;
     run.polygons = model.polygons.size();
+    for (const StudiedRule& rule : studied_rules) { run.rules.emplace_back().name = rule.name; }
     for (const glm::dvec3& eye_m : study_eyes(model.polygons)) {
         const ShadingPictures pictures(model.polygons, study_light(), eye_m, size_px);
         const std::vector<std::uint8_t> all(model.polygons.size(), 1);
@@ -461,13 +470,13 @@ report::ResultTable quality_table(const ShadingRun& run) {
         std::vector<report::Cell> row = {{"smooth", "{} %", step * share_step_percent}};
         for (const auto& [reference, name] :
             {std::pair(&RuleQuality::to_gouraud, "Gouraud"), std::pair(&RuleQuality::to_per_pixel, "per pixel")}) {
-            for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
-                row.emplace_back(fmt::format("PSNR, dB to {}, {}", name, studied_rules[rule].name),
-                    decibels((run.rules[rule].*reference)[step].psnr_db()));
+            for (const RuleQuality& rule : run.rules) {
+                row.emplace_back(
+                    fmt::format("PSNR, dB to {}, {}", name, rule.name), decibels((rule.*reference)[step].psnr_db()));
             }
-            for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
-                row.push_back({fmt::format("SSIM to {}, {}", name, studied_rules[rule].name), "{:.4f}",
-                    (run.rules[rule].*reference)[step].similarity});
+            for (const RuleQuality& rule : run.rules) {
+                row.push_back(
+                    {fmt::format("SSIM to {}, {}", name, rule.name), "{:.4f}", (rule.*reference)[step].similarity});
             }
         }
         table.add(std::move(row));
@@ -544,56 +553,32 @@ settings::RunSettings orbit_settings(const std::string& aircraft, int frames) {
     return settings;
 }
 
-settings::RunSettings settings_of(const std::string& aircraft, const ShadingMode& way) {
-    settings::RunSettings settings = orbit_settings(aircraft, timed_frames);
-    settings.shading.kind = way.shading;
-    settings.shading.rule = way.rule;
-    settings.shading.far_m = 1e6; // by the share alone
-    settings.shading.smooth_share = way.share;
-    return settings;
+/// Every way of shading by every renderer: those of the first way first.
+TimedFlight fly_shading_modes(const std::string& aircraft, bool quiet) {
+    Sessions sessions;
+    for (const ShadingMode& way : shading_modes) {
+        settings::RunSettings settings = orbit_settings(aircraft, timed_frames);
+        settings.shading.kind = way.shading;
+        settings.shading.rule = way.rule;
+        settings.shading.far_m = 1e6; // by the share alone
+        settings.shading.smooth_share = way.share;
+        for (const DrawingMode& drawer : renderer_modes) { sessions.push_back(session_of(settings, drawer)); }
+    }
+    return draw_in_turn(sessions, {.frames = timed_frames,
+                                      .left_out = warm_up_frames,
+                                      .name = fmt::format("{} flown", aircraft),
+                                      .quiet = quiet});
 }
 
-/// One way of shading by all drawers.
-struct ShadingTimes {
-    std::array<double, renderer_modes.size()> draw_ms{}; ///< medians
-    double plan_ms = 0.0;
-    int polygons = 0;
-    int smooth = 0;
-};
-
-ShadingTimes times_of(std::span<const Records> of_drawers) {
-    ShadingTimes times;
+/// Median of the planning of some sessions' frames that count, without refining.
+double plan_ms_of(std::span<const Records> sessions) {
     std::vector<double> plan_ms;
-    for (std::size_t drawer = 0; drawer < renderer_modes.size(); ++drawer) {
-        const Records& records = of_drawers[drawer];
-        times.draw_ms[drawer] = median_of(records, &report::FrameRecord::draw_ms, warm_up_frames);
+    for (const Records& records : sessions) {
         for (const report::FrameRecord& record : std::span(records).subspan(warm_up_frames)) {
             plan_ms.push_back(record.plan_ms - record.refine_ms);
         }
-        times.polygons = records.back().aircraft_polygons;
-        times.smooth = records.back().smooth_polygons;
     }
-    times.plan_ms = report::statistics_of_times(plan_ms).p50_ms;
-    return times;
-}
-
-std::array<ShadingTimes, shading_modes.size()> measured(const std::string& aircraft, bool quiet) {
-    Sessions sessions;
-    for (const ShadingMode& way : shading_modes) {
-        for (const DrawingMode& drawer : renderer_modes) {
-            sessions.push_back(session_of(settings_of(aircraft, way), drawer));
-        }
-    }
-    base::Progress progress(fmt::format("{} flown", aircraft), timed_frames, quiet);
-    const std::vector<Records> records = draw_in_turn(sessions, timed_frames, [&](int, const auto&) {
-        progress.tick();
-        return true;
-    });
-    std::array<ShadingTimes, shading_modes.size()> times;
-    for (std::size_t way = 0; way < times.size(); ++way) {
-        times[way] = times_of(std::span(records).subspan(way * renderer_modes.size(), renderer_modes.size()));
-    }
-    return times;
+    return median_of(std::move(plan_ms));
 }
 
 /// Frame times of aircraft flown with all polygons flat, all smooth, and shares between: medians of flights that draw
@@ -601,20 +586,24 @@ std::array<ShadingTimes, shading_modes.size()> measured(const std::string& aircr
 report::ResultTable shading_times_table(std::span<const std::string> aircraft, bool quiet) {
     report::ResultTable table{"Times flown: drawing by each renderer, ms, and over that of all flat"};
     for (const std::string& each : aircraft) {
-        const auto times = measured(each, quiet);
+        const TimedFlight flight = fly_shading_modes(each, quiet);
+        const auto draw_ms = [&](std::size_t way, std::size_t drawer) {
+            return flight.median(way * renderer_modes.size() + drawer, &report::FrameRecord::draw_ms);
+        };
         for (std::size_t way = 0; way < shading_modes.size(); ++way) {
-            const ShadingTimes& own = times[way];
+            const auto own = std::span(flight.records).subspan(way * renderer_modes.size(), renderer_modes.size());
+            const report::FrameRecord& last = own.back().back();
             std::vector<report::Cell> row = {{"aircraft", std::filesystem::path(each).stem().string()},
-                {"shading", shading_modes[way].name}, {"polygons drawn", own.polygons}, {"smooth", own.smooth},
-                {"planning, ms", "{:.3f}", own.plan_ms}};
+                {"shading", shading_modes[way].name}, {"polygons drawn", last.aircraft_polygons},
+                {"smooth", last.smooth_polygons}, {"planning, ms", "{:.3f}", plan_ms_of(own)}};
             for (std::size_t drawer = 0; drawer < renderer_modes.size(); ++drawer) {
-                const double ms = own.draw_ms[drawer];
+                const double ms = draw_ms(way, drawer);
                 row.push_back({fmt::format("{}, ms", renderer_modes[drawer].name), "{:.2f}", ms});
-                row.push_back({fmt::format("{}, / flat", renderer_modes[drawer].name), "{:.2f}",
-                    ms / times[flat_way].draw_ms[drawer]});
+                row.push_back(
+                    {fmt::format("{}, / flat", renderer_modes[drawer].name), "{:.2f}", ms / draw_ms(flat_way, drawer)});
             }
             row.push_back({"raster: depth buffer / near to far", "{:.2f}",
-                own.draw_ms[depth_drawer] / own.draw_ms[near_to_far_drawer]});
+                draw_ms(way, depth_drawer) / draw_ms(way, near_to_far_drawer)});
             table.add(std::move(row));
         }
     }
@@ -649,48 +638,39 @@ constexpr std::size_t smooth_flight = 1;
 constexpr std::size_t budget_flight = 2;
 
 struct BudgetFlights {
-    std::vector<Records> records; ///< by budget_modes
-    int left_out = 0;
-    std::vector<double> smooth_share; ///< of the flight that is held
+    TimedFlight flight;               ///< by budget_modes
+    std::vector<double> smooth_share; ///< of the adapted flight's frames that count
     bool has_no_gain = false;
-
-    double median_ms(std::size_t mode) const {
-        return median_of(records[mode], &report::FrameRecord::frame_ms, left_out);
-    }
 
     /// Frames that took longer than the budget.
     double share_over(std::size_t mode, double budget_ms) const {
-        const auto times_ms = values_of(records[mode], &report::FrameRecord::frame_ms, left_out);
+        const auto times_ms = flight.values(mode, &report::FrameRecord::frame_ms);
         const auto over = std::ranges::count_if(times_ms, [&](double ms) { return ms > budget_ms; });
         return static_cast<double>(over) / static_cast<double>(times_ms.size());
     }
 };
 
-settings::RunSettings budget_settings(const std::string& aircraft, std::size_t mode, double rate_hz, int frames) {
-    settings::RunSettings settings = orbit_settings(aircraft, frames);
-    settings.time.rate_hz = rate_hz;
-    settings.drawing.renderer = settings::RendererKind::Raster;
-    settings.shading.kind = budget_modes[mode];
-    settings.adapt.shading = mode == budget_flight;
-    return settings;
-}
-
 /// Flies the first `ways` of budget_modes in turn; the first frames do not count.
 BudgetFlights fly_all(const std::string& aircraft, std::size_t ways, double rate_hz, int frames, int left_out) {
     Sessions sessions;
     for (std::size_t mode = 0; mode < ways; ++mode) {
-        sessions.push_back(std::make_unique<flight::Session>(budget_settings(aircraft, mode, rate_hz, frames)));
+        settings::RunSettings settings = orbit_settings(aircraft, frames);
+        settings.time.rate_hz = rate_hz;
+        settings.drawing.renderer = settings::RendererKind::Raster;
+        settings.shading.kind = budget_modes[mode];
+        settings.adapt.shading = mode == budget_flight;
+        sessions.push_back(std::make_unique<flight::Session>(settings));
     }
     BudgetFlights flights;
-    flights.left_out = left_out;
-    flights.records = draw_in_turn(sessions, frames, [&](int frame, const std::vector<Records>& so_far) {
+    const auto note_share = [&](int frame, const std::vector<Records>& so_far) {
         if (ways > budget_flight && frame >= left_out) {
             flights.smooth_share.push_back(static_cast<double>(so_far[budget_flight].back().smooth_polygons) /
                                            std::max(sessions[budget_flight]->shading()->polygons, 1));
         }
         return true;
-    });
-    if (ways > budget_flight) { flights.has_no_gain = sessions[budget_flight]->shading()->has_no_gain; }
+    };
+    flights.flight = draw_in_turn(sessions, {.frames = frames, .left_out = left_out, .after_frame = note_share});
+    flights.has_no_gain = ways > budget_flight && sessions[budget_flight]->shading()->has_no_gain;
     return flights;
 }
 
@@ -698,11 +678,10 @@ std::vector<report::Cell> cells_of(const std::string& aircraft, double budget_ms
     constexpr std::array names = {"all flat", "all Gouraud", "adapted"}; // of budget_modes
     std::vector<report::Cell> cells = {{"aircraft", aircraft}, {"budget T, ms", "{:.2f}", budget_ms}};
     for (std::size_t mode = 0; mode < names.size(); ++mode) {
-        cells.push_back({fmt::format("{}, ms", names[mode]), "{:.2f}", flights.median_ms(mode)});
+        cells.push_back({fmt::format("{}, ms", names[mode]), "{:.2f}", flights.flight.median(mode)});
         cells.push_back({"over T", "{:.0f} %", 100.0 * flights.share_over(mode, budget_ms)});
     }
-    const double smooth = report::statistics_of_times(flights.smooth_share).p50_ms;
-    cells.push_back({"flat polygons", "{:.0f} %", 100.0 * (1.0 - smooth)});
+    cells.push_back({"flat polygons", "{:.0f} %", 100.0 * (1.0 - median_of(flights.smooth_share))});
     cells.emplace_back("flat gains", flights.has_no_gain ? "nothing: all smooth" : "time");
     return cells;
 }
@@ -715,9 +694,9 @@ report::ResultTable budget_times_table(std::span<const std::string> aircraft, bo
         "Adaptation flown: what a budget makes of the share of flat polygons, raster, 16 samples"};
     base::Progress progress("budgets", static_cast<int>(aircraft.size() * budgets.size()), quiet, "flights");
     for (const std::string& each : aircraft) {
-        const BudgetFlights clock = fly_all(each, budget_flight, clock_rate_hz, clock_frames, 10);
-        const double flat_ms = clock.median_ms(flat_flight);
-        const double way_ms = std::max(clock.median_ms(smooth_flight) - flat_ms, min_way * flat_ms);
+        const TimedFlight clock = fly_all(each, budget_flight, clock_rate_hz, clock_frames, 10).flight;
+        const double flat_ms = clock.median(flat_flight);
+        const double way_ms = std::max(clock.median(smooth_flight) - flat_ms, min_way * flat_ms);
         for (const double budget : budgets) {
             const double budget_ms = flat_ms + budget * way_ms;
             const BudgetFlights flights =
@@ -755,7 +734,7 @@ std::byte grey_of(float light) {
 }
 
 /// Pictures side by side, below them their differences from the last but one.
-report::Picture column_rect(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& on) {
+report::Picture strip_of(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& on) {
     const auto size = static_cast<std::size_t>(row.front().size_px);
     const LightPicture& reference = row[row.size() - 2];
     report::Picture strip;
@@ -777,7 +756,7 @@ report::Picture column_rect(const std::vector<LightPicture>& row, const std::vec
     return strip;
 }
 
-report::Picture column_rect(const ShadedModel& model, int size_px) {
+report::Picture strip_of(const ShadedModel& model, int size_px) {
     const glm::dvec3 eye_m = study_eyes(model.polygons).front();
     const ShadingPictures pictures(model.polygons, study_light(), eye_m, size_px);
     std::vector<LightPicture> row;
@@ -787,7 +766,7 @@ report::Picture column_rect(const ShadedModel& model, int size_px) {
     }
     row.push_back(pictures.hybrid(std::vector<std::uint8_t>(model.polygons.size(), 1)));
     row.push_back(pictures.per_pixel());
-    return column_rect(row, pictures.covered());
+    return strip_of(row, pictures.covered());
 }
 
 report::Plot curve_plot(const ShadingRun& run) {
@@ -816,7 +795,7 @@ void add_figures(Study& study, const ShadingStudyOptions& options, const std::ve
     for (const ShadingRun& run : runs) { plots.push_back(curve_plot(run)); }
     study.add(plots, "PSNR against all Gouraud; a curve ends where it is exact.");
     for (const ShadedModel& model : models) {
-        study.add("strip-" + file_part(model.name) + ".png", column_rect(model, options.size_px).view(),
+        study.add("strip-" + file_part(model.name) + ".png", strip_of(model, options.size_px).view(),
             fmt::format(
                 "{}: all flat; {:.0f} % smooth at random, by the paper's rule, by the same among polygons that "
                 "face the eye, by the error; all Gouraud; each pixel. Below: difference from all Gouraud, {:.0f} "
@@ -830,10 +809,9 @@ void add_figures(Study& study, const ShadingStudyOptions& options, const std::ve
 void study_shading(const ShadingStudyOptions& options) {
     const std::vector<ShadedModel> models = shading_models(options.meshes);
     Study study(options);
-    std::vector<ShadingRun> runs(models.size());
     base::Progress progress("models", static_cast<int>(models.size() * views), options.quiet, "views");
-    parallel_for(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-        runs[i] = run_shading(models[i], options.size_px, [&] { progress.tick(models[i].name); });
+    const std::vector<ShadingRun> runs = run_cases(models, options, [&](const ShadedModel& model, bool /*quiet*/) {
+        return run_shading(model, options.size_px, [&] { progress.tick(model.name); });
     });
     progress.finish();
     study.add("operations", operation_table());

@@ -1,15 +1,10 @@
 #pragma once
 
-#include "models/triangle_mesh.h"
-#include "ui/base/study_output.h"
+#include "ui/studies/study.h"
 #include "visuals/shading/shaded_polygons.h"
-#include "visuals/shading/shading_rule.h"
-
-#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -23,34 +18,16 @@ struct ShadedModel {
     visuals::shading::ShadedPolygons polygons;
 };
 
-/// A closed dented ball of `rings` x `slices` cells, two triangles each (one at its ends), whose cells are up to some
-/// hundred times as large in one place as in another.
-models::TriangleMesh uneven_ball(int rings, int slices);
-
 /// The paper's torus in its 416 triangles, that of this program in 416 quads, f15, 500md, an uneven ball of 9,118
 /// triangles; mesh files (`more`), each as it is and refined for one eye. Throws Error.
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more);
 
-/// A rule that selects the smooth polygons.
-struct StudiedRule {
-    const char* name;
-    visuals::shading::ShadingRule rule;
-    bool facing_only = false; ///< as if polygons that face away were not there
-};
-
-inline constexpr std::array studied_rules{StudiedRule{"random", visuals::shading::ShadingRule::Random},
-    StudiedRule{"paper", visuals::shading::ShadingRule::Paper},
-    StudiedRule{"paper, facing only", visuals::shading::ShadingRule::Paper, true},
-    StudiedRule{"error (ours)", visuals::shading::ShadingRule::Error}};
-inline constexpr std::size_t random_rule = 0; ///< indices into studied_rules
+inline constexpr std::size_t random_rule = 0; ///< indices into ShadingRun::rules
 inline constexpr std::size_t paper_rule = 1;
-inline constexpr std::size_t facing_rule = 2;
+inline constexpr std::size_t facing_rule = 2; ///< the paper's, as if polygons that face away were not there
 inline constexpr std::size_t error_rule = 3;
 inline constexpr int share_step_percent = 10;
 inline constexpr std::size_t share_steps = 100 / share_step_percent + 1;
-
-/// Beyond this, a hundred thousandth of white, a picture counts as the same.
-inline constexpr double exact_db = 100.0;
 
 /// Pictures of one share of smooth polygons against a reference.
 struct ShareQuality {
@@ -63,6 +40,7 @@ struct ShareQuality {
 
 /// One rule: by share, 0 % first.
 struct RuleQuality {
+    const char* name = "";
     std::array<ShareQuality, share_steps> to_gouraud;   ///< reference: all smooth
     std::array<ShareQuality, share_steps> to_per_pixel; ///< reference: Phong's shading
 };
@@ -71,28 +49,17 @@ struct ShadingRun {
     std::string name;
     std::size_t polygons = 0;
     double facing_share = 0.0; ///< of the polygons, towards the eye; mean of the views
-    std::array<RuleQuality, studied_rules.size()> rules;
+    std::vector<RuleQuality> rules;
 };
-
-/// The light of the study, from above and one side.
-visuals::shading::ShadingLight study_light();
-
-/// Eight eyes around a model, three times its radius from its middle, above and below.
-std::vector<glm::dvec3> study_eyes(const visuals::shading::ShadedPolygons& polygons);
-
-/// Polygons that a rule makes smooth for one eye, nothing remembered. `share` is of all polygons; fewer where only
-/// facing ones count and there are no more.
-std::vector<std::uint8_t> smooth_polygons(const visuals::shading::ShadedPolygons& polygons, const StudiedRule& rule,
-    const glm::dvec3& eye_m, double share, std::uint64_t seed = 1);
 
 /// All rules and shares. Random is the mean of several seeds. `tick`: called after each view.
 ShadingRun run_shading(const ShadedModel& model, int size_px, const std::function<void()>& tick);
 
-struct ShadingStudyOptions : base::StudyOutput {
-    std::vector<std::filesystem::path> meshes; ///< files, beside the models of its own
+/// `jobs`: models at once; flights for frame times are always one at a time.
+struct ShadingStudyOptions : StudyOptions {
+    std::vector<std::filesystem::path> meshes; ///< files, in addition to the models of its own
     int size_px = 320;                         ///< of the square pictures
     bool times = true;                         ///< fly too, for frame times
-    int jobs = 1;                              ///< models at once; flights for frame times are always one at a time
 };
 
 /// What H. Kim and H. Park's hybrid of flat and Gouraud shading (2008) shows: its operation counts, and how near to all

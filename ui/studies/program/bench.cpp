@@ -6,14 +6,14 @@
 #include "ui/base/progress.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/flight/renderer_choice.h"
-#include "ui/flight/session.h"
 #include "ui/report/statistics.h"
+#include "ui/studies/study.h"
 #include "visuals/gl/bare_grid.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -130,6 +130,27 @@ std::vector<BenchScene> triangle_count_scenes(const BenchScene& scene) {
     return scenes;
 }
 
+/// What was measured of one scene.
+struct BenchResult {
+    std::string name;
+    Records records = {};               ///< Of the timed frames.
+    std::vector<double> cpu_ms = {};    ///< Of each, the time that all threads took of processors.
+    Hash hash = {};                     ///< Over the pixels of these frames.
+    double floor_ms = 1.0;              ///< Median frame time of the floor.
+    double plain_cpu_ms = std::nan(""); ///< Median processor time of the same scene without features, if it was drawn.
+
+    void add(const report::FrameRecord& record, double took_ms, const visuals::scene::Picture& picture) {
+        records.push_back(record);
+        cpu_ms.push_back(took_ms);
+        hash.add(std::as_bytes(std::span(picture.rgba)));
+    }
+
+    template <class Value = double>
+    double median(Value report::FrameRecord::*value = &report::FrameRecord::frame_ms) const {
+        return median_of(values_of(records, value, 0));
+    }
+};
+
 namespace {
 
 constexpr int baseline_triangles = 20000;
@@ -156,12 +177,6 @@ public:
         renderer_->warm_up();
     }
 
-    ~BaselineScene() = default;
-    BaselineScene(const BaselineScene&) = delete;
-    BaselineScene& operator=(const BaselineScene&) = delete;
-    BaselineScene(BaselineScene&&) = delete;
-    BaselineScene& operator=(BaselineScene&&) = delete;
-
     report::FrameRecord draw() {
         report::FrameRecord record;
         const base::Stopwatch whole;
@@ -184,61 +199,6 @@ private:
     scene::FramePlan plan_;
     scene::Picture picture_;
 };
-
-/// Time that this program's threads have taken of processors.
-double cpu_ms_so_far() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return report::nearest_rank(values, 500);
-}
-
-/// Frames of one scene and the hash of what they showed.
-struct Timed {
-    std::string name;
-    std::vector<report::FrameRecord> records;
-    std::vector<double> cpu_ms;
-    Hash hash;
-
-    void add(const report::FrameRecord& record, double took_ms, const scene::Picture& picture) {
-        records.push_back(record);
-        cpu_ms.push_back(took_ms);
-        hash.add(std::as_bytes(std::span(picture.rgba)));
-    }
-};
-
-template <class Value>
-double median_of(const Timed& timed, Value value) {
-    std::vector<double> values;
-    for (const report::FrameRecord& record : timed.records) { values.push_back(static_cast<double>(value(record))); }
-    return median(std::move(values));
-}
-
-BenchResult result_of(const Timed& timed, double floor_ms) {
-    using Record = report::FrameRecord;
-    std::vector<double> frame_ms;
-    for (const Record& record : timed.records) { frame_ms.push_back(record.frame_ms); }
-    const report::Statistics statistics = report::statistics_of_times(frame_ms);
-    const double triangles = median_of(timed, [](const Record& r) { return r.terrain_triangles; });
-    return {.name = timed.name,
-        .median_ms = statistics.p50_ms,
-        .p99_ms = statistics.p99_ms,
-        .ratio = statistics.p50_ms / floor_ms,
-        .sim_ms = median_of(timed, [](const Record& r) { return r.sim_ms; }),
-        .plan_ms = median_of(timed, [](const Record& r) { return r.plan_ms; }),
-        .draw_ms = median_of(timed, [](const Record& r) { return r.draw_ms; }),
-        .read_ms = median_of(timed, [](const Record& r) { return r.read_ms; }),
-        .mesh_wait_ms = median_of(timed, [](const Record& r) { return r.mesh_wait_ms; }),
-        .draw_wait_ms = median_of(timed, [](const Record& r) { return r.draw_wait_ms; }),
-        .cpu_ms = median(timed.cpu_ms),
-        .triangles = static_cast<int>(triangles),
-        .ms_per_1000_triangles = triangles > 0.0 ? std::optional(statistics.p50_ms * 1000.0 / triangles) : std::nullopt,
-        .hash = timed.hash.value()};
-}
 
 /// "f15+500md"; "10 f15" where all are alike.
 std::string names_of(const std::vector<std::string>& aircraft) {
@@ -300,24 +260,23 @@ std::unique_ptr<flight::Session> session_of(const BenchScene& scene, bool quiet)
 /// Draws scenes and the floor in turn.
 std::vector<BenchResult> timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options) {
     BaselineScene floor(options.settings);
-    std::vector<Timed> timed(1);
-    timed[0].name = fmt::format("floor: bare grid of {} triangles", baseline_triangles);
+    std::vector<BenchResult> timed{{fmt::format("floor: bare grid of {} triangles", baseline_triangles)}};
     std::vector<std::unique_ptr<flight::Session>> sessions;
     for (const BenchScene& scene : scenes) {
         if (auto session = session_of(scene, options.quiet)) {
             sessions.push_back(std::move(session));
-            timed.emplace_back().name = scene.name;
+            timed.push_back({scene.name});
         }
     }
     const int frames = timed_frames(options) + warm_up_frames;
     base::Progress progress("bench", frames, options.quiet);
     for (int frame = 0; frame < frames; ++frame) {
         const bool counts = frame >= warm_up_frames;
-        double before_ms = cpu_ms_so_far();
-        const auto add = [&](Timed& to, const report::FrameRecord& record, const auto& drawn) {
-            const double after_ms = cpu_ms_so_far();
+        double before_ms = 1e3 * base::process_cpu_s();
+        const auto add = [&](BenchResult& to, const report::FrameRecord& record, const auto& drawn) {
+            const double after_ms = 1e3 * base::process_cpu_s();
             if (counts) { to.add(record, after_ms - before_ms, drawn.picture()); }
-            before_ms = cpu_ms_so_far();
+            before_ms = 1e3 * base::process_cpu_s();
         };
         add(timed[0], floor.draw(), floor);
         for (std::size_t i = 0; i < sessions.size(); ++i) {
@@ -326,10 +285,9 @@ std::vector<BenchResult> timed_in_turn(const std::vector<BenchScene>& scenes, co
         progress.show(frame + 1);
     }
     progress.finish();
-    std::vector<BenchResult> results;
-    const double floor_ms = result_of(timed[0], 1.0).median_ms;
-    for (const Timed& scene_frames : timed) { results.push_back(result_of(scene_frames, floor_ms)); }
-    return results;
+    const double floor_ms = timed[0].median();
+    for (BenchResult& result : timed) { result.floor_ms = floor_ms; }
+    return timed;
 }
 
 } // namespace
@@ -338,22 +296,20 @@ int timed_frames(const BenchOptions& options) {
     return options.frames.value_or(options.features ? feature_frames : default_frames);
 }
 
+namespace {
+
 std::vector<BenchResult> run_bench(const BenchOptions& options) {
     const std::vector<BenchScene> scenes = scenes_of(options);
     if (!options.features) { return timed_in_turn(scenes, options); }
     std::vector<BenchResult> results;
     for (const BenchScene& scene : scenes) {
         std::vector<BenchResult> of_scene = timed_in_turn(feature_scenes(scene), options);
-        const double plain_ms = of_scene[1].cpu_ms;
-        for (BenchResult& result : of_scene) {
-            result.ratio_to_plain = result.cpu_ms / plain_ms;
-            results.push_back(std::move(result));
-        }
+        const double plain_cpu_ms = median_of(of_scene[1].cpu_ms);
+        for (BenchResult& result : of_scene) { result.plain_cpu_ms = plain_cpu_ms; }
+        std::ranges::move(of_scene, std::back_inserter(results));
     }
     return results;
 }
-
-namespace {
 
 struct BenchCommand {
     BenchOptions options;
@@ -370,24 +326,55 @@ void set_formation(BenchOptions& options) {
     options.settings.ground.triangles = 25000;
 }
 
-using R = BenchResult;
+using Record = report::FrameRecord;
+using report::ColumnKind;
+
+/// A column of numbers. Those that some scenes do not have are not finite there.
+constexpr report::Column<BenchResult> number(report::ColumnHead head, double (*value)(const BenchResult&)) {
+    return {head, value, nullptr};
+}
+
+/// Median of a value of the frames, milliseconds.
+template <auto value>
+constexpr report::Column<BenchResult> median_column(std::string_view key, std::string_view name, int decimals) {
+    return number({.key = key, .name = name, .decimals = decimals},
+        [](const BenchResult& result) { return result.median(value); });
+}
+
 constexpr std::array result_columns{
-    report::column<&R::name>("name", "scene"),
-    report::column<&R::median_ms>("median_ms", "median ms", 2),
-    report::column<&R::p99_ms>("p99_ms", "p99 ms", 2),
-    report::column<&R::ratio>("ratio", "ratio", 2, "median over that of the platform's floor"),
-    report::column<&R::sim_ms>("sim_ms", "sim ms", 3),
-    report::column<&R::plan_ms>("plan_ms", "plan ms", 2),
-    report::column<&R::draw_ms>("draw_ms", "draw ms", 2),
-    report::column<&R::read_ms>("read_ms", "read ms", 2),
-    report::column<&R::mesh_wait_ms>("mesh_wait_ms", "mesh wait", 2),
-    report::column<&R::draw_wait_ms>("draw_wait_ms", "draw wait", 2),
-    report::column<&R::cpu_ms>("cpu_ms", "CPU ms", 2, "median of the processor time of all threads"),
-    report::column<&R::ratio_to_plain>(
-        "of_plain", "of plain", 2, "processor time over that of the same scene without features"),
-    report::column<&R::triangles>("triangles", "triangles"),
-    report::column<&R::ms_per_1000_triangles>("ms_per_1000_triangles", "ms/1000", 3),
-    report::hash_column<&R::hash>("hash", "hash", "over the pixels of the timed frames"),
+    report::column<&BenchResult::name>("name", "scene"),
+    median_column<&Record::frame_ms>("median_ms", "median ms", 2),
+    number({.key = "p99_ms", .name = "p99 ms", .decimals = 2},
+        [](const BenchResult& result) {
+            return report::statistics_of_times(values_of(result.records, &Record::frame_ms, 0)).p99_ms;
+        }),
+    number({.key = "ratio", .name = "ratio", .decimals = 2, .definition = "median over that of the platform's floor"},
+        [](const BenchResult& result) { return result.median() / result.floor_ms; }),
+    median_column<&Record::sim_ms>("sim_ms", "sim ms", 3),
+    median_column<&Record::plan_ms>("plan_ms", "plan ms", 2),
+    median_column<&Record::draw_ms>("draw_ms", "draw ms", 2),
+    median_column<&Record::read_ms>("read_ms", "read ms", 2),
+    median_column<&Record::mesh_wait_ms>("mesh_wait_ms", "mesh wait", 2),
+    median_column<&Record::draw_wait_ms>("draw_wait_ms", "draw wait", 2),
+    number(
+        {.key = "cpu_ms", .name = "CPU ms", .decimals = 2, .definition = "median of the processor time of all threads"},
+        [](const BenchResult& result) { return median_of(result.cpu_ms); }),
+    number({.key = "of_plain",
+               .name = "of plain",
+               .decimals = 2,
+               .definition = "processor time over that of the same scene without features",
+               .is_optional = true},
+        [](const BenchResult& result) { return median_of(result.cpu_ms) / result.plain_cpu_ms; }),
+    number({.key = "triangles", .name = "triangles", .kind = ColumnKind::Whole},
+        [](const BenchResult& result) { return result.median(&Record::terrain_triangles); }),
+    number({.key = "ms_per_1000_triangles", .name = "ms/1000", .decimals = 3, .is_optional = true},
+        [](const BenchResult& result) {
+            const double triangles = result.median(&Record::terrain_triangles);
+            return triangles > 0.0 ? result.median() * 1000.0 / triangles : std::nan("");
+        }),
+    report::Column<BenchResult>{
+        {.key = "hash", .name = "hash", .kind = ColumnKind::Hash, .definition = "over the pixels of the timed frames"},
+        nullptr, [](const BenchResult& result) { return report::hash_text(result.hash.value()); }},
 };
 
 } // namespace

@@ -4,7 +4,6 @@
 #include "ui/report/table.h"
 #include "ui/settings/settings.h"
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,39 +37,18 @@ struct BenchOptions {
     bool quiet = false;
 };
 
-/// Frame times of one scene, milliseconds.
-struct BenchResult {
-    std::string name;
-    double median_ms = 0.0;
-    double p99_ms = 0.0;
-    double ratio = 0.0;  ///< median of this scene over the floor's
-    double sim_ms = 0.0; ///< medians of the stages
-    double plan_ms = 0.0;
-    double draw_ms = 0.0;
-    double read_ms = 0.0;
-    double mesh_wait_ms = 0.0; ///< of plan_ms, as report::FrameRecord
-    double draw_wait_ms = 0.0; ///< of draw_ms
-    double cpu_ms = 0.0;       ///< median of the time that all threads took of processors
-    /// That, over the same scene's without features.
-    std::optional<double> ratio_to_plain = {};
-    int triangles = 0; ///< of ground, median
-    /// median_ms for each 1,000 of them; nothing where there are none.
-    std::optional<double> ms_per_1000_triangles = {};
-    std::uint64_t hash = 0; ///< over the pixels of the timed frames
-};
-
-/// How a result is printed.
-std::span<const report::Column<BenchResult>> bench_columns();
-
 /// Frames that are timed of each scene: by default few where there are many scenes.
 int timed_frames(const BenchOptions& options);
 
-/// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000 triangles over the whole
-/// picture, by OpenGL with one sample a pixel, read back. The floor is the first result. With features, the scenes of
-/// each ground and renderer are drawn in turn, after a floor of their own; by default those of one ground by the raster
-/// renderer. Throws Error.
-std::vector<BenchResult> run_bench(const BenchOptions& options);
+struct BenchResult;
 
+/// How the result of a scene is printed.
+std::span<const report::Column<BenchResult>> bench_columns();
+
+/// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000 triangles over the whole
+/// picture, by OpenGL with one sample a pixel, read back. With features, the scenes of each ground and renderer are
+/// drawn in turn, after a floor of their own; by default those of one ground by the raster renderer. Prints a row for
+/// each scene.
 command_line::Command bench_command();
 
 } // namespace octant::ui::studies::program

@@ -3,9 +3,7 @@
 #include "ui/command_line/manual.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/studies/draw_order/study_draw_order.h"
-#include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
-#include "ui/studies/draw_order/study_pictures.h"
 #include "ui/studies/flicker/study_flicker.h"
 #include "ui/studies/flicker/study_popping.h"
 #include "ui/studies/hybrid_shading/study_shading.h"
@@ -46,7 +44,7 @@ Option context_option(settings::RunSettings& settings) {
 Option jobs_option(int& jobs, std::string_view meaning) { return value_option({"jobs", "N", meaning, 1, 1000}, jobs); }
 
 Command flights_command() {
-    auto options = std::make_shared<studies::draw_order::FlightStudyOptions>();
+    auto options = std::make_shared<StudyOptions>();
     return {.name = "flights",
         .summary = "Repeats tables 5 and 6 of the 1989 paper: four paths, two aircraft, three hidden-surface methods",
         .options = study_options(
@@ -58,7 +56,7 @@ Command flights_command() {
 }
 
 Command draw_order_study_command() {
-    auto options = std::make_shared<studies::draw_order::DrawOrderStudyOptions>();
+    auto options = std::make_shared<base::StudyOutput>();
     return {.name = "draw-order",
         .summary = "Repeats tables 1 and 4 of the 1989 paper, and compares the ordering methods with each other and "
                    "with a BSP tree",

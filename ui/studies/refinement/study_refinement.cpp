@@ -3,6 +3,7 @@
 #include "models/procedural/procedural_terrain.h"
 #include "models/simplify/simplify.h"
 #include "ui/base/progress.h"
+#include "ui/base/stopwatch.h"
 #include "ui/studies/shading_pictures.h"
 #include "ui/studies/study.h"
 #include "ui/world/mesh_loader.h"
@@ -23,7 +24,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
@@ -41,25 +41,6 @@ namespace refine = visuals::refine;
 namespace shading = visuals::shading;
 
 using RefinedModel = std::shared_ptr<const visuals::refine::ProgressiveMesh>;
-
-/// Bounding sphere of the leaves of a hierarchy, in file axes.
-struct BoundingSphere {
-    glm::dvec3 centre_m{0.0};
-    double reach_m = 0.0; ///< to the farthest vertex
-};
-
-BoundingSphere bounding_sphere(const visuals::refine::ProgressiveMesh& mesh) {
-    glm::dvec3 min_m(mesh.position_m(0));
-    glm::dvec3 max_m = min_m;
-    for (std::uint32_t leaf = 1; leaf < mesh.leaf_count(); ++leaf) {
-        min_m = glm::min(min_m, glm::dvec3(mesh.position_m(leaf)));
-        max_m = glm::max(max_m, glm::dvec3(mesh.position_m(leaf)));
-    }
-    return {0.5 * (min_m + max_m) + mesh.parts().origin_m, 0.5 * glm::distance(min_m, max_m)};
-}
-
-/// Processor time of this program so far.
-double process_cpu_time_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Table 1: forced splits.
 
@@ -126,7 +107,7 @@ report::ResultTable forced_splits_table(std::span<const RefinedModel> models) {
             }
         }
         table.add(row_of(model->parts().name, "one base vertex", below));
-        const double diagonal_m = 2.0 * bounding_sphere(*model).reach_m;
+        const double diagonal_m = 2.0 * model->half_diagonal_m();
         for (const int share : {2, 5, 10, 20}) {
             ForcedSums sums;
             std::mt19937 numbers(7);
@@ -151,17 +132,14 @@ report::ResultTable forced_splits_table(std::span<const RefinedModel> models) {
     return table;
 }
 
-refine::RefineView view_at(const BoundingSphere& model, double turn_rad, double nearness) {
-    const double away_m = model.reach_m * (2.4 - 1.2 * nearness);
-    const glm::dvec3 out = glm::normalize(glm::dvec3(std::cos(turn_rad), std::sin(turn_rad), 0.4));
-    return refine::picture_view(
-        model.centre_m + away_m * out, model.centre_m, {0.0, 0.0, 1.0}, 50.0 * std::numbers::pi / 180.0, 1280.0, 720.0);
-}
-
 /// Once around in `frames` frames, and twice near.
-refine::RefineView path_view(const BoundingSphere& model, int frame, int frames) {
-    const double done = 2.0 * std::numbers::pi * frame / frames;
-    return view_at(model, done, 0.5 - 0.5 * std::cos(2.0 * done));
+refine::RefineView path_view(const refine::ProgressiveMesh& model, int frame, int frames) {
+    const double turn_rad = 2.0 * std::numbers::pi * frame / frames;
+    const double nearness = 0.5 - 0.5 * std::cos(2.0 * turn_rad);
+    const double away_m = model.half_diagonal_m() * (2.4 - 1.2 * nearness);
+    const glm::dvec3 out = glm::normalize(glm::dvec3(std::cos(turn_rad), std::sin(turn_rad), 0.4));
+    return refine::picture_view(model.middle_m() + away_m * out, model.middle_m(), {0.0, 0.0, 1.0},
+        50.0 * std::numbers::pi / 180.0, 1280.0, 720.0);
 }
 
 glm::dvec2 pixel(const refine::RefineView& view, const glm::dvec3& point_m) {
@@ -180,7 +158,7 @@ public:
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) { nodes_[i].is_split = front.is_split(leaves_ + i); }
     }
 
-    void view_towards(const refine::ViewRefiner& refiner, int frame) {
+    void add(const refine::ViewRefiner& refiner, int frame) {
         constexpr int soon_frames = 10;
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
             Node& node = nodes_[i];
@@ -235,8 +213,7 @@ void drawn_places(const refine::SelectiveRefiner& front, std::vector<glm::vec3>&
 
 PathRun run_path(const RefinedModel& model, int frames) {
     refine::ViewRefiner refiner(model);
-    const BoundingSphere place = bounding_sphere(*model);
-    const refine::RefineView first = path_view(place, 0, frames);
+    const refine::RefineView first = path_view(*model, 0, frames);
     for (int i = 0; i < 1000 && !refiner.update(first).settled; ++i) {}
     PathRun run;
     std::vector<glm::vec3> before_m;
@@ -244,11 +221,11 @@ PathRun run_path(const RefinedModel& model, int frames) {
     drawn_places(refiner.front(), before_m);
     SplitWatch watch(refiner.front());
     for (int frame = 1; frame <= frames; ++frame) {
-        const refine::RefineView view = path_view(place, frame, frames);
-        const double start_s = process_cpu_time_s();
+        const refine::RefineView view = path_view(*model, frame, frames);
+        const double start_s = base::process_cpu_s();
         const refine::RefinedFrame done = refiner.update(view);
-        run.ms_mean += 1000.0 * (process_cpu_time_s() - start_s) / frames;
-        watch.view_towards(refiner, frame);
+        run.ms_mean += 1000.0 * (base::process_cpu_s() - start_s) / frames;
+        watch.add(refiner, frame);
         const std::size_t operations = done.splits + done.collapses;
         run.operations_mean += static_cast<double>(operations) / frames;
         run.operations_max = std::max(run.operations_max, operations);
@@ -278,9 +255,8 @@ struct RequestedSums {
 /// What views along the path want alone, and what is split for it.
 RequestedSums requested_along(const RefinedModel& model, int frames) {
     RequestedSums sums;
-    const BoundingSphere place = bounding_sphere(*model);
     for (int frame = 0; frame < frames; frame += std::max(1, frames / 20)) {
-        const refine::RefineView view = path_view(place, frame, frames);
+        const refine::RefineView view = path_view(*model, frame, frames);
         refine::SelectiveRefiner bare(model, {.repair = false});
         sums.wanted += refine::refine_for_view(bare, view, 1.0);
         sums.bare += bare.counts().splits;
@@ -325,9 +301,9 @@ struct Rates {
 /// Processor time of a call.
 template <class Work>
 double seconds_of(const Work& work) {
-    const double start_s = process_cpu_time_s();
+    const double start_s = base::process_cpu_s();
     work();
-    return process_cpu_time_s() - start_s;
+    return base::process_cpu_s() - start_s;
 }
 
 Rates rates_of(const RefinedModel& model) {

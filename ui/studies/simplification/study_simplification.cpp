@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -50,18 +51,6 @@ StudyMesh study_mesh(std::string name, TriangleMesh original) {
     shape.triangles = original.triangles;
     mesh.original = shape;
     mesh.clean = models::repair::repaired(std::move(shape)).mesh;
-    return mesh;
-}
-
-TriangleMesh torus_mesh() {
-    const models::polygons::PolygonModel model = models::procedural::torus(256, 64);
-    TriangleMesh mesh;
-    mesh.vertices_m = model.vertices_m;
-    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const auto corners = model.corners(i);
-        mesh.triangles.push_back({corners[0], corners[1], corners[2]});
-        mesh.triangles.push_back({corners[0], corners[2], corners[3]});
-    }
     return mesh;
 }
 
@@ -103,7 +92,7 @@ StudyMesh study_mesh_from(const fs::path& file) {
 std::vector<StudyMesh> built_in_meshes() {
     std::vector<StudyMesh> meshes;
     meshes.push_back(study_mesh("globe", models::procedural::globe()));
-    meshes.push_back(study_mesh("torus", torus_mesh()));
+    meshes.push_back(study_mesh("torus", models::polygons::mesh_from_polygons(models::procedural::torus(256, 64))));
     meshes.push_back(study_mesh("machined part", models::procedural::machined_part()));
     meshes.push_back(study_mesh("F-15, fine", fine_aircraft("f15")));
     return meshes;
@@ -125,23 +114,13 @@ StudyMesh bunny_from(const std::filesystem::path& file) {
 
 namespace {
 
-struct StudyMeshes {
+/// The bunny where it is given, the built-in meshes, and those of the options.
+std::vector<StudyMesh> meshes_of(const SimplificationStudyOptions& options) {
     std::vector<StudyMesh> meshes;
-    std::string left_out; ///< in words; empty = nothing
-};
-
-StudyMeshes meshes_of(const SimplificationStudyOptions& options) {
-    StudyMeshes all;
-    if (options.bunny) {
-        all.meshes.push_back(bunny_from(*options.bunny));
-    } else {
-        all.left_out = "Left out: the bunny, which is not ours to ship; give the Stanford "
-                       "repository's bun_zipper.ply by --bunny.\n\n";
-    }
-    std::vector<StudyMesh> built_in = built_in_meshes();
-    std::move(built_in.begin(), built_in.end(), std::back_inserter(all.meshes));
-    for (const std::filesystem::path& file : options.meshes) { all.meshes.push_back(study_mesh_from(file)); }
-    return all;
+    if (options.bunny) { meshes.push_back(bunny_from(*options.bunny)); }
+    std::ranges::move(built_in_meshes(), std::back_inserter(meshes));
+    for (const std::filesystem::path& file : options.meshes) { meshes.push_back(study_mesh_from(file)); }
+    return meshes;
 }
 
 // The paper's simplifier.
@@ -202,35 +181,43 @@ std::vector<PaperRun> paper_runs(
 
 namespace {
 
-// Other libraries.
+// All methods, ours and those of other libraries.
 
-/// A way to simplify of another library.
-struct PeerMethod {
-    const char* name;  ///< as the program octant-peers knows it
-    const char* shown; ///< in tables
+struct TimedMesh {
+    TriangleMesh mesh;
+    double time_ms = 0.0;
 };
 
-constexpr const char* lindstrom_turk_name = "cgal-lindstrom-turk";
-
-constexpr const char* repeats = "3";
-
-/// A file that goes when it is no longer needed.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(fs::path file) : path(std::move(file)) {}
-
-    ~TemporaryFile() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
-
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    TemporaryFile(TemporaryFile&&) = delete;
-    TemporaryFile& operator=(TemporaryFile&&) = delete;
-
-    const fs::path path;
+/// A way to simplify a mesh to a number of faces.
+struct Method {
+    std::string name;
+    std::function<TimedMesh(const TriangleMesh& mesh, std::size_t faces)> simplify;
+    bool is_peer = false; ///< Of another library; it is given positions only.
 };
+
+/// A way of ours, timed by the wall clock.
+template <class Simplify>
+Method own_method(const char* name, const Simplify& simplify) {
+    return {name, [simplify](const TriangleMesh& mesh, std::size_t faces) {
+                const base::Stopwatch watch;
+                TriangleMesh result = simplify(mesh, faces);
+                return TimedMesh{std::move(result), watch.ms()};
+            }};
+}
+
+template <int effort>
+TriangleMesh simplified_by_us(const TriangleMesh& mesh, std::size_t faces) {
+    simplify::SimplifyOptions options;
+    options.effort = effort;
+    options.goal.faces = faces;
+    return simplify::simplified(mesh, options).mesh;
+}
+
+TriangleMesh simplified_as_paper(const TriangleMesh& mesh, std::size_t faces) {
+    simplify::PaperOptions options;
+    options.goal.faces = faces;
+    return simplify::paper_simplified(mesh, options).mesh;
+}
 
 double time_in(const fs::path& program, const std::string& output) {
     const auto json = nlohmann::json::parse(output, nullptr, false);
@@ -240,76 +227,55 @@ double time_in(const fs::path& program, const std::string& output) {
     return json["time_ms"].get<double>();
 }
 
-/// Positions and triangles only.
-TriangleMesh bare(const TriangleMesh& mesh) {
+/// Simplifies by another library, which the program octant-peers calls; the time is the median of three, without
+/// reading and writing. Nothing when the program was built without it. Throws Error when it cannot be run or fails.
+std::optional<TimedMesh> simplified_by_peer(
+    const fs::path& program, const std::string& method, const TriangleMesh& mesh, std::size_t faces) {
+    const base::TemporaryFolder folder;
+    const fs::path input = folder.path() / "input.obj";
+    const fs::path output = folder.path() / "output.obj";
     TriangleMesh shape;
     shape.vertices_m = mesh.vertices_m;
     shape.triangles = mesh.triangles;
-    return shape;
-}
-
-constexpr std::array peer_methods = {PeerMethod{"meshoptimizer", "meshoptimizer"},
-    PeerMethod{lindstrom_turk_name, "CGAL Lindstrom-Turk"},
-    PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"}, PeerMethod{"openmesh-quadric", "OpenMesh quadric"}};
-
-/// The program octant-peers, which simplifies by other libraries.
-struct PeerProgram {
-    fs::path program;
-    fs::path folder;                 ///< for files that are removed again
-    std::vector<PeerMethod> methods; ///< that it was built with
-};
-
-struct PeerResult {
-    TriangleMesh mesh;
-    double time_ms = 0.0; ///< median, without reading and writing
-};
-
-/// Simplifies by another library. Nothing when the program was built without it. Throws Error when it cannot be run or
-/// fails.
-std::optional<PeerResult> simplified_by_peer(
-    const PeerProgram& peers, const std::string& method, const TriangleMesh& mesh, std::size_t faces) {
-    const fs::path& program = peers.program;
-    const TemporaryFile input(peers.folder / "peer-input.obj");
-    const TemporaryFile output(peers.folder / "peer-output.obj");
-    models::meshfile::write_mesh(input.path, bare(mesh));
-    auto child = report::ChildProgram::start({fs::absolute(program).string(), method, input.path.string(),
-        fmt::format("{}", faces), output.path.string(), "--repeat", repeats});
+    models::meshfile::write_mesh(input, shape);
+    auto child = report::ChildProgram::start({fs::absolute(program).string(), method, input.string(),
+        fmt::format("{}", faces), output.string(), "--repeat", "3"});
     if (!child) { throw_error_in(program, "expected the program octant-peers, got nothing that can be run"); }
     const report::ProgramResult ending = child->finish();
     if (!ending.succeeded) {
-        if (ending.output.rfind("not built with", 0) == 0) { return std::nullopt; }
+        if (ending.output.starts_with("not built with")) { return std::nullopt; }
         throw_error_in(program, fmt::format("{} failed: {}", method, printable(ending.last_error_line)));
     }
-    PeerResult result;
-    result.time_ms = time_in(program, ending.output);
-    result.mesh = models::meshfile::read_mesh(output.path);
-    return result;
+    return TimedMesh{models::meshfile::read_mesh(output), time_in(program, ending.output)};
 }
 
-TriangleMesh octahedron() {
-    TriangleMesh mesh;
-    mesh.vertices_m = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        mesh.triangles.push_back({i, (i + 1) % 4, 4});
-        mesh.triangles.push_back({(i + 1) % 4, i, 5});
-    }
-    return mesh;
-}
+constexpr const char* lindstrom_turk = "CGAL Lindstrom-Turk";
 
-/// The one that the options name or that lies in the folder of this program, with the methods that it was built with,
-/// tried on a small mesh; none where there is no such program.
-PeerProgram peer_program(const SimplificationStudyOptions& options) {
+/// Names that the program octant-peers knows, and names in tables.
+constexpr std::array peer_methods = {std::pair{"meshoptimizer", "meshoptimizer"},
+    std::pair{"cgal-lindstrom-turk", lindstrom_turk}, std::pair{"cgal-garland-heckbert", "CGAL Garland-Heckbert"},
+    std::pair{"openmesh-quadric", "OpenMesh quadric"}};
+
+/// Our methods, then those of other libraries with which octant-peers was built, tried on a small mesh. That program is
+/// the one of the options or the one in the folder of this program, if it exists.
+std::vector<Method> methods_of(const SimplificationStudyOptions& options) {
+    std::vector<Method> methods = {own_method("Octant, surface", simplified_by_us<simplify::surface_effort>),
+        own_method("Octant, fast", simplified_by_us<simplify::fast_effort>),
+        own_method("2005, both directions", simplified_as_paper)};
     std::error_code failed;
     const fs::path neighbour = fs::read_symlink("/proc/self/exe", failed).parent_path() / "octant-peers";
-    if (!options.peers && !fs::is_regular_file(neighbour, failed)) { return {}; }
-    PeerProgram peers{options.peers.value_or(neighbour), options.out, {}};
-    for (const PeerMethod& method : peer_methods) {
-        if (simplified_by_peer(peers, method.name, octahedron(), 6)) { peers.methods.push_back(method); }
+    if (!options.peers && !fs::is_regular_file(neighbour, failed)) { return methods; }
+    const fs::path program = options.peers.value_or(neighbour);
+    const TriangleMesh torus = models::polygons::mesh_from_polygons(models::procedural::torus());
+    for (const auto& [name, shown] : peer_methods) {
+        if (!simplified_by_peer(program, name, torus, 100)) { continue; }
+        const auto by_peer = [program, name = name](const TriangleMesh& mesh, std::size_t faces) {
+            return simplified_by_peer(program, name, mesh, faces).value();
+        };
+        methods.push_back({shown, by_peer, true});
     }
-    return peers;
+    return methods;
 }
-
-// All methods.
 
 /// One result of any method, lengths as fractions of the original's diagonal.
 struct QualityRun {
@@ -317,72 +283,29 @@ struct QualityRun {
     std::string method;
     std::size_t target_faces = 0;
     std::size_t faces = 0;
-    double hausdorff = 0.0; ///< certified upper bound
-    double rms = 0.0;
-    std::optional<double> colour_rms;
+    double hausdorff = 1.0; ///< certified upper bound
+    double rms = 1.0;
+    std::optional<double> colour_rms = {};
     double time_ms = 0.0;
     bool is_peer = false;
-    bool is_lindstrom_turk = false;
 };
 
-/// The methods on one mesh and one number of faces.
-class QualityRow {
-public:
-    QualityRow(const StudyMesh& mesh, std::size_t faces, base::Progress& progress)
-        : mesh_(mesh), faces_(faces), progress_(progress) {}
-
-    void add(const char* method, const TriangleMesh& result, double time_ms) {
-        QualityRun& run = runs.emplace_back();
-        run.mesh = mesh_.name;
-        run.method = method;
-        run.target_faces = faces_;
-        run.faces = result.triangles.size();
-        run.time_ms = time_ms;
-        if (result.triangles.empty()) {
-            run.hausdorff = run.rms = 1.0;
-        } else {
-            const measure::MeshDistance found = distance_to(mesh_.clean, result);
-            run.hausdorff = found.max_hausdorff_m() / mesh_.diagonal_m;
-            run.rms = found.rms_m() / mesh_.diagonal_m;
-            if (!mesh_.clean.colours.empty() && !result.colours.empty()) { run.colour_rms = found.colour_rms(); }
-        }
-        progress_.tick(mesh_.name);
+QualityRun quality_run(const StudyMesh& mesh, const std::string& name, std::size_t faces, const Method& method) {
+    const TimedMesh result = method.simplify(mesh.clean, faces);
+    QualityRun run{.mesh = name,
+        .method = method.name,
+        .target_faces = faces,
+        .faces = result.mesh.triangles.size(),
+        .time_ms = result.time_ms,
+        .is_peer = method.is_peer};
+    if (!result.mesh.triangles.empty()) {
+        const measure::MeshDistance found = distance_to(mesh.clean, result.mesh);
+        run.hausdorff = found.max_hausdorff_m() / mesh.diagonal_m;
+        run.rms = found.rms_m() / mesh.diagonal_m;
+        if (!mesh.clean.colours.empty() && !result.mesh.colours.empty()) { run.colour_rms = found.colour_rms(); }
     }
-
-    void add_ours(const char* method, int effort) {
-        simplify::SimplifyOptions options;
-        options.effort = effort;
-        options.goal.faces = faces_;
-        const base::Stopwatch watch;
-        const simplify::Simplified result = simplify::simplified(mesh_.clean, options);
-        add(method, result.mesh, watch.ms());
-    }
-
-    void add_paper(const char* method) {
-        simplify::PaperOptions options;
-        options.goal.faces = faces_;
-        const base::Stopwatch watch;
-        const simplify::PaperResult result = simplify::paper_simplified(mesh_.clean, options);
-        add(method, result.mesh, watch.ms());
-    }
-
-    void add_peers(const PeerProgram& peers) {
-        for (const PeerMethod& peer : peers.methods) {
-            const auto result = simplified_by_peer(peers, peer.name, mesh_.clean, faces_);
-            if (!result) { continue; }
-            add(peer.shown, result->mesh, result->time_ms);
-            runs.back().is_peer = true;
-            runs.back().is_lindstrom_turk = std::string(peer.name) == lindstrom_turk_name;
-        }
-    }
-
-    std::vector<QualityRun> runs;
-
-private:
-    const StudyMesh& mesh_;
-    std::size_t faces_;
-    base::Progress& progress_;
-};
+    return run;
+}
 
 // The tables of the simplification paper with ours beside.
 //
@@ -401,34 +324,16 @@ constexpr std::array printed = {Printed{"bunny", 281616, 2501472, {4.34e-5, 3.65
     Printed{"globe", 234588, 2479236, {2.56e-5, 2.03e-5, 1.98e-5}, {9944, 9907, 9907}}};
 
 const Printed* printed_of(const PaperRun& run) {
-    const auto* found =
-        std::find_if(printed.begin(), printed.end(), [&](const Printed& model) { return run.mesh == model.mesh; });
+    const auto* found = std::ranges::find(printed, run.mesh, &Printed::mesh);
     return found == printed.end() ? nullptr : found;
 }
 
-const char* name_of(PaperMeasure measure) {
-    switch (measure) {
-    case PaperMeasure::Plane:
-        return "previous";
-    case PaperMeasure::Triangle:
-        return "one direction";
-    case PaperMeasure::Bidirectional:
-        break;
-    }
-    return "both directions";
-}
+constexpr std::array measure_names = {"previous", "one direction", "both directions"}; // by PaperMeasure
+constexpr std::array colour_names = {"no", "distances", "distances, edge lengths"};    // by ColourReading
 
-const char* name_of(ColourReading colour) {
-    switch (colour) {
-    case ColourReading::None:
-        return "no";
-    case ColourReading::Distance:
-        return "distances";
-    case ColourReading::DistanceAndLength:
-        break;
-    }
-    return "distances, edge lengths";
-}
+const char* name_of(PaperMeasure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
+
+const char* name_of(ColourReading colour) { return colour_names[static_cast<std::size_t>(colour)]; }
 
 /// "12 of 34 = 35.29 %".
 std::string share_text(std::size_t part, std::size_t all) {
@@ -476,12 +381,10 @@ std::optional<double> best_peer_value(
 }
 
 std::optional<double> time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& reference) {
-    for (const QualityRun& run : runs) {
-        if (run.is_lindstrom_turk && run.mesh == reference.mesh && run.target_faces == reference.target_faces) {
-            return run.time_ms;
-        }
-    }
-    return std::nullopt;
+    const auto found = std::ranges::find_if(runs, [&](const QualityRun& run) {
+        return run.method == lindstrom_turk && run.mesh == reference.mesh && run.target_faces == reference.target_faces;
+    });
+    return found != runs.end() ? std::optional(found->time_ms) : std::nullopt;
 }
 
 std::string ratio_text(double value, const std::optional<double>& to) {
@@ -639,37 +542,30 @@ std::vector<std::size_t> goals_for(const StudyMesh& mesh, const std::vector<std:
 }
 
 /// Every method on every mesh, for each number of faces. Coloured meshes twice: for their shape alone by every method,
-/// with colour by those that know it.
+/// with colour by ours.
 std::vector<QualityRun> all_quality_runs(
-    const std::vector<StudyMesh>& meshes, const SimplificationStudyOptions& options, const PeerProgram& peers) {
-    constexpr int own_methods = 3;
-    int total = 0;
+    const std::vector<StudyMesh>& meshes, const SimplificationStudyOptions& options, std::span<const Method> methods) {
+    const auto own_methods = static_cast<std::size_t>(std::ranges::count(methods, false, &Method::is_peer));
+    std::size_t total = 0;
     for (const StudyMesh& mesh : meshes) {
-        const int methods = own_methods * (mesh.clean.colours.empty() ? 1 : 2) + static_cast<int>(peers.methods.size());
-        total += methods * static_cast<int>(goals_for(mesh, options.faces).size());
+        total +=
+            (methods.size() + (mesh.clean.colours.empty() ? 0 : own_methods)) * goals_for(mesh, options.faces).size();
     }
-    base::Progress progress("every method", total, options.quiet, "results");
+    base::Progress progress("every method", static_cast<int>(total), options.quiet, "results");
     std::vector<QualityRun> runs;
-    const auto add = [&](const StudyMesh& mesh, const PeerProgram& with) {
+    const auto add = [&](const StudyMesh& mesh, const std::string& name, std::span<const Method> by) {
         for (const std::size_t faces : goals_for(mesh, options.faces)) {
-            QualityRow row(mesh, faces, progress);
-            row.add_ours("Octant, surface", simplify::surface_effort);
-            row.add_ours("Octant, fast", simplify::fast_effort);
-            row.add_paper("2005, both directions");
-            row.add_peers(with);
-            std::ranges::move(row.runs, std::back_inserter(runs));
+            for (const Method& method : by) {
+                runs.push_back(quality_run(mesh, name, faces, method));
+                progress.tick(name);
+            }
         }
     };
     for (const StudyMesh& mesh : meshes) {
         StudyMesh shape = mesh;
-        shape.original.colours.clear();
         shape.clean.colours.clear();
-        add(shape, peers);
-        if (!mesh.clean.colours.empty()) {
-            StudyMesh coloured = mesh;
-            coloured.name += ", coloured";
-            add(coloured, {});
-        }
+        add(shape, mesh.name, methods);
+        if (!mesh.clean.colours.empty()) { add(mesh, mesh.name + ", coloured", methods.first(own_methods)); }
     }
     return runs;
 }
@@ -677,18 +573,21 @@ std::vector<QualityRun> all_quality_runs(
 } // namespace
 
 void study_simplification(const SimplificationStudyOptions& options) {
-    const StudyMeshes given = meshes_of(options);
+    const std::vector<StudyMesh> meshes = meshes_of(options);
     Study study(options);
-    const PeerProgram peers = options.paper_only ? PeerProgram() : peer_program(options);
-    const std::vector<PaperRun> paper = all_paper_runs(given.meshes, options.quiet);
+    const std::vector<Method> methods = options.paper_only ? std::vector<Method>() : methods_of(options);
+    const std::vector<PaperRun> paper = all_paper_runs(meshes, options.quiet);
     study.add("table-1", feet_table(paper));
     study.add("table-2", paper_error_table(paper));
     if (!options.paper_only) {
-        const std::vector<QualityRun> runs = all_quality_runs(given.meshes, options, peers);
-        study.add("quality", quality_table(runs, !peers.methods.empty()));
+        const std::vector<QualityRun> runs = all_quality_runs(meshes, options, methods);
+        study.add("quality", quality_table(runs, !methods.empty() && methods.back().is_peer));
         study.add(quality_plots(runs), "RMS distance to the original over the number of faces.");
     }
-    study.finish("simplification", paper_reading_text() + given.left_out);
+    study.finish("simplification",
+        paper_reading_text() + (options.bunny ? ""
+                                              : "Left out: the bunny, which is not ours to ship; give the Stanford "
+                                                "repository's bun_zipper.ply by --bunny.\n\n"));
 }
 
 } // namespace octant::ui::studies::simplification

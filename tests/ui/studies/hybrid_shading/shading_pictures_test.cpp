@@ -95,7 +95,7 @@ TEST_CASE("a picture is like itself, less like itself in stripes") {
 TEST_CASE("at 10, 20 and 30 % the error rule is 2 dB and more above the paper's") {
     const std::vector<ShadedModel> models = shading_models({});
     for (const char* name : {"torus of 416 triangles", "torus of 416 quads", "uneven ball"}) {
-        check_gain(run_shading(model_of(models, name), 160, [] {}));
+        check_gain(run_shading(model_of(models, name), 100, [] {}));
     }
 }
 
@@ -103,9 +103,9 @@ TEST_CASE("more smooth polygons are never worse by any rule, none are flat and a
     const std::vector<ShadedModel> models = shading_models({});
     for (const char* name : {"torus of 416 quads", "f15", "500md"}) {
         const ShadingRun run = run_shading(model_of(models, name), 100, [] {});
-        for (std::size_t rule = 0; rule < studied_rules.size(); ++rule) {
-            INFO(name << ", " << studied_rules[rule].name);
-            const auto& shares = run.rules[rule].to_gouraud;
+        for (const RuleQuality& rule : run.rules) {
+            INFO(name << ", " << rule.name);
+            const auto& shares = rule.to_gouraud;
             CHECK(shares.front().psnr_db() == run.rules[random_rule].to_gouraud.front().psnr_db());
             for (std::size_t step = 1; step < share_steps; ++step) {
                 CHECK(shares[step].psnr_db() >= shares[step - 1].psnr_db());
