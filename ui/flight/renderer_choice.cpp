@@ -1,7 +1,7 @@
 #include "ui/flight/renderer_choice.h"
 
 #include "sim/base/thread_pool.h"
-#include "visuals/gl/make_renderer.h"
+#include "visuals/gl/gl_renderer.h"
 
 #include <utility>
 
@@ -13,18 +13,11 @@ using visuals::scene::Renderer;
 
 namespace {
 
-std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings) {
-    const glm::ivec2 size_px = settings.view.size_px;
-    const int samples = settings.view.samples.value_or(1);
-    switch (settings.drawing.context) {
-    case settings::ContextKind::Egl:
-        return gl::make_egl_renderer(size_px, samples);
-    case settings::ContextKind::Window:
-        return gl::make_hidden_window_renderer(size_px, samples);
-    case settings::ContextKind::OsMesa:
-        break;
-    }
-    return gl::make_osmesa_renderer(size_px, samples);
+gl::OffscreenContext context_of(settings::ContextKind kind) {
+    using enum settings::ContextKind;
+    return kind == Egl      ? gl::OffscreenContext::Egl
+           : kind == Window ? gl::OffscreenContext::HiddenWindow
+                            : gl::OffscreenContext::OsMesa;
 }
 
 } // namespace
@@ -43,7 +36,8 @@ std::unique_ptr<Renderer> make_renderer(const settings::RunSettings& settings) {
     if (wanted == RendererKind::Raster || (wanted == RendererKind::Auto && !may_be_gpu)) {
         return make_raster_renderer(settings);
     }
-    std::unique_ptr<Renderer> renderer = make_gl_renderer(settings);
+    std::unique_ptr<Renderer> renderer = gl::make_gl_renderer(
+        context_of(settings.drawing.context), settings.view.size_px, settings.view.samples.value_or(1));
     const bool no_gpu = renderer->info().is_software;
     return wanted == RendererKind::Auto && no_gpu ? make_raster_renderer(settings) : std::move(renderer);
 }

@@ -3,7 +3,7 @@
 #include "sim/base/units.h"
 #include "ui/base/progress.h"
 #include "ui/terrain/ground_view.h"
-#include "visuals/gl/make_renderer.h"
+#include "visuals/gl/gl_renderer.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/terrain/ground_query.h"
 
@@ -93,7 +93,8 @@ constexpr double beyond_mesh_factor = 1.2; ///< of the mesh's reach: below its l
 } // namespace
 
 CrackFinder::CrackFinder(const glm::ivec2& size_px, const glm::dvec2& half_extent_m)
-    : size_px_(size_px), half_extent_m_(half_extent_m), renderer_(visuals::gl::make_osmesa_renderer(size_px, 1)) {
+    : size_px_(size_px), half_extent_m_(half_extent_m),
+      renderer_(visuals::gl::make_gl_renderer(visuals::gl::OffscreenContext::OsMesa, size_px, 1)) {
     renderer_->load_models({});
     renderer_->warm_up();
 }

@@ -18,7 +18,7 @@
 #include "ui/window/view_state.h"
 #include "ui/world/input_files.h"
 #include "ui/world/scene_ground.h"
-#include "visuals/gl/make_renderer.h"
+#include "visuals/gl/gl_renderer.h"
 #include "visuals/gl/picture_painter.h"
 #include "visuals/gl/window_context.h"
 
@@ -101,7 +101,7 @@ Viewer::Viewer(const ViewOptions& options) : options_(options), sender_(options.
 std::unique_ptr<scene::Renderer> Viewer::make_window_renderer(
     std::shared_ptr<gl::WindowContext> context, const settings::RunSettings& settings) {
     if (gl_draws(*context, settings)) {
-        return gl::make_renderer(std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
+        return gl::make_gl_renderer(std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
     }
     painter_ = std::make_shared<gl::PicturePainter>(std::move(context));
     return flight::make_raster_renderer(settings, painter_);

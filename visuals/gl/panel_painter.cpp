@@ -72,10 +72,10 @@ void PanelPainter::draw(
     mesh_.indices.fill({std::as_bytes(indices)});
     const glm::vec2 px_per_unit = glm::vec2(surface_.size_px) / surface_.size;
     for (const PanelDraw& each : draws) {
-        const glm::ivec2 least(glm::floor(each.least * px_per_unit));
-        const glm::ivec2 most(glm::ceil(each.most * px_per_unit));
-        if (each.index_count == 0 || most.x <= least.x || most.y <= least.y) { continue; }
-        gl_.scissor(least.x, surface_.size_px.y - most.y, most.x - least.x, most.y - least.y);
+        const glm::ivec2 min_px(glm::floor(each.min * px_per_unit));
+        const glm::ivec2 max_px(glm::ceil(each.max * px_per_unit));
+        if (each.index_count == 0 || max_px.x <= min_px.x || max_px.y <= min_px.y) { continue; }
+        gl_.scissor(min_px.x, surface_.size_px.y - max_px.y, max_px.x - min_px.x, max_px.y - min_px.y);
         gl_.draw_elements_base_vertex(GL_TRIANGLES, static_cast<GLsizei>(each.index_count), GL_UNSIGNED_SHORT,
             reinterpret_cast<const void*>(each.first_index * sizeof(std::uint16_t)),
             static_cast<GLint>(each.first_vertex));

@@ -22,8 +22,8 @@ struct PanelDraw {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
     std::uint32_t first_vertex = 0;
-    glm::vec2 least{0.0F}; ///< corners of the rectangle, in the window's own units
-    glm::vec2 most{0.0F};
+    glm::vec2 min{0.0F}; ///< corners of the rectangle, in the window's own units
+    glm::vec2 max{0.0F};
 };
 
 /// A window's framebuffer and how its pixels lie in the window's own units.

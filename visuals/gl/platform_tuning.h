@@ -3,8 +3,8 @@
 namespace octant::visuals::gl {
 
 /// Keeps freed memory in the process. Mesa's software renderer frees its working memory after each frame; glibc would
-/// hand the pages back to the kernel and take page faults for them in the next one (1.8 times the frame time). To be
-/// the first line of main: what was allocated before keeps the old ways. Does nothing on other C libraries.
+/// hand the pages back to the kernel and take page faults for them in the next one (1.8 times the frame time). Must be
+/// the first call in main(): memory allocated earlier is not affected. Does nothing on other C libraries.
 void tune_allocator();
 
 /// Gives each raster thread of Mesa's software renderer a processor of its own, because the kernel likes to leave two

@@ -1,7 +1,7 @@
 #include "visuals/gl/renderer.h"
 
 #include "sim/base/error.h"
-#include "visuals/gl/make_renderer.h"
+#include "visuals/gl/gl_renderer.h"
 #include "visuals/gl/window_context.h"
 
 #include <glm/common.hpp>
@@ -205,13 +205,13 @@ void Renderer::paint(const FramePlan& plan, const DrawTarget& place) {
 /// In a box of the plan's picture; picture and target have their rows in one order where depth is used.
 void Renderer::clear_depth(const scene::PixelBox& box, const DrawTarget& place) {
     const PixelRect& rect = place.rect;
-    const glm::ivec2 least = glm::max(box.least, glm::ivec2(0));
-    const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - least;
+    const glm::ivec2 min_px = glm::max(box.least, glm::ivec2(0));
+    const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - min_px;
     if (size.x <= 0 || size.y <= 0) { return; }
     // A mask left by an earlier step would keep the clearing out, too.
     gl_.depth_mask(GL_TRUE);
     gl_.enable(GL_SCISSOR_TEST);
-    gl_.scissor(rect.x + least.x, rect.y + least.y, size.x, size.y);
+    gl_.scissor(rect.x + min_px.x, rect.y + min_px.y, size.x, size.y);
     const float infinitely_far = 0.0F;
     gl_.clear_named_framebufferfv(place.target, GL_DEPTH, 0, &infinitely_far);
     if (place.is_inset) {
@@ -238,19 +238,19 @@ void Renderer::finish_and_read(scene::Picture& picture) {
     framebuffer_.read(picture.rgba);
 }
 
-std::unique_ptr<scene::Renderer> make_osmesa_renderer(const glm::ivec2& size_px, int samples) {
-    return make_renderer(make_osmesa_context(), size_px, samples);
+std::unique_ptr<scene::Renderer> make_gl_renderer(OffscreenContext context, const glm::ivec2& size_px, int samples) {
+    switch (context) {
+    case OffscreenContext::Egl:
+        return make_gl_renderer(make_egl_context(), size_px, samples);
+    case OffscreenContext::HiddenWindow:
+        return make_gl_renderer(make_window_context({.visible = false}), size_px, samples);
+    case OffscreenContext::OsMesa:
+        break;
+    }
+    return make_gl_renderer(make_osmesa_context(), size_px, samples);
 }
 
-std::unique_ptr<scene::Renderer> make_egl_renderer(const glm::ivec2& size_px, int samples) {
-    return make_renderer(make_egl_context(), size_px, samples);
-}
-
-std::unique_ptr<scene::Renderer> make_hidden_window_renderer(const glm::ivec2& size_px, int samples) {
-    return make_renderer(make_window_context({.visible = false}), size_px, samples);
-}
-
-std::unique_ptr<scene::Renderer> make_renderer(
+std::unique_ptr<scene::Renderer> make_gl_renderer(
     std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples) {
     return std::make_unique<Renderer>(std::move(context), size_px, samples);
 }

@@ -82,13 +82,10 @@ public:
     /// Whether meshes of this ground are refined by what these settings say.
     virtual bool has_mesh_settings(const scene::GroundSettings& /*settings*/) const { return true; }
 
-    /// Whether it has the colours that these settings give it. Their palette is that of the ground: where none is
-    /// named, temperate.
-    bool has_colour_settings(const scene::AirSettings& settings) const { return same_colours(settings, air_); }
-
-    /// Whether loading the same heights by these settings would give this ground.
+    /// Whether loading the same heights by these settings would give this ground: the same meshes, and the same colours
+    /// (if the settings name no palette, the temperate one).
     bool matches_settings(const scene::GroundSettings& ground, const scene::AirSettings& air) const {
-        return has_mesh_settings(ground) && has_colour_settings(air);
+        return has_mesh_settings(ground) && same_colours(air, air_);
     }
 
     /// Ground of the same heights as these settings want it, made of what is in memory; null where it must be loaded.

@@ -28,7 +28,7 @@ struct TerrainPoint {
     /// Above datum.
     float height_m = 0.0F;
     glm::vec3 normal{0.0F, 0.0F, 1.0F};
-    /// Of water: the share of its surroundings that is land.
+    /// Only for water: the share of its surroundings that is land.
     float land_share = 0.0F;
 };
 
@@ -38,50 +38,48 @@ glm::vec3 direction_to_sun(const scene::AirSettings& settings);
 /// Colours of sky, haze and light under the settings' sun.
 nature::Daylight daylight_of(const scene::AirSettings& settings);
 
-/// Light on a surface: 1 would leave its colour as it is. Unit vector, world axes.
+/// The factor of light on the colour of a surface. `normal`: unit vector, world axes.
 glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day);
 
-/// The shadows of the ground on itself under the settings' sun; null where they want none.
+/// The shadows of the ground on itself under the settings' sun; null if the settings turn them off.
 std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(
     const terrain::GroundSamples& ground, const scene::AirSettings& settings);
 
-/// What grows at a place; of made ground where there is none. Nothing grows off the earth.
+/// The climate at a position on the earth; without a position, that of generated ground. No vegetation on other bodies.
 nature::Climate climate_at(const std::optional<GeoPosition>& place);
 
 /// Whether ground has the same colours under both: its sun, water and palette.
 bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
 
-/// Which colour ground has by place, height and slope: the same everywhere and for every field.
+/// The colour of ground by position, height and slope.
 class GroundPalette {
 public:
-    /// Without `terrain_shadows`, all light reaches every place.
+    /// `terrain_shadows`: null = no shadows.
     explicit GroundPalette(const scene::AirSettings& settings, const nature::Climate& climate = {},
         std::shared_ptr<const nature::ReliefShadows> terrain_shadows = nullptr);
 
-    /// Own colour, display values 0..1. Features smaller than `footprint_m` are seen as their mean: the size of what
-    /// one colour stands for, metres.
+    /// The colour without light, display values 0..1, as the mean over an area about `footprint_m` wide.
     glm::vec3 albedo(const TerrainPoint& point, float footprint_m) const;
 
-    /// The colour as albedo() gives it under the light that reaches the place, display values.
+    /// albedo() times the light at the point, display values.
     glm::vec3 lit_colour(const TerrainPoint& point, float footprint_m) const;
 
-    /// The colour as lit_colour() gives it, packed; alpha is the number of the covers that it is mixed of
-    /// (scene::LandCoverContrast): 0 on water and nowhere else.
+    /// lit_colour(), packed; alpha is cover_code().
     std::uint32_t packed(const TerrainPoint& point, float footprint_m) const;
 
-    /// The number of the covers at a place (scene::LandCoverContrast), 0..255; 0 on water.
+    /// The code of the land covers at a point (scene::LandCoverContrast), 0..255; 0 on water and nowhere else.
     float cover_code(const TerrainPoint& point, float footprint_m) const;
 
-    /// How pixels differ from the mean of the covers around them.
+    /// The contrast of each land cover in the detail texture.
     scene::LandCoverContrast contrast() const;
 
-    /// Whether a place lies under water.
+    /// Whether a point is under water.
     bool is_water(const TerrainPoint& point) const;
 
-    /// What stands at a place.
+    /// The density of scenery at a point.
     nature::SceneryDensity scenery_density(const TerrainPoint& point, float footprint_m) const;
 
-    /// Share of the whole light on a place that the relief leaves, for each part of the colour.
+    /// The share of the light that the relief leaves at a point: red, green, blue.
     glm::vec3 light_visibility(const TerrainPoint& point, float footprint_m) const;
 
 private:
@@ -103,7 +101,7 @@ TerrainPoint ground_point(const terrain::GroundSamples& ground, int column, int 
 std::vector<std::uint32_t> ground_colours(
     const models::heights::HeightField& field, const scene::AirSettings& settings);
 
-/// The sample nearest to a place, world axes, with the mean slope over about `footprint_m`.
+/// The sample nearest to a position (world axes) with the mean slope over about `footprint_m`.
 TerrainPoint nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m);
 
 /// Its colour as the mean over about `footprint_m`.

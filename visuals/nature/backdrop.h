@@ -9,15 +9,15 @@
 
 namespace octant::visuals::nature {
 
-/// A map, as far as its surroundings need it. World axes, metres.
+/// What make_backdrop() must know of a map. World axes, metres.
 struct BackdropSource {
     glm::dvec2 half_extent_m{0.0};
     double mean_height_m = 0.0;
     glm::vec3 mean_colour{0.5F}; ///< display values
-    /// Height and colour of a place on the map; the colour as the mean over so many metres.
+    /// Height and colour of a position on the map; the colour is a mean over about `footprint_m`.
     std::function<double(const glm::dvec2& at_m)> height_m;
     std::function<glm::vec3(const glm::dvec2& at_m, double footprint_m)> colour;
-    /// The number of the covers there, 0..255; none is 0 everywhere.
+    /// The code of the land covers there, 0..255; null: 0 everywhere.
     std::function<float(const glm::dvec2& at_m, double footprint_m)> cover_code = nullptr;
 };
 

@@ -18,24 +18,23 @@ namespace octant::visuals::nature {
 /// corners. Where clouds are follows from the place alone, so that they stand still over the ground.
 class CloudLayer {
 public:
-    /// `cover`: share of the sky that has clouds, 0..1. Makes the density of all places.
+    /// `cover`: the share of the sky that has clouds, 0..1. Computes the periodic pattern of densities.
     explicit CloudLayer(double cover);
 
-    /// Colours of the clouds by a daylight.
+    /// Sets the colours of the clouds.
     void set_daylight(const Daylight& day);
 
-    /// Clear triangles in world axes with the eye subtracted, their alpha the density. None lies before another.
+    /// Transparent triangles, world axes with the eye subtracted; alpha is the density. No triangle hides another.
     struct Triangles {
         std::span<const models::ColourVertex> vertices;
         std::span<const std::uint32_t> indices;
     };
 
-    /// The layer at `height_m` as seen from an eye; it sinks with the square of the distance over a round earth (radius
-    /// 0: flat). Near the layer's height it thins out, so that an eye passes through. Valid until the next call, in the
-    /// same memory.
+    /// The layer at `height_m` as seen from an eye, lowered by the earth's curvature (radius 0: flat). It becomes
+    /// transparent if the eye is near its height, so that the eye can pass through. Valid until the next call.
     Triangles seen_from(const glm::dvec3& eye_m, double height_m, double earth_radius_m);
 
-    /// Farther off there are no clouds.
+    /// The distance beyond which there are no clouds.
     static constexpr double reach_m = 32000.0;
 
 private:

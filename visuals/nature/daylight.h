@@ -8,15 +8,15 @@
 
 namespace octant::visuals::nature {
 
-/// Light of the clear sky by direction, for one place of the sun.
+/// Light of the clear sky by direction, for one position of the sun (Perez's model).
 class PerezSky {
 public:
     /// `sun_elevation_rad` from 0 to half pi; turbidity from 2 (clear) to 10 (hazy).
     PerezSky(double sun_elevation_rad, double turbidity);
 
-    /// Linear light in sRGB's primaries, parts at least 0, thousands of candela a square metre for the luminance.
-    /// `elevation_rad` is that of the look (taken as slightly above the horizon where it is lower), `azimuth_rad` its
-    /// angle from the sun along the horizon.
+    /// Linear light in sRGB's primaries, each at least 0, in thousands of candela a square metre. `elevation_rad`: of
+    /// the direction of view, raised to slightly above the horizon if lower; `azimuth_rad`: its horizontal angle from
+    /// the sun.
     glm::dvec3 light(double elevation_rad, double azimuth_rad) const;
 
 private:
@@ -32,18 +32,18 @@ private:
     std::array<Distribution, 3> distributions_; ///< of Y, x and y
 };
 
-/// Share of the sun's light beyond the air that reaches the ground, red, green and blue.
+/// The share of sunlight that the air transmits to the ground: red, green and blue.
 glm::dvec3 sunlight_transmittance(double sun_elevation_rad, double turbidity);
 
-/// Where the sun stands, and the colour of the horizon under a sun of 35 degrees.
+/// The position of the sun, and the colour that the horizon has under a sun of 35 degrees.
 struct DaylightOptions {
     double sun_azimuth_rad = 0.0;           ///< clockwise from north
-    double sun_elevation_rad = 0.6;         ///< taken as 0 where it is less
+    double sun_elevation_rad = 0.6;         ///< negative values count as 0
     glm::vec3 horizon{0.62F, 0.72F, 0.84F}; ///< display values
 };
 
-/// Colours of the sky, of the haze and of the light for one place of the sun, display values. Under a low sun sky and
-/// light are darker and warmer, but less so than in nature: the eye adapts.
+/// Colours of the sky, the haze and the light for one position of the sun, display values. Under a low sun they are
+/// darker and warmer, but less so than in nature, because the eye adapts.
 class Daylight {
 public:
     explicit Daylight(const DaylightOptions& options);
@@ -51,20 +51,20 @@ public:
     /// Unit vector, world axes.
     const glm::dvec3& to_sun() const { return to_sun_; }
 
-    /// Unit vector along the ground towards the sun; 0 where it stands overhead.
+    /// Horizontal unit vector towards the sun; 0 if the sun is overhead.
     const glm::dvec2& horizontal_to_sun() const { return horizontal_to_sun_; }
 
-    /// What a surface's own colour is multiplied by: light from everywhere, and from the sun times the cosine to it.
+    /// Factors on the colour of a surface: ambient() + sunlight() * cosine between its normal and to_sun().
     const glm::vec3& ambient() const { return ambient_; }
 
     const glm::vec3& sunlight() const { return sunlight_; }
 
-    /// The horizon and the haze before it, away from the sun and towards it; horizon() is in between.
+    /// The colour of horizon and haze away from the sun and towards it; horizon() interpolates between them.
     const glm::vec3& haze_away() const { return haze_away_; }
 
     const glm::vec3& haze_sunward() const { return haze_sunward_; }
 
-    /// `cos_to_sun`: of the angle along the horizon to the sun.
+    /// `cos_to_sun`: the cosine of the horizontal angle from the sun.
     glm::vec3 horizon(double cos_to_sun) const;
 
     /// The sky without the sun's disc in a direction (unit, world axes) at or above the horizon.
@@ -72,11 +72,11 @@ public:
 
     const glm::vec3& disc() const { return disc_; }
 
-    /// What the sun's glare adds to the sky's colour so far from its middle.
+    /// What the sun's glare adds to the colour of the sky at an angle from the sun's middle.
     glm::vec3 glare(double from_sun_rad) const;
 
-    static constexpr double disc_rad = 0.00465;  ///< half of what the sun's disc covers
-    static constexpr double glare_rad = 0.41888; ///< nothing is added from here on
+    static constexpr double disc_rad = 0.00465;  ///< angular radius of the sun's disc
+    static constexpr double glare_rad = 0.41888; ///< angular radius of the glare
 
 private:
     glm::vec3 perez(double elevation_rad, double azimuth_rad) const;
@@ -93,13 +93,13 @@ private:
     glm::vec3 disc_{0.0F};
 };
 
-/// What a slightly rough sea shows of the sky and of the sun, by the direction in which it is seen.
+/// Reflection of sky and sun in a slightly rough sea.
 class WaterReflection {
 public:
     explicit WaterReflection(const Daylight& day);
 
-    /// Display values of a place: `own` is what comes out of the water itself, `from_eye` the way from the eye to it,
-    /// of any length, downwards.
+    /// The colour of a position, display values. `own`: the colour of the water without reflection; `from_eye`: the
+    /// direction from the eye to the position, of any length, downwards.
     glm::vec3 shaded_colour(const glm::vec3& own, const glm::vec3& from_eye) const;
 
 private:

@@ -27,19 +27,19 @@ struct NearDetailOptions {
     bool operator==(const NearDetailOptions&) const = default;
 };
 
-/// How much detail apply_detail_budget() may add, and how much there is to see.
+/// The input of apply_detail_budget().
 struct DetailBudget {
-    /// Of the usual number of triangles, which is 20,000. Nothing: there is no limit.
+    /// The number of triangles of the ground over 20,000, the default; nothing = no limit.
     std::optional<double> share = 1.0;
     double width_rad = 1.4;             ///< of the picture
     double focal_px = 869.0;            ///< pixels that a metre covers straight ahead, one metre off
     double height_above_ground_m = 0.0; ///< the eye over the ground
 };
 
-/// Sets how long edges must look to be halved, how far things stand, and the largest numbers of both, which are hardly
-/// ever met: what they cut off would appear in a step. Without a limit of triangles the width of the picture
-/// counts for nothing: pictures from one eye through lenses of one `focal_px` show the same ground wherever they
-/// overlap or meet.
+/// Sets the members of `view` that limit detail: min_edge_rad, range_ratio, and the two maxima of triangles. Edge
+/// length and range are chosen such that the maxima are hardly ever reached, because detail that a maximum cuts off
+/// would appear suddenly. Without a limit of triangles the result does not depend on the width of the picture: pictures
+/// from one eye with the same `focal_px` show the same ground where they overlap.
 void apply_detail_budget(const DetailBudget& budget, const NearDetailOptions& detail, NearDetailView& view);
 
 /// Own colour of a place of the world with its alpha, packed; where it lies from the eye.
@@ -63,13 +63,13 @@ public:
         float min_edge_rad = 0.0F;              ///< edges that look shorter stayed whole
     };
 
-    /// The mesh comes coloured; `colour`: of the middles of edges; null = between those of the ends. The triangles stay
+    /// `mesh` has colours; `colour` gives those of the middles of edges; null = the mean of both ends. The result stays
     /// valid until the next call but one.
     Triangles detailed_mesh(const terrain::GroundMesh& mesh, const NearDetailView& view,
         const NearDetailOptions& detail, const GroundDecorations& decorations, const ColourAtPoint* colour = nullptr);
 
-    /// Replaces numbers of triangles of the last mesh, ascending, by those of the triangles that were made in their
-    /// places.
+    /// Replaces the numbers triangles[first..] of triangles of the last mesh, ascending, by the numbers of the
+    /// triangles into which these were divided.
     void replace(std::vector<std::uint32_t>& triangles, std::size_t first) const;
 
 private:

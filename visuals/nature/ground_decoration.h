@@ -60,6 +60,11 @@ struct GroundPatch {
 /// One kind of thing that stands on the ground (trees and houses) or lies on it (roads, a runway), for one view. A
 /// mesher of ground has a list of them; whoever draws the ground asks each for what it adds. All colours are lit by the
 /// daylight for which the list was made. Each function has nothing to add unless a kind overrides it.
+///
+/// Shadows of aircraft are no decoration, although they are cut to the triangles of the ground in the same way. A
+/// decoration belongs to the ground and has colours of its own; a shadow belongs to the aircraft of one frame and
+/// darkens the ground and the patches below it. visuals/planning/ground_pieces.h lays the patches, then casts the
+/// shadows.
 class GroundDecoration {
 public:
     GroundDecoration() = default;

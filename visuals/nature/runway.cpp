@@ -215,8 +215,8 @@ public:
     int max_patch_triangles(const glm::dvec3& eye_m, double /*pixel_rad*/, int triangle_target) const override {
         const glm::dvec2 position_m(eye_m);
         const double distance_m = std::hypot(strip_->distance_m(position_m), eye_m.z - strip_->plane_m(position_m));
-        const double most = std::min<double>(default_triangles, max_share * triangle_target);
-        return static_cast<int>(most * std::clamp(near_m / std::max(distance_m, 1.0), 0.1, 1.0));
+        const double max_triangles = std::min<double>(default_triangles, max_share * triangle_target);
+        return static_cast<int>(max_triangles * std::clamp(near_m / std::max(distance_m, 1.0), 0.1, 1.0));
     }
 
     /// A marking that looks narrow takes the colour of the surface, and so does not go in a step.

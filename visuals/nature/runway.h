@@ -29,23 +29,22 @@
 
 namespace octant::visuals::nature {
 
-/// A rectangle along the runway's axes: metres along from its beginning, and left of its middle. Those that are painted
-/// do not overlap; they lie within the surface.
+/// A rectangle along the runway's axes: metres from its beginning, and metres left of its centre line. Markings do not
+/// overlap and lie within the surface.
 struct RunwayRectangle {
     glm::vec2 min_m{0.0F};
     glm::vec2 max_m{0.0F};
-    bool is_painted = false; ///< white; else the surface itself
+    bool is_painted = false; ///< a white marking; else the surface
 };
 
-/// What the two ends are called by those who approach them: "07" and "25". The beginning first.
+/// The designators of both ends, such as "07" and "25": that of a landing at the beginning first.
 std::array<std::string, 2> runway_numbers(double heading_rad);
 
-/// The surface, then what is painted on it. There is room for all of it (asserted): the runway is 45 m wide, or more,
-/// and 1,500 m long.
+/// The surface, then its markings. The runway must be at least 45 m wide and 1,500 m long (asserted).
 std::vector<RunwayRectangle> runway_rectangles(double length_m, double width_m, double heading_rad);
 
-/// The runway on a strip of levelled ground, under a daylight. What looks narrow takes the colour of the surface before
-/// it is left out.
+/// The runway on a strip of levelled ground. Markings that look narrow fade to the colour of the surface before they
+/// are left out.
 std::unique_ptr<GroundDecoration> runway_decoration(
     std::shared_ptr<const models::heights::RunwayStrip> strip, const Daylight& day);
 

@@ -240,10 +240,10 @@ public:
         constexpr double near = 0.01; // of a cell
         if (reach_m_ <= 0.0) { return false; }
         const glm::dvec2 place = (place_m - first_m_) / spacing_m_;
-        const glm::ivec2 least(glm::floor(place - near));
-        const glm::ivec2 most(glm::floor(place + near));
-        for (int row = std::max(least.y, 0); row <= std::min(most.y, samples_.y - 2); ++row) {
-            for (int column = std::max(least.x, 0); column <= std::min(most.x, samples_.x - 2); ++column) {
+        const glm::ivec2 min_cell(glm::floor(place - near));
+        const glm::ivec2 max_cell(glm::floor(place + near));
+        for (int row = std::max(min_cell.y, 0); row <= std::min(max_cell.y, samples_.y - 2); ++row) {
+            for (int column = std::max(min_cell.x, 0); column <= std::min(max_cell.x, samples_.x - 2); ++column) {
                 if (row % stride_ != 0 || column % stride_ != 0) { continue; }
                 const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
                 for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
@@ -339,8 +339,8 @@ private:
     void collect(const std::array<glm::vec3, 3>& triangle_m) {
         const auto& [a, b, c] = triangle_m;
         const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - first_m_;
-        const glm::dvec2 least = (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
-        const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
+        const glm::dvec2 min_cell = (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
+        const glm::dvec2 max_cell = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
         const float area = signed_area2(a, b, c);
         const glm::vec3 across = glm::cross(b - a, c - a);
         const glm::vec2 ground_slope = glm::vec2(across) / -across.z;
@@ -349,10 +349,10 @@ private:
             const int cell = std::max(static_cast<int>(std::floor(from)), 0);
             return (cell + stride_ - 1) / stride_ * stride_;
         };
-        const int last_column = std::min(static_cast<int>(std::floor(most.x)), samples_.x - 2);
-        const int last_row = std::min(static_cast<int>(std::floor(most.y)), samples_.y - 2);
-        for (int row = first_of(least.y); row <= last_row; row += stride_) {
-            for (int column = first_of(least.x); column <= last_column; column += stride_) {
+        const int last_column = std::min(static_cast<int>(std::floor(max_cell.x)), samples_.x - 2);
+        const int last_row = std::min(static_cast<int>(std::floor(max_cell.y)), samples_.y - 2);
+        for (int row = first_of(min_cell.y); row <= last_row; row += stride_) {
+            for (int column = first_of(min_cell.x); column <= last_column; column += stride_) {
                 for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
                     const glm::dvec2 place =
                         (glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(quarter_index)]) *

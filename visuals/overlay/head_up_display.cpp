@@ -145,8 +145,8 @@ void draw_pitch_ladder(const HudGlass& glass, const glm::dvec3& anchor, float le
     const double middle_deg = deg_from_rad(meridian.pitch_of(glass.direction_to(glm::vec2(0.0F))));
     const auto nearest = static_cast<int>(std::lround(middle_deg / step_deg));
     const double reach_rad = std::atan(reach * static_cast<double>(glass.unit_px) / glass.focal_px);
-    const int most = static_cast<int>(deg_from_rad(reach_rad)) / step_deg + 1;
-    for (int rung = nearest - most; rung <= nearest + most; ++rung) {
+    const int max_rungs = static_cast<int>(deg_from_rad(reach_rad)) / step_deg + 1;
+    for (int rung = nearest - max_rungs; rung <= nearest + max_rungs; ++rung) {
         const int along_deg = rung * step_deg; // beyond the zenith more than 90
         auto place = project(glass, meridian, rad_from_deg(along_deg));
         if (!place) { continue; }
@@ -195,17 +195,17 @@ constexpr double min_marked_speed_mps = 5.0; ///< below, no flight path is shown
 constexpr double full_marker_speed_mps = 20.0;
 constexpr double min_mach = 0.3;
 
-OverlayBox scaled(const OverlayBox& box, float unit_px) { return {box.least * unit_px, box.most * unit_px}; }
+OverlayBox scaled(const OverlayBox& box, float unit_px) { return {box.min * unit_px, box.max * unit_px}; }
 
 OverlayBox display_box_of(const HudGlass& glass) {
     const OverlayBox box = scaled(display_box, glass.unit_px);
-    return {glm::min(box.least, -min_whole_px), glm::max(box.most, min_whole_px)};
+    return {glm::min(box.min, -min_whole_px), glm::max(box.max, min_whole_px)};
 }
 
 /// To whole numbers, of at most six digits.
 long rounded(double value, double step = 1.0) {
-    constexpr double most = 999999.0;
-    return std::lround(std::clamp(value, -most, most) / step) * std::lround(step);
+    constexpr double max_value = 999999.0;
+    return std::lround(std::clamp(value, -max_value, max_value) / step) * std::lround(step);
 }
 
 double speed_of_sound_mps(double height_m) {
@@ -248,7 +248,7 @@ private:
         const auto place = share > 0.0 ? glass_.project(flight_path_) : std::nullopt;
         if (!place) { return body_axis(); }
         const OverlayBox box = scaled(world_symbol_box, unit_px_);
-        const glm::dvec3 seen = glass_.direction_to(glm::clamp(*place, box.least, box.most));
+        const glm::dvec3 seen = glass_.direction_to(glm::clamp(*place, box.min, box.max));
         return glm::mix(body_axis(), glm::normalize(seen), share);
     }
 
@@ -258,7 +258,7 @@ private:
         if (!place || glm::length(flight_path_) < min_marked_speed_mps) { return; }
         const OverlayBox box = scaled(world_symbol_box, unit_px_);
         const float reach_px = marker_wing * unit_px_;
-        const glm::vec2 at = glm::clamp(*place, box.least + reach_px, box.most - reach_px);
+        const glm::vec2 at = glm::clamp(*place, box.min + reach_px, box.max - reach_px);
         const float radius = marker_radius * unit_px_;
         const float tail = marker_tail * unit_px_;
         canvas_.circle(at, radius);

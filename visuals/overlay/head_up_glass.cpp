@@ -48,17 +48,17 @@ glm::dvec3 HudGlass::direction_to(const glm::vec2& place) const {
 }
 
 bool HudGlass::may_show(const OverlayBox& box, const glm::ivec2& size_px) const {
-    glm::vec2 least(std::numeric_limits<float>::max());
-    glm::vec2 most(std::numeric_limits<float>::lowest());
+    glm::vec2 min_px(std::numeric_limits<float>::max());
+    glm::vec2 max_px(std::numeric_limits<float>::lowest());
     for (const glm::vec2& corner :
-        {box.least, glm::vec2(box.most.x, box.least.y), box.most, glm::vec2(box.least.x, box.most.y)}) {
+        {box.min, glm::vec2(box.max.x, box.min.y), box.max, glm::vec2(box.min.x, box.max.y)}) {
         const glm::vec3 seen = to_picture * glm::vec3(corner, 1.0F);
         if (seen.z < static_cast<float>(min_ahead)) { return false; }
-        least = glm::min(least, glm::vec2(seen) / seen.z);
-        most = glm::max(most, glm::vec2(seen) / seen.z);
+        min_px = glm::min(min_px, glm::vec2(seen) / seen.z);
+        max_px = glm::max(max_px, glm::vec2(seen) / seen.z);
     }
-    return most.x > 0.0F && most.y > 0.0F && least.x < static_cast<float>(size_px.x) &&
-           least.y < static_cast<float>(size_px.y);
+    return max_px.x > 0.0F && max_px.y > 0.0F && min_px.x < static_cast<float>(size_px.x) &&
+           min_px.y < static_cast<float>(size_px.y);
 }
 
 } // namespace octant::visuals::overlay

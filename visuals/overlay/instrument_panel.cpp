@@ -23,7 +23,7 @@ constexpr double last_rad = rad_from_deg(150.0);
 } // namespace
 
 double scale_hand_rad(double value, const DialScale& scale) {
-    const double share = (value - scale.least) / (scale.most - scale.least);
+    const double share = (value - scale.min) / (scale.max - scale.min);
     return first_rad + std::clamp(share, 0.0, 1.0) * (last_rad - first_rad);
 }
 
@@ -43,8 +43,8 @@ DialScale load_scale_g(double min_load_factor, double max_load_factor) {
 }
 
 double label_step(const DialScale& scale) {
-    const double max_numbers = scale.most >= 100.0 && scale.most < 400.0 ? 5.0 : 9.0;
-    const double min_step = (scale.most - scale.least) / (max_numbers - 1.0);
+    const double max_numbers = scale.max >= 100.0 && scale.max < 400.0 ? 5.0 : 9.0;
+    const double min_step = (scale.max - scale.min) / (max_numbers - 1.0);
     for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 100.0, 200.0, 500.0}) {
         if (step >= min_step) { return step; }
     }
@@ -110,7 +110,7 @@ public:
         const double step = label_step(scale);
         const double unit = step >= 100.0 ? 100.0 : 1.0; // hundreds, as on the real ones
         const double half = 0.5 * step;
-        for (double at = std::ceil(scale.least / half) * half; at <= scale.most; at += half) {
+        for (double at = std::ceil(scale.min / half) * half; at <= scale.max; at += half) {
             const bool numbered = std::abs(std::remainder(at, step)) < 1e-6;
             add_tick(scale_hand_rad(at, scale), numbered);
             if (numbered) { add_number(scale_hand_rad(at, scale), ShortText("{:.0f}", at / unit + 0.0).text()); }

@@ -16,8 +16,8 @@ namespace octant::visuals::overlay {
 
 /// Ends of a dial's scale, in the unit that it shows.
 struct DialScale {
-    double least = 0.0;
-    double most = 1.0;
+    double min = 0.0;
+    double max = 1.0;
 
     bool operator==(const DialScale&) const = default;
 };

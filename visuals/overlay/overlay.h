@@ -13,12 +13,12 @@
 #include <string>
 #include <string_view>
 
-// What lies over pictures. Each function draws on an empty canvas that the caller keeps; the result is valid until the
-// canvas is used again. No allocation once warmed up.
+// Overlays of pictures. Each function draws on an empty canvas of the caller; the result is valid until the canvas is
+// used again. After the first pictures no function allocates memory.
 
 namespace octant::visuals::overlay {
 
-/// What a head-up display shows beside the state's own values.
+/// The input of a head-up display or an instrument panel: a state, and heights that the state does not hold.
 struct InstrumentReadings {
     sim::AircraftState state;
     double height_m = 0.0;                       ///< above datum
@@ -26,9 +26,9 @@ struct InstrumentReadings {
 };
 
 /// Head-up display of the cockpit view: true airspeed in knots, altitude in feet, heading tape, pitch ladder and
-/// flight-path marker that lie on the world behind them, load factor, height above ground, Mach number, vertical speed.
-/// Lines and letters are triangles with soft edges, so that no multisampling is needed. Sizes go with the picture's
-/// height. It is fixed ahead of the pilot: a look aside moves it out of the picture.
+/// flight-path marker that agree with the world behind them, load factor, height above ground, Mach number, vertical
+/// speed. Lines and letters are triangles with soft edges, so that no multisampling is needed. Sizes are proportional
+/// to the picture's height. The display is fixed in front of the pilot: turning the head moves it out of the picture.
 scene::OverlayDraw draw_head_up_display(
     OverlayCanvas& canvas, const InstrumentReadings& readings, const scene::Camera& camera, const glm::ivec2& size_px);
 
@@ -38,8 +38,8 @@ struct WorldLabel {
     std::string_view name;
 };
 
-/// What explains a path in the picture: names where their positions are in view, a scale for what is as far as the
-/// aircraft (`aircraft_m`, eye at the origin), and a mark that points north.
+/// Annotations of a path: the names of positions in view, a scale bar that is valid at the distance of the aircraft
+/// (`aircraft_m`, eye at the origin), and an arrow that points north.
 scene::OverlayDraw draw_path_annotations(OverlayCanvas& canvas, const scene::Camera& camera, const glm::ivec2& size_px,
     const glm::dvec3& aircraft_m, std::span<const WorldLabel> labels);
 

@@ -101,10 +101,10 @@ void OverlayCanvas::clip_line(const glm::vec2& from, const glm::vec2& to) {
     const glm::vec2 change = to - from;
     float from_share = 0.0F;
     float to_share = 1.0F;
-    const bool seen = narrow_interval(from.x - clip_.least.x, change.x, from_share, to_share) &&
-                      narrow_interval(clip_.most.x - from.x, -change.x, from_share, to_share) &&
-                      narrow_interval(from.y - clip_.least.y, change.y, from_share, to_share) &&
-                      narrow_interval(clip_.most.y - from.y, -change.y, from_share, to_share);
+    const bool seen = narrow_interval(from.x - clip_.min.x, change.x, from_share, to_share) &&
+                      narrow_interval(clip_.max.x - from.x, -change.x, from_share, to_share) &&
+                      narrow_interval(from.y - clip_.min.y, change.y, from_share, to_share) &&
+                      narrow_interval(clip_.max.y - from.y, -change.y, from_share, to_share);
     if (!seen) {
         end_run();
         return;
@@ -172,9 +172,9 @@ void OverlayCanvas::join_last_rows(Strips& strips) {
 }
 
 void OverlayCanvas::box(const OverlayBox& box) {
-    const glm::vec2 left_below(box.least.x, box.most.y);
-    const glm::vec2 right_above(box.most.x, box.least.y);
-    polyline(std::array{box.least, right_above, box.most, left_below, box.least});
+    const glm::vec2 left_below(box.min.x, box.max.y);
+    const glm::vec2 right_above(box.max.x, box.min.y);
+    polyline(std::array{box.min, right_above, box.max, left_below, box.min});
 }
 
 void OverlayCanvas::circle(const glm::vec2& centre, float radius) {

@@ -16,11 +16,11 @@ namespace octant::visuals::overlay {
 
 /// An upright rectangle.
 struct OverlayBox {
-    glm::vec2 least{0.0F};
-    glm::vec2 most{0.0F};
+    glm::vec2 min{0.0F};
+    glm::vec2 max{0.0F};
 
     bool contains(const glm::vec2& at) const {
-        return at.x >= least.x && at.y >= least.y && at.x <= most.x && at.y <= most.y;
+        return at.x >= min.x && at.y >= min.y && at.x <= max.x && at.y <= max.y;
     }
 };
 

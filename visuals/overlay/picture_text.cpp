@@ -31,11 +31,11 @@ std::size_t characters_per_line(float width_px, float letter_px) {
 
 /// Takes from the front of a text, and returns, what fits into so many letters: whole words where a space is among
 /// them.
-std::string split_at_width(std::string_view& text, std::size_t most) {
+std::string split_at_width(std::string_view& text, std::size_t max_letters) {
     std::size_t count = text.size();
-    if (count > most) {
-        const std::size_t space = text.rfind(' ', most);
-        count = space == std::string_view::npos || space == 0 ? most : space;
+    if (count > max_letters) {
+        const std::size_t space = text.rfind(' ', max_letters);
+        count = space == std::string_view::npos || space == 0 ? max_letters : space;
     }
     std::string taken(text.substr(0, count));
     std::ranges::transform(taken, taken.begin(), upper_case);
@@ -51,14 +51,14 @@ scene::OverlayDraw draw_text(OverlayCanvas& canvas, std::span<const std::string>
     canvas.begin(
         glm::mat3(1.0F), {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, text_halo_colour});
     glm::vec2 at(letter_px, 2.0F * letter_px);
-    const std::size_t most = characters_per_line(size.x - 2.0F * letter_px, letter_px);
+    const std::size_t max_letters = characters_per_line(size.x - 2.0F * letter_px, letter_px);
     for (const std::string_view line : lines) {
         std::string_view rest = line;
-        std::string text = split_at_width(rest, most);
+        std::string text = split_at_width(rest, max_letters);
         while (!text.empty() && at.y <= size.y) {
             canvas.text({at, letter_px}, text);
             at.y += line_spacing * letter_px;
-            text = split_at_width(rest, most - indent.size());
+            text = split_at_width(rest, max_letters - indent.size());
             text = text.empty() ? text : std::string(indent) + text;
         }
     }

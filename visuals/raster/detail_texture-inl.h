@@ -9,7 +9,7 @@
 #endif
 
 #include "visuals/raster/detail_image.h"
-#include "visuals/raster/strip-inl.h"
+#include "visuals/raster/strip_coverage-inl.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/scene/detail_pattern.h"
 

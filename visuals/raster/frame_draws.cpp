@@ -1,3 +1,5 @@
+// Step 1 of a picture (renderer.cpp): the steps of a FramePlan become slices of triangles in painting order, and blocks
+// of vertices that are projected alike. Next: vertex_stage.cpp.
 #include "visuals/raster/frame_draws.h"
 
 #include "visuals/scene/frame_plan.h"

@@ -14,38 +14,38 @@
 
 namespace octant::visuals::raster {
 
-/// Triangles of one slice, and so of one task, at most.
+/// The maximum of triangles in a slice, and so in a task of one thread.
 constexpr std::size_t batch_triangles = 2048;
 
-/// What the triangles of a picture are made from.
+/// A frame plan, and the buffers that it refers to.
 struct FrameInput {
     const scene::FramePlan& plan;
     std::span<const scene::ModelBuffers> models;
-    LitGroundTexture* ground = nullptr; ///< none loaded
+    LitGroundTexture* ground = nullptr; ///< null = no texture is loaded
     glm::ivec2 size_px{0};
 };
 
-/// Corners that are placed alike, and where they go in the list of all corners.
+/// Vertices that the same function of vertex_stage.h projects, and their place in the list of all vertices.
 struct VertexBlock {
     enum class Kind { Ground, Textured, Sky, Aircraft } kind = Kind::Ground;
     std::span<const models::ColourVertex> coloured;
     std::span<const scene::ModelVertex> of_model;
     AircraftDrawState state;
     std::size_t first = 0;
-    std::size_t first_flat = 0; ///< among those of aircraft alone
+    std::size_t first_flat = 0; ///< index of the first among the vertices of aircraft
 };
 
 /// Triangles of one step.
 struct DrawSlice {
     std::span<const std::uint32_t> indices;
     DrawStyle style;
-    // What is added to an index for its place, which may be less than nothing.
-    std::int64_t first_vertex = 0; ///< among all corners
-    std::int64_t first_flat = 0;   ///< among those of aircraft
+    // Added to an index; may be negative.
+    std::int64_t first_vertex = 0; ///< gives the index among all vertices
+    std::int64_t first_flat = 0;   ///< gives the index among the vertices of aircraft
     bool is_aircraft = false;
 };
 
-/// The steps of a plan as slices in painting order, and the corners that they name. Spans point into the plan and the
+/// The steps of a plan as slices in painting order, and the vertices that they index. Spans point into the plan and the
 /// models.
 class FrameDraws {
 public:

@@ -1,5 +1,6 @@
-// Places and colours of the corners of ground, several at once. Compiled once for each instruction set; all give the
-// same bits, because real numbers are summed and multiplied one by one.
+// Step 2 of a picture (renderer.cpp): the vertices of ground, shadows and sky are projected to the screen and hazed,
+// several at once. Compiled once for each instruction set; all give the same bits, because real numbers are summed and
+// multiplied one by one. Next: triangle_setup.cpp.
 #include "visuals/raster/vertex_stage.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.

@@ -32,7 +32,7 @@ enum OutcodeBits : std::uint32_t {
     right_of_view = 2,
     above_view = 4,
     below_view = 8,
-    beyond_range = 16 ///< nearer than the near plane, or too far aside for a place in 1/256 pixels
+    beyond_range = 16 ///< nearer than the near plane, or too far aside for 32-bit coordinates in 1/256 pixel
 };
 
 /// Clip coordinates of a vertex, for clipping.
@@ -60,12 +60,12 @@ struct LitVertex {
     float transmittance = 1.0F;    ///< what the haze leaves of its own colour
 };
 
-/// From world axes with the eye subtracted to places in a picture.
+/// From world axes with the eye subtracted to pixels.
 struct Projection {
     glm::mat4 world_to_clip{1.0F};
     glm::vec2 half_px{0.0F}; ///< half of the picture's size
-    float near_m = 0.0F;     ///< what has a smaller w is cut off
-    /// Clip coordinates x and y of a placed corner are at most this many times w.
+    float near_m = 0.0F;     ///< the near plane: parts with a smaller w are cut off
+    /// Bounds of |x / w| and |y / w| of vertices that are projected.
     glm::vec2 max_over_w{0.0F};
     glm::ivec2 size_px{0};
 };
@@ -75,7 +75,7 @@ Projection projection_of(const scene::FramePlan& plan, const glm::ivec2& size_px
 
 ClipPosition clip_position(const Projection& projection, const glm::vec3& position_m);
 
-/// Fills in all but the values.
+/// Fills in all members of `vertex` but the values.
 void place(const Projection& projection, const ClipPosition& clip, ScreenVertex& vertex);
 
 /// exp(-x) for x >= 0, by sums and products alone, so that all processors agree. Relative error below 4e-6: that of the

@@ -7,8 +7,8 @@
 #define OCTANT_RASTER_REFERENCE_INL
 #endif
 
-#include "visuals/raster/coverage-inl.h"
-#include "visuals/raster/gouraud-inl.h"
+#include "visuals/raster/any_triangle-inl.h"
+#include "visuals/raster/gouraud_triangle-inl.h"
 
 #include <algorithm>
 #include <bit>

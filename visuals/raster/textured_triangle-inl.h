@@ -10,7 +10,7 @@
 #define OCTANT_RASTER_TEXTURED_TRIANGLE_INL
 #endif
 
-#include "visuals/raster/strip-inl.h"
+#include "visuals/raster/strip_coverage-inl.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/triangle_planes.h"
 

@@ -24,7 +24,7 @@ struct TileTriangle {
     const TriangleExtra* extra = nullptr; ///< none if it needs none
 };
 
-/// What a tile's picture is made of.
+/// The input of paint_tile(), and where it writes.
 struct TileJob {
     glm::ivec2 first_px{0};                  ///< its upper left pixel
     glm::ivec2 size_px{0};                   ///< at most a tile's
@@ -48,7 +48,7 @@ struct TileJob {
     std::uint32_t full_rows() const { return ~std::uint32_t{0} >> (tile_height - size_px.y); }
 };
 
-/// What all tiles of a picture know about the samples' places.
+/// Positions of the samples in a pixel, prepared for registers.
 struct SampleLanes {
     explicit SampleLanes(const SamplePattern& pattern);
 
@@ -58,7 +58,7 @@ struct SampleLanes {
     alignas(64) std::array<std::int32_t, SamplePattern::lanes> round_up{};
     alignas(64) std::array<float, SamplePattern::lanes> x_px{};
     alignas(64) std::array<float, SamplePattern::lanes> y_px{};
-    bool is_single_sample = false; ///< all lie in the pixel's middle
+    bool is_single_sample = false; ///< all lanes are in the middle of the pixel
 };
 
 /// Pixels that TileBuffer::masks holds masks of: blocks of sixteen from the first column of each row on.
@@ -74,7 +74,7 @@ struct Coverage {
     std::array<Row, tile_height> rows;
 };
 
-/// What a transparent triangle does to a pixel of a tile.
+/// The colour of a transparent triangle in a pixel of a tile, to be blended later.
 struct TransparentPixel {
     std::uint16_t pixel = 0;
     std::uint16_t mask = 0;                ///< samples where it is seen
@@ -83,7 +83,7 @@ struct TransparentPixel {
 
     static constexpr std::uint16_t whole = 4096;
 
-    /// What so many samples of sixteen hide, each by an opacity.
+    /// The share that `samples` of sixteen samples hide, each with this opacity.
     static std::uint16_t share_of(float opacity, int samples) {
         return static_cast<std::uint16_t>(static_cast<int>(opacity * 256.0F + 0.5F) * samples);
     }

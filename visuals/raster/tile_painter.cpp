@@ -1,14 +1,14 @@
-// Paints one tile. Compiled once for each instruction set; all give the same bits, because colours and crossings are
-// whole numbers, and real numbers are added and multiplied one by one.
+// Step 5 of a picture (renderer.cpp): paints one tile; PaintTile() at the end has the order of the work. Compiled once
+// for each instruction set; all give the same bits, because colours and crossings are whole numbers, and real numbers
+// are added and multiplied one by one.
 //
-// The parts, each included before the parts that use it:
-//   strip-inl.h               coverage masks and gradients of 32 pixels of a row
-//   gouraud-inl.h             triangles with linear colours, by strips: nearly all triangles
-//   coverage-inl.h            all other triangles: coverage, colour, depth groups, transparent triangles
-//   textured_triangle-inl.h   textured triangles: texels, filter, planes, spans
-//   detail_texture-inl.h      the detail texture of near ground, after all triangles of the tile
+// Step 6 is in the files that this one includes, each before those that use it:
+//   strip_coverage-inl.h        coverage masks and gradients of strips, 32 pixels of a row
+//   gouraud_triangle-inl.h      triangles with linear colours: nearly all of a picture
+//   any_triangle-inl.h          triangles of any other fill: coverage, colour, depth groups, transparent triangles
+//   textured_triangle-inl.h     textured triangles: texels, filter, planes, spans
+//   detail_texture-inl.h        the detail texture of near ground, after all triangles of the tile
 //   reference_rasterizer-inl.h  painter's algorithm and depth buffer with one sample a pixel, for comparison
-// This file ends with the order of the work on a tile: clear, paint, add detail, resolve, blend, overlay.
 #include "visuals/raster/tile.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.
@@ -27,12 +27,12 @@
 #pragma GCC optimize("Og")
 #endif
 
-#include "visuals/raster/coverage-inl.h"
+#include "visuals/raster/any_triangle-inl.h"
 #include "visuals/raster/detail_texture-inl.h"
-#include "visuals/raster/gouraud-inl.h"
+#include "visuals/raster/gouraud_triangle-inl.h"
 #include "visuals/raster/pixel_colour.h"
 #include "visuals/raster/reference_rasterizer-inl.h"
-#include "visuals/raster/strip-inl.h"
+#include "visuals/raster/strip_coverage-inl.h"
 #include "visuals/raster/textured_triangle-inl.h"
 
 #include <cstddef>

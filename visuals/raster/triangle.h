@@ -28,15 +28,14 @@ struct TexelDerivatives {
     std::array<double, 2> down;
 };
 
-/// The logarithm to base 2 of a number above 0, straight between whole numbers: wrong by less than 0.09.
-inline double coarse_log2(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    return static_cast<double>(static_cast<std::int64_t>(bits >> 20U)) * 0x1p-32 - 1023.0;
-}
-
-/// Levels for pixels that are so many texels of the finest level wide, squared, of a texture of `count` levels. Most
-/// pixels take one level: the next one comes in over a third of the way only.
+/// Levels for pixels that are sqrt(`size2`) texels of the finest level wide, of a texture of `count` levels. Most
+/// pixels take one level; two levels are mixed only in the middle third between them.
 inline MipSelection select_mip_levels(double size2, std::size_t count) {
+    // The logarithm to base 2, linear between whole numbers: wrong by less than 0.09.
+    const auto coarse_log2 = [](double x) {
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        return static_cast<double>(static_cast<std::int64_t>(bits >> 20U)) * 0x1p-32 - 1023.0;
+    };
     constexpr double band = 1.0 / 3.0;
     if (!(size2 > 1.0)) { return {}; }
     const double level = 0.5 * coarse_log2(size2);
@@ -48,9 +47,8 @@ inline MipSelection select_mip_levels(double size2, std::size_t count) {
     return {static_cast<std::uint16_t>(whole), static_cast<std::uint16_t>(share * 65535.0)};
 }
 
-/// Levels for pixels whose places move by such steps. Ground that is seen at a slant is longer in a pixel than wide:
-/// the pixel takes the level of its width, at several places along its length. These are mixed anyway: then a single
-/// level does.
+/// Levels for pixels of a surface with these derivatives. The footprint of a pixel on slanted ground is longer than
+/// wide: the pixel takes the level of the width at several places along the length. Their mean needs no second level.
 inline MipSelection select_mip_levels(const TexelDerivatives& steps, std::size_t count) {
     constexpr double max_probes = 3.0;
     constexpr double longer = 1.5; ///< than wide, where two probes begin
@@ -105,7 +103,7 @@ struct ColourGradients {
                static_cast<std::uint32_t>(per_y[i]) * static_cast<std::uint32_t>(at.y);
     }
 
-    /// The value in 1/128 level from the level 128, between least and most.
+    /// The value in 1/128 level from the level 128, between `min` and `max`.
     std::int32_t level(std::size_t i, const glm::ivec2& at) const {
         const std::int32_t value = static_cast<std::int32_t>(wrapped(i, at) + 256U) >> 9;
         return std::clamp<std::int32_t>(value, min[i], max[i]);

@@ -1,5 +1,6 @@
-// Edges, colour gradients and texture planes of one triangle: both edges at once, then all its values. Compiled once
-// for each instruction set; all give the same bits, because real numbers are summed and multiplied one by one.
+// Step 3 of a picture (renderer.cpp), called by triangle_setup.cpp: edges, colour gradients and texture planes of one
+// triangle: both edges at once, then all its values. Compiled once for each instruction set; all give the same bits,
+// because real numbers are summed and multiplied one by one.
 #include "visuals/raster/triangle_planes.h"
 
 // SVE's vectors have no size that the compiler knows: they can be no members.

@@ -1,3 +1,5 @@
+// Step 3 of a picture (renderer.cpp): triangles are clipped by the view and by planes, culled, and written as Triangle
+// (triangle.h) with the edges and gradients of triangle_planes.cpp. Next: triangle_binner.cpp.
 #include "visuals/raster/triangle_setup.h"
 
 #include "visuals/raster/projection.h"

@@ -34,20 +34,20 @@ struct TriangleList {
     std::vector<TriangleExtra> extras;
 };
 
-/// Makes triangles on the picture out of corners. One for each thread.
+/// Projects triangles to the screen: clips them, and computes their edges and gradients. One instance for each thread.
 class TriangleSetup {
 public:
-    /// The ground's texture has so many levels, if there is one.
+    /// `texture_levels`: mip levels of the ground's texture; 0 = no texture. References must outlive the object.
     TriangleSetup(const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples,
         std::size_t texture_levels);
 
     void begin_step(const DrawStyle& style) { style_ = style; }
 
-    /// Of the triangles that are added from now on: FramePlan::mesh_display's.
+    /// The level in the mesh display (FramePlan::mesh_display) of all triangles added from now on.
     void set_mesh_level(float level) { mesh_level_ = level; }
 
-    /// Appends a triangle, its corners by index, if any of it may be seen; several where the view cuts it. `flat` is
-    /// that of its first corner; none for what is no aircraft.
+    /// Appends a triangle, given by three indices into `corners`, if any of it may be visible; several triangles if the
+    /// view cuts it. `flat`: the colour of its first corner if it is a flat polygon of an aircraft, else null.
     void add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle, const FlatColour* flat,
         TriangleList& list);
 

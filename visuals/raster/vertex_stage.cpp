@@ -1,3 +1,5 @@
+// Step 2 of a picture (renderer.cpp): the vertices of aircraft are projected to the screen, lit and hazed, and the
+// light of the picture is prepared. Those of ground are in ground_vertices.cpp. Next: triangle_setup.cpp.
 #include "visuals/raster/vertex_stage.h"
 
 #include <glm/common.hpp>

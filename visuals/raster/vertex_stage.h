@@ -11,7 +11,7 @@
 
 namespace octant::visuals::raster {
 
-/// What every corner of a picture is lit and hazed by.
+/// The light and the haze of a picture.
 struct Light {
     glm::vec3 ambient{0.0F};
     glm::vec3 sunlight{0.0F};
@@ -30,12 +30,12 @@ constexpr float max_haze_fall = 60.0F;
 
 Light light_of(const scene::FramePlan& plan);
 
-/// Where corners go. All spans are as long as what they are made of.
+/// Memory for projected vertices. All spans have as many elements as there are vertices to project.
 struct VertexOutputs {
     std::span<ScreenVertex> vertices;
     std::span<ClipPosition> clip;
-    std::span<FlatColour> flat; ///< of aircraft alone
-    std::span<LitVertex> lit{}; ///< of aircraft that are lit in each pixel; else empty
+    std::span<FlatColour> flat; ///< only for aircraft
+    std::span<LitVertex> lit{}; ///< only for aircraft that are lit in each pixel
 };
 
 /// Takes x and y in world axes with the eye subtracted to texels.
@@ -51,14 +51,15 @@ struct AircraftDrawState {
     scene::PolygonTints tints{};
 };
 
-/// Vertices of ground, shadows and sky: their own colours behind haze, which the sky has in its colours already.
+/// Projects vertices of ground, shadows and sky and hazes their colours, except those of the sky, which include it.
 void project_coloured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
     const VertexOutputs& to);
 
-/// Vertices of ground that a texture colours.
+/// Projects vertices of textured ground.
 void project_textured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
     const TexelTransform& to_texels, const VertexOutputs& to);
 
+/// Projects vertices of an aircraft, lights and hazes them.
 void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& state,
     const Projection& projection, const Light& light, const VertexOutputs& to);
 

@@ -448,14 +448,15 @@ void update_bounds(RoadSection& section) {
     }
 }
 
-} // namespace
-
+/// The distance of a point from the segment between two others.
 double distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m) {
     const glm::dvec2 way_m = to_m - from_m;
     const double squared_m2 = std::max(glm::dot(way_m, way_m), 1e-12);
     const double share = std::clamp(glm::dot(at_m - from_m, way_m) / squared_m2, 0.0, 1.0);
     return glm::distance(at_m, from_m + share * way_m);
 }
+
+} // namespace
 
 std::vector<glm::dvec2> smooth_centre_line(
     std::span<const glm::dvec2> places_m, double cell_m, const std::function<bool(const glm::dvec2&)>& is_free) {

@@ -118,12 +118,9 @@ struct RoadSection {
 std::vector<glm::dvec2> smooth_centre_line(
     std::span<const glm::dvec2> places_m, double cell_m, const std::function<bool(const glm::dvec2&)>& is_free);
 
-/// How far a place lies from the straight way from one place to another.
-double distance_to_segment_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m);
-
-/// Which points of a line, the first and the last among them, are enough for it to lie nowhere farther off than so much
-/// (Douglas and Peucker 1973), and for no two to lie farther apart than `max_gap_m` where there are others between
-/// them.
+/// Simplifies a line (Douglas and Peucker 1973). Returns the indices of the points that stay, the first and the last
+/// among them. No point lies farther than `error_m` from the simplified line, and no segment is longer than `max_gap_m`
+/// unless it is one of the given line.
 std::vector<std::size_t> simplify_line(std::span<const glm::dvec2> line_m, double error_m, double max_gap_m);
 
 /// Cuts a line into sections; it is a half width longer at both ends, so that roads that meet there leave no gap.
@@ -145,7 +142,7 @@ public:
     /// Appends numbers of the sections that may touch this box, some of them more than once.
     void sections_in_box(const glm::dvec2& min_m, const glm::dvec2& max_m, std::vector<std::uint32_t>& numbers) const;
 
-    /// Whether a road's middle line is nearer than so much.
+    /// Whether the middle line of a road is nearer than `distance_m`.
     bool is_near(const glm::dvec2& place_m, double distance_m) const;
 
 private:

@@ -17,9 +17,9 @@ namespace octant::visuals::shading {
 
 namespace {
 
-/// The key of an empty place; it is never chosen, because there are at least as many triangles as smooth ones.
+/// The key of an empty slot; it is never chosen, because there are at least as many triangles as smooth ones.
 constexpr std::uint32_t no_triangle = 0;
-constexpr std::uint32_t min_key = 1; ///< The least key of a place that has a triangle.
+constexpr std::uint32_t min_key = 1; ///< The least key of a slot that has a triangle.
 
 } // namespace
 
@@ -39,19 +39,19 @@ void DynamicMeshSelector::light_points(const DynamicMesh& mesh) {
     }
 }
 
-/// Carries the smooth flags over from the last mesh: a flag stays where the place still has the same label, and is
+/// Carries the smooth flags over from the last mesh: a flag stays where the slot still has the same label, and is
 /// cleared elsewhere.
 void DynamicMeshSelector::keep_triangle_choices(const DynamicMesh& mesh) {
     const std::size_t before = std::min(labels_.size(), mesh.labels.size());
-    for (std::size_t place = 0; place < before; ++place) {
-        smooth_[place] = labels_[place] == mesh.labels[place] ? smooth_[place] : std::uint8_t{0};
+    for (std::size_t slot = 0; slot < before; ++slot) {
+        smooth_[slot] = labels_[slot] == mesh.labels[slot] ? smooth_[slot] : std::uint8_t{0};
     }
     labels_.assign(mesh.labels.begin(), mesh.labels.end());
     smooth_.resize(mesh.labels.size(), 0);
 }
 
-std::uint32_t DynamicMeshSelector::by_error(const DynamicMesh& mesh, std::size_t place, const glm::vec3& eye_m) const {
-    const std::uint32_t* const corners = &mesh.indices[3 * place];
+std::uint32_t DynamicMeshSelector::by_error(const DynamicMesh& mesh, std::size_t slot, const glm::vec3& eye_m) const {
+    const std::uint32_t* const corners = &mesh.indices[3 * slot];
     const ShadingPoint& a = mesh.points[corners[0]];
     const ShadingPoint& b = mesh.points[corners[1]];
     const ShadingPoint& c = mesh.points[corners[2]];
@@ -71,27 +71,26 @@ std::uint32_t DynamicMeshSelector::by_error(const DynamicMesh& mesh, std::size_t
         error_square(intensities_[corners[0]] - flat, intensities_[corners[1]] - flat, intensities_[corners[2]] - flat);
     const float distance_m = glm::length(to_eye_m);
     const float on_screen = 0.5F * in_front_m3 / (distance_m * distance_m * distance_m);
-    return sort_key(1, hysteresis_of(place) * on_screen * error / 6.0F);
+    return error_score(settings_, smooth_[slot] != 0, on_screen, error);
 }
 
-std::uint32_t DynamicMeshSelector::by_paper(const DynamicMesh& mesh, std::size_t place) const {
-    const std::uint32_t* const corners = &mesh.indices[3 * place];
-    const auto [least, most] =
+std::uint32_t DynamicMeshSelector::by_paper(const DynamicMesh& mesh, std::size_t slot) const {
+    const std::uint32_t* const corners = &mesh.indices[3 * slot];
+    const auto [lowest, highest] =
         std::minmax({intensities_[corners[0]], intensities_[corners[1]], intensities_[corners[2]]});
-    const bool differs = hysteresis_of(place) * (most - least) > settings_.threshold;
-    const bool is_large = perimeters_m_[place] > mean_perimeter_m_;
-    return std::max(sort_key(differs ? (is_large ? 2U : 1U) : 0U, perimeters_m_[place]), min_key);
+    return std::max(
+        paper_score(settings_, smooth_[slot] != 0, lowest, highest, perimeters_m_[slot], mean_perimeter_m_), min_key);
 }
 
 void DynamicMeshSelector::measure_perimeters(const DynamicMesh& mesh) {
     perimeters_m_.resize(mesh.labels.size());
     double sum_m = 0.0;
-    for (std::size_t place = 0; place < perimeters_m_.size(); ++place) {
-        const glm::vec3& a_m = mesh.points[mesh.indices[3 * place]].place_m;
-        const glm::vec3& b_m = mesh.points[mesh.indices[3 * place + 1]].place_m;
-        const glm::vec3& c_m = mesh.points[mesh.indices[3 * place + 2]].place_m;
-        perimeters_m_[place] = glm::distance(a_m, b_m) + glm::distance(b_m, c_m) + glm::distance(c_m, a_m);
-        sum_m += perimeters_m_[place];
+    for (std::size_t slot = 0; slot < perimeters_m_.size(); ++slot) {
+        const glm::vec3& a_m = mesh.points[mesh.indices[3 * slot]].place_m;
+        const glm::vec3& b_m = mesh.points[mesh.indices[3 * slot + 1]].place_m;
+        const glm::vec3& c_m = mesh.points[mesh.indices[3 * slot + 2]].place_m;
+        perimeters_m_[slot] = glm::distance(a_m, b_m) + glm::distance(b_m, c_m) + glm::distance(c_m, a_m);
+        sum_m += perimeters_m_[slot];
     }
     mean_perimeter_m_ = sum_m / static_cast<double>(std::max(mesh.triangle_count, std::size_t{1}));
 }
@@ -111,11 +110,11 @@ bool DynamicMeshSelector::choose(const DynamicMesh& mesh, const glm::dvec3& eye_
     if (settings_.rule == ShadingRule::Paper) { measure_perimeters(mesh); }
     keys_.resize(mesh.labels.size());
     const glm::vec3 from_m(last_view_.eye_m);
-    for (std::size_t place = 0; place < keys_.size(); ++place) {
-        const bool is_triangle = mesh.indices[3 * place] != mesh.indices[3 * place + 1];
-        keys_[place] = !is_triangle                           ? no_triangle
-                       : settings_.rule == ShadingRule::Paper ? by_paper(mesh, place)
-                                                              : by_error(mesh, place, from_m);
+    for (std::size_t slot = 0; slot < keys_.size(); ++slot) {
+        const bool is_triangle = mesh.indices[3 * slot] != mesh.indices[3 * slot + 1];
+        keys_[slot] = !is_triangle                           ? no_triangle
+                      : settings_.rule == ShadingRule::Paper ? by_paper(mesh, slot)
+                                                             : by_error(mesh, slot, from_m);
     }
     largest_keys_.choose(keys_, smooth_count, smooth_);
     return true;

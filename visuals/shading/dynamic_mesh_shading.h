@@ -11,22 +11,23 @@
 namespace octant::visuals::shading {
 
 /// A triangle mesh whose triangles may change from frame to frame, as a selectively refined mesh's do. Triangles sit in
-/// numbered slots ("places"); a slot may be empty. Positions and normals are in the mesh's own axes.
+/// numbered slots; a slot may be empty. Positions and normals are in the mesh's own axes.
 struct DynamicMesh {
     std::span<const ShadingPoint> points;
-    /// Three indices into `points` for each place. A place whose first two indices are equal is empty.
+    /// Three indices into `points` for each slot. A slot whose first two indices are equal is empty.
     std::span<const std::uint32_t> indices;
-    /// One label for each place. A triangle keeps its label as long as it exists; whatever takes its place later has
+    /// One label for each slot. A triangle keeps its label as long as it exists; whatever fills its slot later has
     /// another label.
     std::span<const std::uint32_t> labels;
-    std::size_t triangle_count = 0; ///< The number of places that are not empty.
+    std::size_t triangle_count = 0; ///< The number of slots that are not empty.
     /// A point near the middle of the mesh, the same in each frame; the eye's angle is measured about it.
     glm::vec3 centre_m{0.0F};
 };
 
-/// Chooses the smooth triangles of a mesh that changes from frame to frame. The rules are those of ShadingSelector, but
-/// all that is kept of a triangle is whether it was smooth. Supports the rules Error and Paper. The time grows linearly
-/// with the triangles; memory is reused, so that no call allocates once the arrays have reached their size.
+/// Chooses the smooth triangles of a mesh that changes from frame to frame. The scores are those of ShadingSelector,
+/// which prepares the shapes of polygons that stay; here shapes are computed in each call, and all that is kept of a
+/// triangle is whether it was smooth. Supports the rules Error and Paper. The time grows linearly with the triangles;
+/// memory is reused, so that no call allocates once the arrays have reached their size.
 class DynamicMeshSelector {
 public:
     /// `settings.rule` must not be Random (asserted), because Random needs fixed polygon numbers.
@@ -39,17 +40,14 @@ public:
     bool choose(const DynamicMesh& mesh, const glm::dvec3& eye_m, const ShadingLight& light, std::size_t smooth_count,
         bool changed);
 
-    /// One flag for each place: 1 = smooth (Gouraud), 0 = flat or empty.
+    /// One flag for each slot: 1 = smooth (Gouraud), 0 = flat or empty.
     std::span<const std::uint8_t> smooth() const { return smooth_; }
 
 private:
     void light_points(const DynamicMesh& mesh);
     void keep_triangle_choices(const DynamicMesh& mesh);
-    std::uint32_t by_error(const DynamicMesh& mesh, std::size_t place, const glm::vec3& eye_m) const;
-    std::uint32_t by_paper(const DynamicMesh& mesh, std::size_t place) const;
-
-    /// The factor on a triangle's rank that keeps it smooth once it is (hysteresis).
-    float hysteresis_of(std::size_t place) const { return smooth_[place] != 0 ? settings_.hysteresis : 1.0F; }
+    std::uint32_t by_error(const DynamicMesh& mesh, std::size_t slot, const glm::vec3& eye_m) const;
+    std::uint32_t by_paper(const DynamicMesh& mesh, std::size_t slot) const;
 
     void measure_perimeters(const DynamicMesh& mesh);
 
@@ -60,8 +58,8 @@ private:
     std::size_t smooth_count_ = 0;
     double mean_perimeter_m_ = 0.0;
     std::vector<float> intensities_;    ///< One for each of the mesh's points.
-    std::vector<float> perimeters_m_;   ///< One for each place, for the rule Paper only.
-    std::vector<std::uint32_t> keys_;   ///< One sort key for each place; see sort_key.
+    std::vector<float> perimeters_m_;   ///< One for each slot, for the rule Paper only.
+    std::vector<std::uint32_t> keys_;   ///< One sort key for each slot; see sort_key.
     std::vector<std::uint32_t> labels_; ///< The labels of the last call.
     std::vector<std::uint8_t> smooth_;
 };

@@ -171,7 +171,7 @@ void ShadingSelector::light_points(const glm::vec3& eye_m, const ShadingLight& l
     }
 }
 
-/// The key by rule Error: tier 0 for polygons that face away, else tier 1 ranked by error times projected area.
+/// error_score() of a polygon, less for one that faces away.
 std::uint32_t ShadingSelector::by_error(std::size_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
     const glm::vec3 to_eye_m = eye_m - shape.centre_m;
@@ -189,12 +189,10 @@ std::uint32_t ShadingSelector::by_error(std::size_t polygon, const glm::vec3& ey
     }
     const float distance_m = glm::length(to_eye_m);
     const float on_screen = in_front_m / (distance_m * distance_m * distance_m);
-    const float hysteresis = smooth_[polygon] != 0 ? settings_.hysteresis : 1.0F;
-    return sort_key(1, hysteresis * on_screen * error / 6.0F);
+    return error_score(settings_, smooth_[polygon] != 0, on_screen, error);
 }
 
-/// The key by rule Paper: the tier says whether the corners differ and whether the polygon is large; its rank within
-/// the tier is its perimeter.
+/// paper_score() of a polygon.
 std::uint32_t ShadingSelector::by_paper(std::size_t polygon) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
     float lowest = intensities_[polygons_->corner_points[shape.first_corner]];
@@ -204,10 +202,8 @@ std::uint32_t ShadingSelector::by_paper(std::size_t polygon) const {
         lowest = std::min(lowest, here);
         highest = std::max(highest, here);
     }
-    const float hysteresis = smooth_[polygon] != 0 ? settings_.hysteresis : 1.0F;
-    const bool differs = hysteresis * (highest - lowest) > settings_.threshold;
-    const bool is_large = shape.perimeter_m > polygons_->mean_perimeter_m;
-    return sort_key(differs ? (is_large ? 2U : 1U) : 0U, shape.perimeter_m);
+    return paper_score(
+        settings_, smooth_[polygon] != 0, lowest, highest, shape.perimeter_m, polygons_->mean_perimeter_m);
 }
 
 void ShadingSelector::rank_all(const glm::vec3& eye_m, const ShadingLight& light) {

@@ -123,6 +123,26 @@ bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, cons
 /// between them.
 inline float error_square(float a, float b, float c) { return a * a + b * b + c * c + a * b + b * c + c * a; }
 
+// The two rules as scores: the polygons with the greatest scores are smooth (LargestKeySelector). `was_smooth`: the
+// last choice, which hysteresis favours.
+
+/// The score by rule Error of a polygon that faces the eye. `on_screen`: its area on the screen over its own area, or
+/// any number proportional to that; `error`: error_square() times area, summed over its triangles.
+inline std::uint32_t error_score(const ShadingRuleSettings& settings, bool was_smooth, float on_screen, float error) {
+    const float hysteresis = was_smooth ? settings.hysteresis : 1.0F;
+    return sort_key(1, hysteresis * on_screen * error / 6.0F);
+}
+
+/// The score by rule Paper: the tier says whether the intensities of the corners, from `lowest` to `highest`, differ,
+/// and whether the polygon is larger than the mean; the rank within the tier is the perimeter.
+inline std::uint32_t paper_score(const ShadingRuleSettings& settings, bool was_smooth, float lowest, float highest,
+    float perimeter_m, double mean_perimeter_m) {
+    const float hysteresis = was_smooth ? settings.hysteresis : 1.0F;
+    const bool differs = hysteresis * (highest - lowest) > settings.threshold;
+    const bool is_large = perimeter_m > mean_perimeter_m;
+    return sort_key(differs ? (is_large ? 2U : 1U) : 0U, perimeter_m);
+}
+
 /// Which polygons of a model are smooth, and how the choice came about.
 struct ShadingChoice {
     std::span<const std::uint8_t> smooth; ///< One flag for each polygon: 1 = smooth, 0 = flat.

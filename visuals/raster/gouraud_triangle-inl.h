@@ -1,14 +1,14 @@
 // Gouraud-shaded triangles, nearly all of a picture: masks and colours of whole strips are added straight to the sums
 // of the tile. In this order: inverse depth and ground number for the detail texture; two rows of a narrow triangle in
 // one register, with the same result as row by row; strips of one row. Included once for each instruction set.
-#if defined(OCTANT_RASTER_GOURAUD_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef OCTANT_RASTER_GOURAUD_INL
-#undef OCTANT_RASTER_GOURAUD_INL
+#if defined(OCTANT_RASTER_GOURAUD_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_GOURAUD_TRIANGLE_INL
+#undef OCTANT_RASTER_GOURAUD_TRIANGLE_INL
 #else
-#define OCTANT_RASTER_GOURAUD_INL
+#define OCTANT_RASTER_GOURAUD_TRIANGLE_INL
 #endif
 
-#include "visuals/raster/strip-inl.h"
+#include "visuals/raster/strip_coverage-inl.h"
 
 #include <algorithm>
 #include <array>

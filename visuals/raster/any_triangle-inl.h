@@ -1,16 +1,16 @@
 // Triangles of any fill, in two steps: coverage masks of 16 bits a pixel, then colour times newly covered samples. In
 // this order: coverage; colour; groups of triangles that share a depth buffer; transparent triangles, which are
 // recorded here and blended when the pixels behind them are known. Included once for each instruction set.
-#if defined(OCTANT_RASTER_COVERAGE_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef OCTANT_RASTER_COVERAGE_INL
-#undef OCTANT_RASTER_COVERAGE_INL
+#if defined(OCTANT_RASTER_ANY_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_ANY_TRIANGLE_INL
+#undef OCTANT_RASTER_ANY_TRIANGLE_INL
 #else
-#define OCTANT_RASTER_COVERAGE_INL
+#define OCTANT_RASTER_ANY_TRIANGLE_INL
 #endif
 
-#include "visuals/raster/gouraud-inl.h"
+#include "visuals/raster/gouraud_triangle-inl.h"
 #include "visuals/raster/pixel_colour.h"
-#include "visuals/raster/strip-inl.h"
+#include "visuals/raster/strip_coverage-inl.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,11 +1,11 @@
 // Strips of a tile: 32 pixels of one row at once, or 16 where these fill a register. In this order: numbers of lanes;
 // the coverage masks of a strip from the edges of a triangle; colours and other planes over it; the loop over the
 // strips of a triangle. Included once for each instruction set.
-#if defined(OCTANT_RASTER_STRIP_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef OCTANT_RASTER_STRIP_INL
-#undef OCTANT_RASTER_STRIP_INL
+#if defined(OCTANT_RASTER_STRIP_COVERAGE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_STRIP_COVERAGE_INL
+#undef OCTANT_RASTER_STRIP_COVERAGE_INL
 #else
-#define OCTANT_RASTER_STRIP_INL
+#define OCTANT_RASTER_STRIP_COVERAGE_INL
 #endif
 
 #include "visuals/raster/tile.h"
