@@ -169,7 +169,7 @@ namespace {
 using Corners = std::vector<glm::dvec3>;
 
 /// About the work of looking at a pair, and of a cut for each polygon there is (SearchBudget).
-constexpr std::uint64_t units_of_pair = 5;
+constexpr std::uint64_t units_of_split_pair = 5;
 constexpr std::uint64_t units_of_cut = 100;
 
 /// With more cuts than 100 + 4 a polygon there are too many pieces for a search.
@@ -364,7 +364,7 @@ private:
 } // namespace
 
 int split_penetrating(PolygonModel& model, SearchBudget& budget) {
-    budget.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    budget.spend(units_of_split_pair * model.polygons.size() * model.polygons.size());
     return Splitter(model).split_all(budget);
 }
 
