@@ -24,9 +24,10 @@ constexpr double longest_pull_s = 60.0;
 /// By how much a climb may pass the sustained rate before it is refused: rounding.
 constexpr double climb_slack_mps = 0.05;
 
-class Flight {
+/// Flies the legs of a script one after the other in fixed steps and takes samples at the script's rate.
+class ScriptFlyer {
 public:
-    Flight(const PathScript& script, const sim::AircraftKind& kind, bool lenient)
+    ScriptFlyer(const PathScript& script, const sim::AircraftKind& kind, bool lenient)
         : script_(script), limits_(kind.limits), lenient_(lenient), check_(script, kind, lenient, notes_),
           mass_(start()) {
         for (const Leg& leg : script.legs) { legs_.push_back(check_.checked(leg)); }
@@ -170,7 +171,7 @@ private:
 } // namespace
 
 FlownPath fly(const PathScript& script, const sim::AircraftKind& kind, bool lenient) {
-    return Flight(script, kind, lenient).flown();
+    return ScriptFlyer(script, kind, lenient).flown();
 }
 
 } // namespace octant::flightpaths

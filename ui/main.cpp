@@ -4,6 +4,7 @@
 #include "visuals/gl/platform_tuning.h"
 
 int main(int argc, char** argv) {
-    octant::visuals::gl::tune_allocator();
+    octant::visuals::gl::tune_allocator(); // before any memory is allocated: frames by the software GL driver get
+                                           // faster
     return octant::ui::command_line::run_program("octant", octant::ui::commands::octant_program, argc, argv);
 }

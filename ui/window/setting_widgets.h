@@ -17,7 +17,7 @@ std::vector<std::string> with_aircraft_count(std::vector<std::string> aircraft, 
 /// Returns `aircraft` with the first entry and all equal entries replaced by `leader`.
 std::vector<std::string> with_lead_aircraft(std::vector<std::string> aircraft, const std::string& leader);
 
-// The presentation of a setting follows from its row (ui/settings/setting_row.h). These functions make no widgets.
+// The presentation of a setting follows from its row (ui/settings/setting_rows.h). These functions make no widgets.
 
 /// The kind of widget that edits a number.
 enum class NumberStyle {

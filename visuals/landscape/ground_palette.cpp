@@ -174,8 +174,8 @@ float tree_speckle(const SiteConditions& site) {
     return visible_contrast(80.0F, site.footprint_m) * (2.0F * noise - 1.0F);
 }
 
-/// Site::summer of low ground in a climate. By the tree line: Koeppen's polar climates, whose summers are too cool for
-/// trees, have it at the sea; fields are hardly seen where it is below some 800 m.
+/// SiteConditions::summer_share of low ground in a climate, from the tree line: Koeppen's polar climates, whose summers
+/// are too cool for trees, have it at sea level; fields are hardly seen where it is below some 800 m.
 float summer_share_of(const nature::Climate& climate) { return glm::smoothstep(500.0F, 1100.0F, climate.tree_line_m); }
 
 /// The height at which temperate ground has what grows at a place's height in its climate.

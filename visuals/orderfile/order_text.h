@@ -44,7 +44,7 @@ std::vector<OrderRow> order_table(
 ///     twosided I J ...         default none
 ///     parents P0 P1 ...        of which polygon each is a piece; default none
 ///     cell REGION [min R] [max R] order I0 I1 ...    I0 is painted first, others never
-/// REGION is an octant path (octant_order.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K directions, from the
+/// REGION is an octant path (draworder/octant_order.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K directions, from the
 /// centre) or `half K NX NY NZ D ...` (points p with N.p + D >= 0 for all K; K = 0 is everywhere). The first cell that
 /// contains an eye is used.
 ///

@@ -27,7 +27,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // -- What a triangle of ground leaves for the detail texture: at every second pixel of every second row that it newly
 // covers, inverse depth and land cover.
 
-/// How a triangle of levels is painted.
+/// How a Gouraud triangle is painted.
 enum class PaintAs : std::uint8_t {
     Plain,          ///< a picture without a detail texture
     Ground,         ///< ground that shows it
@@ -301,7 +301,7 @@ HWY_INLINE void paint_in_pairs(PairCoverage& coverage, const TileJob& job, const
     }
 }
 
-/// Paints a triangle of levels that is as narrow as a window; of ground its box begins in an even row and column.
+/// Paints a Gouraud triangle that is as narrow as a window; of ground its box begins in an even row and column.
 template <PaintAs kind>
 HWY_INLINE void paint_gouraud_in_pairs(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box, TileBuffer& buffer) {
@@ -442,7 +442,8 @@ HWY_INLINE void paint_strip_of_middles(
     }
 }
 
-/// Paints a triangle of Fill::Levels that no plane cuts.
+/// Paints a triangle of Fill::Gouraud that no clip plane cuts: a triangle of the ground, of a flat or of a
+/// Gouraud-shaded polygon.
 template <PaintAs kind>
 HWY_NOINLINE void paint_gouraud(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {

@@ -167,9 +167,9 @@ HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
     return one.extra != nullptr && one.extra->opacity < 1.0F;
 }
 
-/// Whether a tile is painted so: because the job says so, or because all of it is one group by depth with nothing
-/// behind or before it; never with transparent surfaces, which are recorded separately.
-HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
+/// Whether a tile is painted far to near: each triangle paints over those before it. So it is where the job says so, and
+/// where all triangles belong to one depth group; never with transparent surfaces, which are recorded separately.
+HWY_INLINE bool is_far_to_near(const TileJob& job, const SampleLanes& lanes) {
     if (!lanes.is_single_sample || job.triangles.empty()) { return false; }
     const std::uint16_t first = job.triangles.front().triangle->group;
     const bool one_group = first != 0 && first == job.triangles.back().triangle->group;
@@ -179,8 +179,8 @@ HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
     return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_recorded_separately);
 }
 
-/// All triangles of a tile, from the first to the last.
-HWY_NOINLINE void paint_over(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+/// Paints all triangles of a tile, each over those before it.
+HWY_NOINLINE void paint_far_to_near(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     std::uint16_t group = 0;
     for (const TileTriangle& one : job.triangles) {
         const Triangle& triangle = *one.triangle;

@@ -269,8 +269,8 @@ HWY_INLINE void paint_near_to_far(const TileJob& job, const SampleLanes& lanes, 
 
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     reset(job, buffer);
-    if (is_painted_over(job, lanes)) {
-        paint_over(job, lanes, buffer);
+    if (is_far_to_near(job, lanes)) {
+        paint_far_to_near(job, lanes, buffer);
     } else {
         paint_near_to_far(job, lanes, buffer);
     }

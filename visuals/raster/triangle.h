@@ -181,7 +181,7 @@ struct Triangle {
     std::int32_t first_row = 0; ///< rows that may be covered: first_row to last_row
     std::int32_t last_row = 0;
     ColourGradients gradients;
-    std::uint32_t extra = none;      ///< index into the chunk's extras
+    std::uint32_t extra = none;      ///< index into TriangleList::extras, or none
     MipSelection texture;            ///< for Fill::Texture
     InverseDepthPlane inverse_depth; ///< of a triangle with detail texture
     std::uint16_t group = 0;         ///< depth group, from 1; 0: painted without depth
@@ -197,12 +197,12 @@ struct PackedGround {
     static constexpr std::uint32_t cover_bits = 0x7f;
     static constexpr int cover_shift = 17; ///< from 2^-16 level
 
-    /// Levels' fourth value at a place, 2^-16 level from 0.
+    /// The land cover at a pixel: the gradients' fourth value, in 2^-16 level from 0.
     static std::uint32_t first_cover(const ColourGradients& gradients, const glm::ivec2& at) {
         return gradients.wrapped(3, at) + (128U << 16U);
     }
 
-    /// Levels' least or most in the same unit.
+    /// The lowest or highest level of a gradient in the same unit.
     static constexpr std::int32_t limit(std::int16_t level) { return (std::int32_t{level} + 128 * 128) * 512; }
 };
 
