@@ -70,8 +70,8 @@ models::TriangleMesh refined_mesh(const std::shared_ptr<const refine::Progressiv
     return refine::active_mesh(refiner.front()).mesh;
 }
 
-/// A closed dented ball of `rings` x `slices` cells, two triangles each (one at its ends), whose cells are up to some
-/// hundred times as large in one place as in another.
+} // namespace
+
 models::TriangleMesh uneven_ball(int rings, int slices) {
     assert(rings >= 2 && slices >= 3);
     models::TriangleMesh mesh;
@@ -99,8 +99,6 @@ models::TriangleMesh uneven_ball(int rings, int slices) {
     }
     return mesh;
 }
-
-} // namespace
 
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more) {
     std::vector<ShadedModel> all;
